@@ -138,12 +138,7 @@ def _ndc_diagram(state: ClipState) -> Diagram:
             return np.asarray(clip[:, :3] / clip[:, 3:] * [1, 1, -1])
 
     faces = [_cube_face(plane) for plane in range(6)]
-    far, near = faces[1], faces[0]
-    strokes = [
-        Stroke(near, "muted_text", 1.4, is_closed=True),
-        Stroke(far, "muted_text", 1.0, is_closed=True),
-    ]
-    strokes += [Stroke(np.stack([near[k], far[k]]), "muted_text", 1.0) for k in range(4)]
+    strokes = cube_strokes()
     words = [
         Word(np.array([1.0, -1.0, 1.0]), "near"),
         Word(np.array([1.0, -1.0, -1.0]), "far"),
@@ -160,6 +155,16 @@ def _ndc_diagram(state: ClipState) -> Diagram:
         elevation=0.35,
         caption=f"{state.sentence} All w > 0, so clip space is shown divided by w: the view volume is "
         "the cube −1 ≤ x, y, z ≤ 1, its near face in front.",
+    )
+
+
+def cube_strokes() -> tuple[Stroke, ...]:
+    """Return the edges of the view volume in NDC, its near face in front and a little thicker."""
+    near, far = _cube_face(0), _cube_face(1)
+    return (
+        Stroke(near, "muted_text", 1.4, is_closed=True),
+        Stroke(far, "muted_text", 1.0, is_closed=True),
+        *(Stroke(np.stack([near[k], far[k]]), "muted_text", 1.0) for k in range(4)),
     )
 
 

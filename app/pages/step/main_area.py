@@ -7,6 +7,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QStackedWidget, QTabBar, QToolButton, QWidget
 
 from app.session.session import Session
+from app.views.companions import COMPANIONS, NewDepths
 from app.views.stage_views import StageViews
 from core.stages.declared import stage_of
 from widgets.basics.accessible import announce
@@ -50,10 +51,21 @@ class MainArea(QWidget):
         self._add_view("compare", "A | B", self.compare_view)
         self.views_by_hand: dict[str, str] = {}
         self._viewed_stage = session.cursor.stage
+        self.companions = {stage: make(session) for stage, make in COMPANIONS.items()}
+        """What stands beside a stage's own view, by stage."""
+        self.beside = QStackedWidget(self)
+        for companion in self.companions.values():
+            self.beside.addWidget(companion.widget)
         self._lay_out()
         self.view_bar.currentChanged.connect(self._show_view)
         self.view_bar.tabBarClicked.connect(self._choose_view)
         session.cursor_changed.connect(self._follow_stage)
+        for change in (session.cursor_changed, session.document_changed, session.predicting_changed):
+            change.connect(self.refresh_beside)
+        new_depths = self.companions["depth"]
+        assert isinstance(new_depths, NewDepths)
+        self.grid.view_changed.connect(new_depths.grid.set_view)
+        new_depths.grid.view_changed.connect(self.grid.set_view)
 
     def _lay_out(self) -> None:
         self._row = QWidget(self)
@@ -65,7 +77,12 @@ class MainArea(QWidget):
             choices.addWidget(widget)
         row.addWidget(self._choices)
         self.rows = PaneSplitter(Qt.Orientation.Vertical, self)
-        self.rows.addWidget(self.view_stack)
+        self.both_sides = QWidget(self)
+        beside = row_layout(self.both_sides, 4)
+        beside.addWidget(self.view_stack, 3)
+        beside.addWidget(self.beside, 2)
+        self.beside.hide()
+        self.rows.addWidget(self.both_sides)
         self.rows.addWidget(self.strip)
         self.rows.setStretchFactor(0, 1)
         self.rows.setChildrenCollapsible(False)
@@ -124,6 +141,19 @@ class MainArea(QWidget):
         self.thumbnails_button.setEnabled(has_choice)
         self.strip.setVisible(is_shown and has_choice)
 
+    @Slot()
+    def refresh_beside(self) -> None:
+        """Show the other side of a stage beside its own view: the space entered, the texture, the new depths."""
+        stage = self._session.cursor.stage
+        companion = self.companions.get(stage)
+        is_own = self.current_view() == stage_of(stage).view and not self._session.is_predicting
+        if companion is None or not is_own or not companion.is_wanted():
+            self.beside.hide()
+            return
+        companion.refresh()
+        self.beside.setCurrentWidget(companion.widget)
+        self.beside.show()
+
     # Views.
 
     def _add_view(self, name: str, title: str, widget: QWidget) -> None:
@@ -167,6 +197,7 @@ class MainArea(QWidget):
         if name in {view[0] for view in self._views.widgets}:
             self._views.show(name)
         announce(self.view_bar, f"View: {self.view_bar.tabText(index)}")
+        self.refresh_beside()
         self.view_changed.emit(name)
 
     @Slot(int)

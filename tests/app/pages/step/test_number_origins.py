@@ -24,7 +24,7 @@ def place_of(window: MainWindow, symbol: str) -> QPoint:
     """Return a place of the formula's view where the number of a symbol stands."""
     view = window.page.formula
     window.page.settle()
-    QTest.qWait(20)  # the view takes the height of its lines a moment later
+    QTest.qWait(60)  # the view takes the height of its lines a moment later
     for y in range(view.height() - 1, 0, -5):
         for x in range(0, view.width(), 4):
             number = view.number_under(QPointF(x, y))

@@ -1,0 +1,150 @@
+"""What stands beside the main view where a stage has two sides: the space that corners enter, texture, new depths."""
+
+import numpy as np
+from PySide6.QtWidgets import QWidget
+
+from app.session.session import Session
+from app.views.clip_diagram import cube_strokes
+from app.views.pointed_pixel import shown_triangle
+from app.views.stage_view import StageView, TextureView
+from app.views.texture_footprint import texture_of
+from core.records.arrays import Floats
+from core.trace import StageTrace
+from core.trace.geometry_progress import SPACES, spaces_reached
+from widgets.basics.controls import column_layout
+from widgets.basics.labels import text_label
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.marks import StepMark
+from widgets.grid.pixel_grid import PixelGrid
+from widgets.space.diagram import CUBE, Diagram, Spot, Stroke
+from widgets.space.view import SpaceView
+
+NDC = SPACES.index("NDC")
+MOST_TRIANGLES = 400
+"""Triangles that are drawn: of more, a part would look like a shape of its own."""
+
+
+class Companion(StageView):
+    """A view beside the main one."""
+
+    def is_wanted(self) -> bool:
+        """Return whether it has something to show at the stage of the cursor."""
+        return True
+
+    def made_from(self) -> object:
+        """Return trace and cursor."""
+        return self.session.trace, self.session.cursor
+
+
+class EnteredSpace(Companion):
+    """Normalized device coordinates, where corners appear as they are divided by w."""
+
+    name = "entered"
+
+    def make_widget(self) -> QWidget:
+        """Return the drawing in space."""
+        self._space = SpaceView()
+        self._space.setAccessibleName("The space that corners enter: normalized device coordinates")
+        return self._space
+
+    def draw(self) -> None:
+        """Draw the corners that have been divided by w, and the triangles of three such corners."""
+        self._space.show_diagram(entered_diagram(self.session))
+
+
+class TextureBeside(Companion, TextureView):
+    """The texture with what the pixel of the step reads of it."""
+
+    def is_wanted(self) -> bool:
+        """Return whether the triangle of the step has a texture."""
+        return texture_of(self.session.trace.source, shown_triangle(self.session)) is not None
+
+
+class NewDepths(Companion):
+    """The depths of the triangle at hand, beside those that the depth buffer holds."""
+
+    name = "new-depths"
+
+    def make_widget(self) -> QWidget:
+        """Return the grid below its title."""
+        pane = QWidget()
+        self.grid = PixelGrid(pane)
+        self._title = text_label("", pane, role="muted")
+        layout = column_layout(pane, 4)
+        layout.addWidget(self._title)
+        layout.addWidget(self.grid, 1)
+        return pane
+
+    def draw(self) -> None:
+        """Show what has been compared so far of the triangle of the step."""
+        stage, position = self.session.stage_trace, self.session.cursor.position
+        row, _ = stage.steps.row_at(position)
+        triangle = -1 if row < 0 else int(stage.triangle[row])
+        text = (
+            "New depths appear here."
+            if row < 0
+            else f"New depths, of triangle {triangle}. Left: the buffer's."
+        )
+        self._title.setText(text)
+        self.grid.show_buffer(new_depths(self.session, stage, row))
+        origin = self.session.trace.source.raster.bounds[:2]
+        has_pixel = row >= 0 and stage.pixel[row, 0] >= 0
+        self.grid.show_step(StepMark(stage.pixel[[row]] - np.array(origin)) if has_pixel else StepMark())
+
+
+COMPANIONS: dict[str, type[Companion]] = {
+    "transform": EnteredSpace,
+    "shade": TextureBeside,
+    "depth": NewDepths,
+}
+"""By stage."""
+
+
+def new_depths(session: Session, stage: StageTrace, row: int) -> GridBuffer:
+    """Return the depths that the triangle of a row has had compared up to it, in the range of the depth buffer."""
+    raster = session.trace.source.raster
+    values, known = np.zeros(raster.shape), np.zeros(raster.shape, bool)
+    if row >= 0:
+        rows = np.flatnonzero(stage.triangle[: row + 1] == stage.triangle[row])
+        place = raster.index(*stage.pixel[rows].T)
+        values.ravel()[place], known.ravel()[place] = stage.columns["stored"][rows], True
+    track = next(track for track in stage.buffers if track.name == "depth")
+    return GridBuffer("new depth", values, range=track.value_range, origin=raster.bounds[:2], known=known)
+
+
+def entered_diagram(session: Session) -> Diagram:
+    """Draw the cube of NDC with the corners that are in it after the step, the one of the step in the accent."""
+    trace, position = session.trace, session.cursor.position
+    geometry, stage = trace.source.geometry, session.stage_trace
+    assembled = geometry.assembled.triangle
+    is_there = spaces_reached(trace, "transform", position) >= NDC
+    corners = _placed(geometry.vertices.ndc[geometry.vertices.corners[assembled]])
+    spots, strokes = [], list(cube_strokes())
+    for number in np.flatnonzero(is_there.any(axis=1))[:MOST_TRIANGLES].tolist():
+        there = is_there[number]
+        spots += [Spot(corners[number, k], f"vertex {k}", radius=3.0) for k in range(3) if there[k]]
+        if there.all():
+            strokes.append(Stroke(corners[number], "text", 1.2, is_closed=True))
+    row, _ = stage.steps.row_at(position)
+    said = "Corners appear here when they are divided by w."
+    if row >= 0:
+        number = int(np.flatnonzero(assembled == stage.triangle[row])[0])
+        k = int(stage.columns["corner"][row])
+        space = SPACES[int(spaces_reached(trace, "transform", position)[number, k])]
+        said = f"Vertex {stage.columns['vertex'][row]} is in {space} space."
+        if is_there[number, k]:
+            spots.append(Spot(corners[number, k], "accent", "ring", 7.0))
+    return Diagram(
+        strokes=tuple(strokes),
+        spots=tuple(spots),
+        frame=CUBE * 1.05,
+        azimuth=0.55,
+        elevation=0.35,
+        caption=f"{said} Normalized device coordinates: what the camera sees is this cube.",
+    )
+
+
+def _placed(ndc: Floats) -> Floats:
+    """Return positions with z turned towards the viewer."""
+    placed: Floats = ndc * np.array([1.0, 1.0, -1.0])
+    return placed

@@ -1,0 +1,57 @@
+"""What stands beside a stage's own view: the space that corners enter, the texture, the new depths."""
+
+import numpy as np
+import pytest
+
+from app.session.document import open_document
+from app.session.session import Session
+from app.views.companions import COMPANIONS, entered_diagram, new_depths
+from app.window.main_window import MainWindow
+from core.trace.geometry_progress import SPACES, spaces_reached
+from lessons.scenes import make_scene
+
+
+@pytest.mark.parametrize(
+    ("scene", "beside"),
+    [("cube", {"transform", "depth"}), ("textured-floor", {"transform", "shade", "depth"})],
+)
+def test_a_stage_of_two_sides_shows_both(window: MainWindow, scene: str, beside: set[str]) -> None:
+    session, area = window.session, window.page.main_area
+    session.open(open_document(make_scene(scene), scene))
+    shown = set()
+    for stage in ("transform", "cull", "raster", "shade", "depth", "blend"):
+        session.set_stage(stage, 40)
+        if area.beside.isVisible():
+            shown.add(stage)
+            assert area.beside.currentWidget() is area.companions[stage].widget
+    assert shown == beside
+    session.set_stage("depth", 40)
+    window.page.show_view("scene")
+    assert not area.beside.isVisible(), "only beside the stage's own view"
+    assert set(COMPANIONS) >= beside
+
+
+def test_corners_enter_the_cube_as_they_are_divided(qapp: object) -> None:
+    session = Session(open_document(make_scene("cube"), "cube"))
+    session.set_stage("transform", 0)
+    counts = []
+    for position in np.linspace(0, session.stage_trace.steps.count, 8).astype(int).tolist():
+        session.go_to(position)
+        there = spaces_reached(session.trace, "transform", position) >= SPACES.index("NDC")
+        spots = [spot for spot in entered_diagram(session).spots if spot.ink != "accent"]
+        assert len(spots) == there.sum()
+        counts.append(len(spots))
+    assert counts == sorted(counts)
+    assert (counts[0], counts[-1]) == (0, 36)
+
+
+def test_new_depths_are_those_that_the_triangle_has_compared_by_now(qapp: object) -> None:
+    session = Session(open_document(make_scene("intersecting"), "intersecting"))
+    stage = session.trace.stage("depth")
+    row = len(stage.triangle) - 5
+    buffer = new_depths(session, stage, row)
+    rows = np.flatnonzero(stage.triangle[: row + 1] == stage.triangle[row])
+    column, line = stage.pixel[rows].T
+    assert buffer.known is not None
+    assert buffer.known.sum() == len(rows)
+    assert np.array_equal(buffer.values[line, column], stage.columns["stored"][rows])
