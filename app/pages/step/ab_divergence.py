@@ -17,7 +17,7 @@ def search(
     first: Trace, second: Trace, progress: Progress, is_cancelled: Callable[[], bool]
 ) -> Divergence | None:
     """Search in a thread for the first step that differs, in any stage."""
-    return diverge(first, second)
+    return diverge(first, second, by_outcome=True)
 
 
 def report(found: Divergence | None, first: Trace, second: Trace) -> str:
@@ -31,7 +31,7 @@ def report(found: Divergence | None, first: Trace, second: Trace) -> str:
     if None in found.rows:
         said = f"{'AB'[found.rows.index(None)]} has no step there"
     else:
-        said = f"they differ in {', '.join(name.replace('_', ' ') for name in found.names)}"
+        said = f"they differ in {', '.join(name.replace('color', 'colour') for name in found.names)}"
     return f"First divergence, at {where}: {said}. Ctrl+[ goes back."
 
 
@@ -39,7 +39,7 @@ def rows_about(
     first: StageTrace, second: StageTrace, pixel: tuple[int, int]
 ) -> tuple[int | None, int | None]:
     """Return the rows about a pixel in which two runs differ first, or else the first row about it of each."""
-    found = stage_divergence(first, second)
+    found = stage_divergence(first, second, by_outcome=True)
     if found is not None and found.pixel == pixel:
         return found.rows
     rows = [stage.rows_at_pixel(*pixel) for stage in (first, second)]

@@ -63,19 +63,25 @@ def first_divergence(
     )
 
 
-def diverge(first: Trace, second: Trace) -> Divergence | None:
-    """Find the first place at which two traces of one scene differ."""
+def diverge(first: Trace, second: Trace, by_outcome: bool = False) -> Divergence | None:
+    """Find the first place at which two traces of one scene differ; ``by_outcome``: as `stage_divergence`."""
     for stage in STAGES:
-        found = stage_divergence(first.stage(stage), second.stage(stage))
+        found = stage_divergence(first.stage(stage), second.stage(stage), by_outcome)
         if found is not None:
             return found
     return None
 
 
-def stage_divergence(first: StageTrace, second: StageTrace) -> Divergence | None:
-    """Find the first row at which two traces of one stage differ."""
+def stage_divergence(first: StageTrace, second: StageTrace, by_outcome: bool = False) -> Divergence | None:
+    """Find the first row at which two traces of one stage differ.
+
+    ``by_outcome``: in what comes of a pixel, where the stage is about pixels, and not in numbers on the way there.
+    """
     if is_same_schedule(first, second):
-        names = tuple(name for name in first.columns if name in second.columns and name not in NAMES)
+        outcomes = stage_of(first.stage).outcomes if by_outcome else ()
+        names = outcomes or tuple(
+            name for name in first.columns if name in second.columns and name not in NAMES
+        )
         differs = _differing(first, second, names, np.arange(first.steps.row_count), None)
         rows = np.flatnonzero(differs.any(axis=0))
         if not len(rows):

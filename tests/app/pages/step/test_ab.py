@@ -99,7 +99,7 @@ def test_the_first_divergence_is_reached_in_both(window: MainWindow, qtbot: QtBo
         window.run_action("divergence")
     session, comparing = window.session, window.page.comparing
     other = session.document.make_trace(comparing.other)
-    found = diverge(session.trace, other)
+    found = diverge(session.trace, other, by_outcome=True)
     assert found is not None
     assert session.cursor.stage == found.stage == "interpolate"
     rows = [session.stage_trace.steps.row_at(session.cursor.position)[0]]

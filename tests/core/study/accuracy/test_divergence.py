@@ -1,13 +1,17 @@
 """Where two settings part ways: the stage, the pixel and the numbers."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from core import ClipScene, Settings
 from core.methods import table
 from core.pipeline import render
-from core.study.accuracy.divergence import first_divergence
+from core.study.accuracy.divergence import diverge, first_divergence
 from core.study.accuracy.workloads import cyclic_triangles, flat_scene, textured_quad
+from core.trace import trace
+from lessons.scenes import make_scene
 
 SIZE = (24, 24)
 
@@ -102,3 +106,17 @@ def test_every_family_can_be_compared(pair: ClipScene) -> None:
             if found is not None:
                 assert found.rows != (None, None)
                 assert found.names or None in found.rows
+
+
+def test_outcomes_part_ways_later_than_numbers_on_the_way() -> None:
+    scene = make_scene("textured-floor")
+    traces = [
+        trace(replace(scene, size=(24, 24)), Settings(texture_filter=name))
+        for name in ("bilinear", "nearest")
+    ]
+    rows = [diverge(*traces, by_outcome=by_outcome) for by_outcome in (False, True)]
+    assert rows[0] is not None
+    assert rows[1] is not None
+    assert rows[1].stage == "shade"
+    assert rows[1].names == ("color",)
+    assert rows[0].rows <= rows[1].rows
