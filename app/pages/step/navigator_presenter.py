@@ -56,6 +56,7 @@ class NavigatorPresenter(QObject):
         grid.view_changed.connect(self.refresh)
         session.document_changed.connect(self.refresh)
         session.predicting_changed.connect(self.refresh)
+        session.cursor_changed.connect(self._keep_off_the_step)
 
     def set_wanted(self, is_wanted: bool) -> None:
         """Show it where there is something to navigate, or never."""
@@ -138,7 +139,7 @@ class NavigatorPresenter(QObject):
         return window if is_seen else None
 
     def _place(self) -> None:
-        """Put it into the corner of the grid where it hides least of the triangle in focus."""
+        """Put it into the corner of the grid where it hides neither the step nor much of the triangle in focus."""
         navigator, placement = self._navigator, self._grid.placement()
         inside = placement.viewport.adjusted(MARGIN, MARGIN, -MARGIN, -MARGIN)
         box = navigator.rect()
@@ -153,12 +154,30 @@ class NavigatorPresenter(QObject):
             for y in (inside.top(), inside.bottom() - box.height() + 1)
         ]
 
-        def hidden(place: QPoint) -> float:
-            part = triangle.intersected(QRectF(place, box.size()))
-            return part.width() * part.height()
+        step = self._step_cell()
+
+        def hidden(place: QPoint) -> tuple[bool, float]:
+            own = QRectF(place, box.size())
+            part = triangle.intersected(own)
+            return own.intersects(step), part.width() * part.height()
 
         navigator.move(min(places, key=hidden))
         navigator.raise_()
+
+    def _step_cell(self) -> QRectF:
+        """Return the cell of the step just done in the grid; an empty one where it has none."""
+        trace, source = self._session.stage_trace, self._session.trace.source
+        row, _ = trace.steps.row_at(self._session.cursor.position)
+        if row < 0 or trace.pixel[row, 0] < 0:
+            return QRectF()
+        column, line = (trace.pixel[row] - source.raster.bounds[:2]).tolist()
+        return self._grid.placement().cells_rect(column, line)
+
+    @Slot()
+    def _keep_off_the_step(self) -> None:
+        """Go to another corner where the step just done would be hidden."""
+        if self._navigator.isVisible() and self._step_cell().intersects(QRectF(self._navigator.geometry())):
+            self._place()
 
     @Slot()
     def _draw(self) -> None:

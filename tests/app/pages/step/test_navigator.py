@@ -10,6 +10,7 @@ from pytestqt.qtbot import QtBot
 from app.session.document import open_document
 from app.views.scene_picture import fractions
 from app.window.main_window import MainWindow
+from core.records.steps import Level
 from lessons.scenes import built_in_scene
 
 
@@ -114,3 +115,20 @@ def test_the_navigator_pans_a_magnified_grid_and_can_be_hidden(window: MainWindo
     assert page.navigator.isVisible()
     window.toggle_predict()
     assert not page.navigator.isVisible()
+
+
+def test_the_navigator_keeps_off_the_step(window: MainWindow) -> None:
+    page, session = window.page, window.session
+    page.grid.zoom_by(1.5)
+    session.set_level(Level.PIXEL)
+    trace = session.stage_trace
+    geometry = page.navigator.geometry()
+    placement = page.grid.placement()
+    hidden = next(
+        row
+        for row, (column, line) in enumerate(trace.pixel.tolist())
+        if geometry.contains(placement.cells_rect(column, line).toRect())
+    )
+    session.go_to(trace.steps.position_after(hidden))
+    cell = placement.cells_rect(*trace.pixel[hidden].tolist()).toRect()
+    assert not page.navigator.geometry().intersects(cell)
