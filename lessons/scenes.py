@@ -107,6 +107,35 @@ def fan() -> ClipScene:
     return ClipScene(clip, np.repeat(palette, 3, axis=0).reshape(16, 3, 4), TEACHING_SIZE, shared=corners)
 
 
+def window_scene(kind: str, x: ArrayLike, y: ArrayLike, index: ArrayLike, size: tuple[int, int]) -> ClipScene:
+    """Return primitives of a kind between places (V,) in the window; ``index`` (T, k) names the places of each."""
+    ends, corners = np.asarray(index), np.stack([np.asarray(x, float), np.asarray(y, float)], axis=1)
+    ndc = 2 * corners / size - 1
+    clip = np.concatenate([ndc, np.zeros((len(ndc), 1)), np.ones((len(ndc), 1))], axis=1)
+    colors = np.array([linear_color(FACE_COLORS[k % 4]) for k in range(len(ndc))])
+    return ClipScene(clip[ends], colors[ends], size, shared=ends, kind=kind)
+
+
+def segment() -> ClipScene:
+    """One segment between two pixel centres, 8 columns and 3 rows apart: Bresenham's first example."""
+    return window_scene("segments", [1.5, 9.5], [1.5, 4.5], [[0, 1]], (16, 12))
+
+
+def line_strip() -> ClipScene:
+    """Five segments, each of which begins where the one before ends."""
+    index = np.stack([np.arange(5), np.arange(1, 6)], axis=1)
+    return window_scene(
+        "segments", [2.5, 9.5, 14.5, 20.5, 24.5, 29.5], [12.5, 12.5, 18.5, 18.5, 8.5, 8.5], index, (32, 24)
+    )
+
+
+def points() -> ClipScene:
+    """Five points, of which one lies on the border of two pixels and one outside of the raster."""
+    return window_scene(
+        "points", [2.5, 5.25, 8, 12.5, 17.5], [2.5, 8.75, 5, 9.5, 3.5], np.arange(5)[:, None], (16, 12)
+    )
+
+
 def near_plane() -> Scene:
     """One triangle that reaches from far in front of the camera to behind it."""
     triangle = Mesh(
@@ -184,6 +213,24 @@ CATALOGUE = (
         "Fan of shared edges",
         "Sixteen triangles meet at a pixel centre, and every pixel still belongs to exactly one.",
         fan,
+    ),
+    BuiltInScene(
+        "segment",
+        "Segment",
+        "One segment from pixel (1, 1) to pixel (9, 4): type its two ends, and step Bresenham.",
+        segment,
+    ),
+    BuiltInScene(
+        "line-strip",
+        "Line strip",
+        "Five segments in a row draw the pixel of each common vertex once.",
+        line_strip,
+    ),
+    BuiltInScene(
+        "points",
+        "Points",
+        "Each point is the pixel that contains it, and a point outside of the raster is dropped.",
+        points,
     ),
     BuiltInScene(
         "near-plane",

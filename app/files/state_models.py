@@ -134,6 +134,7 @@ class ClipSceneRecord(Record):
     """A ``core.scene.ClipScene``; it is always kept as a whole."""
 
     kind: Literal["clip"]
+    primitives: Literal["triangles", "segments", "points"] = "triangles"
     clip: ArrayRecord
     attributes: ArrayRecord
     shared: ArrayRecord | None

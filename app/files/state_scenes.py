@@ -167,6 +167,7 @@ def _clip_record(scene: ClipScene) -> ClipSceneRecord:
     assert scene.attributes is not None
     return ClipSceneRecord(
         kind="clip",
+        primitives=scene.kind,  # type: ignore[arg-type]
         clip=array_record(scene.clip),
         attributes=array_record(scene.attributes),
         shared=None if scene.shared is None else array_record(scene.shared),
@@ -228,7 +229,10 @@ def _clip_scene(record: ClipSceneRecord) -> ClipScene:
     with in_field("scene"):
         pixels = arrays.pop("texture")
         texture = None if pixels is None else Texture(pixels, record.texture_name)
-        return ClipScene(size=record.size, texture=texture, background=np.array(record.background), **arrays)
+        background = np.array(record.background)
+        return ClipScene(
+            kind=record.primitives, size=record.size, texture=texture, background=background, **arrays
+        )
 
 
 def _open_source(

@@ -5,6 +5,7 @@ from math import degrees, radians
 
 import numpy as np
 
+from core.explain.kinds import of_kind
 from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, PointLight, Scene
@@ -91,7 +92,7 @@ def join_shared(scene: AnyScene) -> AnyScene:
     if not isinstance(scene, ClipScene):
         return scene
     _, names = np.unique(scene.clip.reshape(-1, 4), axis=0, return_inverse=True)
-    return replace(scene, shared=names.reshape(-1, 3))
+    return replace(scene, shared=names.reshape(-1, scene.corner_count))
 
 
 def outline(scene: AnyScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
@@ -148,7 +149,7 @@ def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int])
     groups = []
     for index in shown:
         rows = []
-        for corner in range(3):
+        for corner in range(scene.corner_count):
             path = f"corner/{index}/{corner}"
             if not np.isfinite(window[index, corner]).all():
                 rows.append(
@@ -162,7 +163,8 @@ def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int])
                 for name, number in zip(WINDOW_NAMES, window[index, corner], strict=True)
             )
             rows.append(OutlineRow(path, f"vertex {corner}", values, vertex=corner))
-        groups.append(OutlineGroup(f"triangle/{index}", f"Triangle {index}", tuple(rows)))
+        title = of_kind(f"Triangle {index}", scene.corner_count)
+        groups.append(OutlineGroup(f"triangle/{index}", title, tuple(rows)))
     return tuple(groups)
 
 

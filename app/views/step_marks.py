@@ -59,7 +59,7 @@ def _corner_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     marks = []
     if started.sum() <= MOST_MARKS:
         for number in np.flatnonzero(started.any(axis=1)).tolist():
-            corners = space.corners(int(triangles[number]))[started[number]]
+            corners = space.corners(int(triangles[number]))[np.flatnonzero(started[number])]
             marks += [SpaceMark(corner[None], "text", shape="disc") for corner in corners]
     row, _ = trace.steps.row_at(position)
     if row >= 0:

@@ -13,10 +13,11 @@ import numpy as np
 from app.session.scene_edits import set_clip_corner
 from core.geometry.culling import plane_distances
 from core.geometry.matrices import projection, transform, world_to_camera
+from core.geometry.polygon_clipping.segments import clip_segments
 from core.geometry.polygon_clipping.sutherland_hodgman import DEPTH_PLANES, clip_primitives
 from core.geometry.vertex_stage import VertexStage, vertex_normals
 from core.records.arrays import Floats, Integers
-from core.records.primitives import Primitives
+from core.records.primitives import Primitives, own_corners
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
 from core.trace import scene_triangle_count
 from widgets.space.orbit import Orbit
@@ -140,12 +141,17 @@ def viewed_scene(
     if isinstance(scene, Scene):
         return replace(scene, camera=camera, size=size, background=background), None
     assert scene.attributes is not None
-    number = np.arange(len(scene.clip))
-    whole = Primitives(scene.clip, scene.attributes, number, np.zeros_like(number), {})
-    pieces = clip_primitives(whole, plane_distances(scene.clip), DEPTH_PLANES).primitives
+    number, count = np.arange(len(scene.clip)), scene.corner_count
+    corners = own_corners(np.arange(1), count)[:, 0]
+    clip = scene.clip[:, corners]
+    whole = Primitives(clip, scene.attributes[:, corners], number, np.zeros_like(number), {})
+    by = clip_primitives if count == 3 else clip_segments
+    pieces = by(whole, plane_distances(clip), DEPTH_PLANES).primitives
     pieces = pieces.select(np.asarray((pieces.clip[..., 3] > 0).all(axis=1)))
     clip = transform(viewing_matrix(camera, size) @ space.from_clip, pieces.clip)
-    drawn = ClipScene(clip, pieces.varyings, size, scene.texture, background)
+    drawn = ClipScene(
+        clip[:, :count], pieces.varyings[:, :count], size, scene.texture, background, kind=scene.kind
+    )
     return drawn, pieces.triangle
 
 

@@ -13,18 +13,18 @@ CLIP, WINDOW = SPACES.index("clip"), SPACES.index("window")
 
 
 def spaces_reached(trace: Trace, stage: str, position: int) -> Integers:
-    """Return (T, 3) int64, the space of `SPACES` that each corner of the assembled triangles is in after a step.
+    """Return (T, k) int64, the space of `SPACES` that each of the k corners of a primitive is in after a step.
 
     A scene given in clip space starts there. A row counts when its last operation is done.
     """
-    count = len(trace.source.geometry.assembled)
+    shape = len(trace.source.geometry.assembled), trace.source.scene.corner_count
     if stage != STAGES[0]:
-        return np.full((count, 3), WINDOW)
+        return np.full(shape, WINDOW)
     first = 0 if trace.source.geometry.vertices.object is not None else CLIP
     rows = WINDOW - first
     done = trace.stage(stage).steps.rows_done(position)
-    reached: Integers = first + np.clip(done - rows * np.arange(3 * count), 0, rows)
-    return reached.reshape(count, 3)
+    reached: Integers = first + np.clip(done - rows * np.arange(shape[0] * shape[1]), 0, rows)
+    return reached.reshape(shape)
 
 
 def is_dropped(trace: Trace, stage: str, position: int) -> Flags:

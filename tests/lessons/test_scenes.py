@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core import Settings, render
+from core import Settings, render, trace
 from core.geometry.vertex_stage import transform_vertices
 from core.raster.edges.snapping import SUBPIXELS, snap
 from core.scene import ClipScene, Scene
@@ -76,8 +76,8 @@ def test_bad_window_coordinates_are_refused(arguments, wanted):
 
 def test_the_catalogue():
     assert scene_names() == (
-        "single-triangle", "shared-edge", "fan", "near-plane", "intersecting", "z-fighting", "textured-floor",
-        "cube", "teapot", "sphere", "torus", "knot",
+        "single-triangle", "shared-edge", "fan", "segment", "line-strip", "points", "near-plane",
+        "intersecting", "z-fighting", "textured-floor", "cube", "teapot", "sphere", "torus", "knot",
     )  # fmt: skip
     for scene in CATALOGUE:
         assert scene.title[0].isupper()
@@ -93,6 +93,9 @@ def test_a_scene_is_made_anew_and_fills_a_good_part_of_its_picture(name):
     scene = make_scene(name)
     assert isinstance(scene, Scene | ClipScene)
     assert make_scene(name) is not scene
+    if scene.corner_count < 3:
+        assert (render(scene).primitive >= 0).any()
+        return
     assert 0.2 < (render(scene).primitive >= 0).mean() < 0.8
     is_mesh = name in ("textured-floor", "cube", "teapot", "sphere", "torus", "knot")
     assert (scene.size == TEACHING_SIZE) == (not is_mesh)
@@ -107,6 +110,24 @@ def test_typed_triangles_face_the_viewer_on_the_grid(name):
         assert x * SUBPIXELS == pytest.approx(np.rint(x * SUBPIXELS))
         assert ((depth >= 0) & (depth <= 1)).all()
         assert (w > 0).all()
+
+
+@pytest.mark.parametrize(
+    ("line", "decisions"),
+    [("bresenham-lecture", [-2, 4, -6, 0, 6, -4, 2, -8]), ("bresenham", [-2, 4, -6, 0, -10, -4, 2, -8])],
+)
+def test_the_segment_has_the_decisions_of_the_lecture(line, decisions):
+    raster = trace(make_scene("segment"), Settings(line=line)).stage("raster")
+    assert raster.columns["decision"][1:].tolist() == decisions
+    assert raster.pixel[[0, -1]].tolist() == [[1, 1], [9, 4]]
+
+
+def test_the_line_strip_draws_each_pixel_once():
+    assert render(make_scene("line-strip")).cover_count.max() == 1
+
+
+def test_a_point_outside_of_the_raster_is_dropped():
+    assert sorted(np.unique(render(make_scene("points")).primitive)) == [-1, 0, 1, 2, 3]
 
 
 def test_the_single_triangle_has_red_green_and_blue_corners():

@@ -1,4 +1,4 @@
-"""Triangles over a pixel grid: exact thin outlines, handles at the vertices, and the snapped positions."""
+"""Primitives over a pixel grid: exact thin outlines, handles at the vertices, and the snapped positions."""
 
 from dataclasses import dataclass, field
 
@@ -25,18 +25,20 @@ CASING, RIM = 3.0, 4.6
 
 No colour of an edge has 3:1 against every cell. Each has it against the casing, and casing or rim against any cell.
 """
+SIDES = {3: (0, 1, 2), 2: (2,), 1: ()}
+"""By the vertices of the primitive in focus, the edges that it has, each opposite to the vertex of its number."""
 _NAMED_LENGTH = 7.0
 """Least length of an edge that is named, in heights of the text."""
 
 
 @dataclass(frozen=True, eq=False)
 class GridGeometry:
-    """Triangles in window coordinates (y up)."""
+    """Triangles, segments or points in window coordinates (y up)."""
 
     vertices: NDArray[np.float64] = field(repr=False)
     """(V, 2) float64 window positions; any value, also far away, infinite or NaN (a vertex at w <= 0)."""
     triangles: NDArray[np.integer] = field(repr=False)
-    """(T, 3) integers into ``vertices``."""
+    """(T, 3) integers into ``vertices``; of a segment the second stands twice, of a point the only one three times."""
     focus: int = 0
     """The triangle whose vertices and edges have the colours 0, 1, 2; -1: none. Edge k faces vertex k."""
     snapped: NDArray[np.float64] | None = field(default=None, repr=False)
@@ -44,7 +46,7 @@ class GridGeometry:
     draggable: bool = True
     """Whether the vertices of the triangle in focus can be dragged."""
     labels: tuple[str, ...] = ()
-    """A name per vertex; empty: 0, 1, 2 for those of the triangle in focus."""
+    """A name per vertex; empty: 0, 1, 2 for those of the primitive in focus."""
 
     def __post_init__(self) -> None:
         if self.vertices.ndim != 2 or self.vertices.shape[1] != 2:
@@ -62,10 +64,10 @@ class GridGeometry:
 
     @property
     def focus_vertices(self) -> tuple[int, ...]:
-        """Indices of the three vertices of the triangle in focus; empty if there is none."""
+        """Indices of the vertices of the primitive in focus, 3, 2 or 1; empty if there is none."""
         if not 0 <= self.focus < len(self.triangles):
             return ()
-        return tuple(int(index) for index in self.triangles[self.focus])
+        return tuple(dict.fromkeys(self.triangles[self.focus].tolist()))
 
     def label(self, vertex: int) -> str:
         """Return the name of a vertex."""
@@ -144,7 +146,8 @@ def paint_focus(
         return
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    ends = np.array([[corners[(k + 1) % 3], corners[(k + 2) % 3]] for k in range(3)])
+    sides = SIDES[len(corners)]
+    ends = np.array([[corners[(k + 1) % 3], corners[(k + 2) % 3]] for k in sides], int).reshape(-1, 2)
     lines, source = widget_lines(geometry.vertices[ends], placement)
     scale = theme.text_px / 13
     width = 1.2 if small else 2.2 * scale
@@ -155,15 +158,15 @@ def paint_focus(
     for color, more in ((theme.edge_rim, RIM), (theme.edge_casing, CASING)):
         painter.setPen(QPen(QColor(color), width + more, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap))
         painter.drawLines(lines)
-    for line, edge in zip(lines, source.tolist(), strict=True):
+    for line, index in zip(lines, source.tolist(), strict=True):
         painter.setPen(
-            QPen(QColor(theme.vertex[edge]), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
+            QPen(QColor(theme.vertex[sides[index]]), width, Qt.PenStyle.SolidLine, Qt.PenCapStyle.RoundCap)
         )
         painter.drawLine(line)
     if not small:
         painter.setClipRect(placement.viewport)
         scale *= handle_part(placement, geometry)
-        for place in range(3):
+        for place in range(len(corners)):
             position = vertex_place(geometry, placement, corners[place])
             if position is None:
                 continue
@@ -178,7 +181,10 @@ def paint_focus(
                 painter.drawEllipse(position, radius + more / 2, radius + more / 2)
         _paint_snapped(painter, placement, geometry, corners, scale)
         _paint_names(painter, placement, geometry, theme)
-        _paint_edge_names(painter, placement, geometry, list(zip(lines, source.tolist(), strict=True)), theme)
+        if len(corners) == 3:
+            _paint_edge_names(
+                painter, placement, geometry, list(zip(lines, source.tolist(), strict=True)), theme
+            )
     painter.restore()
 
 
@@ -187,6 +193,8 @@ def handle_part(placement: GridPlacement, geometry: GridGeometry) -> float:
     corners = geometry.vertices[list(geometry.focus_vertices)]
     with np.errstate(over="ignore", invalid="ignore"):
         sides = np.hypot(*(corners - np.roll(corners, 1, axis=0)).T) * placement.cell
+    if len(corners) == 1:
+        return 1.0
     shortest = np.nan_to_num(sides, nan=np.inf).min()
     return float(np.clip(shortest / (4 * HANDLE_RADIUS), _LEAST_HANDLE, 1.0))
 

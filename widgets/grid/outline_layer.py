@@ -23,7 +23,7 @@ class OutlineLayer:
         self, painter: QPainter, placement: GridPlacement, area: QRect, geometry: GridGeometry, theme: Theme
     ) -> None:
         """Paint the triangles that are not in focus, as `paint_outlines` does."""
-        if len(geometry.triangles) > len(geometry.focus_vertices) // 3:
+        if len(geometry.triangles) > bool(geometry.focus_vertices):
             ratio = painter.device().devicePixelRatioF()
 
             def others() -> QPixmap:

@@ -105,8 +105,8 @@ class PixelGrid(GridDisplay):
         geometry = self._geometry
         if geometry is None or not geometry.draggable or geometry.focus < 0 or not len(geometry.triangles):
             return None
-        own = geometry.triangles[geometry.focus].tolist()
-        self._vertex = own[(own.index(self._vertex) + 1) % 3] if self._vertex in own else own[0]
+        own = geometry.focus_vertices
+        self._vertex = own[(own.index(self._vertex) + 1) % len(own)] if self._vertex in own else own[0]
         self.update()
         return self._vertex
 
@@ -126,7 +126,7 @@ class PixelGrid(GridDisplay):
         vertex, geometry = self._vertex, self._geometry
         if vertex is None or geometry is None:
             return ""
-        own = geometry.triangles[geometry.focus].tolist()
+        own = geometry.focus_vertices
         x, y = geometry.vertices[vertex].tolist()
         return f"Vertex {own.index(vertex) if vertex in own else vertex} at ({x:.4g}, {y:.4g})"
 

@@ -12,6 +12,7 @@ from core.raster.edges.snapping import SUBPIXELS
 from core.raster.number_formats.number_format import number_format
 from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT, Raster
 from core.records.arrays import Integers
+from core.records.primitives import own_corners
 from core.resolved import resolve
 from core.trace import BufferTrack, StageTrace, TraceSource
 from core.trace.edges import half_plane, known_edges
@@ -127,7 +128,8 @@ def geometry_of(
     geometry = source.geometry
     wanted = document.triangle if document.triangle is not None else focus
     triangles = outlined_triangles(trace, wanted)
-    corners = geometry.vertices.corners[triangles].ravel()
+    corner_count = source.scene.corner_count
+    corners = geometry.vertices.corners[triangles, :corner_count].ravel()
     first_column, first_row, _, _ = source.raster.bounds
     origin = np.array([first_column, first_row], float)
     chosen = np.isin(geometry.assembled.triangle, triangles)
@@ -143,14 +145,14 @@ def geometry_of(
     place = np.flatnonzero(triangles == wanted)
     return GridGeometry(
         vertices=window - origin,
-        triangles=np.arange(len(corners)).reshape(-1, 3),
+        triangles=own_corners(np.arange(len(triangles)), corner_count).T,
         focus=0 if len(triangles) == 1 else int(place[0]) if len(place) else -1,
         snapped=(snapped - origin) if snaps else None,
     )
 
 
 def outlined_triangles(trace: Trace, focus: int | None) -> Integers:
-    """Return (K,) the triangles whose outlines are drawn, three vertices each: all, or of many the one in focus."""
+    """Return (K,) the primitives whose outlines are drawn: all, or of many the one in focus."""
     triangles = trace.source.geometry.assembled.triangle
     return triangles if len(triangles) <= OUTLINE_LIMIT else triangles[triangles == focus][:1]
 
@@ -160,7 +162,7 @@ def edge_overlay(geometry: GridGeometry, stage: StageTrace, position: int) -> Se
     count = 0 if STAGES.index(stage.stage) < STAGES.index("edges") else 3
     if stage.stage == "edges":
         count = known_edges(stage.steps.rows_done(position))[1]
-    if geometry.focus < 0 or not count:
+    if len(geometry.focus_vertices) < 3 or not count:
         return None
     a, b, c = geometry.vertices[geometry.triangles[geometry.focus]]
     segments = np.array([[b, c], [c, a], [a, b]])[:count]

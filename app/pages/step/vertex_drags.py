@@ -64,10 +64,11 @@ class VertexDrags(QObject):
         document, latest, trace = self._session.document, self._session.latest, self._session.trace
         first_column, first_row, _, _ = trace.source.raster.bounds
         wanted = document.triangle if document.triangle is not None else self._focus()
-        triangle = int(outlined_triangles(trace, wanted)[vertex // 3])
-        place, size = (x + first_column, y + first_row), document.traced_scene.size
+        place, corner = divmod(vertex, trace.source.scene.corner_count)
+        triangle = int(outlined_triangles(trace, wanted)[place])
+        position, size = (x + first_column, y + first_row), document.traced_scene.size
         try:
-            scene = move_corner(latest.scene, triangle, vertex % 3, place, size)
+            scene = move_corner(latest.scene, triangle, corner, position, size)
             self._take(replace(latest, scene=scene), self._gesture)
         except ValueError as error:
             self.refused.emit(f"The vertex was not moved: {error}")

@@ -222,6 +222,20 @@ def test_a_built_in_scene_with_a_moved_vertex_keeps_the_rest_by_name(tmp_path):
     assert "triangles" in saved["from_source"]
 
 
+@pytest.mark.parametrize("name", ["line-strip", "points"])
+def test_the_kind_of_primitives_is_kept_and_checked(tmp_path, name):
+    path = tmp_path / f"state{EXTENSION}"
+    document = open_any(name).document
+    assert_same(State(document), again(tmp_path, State(document)))
+    record = json.loads(path.read_text())
+    assert record["scene"]["primitives"] == document.scene.kind
+    for kind, message in (("lines", "scene.primitives must be"), ("triangles", r"clip must be \(T, 3, 4\)")):
+        record["scene"]["primitives"] = kind
+        path.write_text(json.dumps(record))
+        with pytest.raises(StateFileError, match=message):
+            load_state(path)
+
+
 class TestMeshFiles:
     @pytest.fixture
     def mesh(self, tmp_path):

@@ -46,7 +46,7 @@ def test_a_dragged_mesh_vertex_lands_in_the_window() -> None:
     assert vertices.window[vertices.corners[0, 0], :2] == pytest.approx([200, 300], abs=1e-6)
 
 
-@pytest.mark.parametrize("name", ["single-triangle", "cube", "textured-floor"])
+@pytest.mark.parametrize("name", ["single-triangle", "line-strip", "cube", "textured-floor"])
 def test_every_value_of_the_outline_can_be_typed_back(name: str) -> None:
     scene = make_scene(name)
     typed = _values(outline(scene, None, scene.size))
@@ -87,3 +87,18 @@ def test_shared_corners_split_and_join() -> None:
     assert isinstance(joined, ClipScene)
     assert joined.shared is not None
     assert len(np.unique(joined.shared)) == 4
+
+
+def test_ends_of_a_strip_move_and_split_as_corners_do() -> None:
+    scene = make_scene("line-strip")
+    assert [group.title for group in outline(scene, None, scene.size)][:2] == ["Segment 0", "Segment 1"]
+    moved = move_corner(scene, 0, 1, (10.5, 2.5), scene.size)
+    assert isinstance(moved, ClipScene)
+    assert np.array_equal(moved.clip[0, 1], moved.clip[1, 0])
+    alone = move_corner(split_shared(scene), 0, 1, (10.5, 2.5), scene.size)
+    assert isinstance(alone, ClipScene)
+    assert not np.array_equal(alone.clip[0, 1], alone.clip[1, 0])
+    joined = join_shared(split_shared(scene))
+    assert isinstance(joined, ClipScene)
+    assert joined.shared is not None
+    assert joined.shared[:-1, 1].tolist() == joined.shared[1:, 0].tolist()
