@@ -15,6 +15,7 @@ from widgets.grid.compare_view import Comparison, Side
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.overlay import Mark, MaskOverlay
 
+OTHER = "read them at a pixel, or choose a buffer that both share."
 SHOWN_MARKS = ("rejected", "tie", "nan", "failed")
 """Marks of rows done that lie over the pictures."""
 
@@ -82,6 +83,9 @@ def compare(first: Side, second: Side) -> Comparison:
         return Comparison(first, second, None, "There is nothing to compare: one side is blank.")
     if a.values.shape != b.values.shape:
         return Comparison(first, second, None, "The two buffers have different numbers of channels.")
+    if a.kind == "scalar" and (a.unit, a.description) != (b.unit, b.description):
+        # Other numbers for the same thing, as 16 bits and 1/w for a depth.
+        return Comparison(first, second, None, f"“{a.label}” holds other numbers in A and in B: {OTHER}")
     if a.kind in ("scalar", "signed"):
         scale = _common_range(a, b)
         a, b = replace(a, range=scale), replace(b, range=scale)

@@ -16,7 +16,7 @@ FIRST_CHOICES = {
     "bin": (("fill", "hierarchy"), ("fill", "blocks")),
     "raster": (("line", "dda"), ("fill", "scanline"), ("fill_rule", "inclusive")),
     "interpolate": (("interpolation", "affine"),),
-    "depth": (("depth", "z-16"),),
+    "depth": (("visibility", "last-drawn"), ("visibility", "z-buffer")),
     "blend": (("blend", "over"), ("blend", "additive")),
     "resolve": (("antialiasing", "msaa-4"),),
 }

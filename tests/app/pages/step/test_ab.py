@@ -139,6 +139,21 @@ def test_b_may_differ_in_several_families(window: MainWindow) -> None:
     assert "0 of" in view.summary.text()
 
 
+def test_depths_of_other_formats_are_not_subtracted(window: MainWindow) -> None:
+    window.session.open(open_document(make_scene("cube"), "Cube"))
+    window.session.set_stage("depth", 300)
+    window.page.show_view("compare")
+    view, comparing = window.page.compare_view, window.page.comparing
+    assert comparing.other.visibility == "last-drawn"
+    assert view.grids[2].buffer() is not None
+    comparing.set_differences({"depth": "z-16"})
+    comparing.set_buffer("depth")
+    assert view.grids[2].buffer() is None
+    assert "holds other numbers in A and in B" in view.summary.text()
+    comparing.set_buffer("passes")
+    assert view.grids[2].buffer() is not None
+
+
 def test_swapping_and_using_b_are_edits(window: MainWindow) -> None:
     window.page.show_view("compare")
     view, comparing = window.page.compare_view, window.page.comparing
