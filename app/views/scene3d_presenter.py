@@ -290,14 +290,15 @@ class Scene3dPresenter(QObject):
         document = self._session.document
         count = document.triangle_count
         parts = [f"{counted(count, 'triangle')}."]
-        if isinstance(document.scene, Scene):
+        if count > LARGEST_WITH_CAMERA:
+            parts.append("Click a triangle, or press F, to go into it. Shift+F comes back.")
+        elif isinstance(document.scene, Scene):
             parts.append("Camera and view volume are drawn as lines, the near plane thick.")
         else:
             parts.append("Given in clip space: the box is the view volume, its near face in front.")
         if self.focus is not None:
-            parts.append("Drag a corner to move it. F goes into the triangle, Shift+F back.")
-            parts.append("Click another triangle to choose it.")
-        else:
+            parts.append("Drag a corner to move it.")
+        elif count <= LARGEST_WITH_CAMERA:
             parts.append("Click a triangle to choose it.")
         if count > MOST_TRIANGLES:
             parts.append(f"One in {-(-count // MOST_TRIANGLES)} is drawn.")
