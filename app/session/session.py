@@ -179,10 +179,10 @@ class Session(QObject):
             return
         document, gesture, stage = self.document, self._history.gesture, self._cursor.stage
         if document.estimated_seconds > QUICK_SECONDS:
-            self.tracing.start(Order(document, gesture, stage, earlier=self._trace))
+            self.tracing.start(Order(document, gesture, stage))
             return
         try:
-            trace = trace_now(document, stage, self._trace)
+            trace = trace_now(document, stage)
         except ValueError as error:
             self.take_back(gesture)
             self.edit_failed.emit(error)
