@@ -234,7 +234,7 @@ def _shapes(
         ends = before[[(k + 1) % 3, (k + 2) % 3]]
         strokes.append(Stroke(ends, f"vertex {k}", 2.2 if is_whole else 1.4, "solid" if is_whole else "dash"))
     if state.is_kept_whole:
-        strokes.append(Stroke(before, "accent", 1.6, "dash", is_closed=True))
+        strokes.insert(0, Stroke(before, "accent", 8.0, is_closed=True, opacity=0.6))
     if len(state.polygon):
         polygon = place(state.polygon)
         patches.append(Patch(polygon, "covered", 0.4))

@@ -5,7 +5,7 @@ from core.explain.subjects.number_formats import replaced_fill
 from core.records.frame import StageCount
 from core.resolved import resolve
 from core.stages.declared import GEOMETRY_STAGES, stage_of
-from widgets.timeline.chapters import Chapter, ChapterState
+from widgets.timeline.chapter_button import Chapter, ChapterState
 
 INSERTED_FOR = {
     "clip": "corners in front of the eye",

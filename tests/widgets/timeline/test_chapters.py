@@ -7,7 +7,8 @@ from PySide6.QtWidgets import QApplication
 
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import LIGHT
-from widgets.timeline.chapters import Chapter, ChapterRow, ChapterState, Spelling
+from widgets.timeline.chapter_button import Chapter, ChapterState, Spelling
+from widgets.timeline.chapters import ChapterRow
 
 TITLES = [
     "Transform",

@@ -7,7 +7,7 @@ import pytest
 from app.pages.step.chapters import COMPUTED, chapters_of, traced_counts
 from core import STAGES, ClipScene, Settings, trace
 from lessons.scenes import make_scene
-from widgets.timeline.chapters import Chapter, ChapterState
+from widgets.timeline.chapter_button import Chapter, ChapterState
 
 
 def chapters_by_stage(name: str, is_predicting: bool = False, **settings: str) -> dict[str, Chapter]:

@@ -18,7 +18,7 @@ from app.window.main_window import MainWindow
 from core import STAGES
 from core.records.steps import Level
 from widgets.inspector.listing import ListingView
-from widgets.timeline.chapters import ChapterButton
+from widgets.timeline.chapter_button import ChapterButton
 
 SIDEWAYS = {Qt.Key.Key_Left, Qt.Key.Key_Right}
 UP_DOWN = {Qt.Key.Key_Up, Qt.Key.Key_Down}
