@@ -206,8 +206,8 @@ def test_b_goes_to_a_pixel_that_only_it_looks_at(window: MainWindow, qtbot: QtBo
 
 def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWindow, qtbot: QtBot) -> None:
     window.page.toggle_pane("scene")
-    window.resize(1000, 700)
-    qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) < 1000)
+    window.resize(1200, 700)
+    qtbot.waitUntil(lambda: sum(window.page.columns.sizes()) < 1200)
     before = window.page.columns.sizes()
     window.appearance.set_theme("presenter")
     window.resize(1900, 1000)
