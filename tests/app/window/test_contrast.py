@@ -1,37 +1,37 @@
 """What must be seen is seen, measured from pixels: focus, current rows, marks, letters, splitters; light and dark."""
 
 from collections.abc import Iterator
+from itertools import combinations
 
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from PySide6.QtCore import QPoint, QRect, Qt
-from PySide6.QtGui import QAccessible, QImage, QPixmap
+from PySide6.QtCore import QPoint, QRect, QRectF, Qt
+from PySide6.QtGui import QAccessible, QColor, QImage, QPainter, QPixmap
 from PySide6.QtWidgets import QApplication, QListWidget, QMenu, QTreeWidget, QTreeWidgetItem, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.pages.stability.records import cell_kinds
 from app.window.main_window import MainWindow
 from widgets.atlas.canvas import cell_pixmap
+from widgets.basics.marks import draw_mark
 from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, Theme
 from widgets.timeline.bar import TimelineBar
-from widgets.timeline.run_picture import LANES, TimelineRun
+from widgets.timeline.run_picture import FLAGS, LANES, TimelineRun
 
 Luminance = NDArray[np.float64]
 BOTH = pytest.mark.parametrize("look", [LIGHT, DARK], ids=["light", "dark"])
 
 
 @pytest.fixture
-def styled(look: Theme) -> Iterator[Theme]:
+def styled(look: Theme, qapp: QApplication) -> Iterator[Theme]:
     """Apply a theme with its style sheet, and the light one without at the end."""
-    application = QApplication.instance()
-    assert isinstance(application, QApplication)
-    apply_theme(application, look)
+    apply_theme(qapp, look)
     yield look
-    apply_theme(application, LIGHT)
-    application.setStyleSheet("")
+    apply_theme(qapp, LIGHT)
+    qapp.setStyleSheet("")
 
 
 def luminance(picture: QPixmap | QImage) -> Luminance:
@@ -126,6 +126,22 @@ def test_letters_of_maps_can_be_read(qtbot: QtBot, styled: Theme) -> None:
 
 
 @BOTH
+def test_states_survive_greyscale(styled: Theme) -> None:
+    """Marks differ in brightness and shape, and cells of maps by their character, whatever their hue."""
+    ground = QImage(24, 24, QImage.Format.Format_RGB32)
+    shapes = {}
+    for mark in (*LANES, *FLAGS):
+        ground.fill(QColor(styled.canvas))
+        with QPainter(ground) as painter:
+            draw_mark(painter, mark, QRectF(0, 0, 24, 24))
+        shapes[mark] = luminance(ground)
+    for first, second in combinations(shapes, 2):
+        assert int((contrast(shapes[first], shapes[second]) > 1.5).sum()) > 24, (first, second)
+    characters = [kind.mark for kind in cell_kinds()]
+    assert len(set(characters)) == len(characters)
+
+
+@BOTH
 def test_borders_between_panes_can_be_seen(qtbot: QtBot, styled: Theme) -> None:
     """A border has a line with 3:1 to its ground, in both directions."""
     for direction in (Qt.Orientation.Horizontal, Qt.Orientation.Vertical):
@@ -139,10 +155,15 @@ def test_borders_between_panes_can_be_seen(qtbot: QtBot, styled: Theme) -> None:
         assert int((contrast(seen, float(seen[0, 0])) >= 3).sum()) >= 24
 
 
-@BOTH
-@pytest.mark.parametrize("page", ["start", "step", "compare", "stability", "plan"])
-def test_the_focus_can_be_seen(window: MainWindow, styled: Theme, page: str) -> None:
+@pytest.mark.parametrize("look", [LIGHT, pytest.param(DARK, marks=pytest.mark.slow)], ids=["light", "dark"])
+def test_the_focus_can_be_seen(window: MainWindow, styled: Theme) -> None:
     """Whatever takes the keyboard shows by 3:1 that it has it, along a line as long as its shorter side."""
+    for page in ("start", "step", "compare", "stability", "plan"):
+        assert (page, unseen_stops(window, page)) == (page, [])
+
+
+def unseen_stops(window: MainWindow, page: str) -> list[tuple[str, str]]:
+    """Return what takes the keyboard on a page and does not show it."""
     window.session.set_stage("raster", 0)  # nothing has been done yet: the formula is empty
     window.page.show_panes(["methods", "inspector", "thumbnails"])
     window.run_action(f"page_{page}")
@@ -162,4 +183,4 @@ def test_the_focus_can_be_seen(window: MainWindow, styled: Theme, page: str) -> 
         without = luminance(window.grab(area))
         if clear_pixels(with_focus, without) < min(stop.width(), stop.height()):
             unseen.append((type(stop).__name__, spoken_name(stop)))
-    assert sorted(set(unseen)) == []
+    return sorted(set(unseen))

@@ -2,7 +2,6 @@
 
 from itertools import pairwise
 
-import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QSplitterHandle, QTabBar, QWidget
@@ -12,7 +11,7 @@ from app.window.main_window import MainWindow
 from widgets.basics.focus_order import ArrowGroup, tab_stops
 from widgets.space.scene_view import SceneView
 
-EVERY_PAGE = pytest.mark.parametrize("page", ["start", "step", "compare", "stability", "plan"])
+PAGES = ("start", "step", "compare", "stability", "plan")
 
 
 def name_of(widget: QWidget) -> str:
@@ -64,9 +63,8 @@ def is_seen(window: MainWindow, widget: QWidget) -> bool:
     )
 
 
-@EVERY_PAGE
-def test_tab_reaches_every_stop_and_shift_tab_is_its_mirror(window: MainWindow, page: str) -> None:
-    """Forward and backward the same stops in opposite order, all that take the keyboard, all in sight."""
+def check_tab(window: MainWindow, page: str) -> None:
+    """Assert that Tab and Shift+Tab walk a page."""
     window.run_action(f"page_{page}")
     if page == "step":
         window.page.show_panes(["methods", "inspector", "thumbnails"])
@@ -104,9 +102,8 @@ def test_tab_stays_in_the_page_of_keys(window: MainWindow) -> None:
     assert all(window.overlays.key_help.isAncestorOf(stop) and is_seen(window, stop) for stop in stops)
 
 
-@EVERY_PAGE
-def test_f6_walks_the_panes_and_escape_comes_back(window: MainWindow, page: str) -> None:
-    """F6 and Shift+F6 are mirror images; Escape gives the keyboard to the main view and only then does more."""
+def check_f6(window: MainWindow, page: str) -> None:
+    """Assert that F6 and Shift+F6 walk the panes of a page."""
     window.run_action(f"page_{page}")
     QApplication.processEvents()
     main = tab_stops([window.pages.current.main_view()])
@@ -191,3 +188,15 @@ def test_triangles_and_vertices_by_keys(window: MainWindow, qtbot: QtBot) -> Non
     assert window.page.grid.vertex_text() != place
     window.run_action("undo")
     assert session.document.scene is before
+
+
+def test_tab_reaches_every_stop_and_shift_tab_is_its_mirror(window: MainWindow) -> None:
+    """Forward and backward the same stops in opposite order, all that take the keyboard, all in sight."""
+    for page in PAGES:
+        check_tab(window, page)
+
+
+def test_f6_walks_the_panes_and_escape_comes_back(window: MainWindow) -> None:
+    """F6 and Shift+F6 are mirror images; Escape gives the keyboard to the main view and only then does more."""
+    for page in PAGES:
+        check_f6(window, page)
