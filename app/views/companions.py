@@ -120,20 +120,22 @@ def entered_diagram(session: Session) -> Diagram:
     is_there = spaces_reached(trace, "transform", position) >= NDC
     corners = _placed(geometry.vertices.ndc[geometry.vertices.corners[assembled]])
     spots, strokes = [], list(cube_strokes())
+    row, _ = stage.steps.row_at(position)
+    current = -1 if row < 0 else int(np.flatnonzero(assembled == stage.triangle[row])[0])
     for number in np.flatnonzero(is_there.any(axis=1))[:MOST_TRIANGLES].tolist():
         there = is_there[number]
-        spots += [Spot(corners[number, k], f"vertex {k}", radius=3.0) for k in range(3) if there[k]]
         if there.all():
             strokes.append(Stroke(corners[number], "text", 1.2, is_closed=True))
-    row, _ = stage.steps.row_at(position)
+        if number == current or not there.all():
+            # Of whole triangles the outline is enough: hundreds of dots take long to paint.
+            spots += [Spot(corners[number, k], f"vertex {k}", radius=3.0) for k in range(3) if there[k]]
     said = "Corners appear here when they are divided by w."
     if row >= 0:
-        number = int(np.flatnonzero(assembled == stage.triangle[row])[0])
         k = int(stage.columns["corner"][row])
-        space = SPACES[int(spaces_reached(trace, "transform", position)[number, k])]
+        space = SPACES[int(spaces_reached(trace, "transform", position)[current, k])]
         said = f"Vertex {stage.columns['vertex'][row]} is in {space} space."
-        if is_there[number, k]:
-            spots.append(Spot(corners[number, k], "accent", "ring", 7.0))
+        if is_there[current, k]:
+            spots.append(Spot(corners[current, k], "accent", "ring", 7.0))
     return Diagram(
         strokes=tuple(strokes),
         spots=tuple(spots),

@@ -11,7 +11,7 @@ from core.records.arrays import Floats
 from core.stages.declared import GEOMETRY_STAGES, STAGES
 from core.trace.geometry_progress import SPACES, is_dropped, spaces_reached
 
-MOST_MARKS = 400
+MOST_MARKS = 200
 """Corners or arrows that are marked: of more, a part would look like a shape of its own."""
 ARROW = 0.16
 """Length of an arrow, as a part of the view's radius."""
@@ -57,10 +57,12 @@ def _corner_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     reached = spaces_reached(session.trace, "transform", position)
     started = reached > spaces_reached(session.trace, "transform", 0)
     marks = []
-    if started.sum() <= MOST_MARKS:
-        for number in np.flatnonzero(started.any(axis=1)).tolist():
-            corners = space.corners(int(triangles[number]))[np.flatnonzero(started[number])]
-            marks += [SpaceMark(corner[None], "text", shape="disc") for corner in corners]
+    numbers, corners = np.nonzero(started)
+    vertices = source.geometry.vertices.corners[triangles[numbers], corners]
+    _, once = np.unique(vertices, return_index=True)
+    for place in once.tolist() if len(once) <= MOST_MARKS else []:
+        point = space.corners(int(triangles[numbers[place]]))[corners[place]]
+        marks.append(SpaceMark(point[None], "text", shape="disc"))
     row, _ = trace.steps.row_at(position)
     if row >= 0:
         triangle, corner = int(trace.triangle[row]), int(trace.columns["corner"][row])

@@ -38,11 +38,11 @@ def test_corners_enter_the_cube_as_they_are_divided(qapp: object) -> None:
     for position in np.linspace(0, session.stage_trace.steps.count, 8).astype(int).tolist():
         session.go_to(position)
         there = spaces_reached(session.trace, "transform", position) >= SPACES.index("NDC")
-        spots = [spot for spot in entered_diagram(session).spots if spot.ink != "accent"]
-        assert len(spots) == there.sum()
-        counts.append(len(spots))
+        outlines = [stroke for stroke in entered_diagram(session).strokes if stroke.ink == "text"]
+        assert len(outlines) == there.all(axis=1).sum()
+        counts.append(len(outlines))
     assert counts == sorted(counts)
-    assert (counts[0], counts[-1]) == (0, 36)
+    assert (counts[0], counts[-1]) == (0, 12)
 
 
 def test_new_depths_are_those_that_the_triangle_has_compared_by_now(qapp: object) -> None:
