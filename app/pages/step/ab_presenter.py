@@ -234,6 +234,11 @@ class ComparePresenter(QObject):
             self._stage = cursor.stage
             self._take(self._second)
 
+    @property
+    def is_searching(self) -> bool:
+        """Whether the first step that differs is being searched for."""
+        return self._search.is_running
+
     @Slot()
     def go_to_divergence(self) -> None:
         """Search for the first step that differs, in any stage, and put both runs there."""

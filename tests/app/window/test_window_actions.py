@@ -116,7 +116,7 @@ def test_every_key_does_something(
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *args: (str(state), ""))
     monkeypatch.setattr(SaveDialog, "ask", lambda dialog: str(tmp_path / "view.png"))
     monkeypatch.setattr(QPrintPreviewDialog, "exec", lambda dialog: 1)
-    document = window.session.document
+    document, files, comparing = window.session.document, window.files, window.page.comparing
     idle = []
     # A new theme for the window takes long, and without a window there is nothing more to try.
     late = ["presenter", "toggle_theme", "quit"]
@@ -127,7 +127,7 @@ def test_every_key_does_something(
         window.page.grid.setFocus()
         before = seen(window)
         QTest.keySequence(window, QKeySequence(action.keys[0]))
-        qtbot.waitUntil(lambda: not window.files.job.is_running)
+        qtbot.waitUntil(lambda: not (files.job.is_running or comparing.is_searching))
         idle += [action.name] if seen(window) == before else []
     assert idle == []
 
