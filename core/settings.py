@@ -312,6 +312,15 @@ def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> s
     """Return why a setting changes nothing with the others and this scene, as a sentence; empty: it may."""
     declared = FIELDS[name]
     by = declared.taken_by
+    if scene is not None and scene.corner_count < 3:
+        noun = "Segments have" if scene.corner_count == 2 else "Points have"
+        if name == "line" and scene.corner_count == 1:
+            return "A point is one pixel."
+        if name in ("cull", "polygon_mode"):
+            return f"{noun} no area."
+        settings = without_area(settings, scene.corner_count)
+        if by == "polygon_mode":
+            return "" if name in table.get(by, settings.polygon_mode).takes else f"{noun} no area."
     if by and name not in table.get(by, getattr(settings, by)).takes:
         return declared.otherwise
     reason = declared.reason(settings, scene) if declared.reason else ""

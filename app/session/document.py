@@ -97,7 +97,9 @@ class Document:
         """Pixel tests of a trace at most where every pixel is tested, else a guess."""
         triangles = self.triangle_count if self.triangle is None else 1
         pixels = self.raster.columns * self.raster.rows * resolve(self.settings).sampling.count
-        if fill_traits(self.settings.fill).looks_everywhere and not no_effect(self.settings, "fill"):
+        if fill_traits(self.settings.fill).looks_everywhere and not no_effect(
+            self.settings, "fill", self.scene
+        ):
             return triangles * pixels
         return min(triangles, 60) * pixels // 4
 

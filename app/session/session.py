@@ -10,6 +10,7 @@ from app.session.held_bytes import held_arrays
 from app.session.history import History
 from app.session.tracing import QUICK_SECONDS, Order, Traced, Tracing, trace_drag, trace_now
 from core import STAGES, Settings, Trace
+from core.explain.stage_texts import skipped_because
 from core.records.steps import Level
 from core.trace import Explanation, StageTrace
 from core.trace.incremental.draft import Draft
@@ -289,6 +290,8 @@ class Session(QObject):
         level = cursor.level if level is None else level
         move = steps.forward if direction > 0 else steps.back
         position, index = move(cursor.position, level), STAGES.index(cursor.stage) + direction
+        while 0 <= index < len(STAGES) and skipped_because(STAGES[index], self.document.scene.corner_count):
+            index += direction
         if position != cursor.position:
             self._move(replace(cursor, position=position))
         elif 0 <= index < len(STAGES):

@@ -7,10 +7,11 @@ y = ±w it is seen along x.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from core.explain.kinds import of_kind
 from core.geometry.culling import PLANES, REASONS
 from core.geometry.polygon_clipping.sutherland_hodgman import distance_from
 from core.records.arrays import Floats
@@ -44,10 +45,18 @@ class ClipState:
     sentence: str = ""
     is_kept_whole: bool = False
     """Whether the step just done has let the triangle pass as it is."""
+    corner_count: int = 3
+    """Corners of what is drawn: 2 of a segment, 1 of a point."""
 
 
 def clip_state(trace: Trace, triangle: int, position: int | None) -> ClipState:
     """Return a triangle at a position of the stage ``clip``; ``None``: after its end."""
+    corner_count = trace.source.scene.corner_count
+    state = _state_of(trace, triangle, position)
+    return replace(state, corner_count=corner_count, sentence=of_kind(state.sentence, corner_count))
+
+
+def _state_of(trace: Trace, triangle: int, position: int | None) -> ClipState:
     geometry = trace.source.geometry
     stage = trace.stage("clip")
     before = geometry.vertices.clip[geometry.vertices.corners[triangle]]
@@ -248,7 +257,7 @@ def _shapes(
         spots.append(Spot(corner, "text" if is_left else "outline", "square", 3.5 if is_left else 2.5))
     if state.corner is not None:
         spots.append(Spot(place(state.corner[None])[0], "accent", "square", 5.0, label="new corner"))
-    for k in range(3):
+    for k in range(state.corner_count):
         label = f"{k}" if state.before[k, 3] > 0 else f"{k}, w = {state.before[k, 3]:.3g}".replace("-", "−")
         spots.append(Spot(before[k], f"vertex {k}", label=label))
     return Diagram(tuple(patches), tuple(strokes), tuple(spots), tuple(words))

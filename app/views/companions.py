@@ -8,6 +8,7 @@ from app.views.clip_diagram import cube_strokes
 from app.views.pointed_pixel import shown_triangle
 from app.views.stage_view import StageView, TextureView
 from app.views.texture_footprint import texture_of
+from core.explain.kinds import of_kind
 from core.records.arrays import Floats
 from core.trace import StageTrace
 from core.trace.geometry_progress import SPACES, spaces_reached
@@ -85,7 +86,7 @@ class NewDepths(Companion):
             if row < 0
             else f"New depths, of triangle {triangle}. Left: the buffer's."
         )
-        self._title.setText(text)
+        self._title.setText(of_kind(text, self.session.trace.source.scene.corner_count))
         self.grid.show_buffer(new_depths(self.session, stage, row))
         origin = self.session.trace.source.raster.bounds[:2]
         has_pixel = row >= 0 and stage.pixel[row, 0] >= 0
@@ -128,8 +129,8 @@ def entered_diagram(session: Session) -> Diagram:
             strokes.append(Stroke(corners[number], "text", 1.2, is_closed=True))
         if number == current or not there.all():
             # Of whole triangles the outline is enough: hundreds of dots take long to paint.
-            spots += [Spot(corners[number, k], f"vertex {k}", radius=3.0) for k in range(3) if there[k]]
-    said = "Corners appear here when they are divided by w."
+            spots += [Spot(corners[number, k], f"vertex {k}", radius=3.0) for k in np.flatnonzero(there)]
+    said = of_kind("Corners appear here when they are divided by w.", is_there.shape[1])
     if row >= 0:
         k = int(stage.columns["corner"][row])
         space = SPACES[int(spaces_reached(trace, "transform", position)[current, k])]

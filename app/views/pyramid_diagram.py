@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.views.pointed_pixel import PointedPixel, fragment_at
+from core.explain.kinds import of_kind
 from core.fragments.interpolation import numerators, plane_value, set_up_planes, value_plane
 from core.records.arrays import Floats
 from core.trace import TraceSource
@@ -74,7 +75,11 @@ def pyramid_diagram(source: TraceSource, triangle: int, pixel: PointedPixel | No
     w = homogeneous[:, 2]
     frame = pyramid_frame(source, homogeneous)
     corners = frame.place(homogeneous / frame.factor)
-    shapes = [_raster(source, frame), _pyramid(corners), _image(source, frame, homogeneous)]
+    shapes = [
+        _raster(source, frame),
+        _pyramid(corners, source.scene.corner_count),
+        _image(source, frame, homogeneous),
+    ]
     sentences = [_sentence(w, frame)]
     if pixel is not None:
         ray, sentence = _ray(source, frame, triangle, homogeneous, pixel)
@@ -94,7 +99,7 @@ def pyramid_diagram(source: TraceSource, triangle: int, pixel: PointedPixel | No
         frame=_frame_points(corners, frame),
         azimuth=1.05,
         elevation=0.33,
-        caption=" ".join(sentences),
+        caption=of_kind(" ".join(sentences), source.scene.corner_count),
     )
 
 
@@ -147,7 +152,7 @@ def _sentence(w: Floats, frame: PyramidFrame) -> str:
     return " ".join(parts)
 
 
-def _pyramid(corners: Floats) -> Diagram:
+def _pyramid(corners: Floats, corner_count: int) -> Diagram:
     """Return the triangle and the planes through eye and edges, before and behind the eye."""
     patches = [Patch(corners, "covered", 0.38)]
     strokes: list[Stroke] = []
@@ -166,7 +171,7 @@ def _pyramid(corners: Floats) -> Diagram:
         if 0 < w < 1:
             strokes.append(Stroke(np.stack([corners[k], reach]), "muted_text", 1.0, "dot"))
         strokes.append(Stroke(np.stack([np.zeros(3), -corners[k] * MIRRORED]), "muted_text", 1.0, "dash"))
-    spots = tuple(Spot(corners[k], f"vertex {k}", label=str(k)) for k in range(3))
+    spots = tuple(Spot(corners[k], f"vertex {k}", label=str(k)) for k in range(corner_count))
     return Diagram(tuple(patches), tuple(strokes), spots)
 
 

@@ -27,6 +27,7 @@ from app.views.scene_picture import (
 from app.views.scene_worker import SceneWorker
 from app.views.step_marks import is_scene_lit, step_marks
 from app.views.view_space import LARGEST_WITH_CAMERA, ViewSpace, make_space, move_corner_to, with_triangles
+from core.explain.kinds import of_kind
 from core.fast_path.workers import BandWorkers
 from core.records.arrays import Integers
 from core.records.words import counted
@@ -302,7 +303,7 @@ class Scene3dPresenter(QObject):
             parts.append("Click a triangle to choose it.")
         if count > MOST_TRIANGLES:
             parts.append(f"One in {-(-count // MOST_TRIANGLES)} is drawn.")
-        return " ".join(parts)
+        return of_kind(" ".join(parts), document.scene.corner_count)
 
     # Acting.
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from app.session.session import Session
 from app.views.view_space import ViewSpace
+from core.explain.kinds import of_kind
 from core.geometry.culling import KEPT, REASONS
 from core.records.arrays import Floats
 from core.stages.declared import GEOMETRY_STAGES, STAGES
@@ -84,23 +85,26 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     current = -1 if row < 0 else int(np.flatnonzero(triangles == trace.triangle[row])[0])
     kept = np.flatnonzero(culled.verdict[: min(tested, len(triangles))] == KEPT)
     marks = []
-    for number in kept.tolist() if len(kept) <= MOST_MARKS else []:
+    has_arrows = len(kept) <= MOST_MARKS and source.scene.corner_count == 3
+    for number in kept.tolist() if has_arrows else []:
         if number != current:
             marks.append(_arrow(space, int(triangles[number]), float(culled.facing[number]), "text"))
     if current < 0:
         return marks
     triangle, kind = int(triangles[current]), trace.kind_of(row)
+    name = of_kind(f"triangle {triangle}", source.scene.corner_count)
     marks.append(_outline(space, triangle))
     facing = float(culled.facing[current])
     side = f"front, area {facing / 2:+.4g}" if facing > 0 else f"back, area {facing / 2:+.4g}"
     if is_dropped(session.trace, "cull", position)[current]:
-        label = f"triangle {triangle}: dropped, {REASONS[int(culled.verdict[current])].replace('-', ' ')}"
+        label = f"{name}: dropped, {REASONS[int(culled.verdict[current])].replace('-', ' ')}"
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label, "cross"))
-    elif kind in ("facing", "kept", "degenerate"):
-        marks.append(_arrow(space, triangle, facing, "accent", f"triangle {triangle}: {side}"))
+    elif kind in ("facing", "kept", "degenerate") and source.scene.corner_count == 3:
+        marks.append(_arrow(space, triangle, facing, "accent", f"{name}: {side}"))
     else:
         what = "behind the eye?" if kind == "behind" else f"outside the {trace.columns['plane'][row]} plane?"
-        label = f"triangle {triangle}: {what}"
+        what = "kept" if kind == "kept" else what
+        label = f"{name}: {what}"
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label))
     return marks
 

@@ -6,6 +6,7 @@ import numpy as np
 
 from app.session.session import Session
 from app.views.pointed_pixel import PointedPixel, fragment_at, pointed_pixels, shown_triangle
+from core.explain.kinds import of_kind
 from core.fragments.interpolation import interpolate, plane_value
 from core.fragments.mipmap_samples import sample_mipmaps
 from core.fragments.mipmaps import mipmap_levels
@@ -166,7 +167,8 @@ def no_texture_reason(session: Session, triangle: int) -> str:
     """Say why there is no texture to show."""
     scene = session.document.scene
     if isinstance(scene, ClipScene):
-        return "These triangles have colours at their corners and no texture."
+        text = "These triangles have colours at their corners and no texture."
+        return of_kind(text, scene.corner_count)
     if not any(mesh.texture for mesh in scene.meshes):
         return "No mesh of this scene has a texture."
     return f"The mesh of triangle {triangle} has no texture."

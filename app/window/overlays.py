@@ -6,6 +6,7 @@ from PySide6.QtWidgets import QWidget
 from app.pages.step.page import StepPage
 from app.window.key_desk import KeyDesk
 from app.window.keys import ACTIONS, LOCAL_KEYS, key_text
+from core.explain.kinds import of_kind
 from core.trace.conditions import variable_names
 from widgets.basics.ask_bar import AskBar
 from widgets.basics.key_help import KeyEntry, KeyHelp
@@ -82,7 +83,8 @@ class Overlays(QObject):
 
     def ask_triangle(self) -> None:
         """Ask for a triangle to bring into focus."""
-        self._ask("triangle", "Go to triangle", f"Number 0 to {self._session.document.triangle_count - 1}.")
+        title = of_kind("Go to triangle", self._session.document.scene.corner_count)
+        self._ask("triangle", title, f"Number 0 to {self._session.document.triangle_count - 1}.")
 
     def ask_condition(self) -> None:
         """Ask for the condition of a breakpoint."""
@@ -122,7 +124,8 @@ class Overlays(QObject):
     def _go_to_triangle(self, text: str) -> None:
         last = self._session.document.triangle_count - 1
         if not text.strip().isdecimal() or int(text) > last:
-            raise ValueError(f"Enter a triangle's number, 0 to {last}; got “{text}”.")
+            wanted = of_kind("Enter a triangle's number", self._session.document.scene.corner_count)
+            raise ValueError(f"{wanted}, 0 to {last}; got “{text}”.")
         self.triangle_requested.emit(int(text))
 
     def _go_to_pixel(self, text: str) -> None:

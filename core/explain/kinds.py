@@ -2,16 +2,44 @@
 
 import re
 
+_ANY = (
+    (r", edge 0:", ":"),
+    (r"one row or block", "one line"),
+    (r"on an edge", "at a tie"),
+    (r", outside the view, without area, or turned away", " and outside the view"),
+    (r"not culled: its (front|back) faces the eye", "not culled"),
+    (r"none of its edges is", "it is not"),
+    (r"not on its outline: ", ""),
+    (r", the nearest\b", ""),
+    (r"three weights", "weights"),
+)
 _WORDS = {
     2: (
-        (r", edge 0:", ":"),
+        *_ANY,
+        (r"edge or untouched triangle", "segment"),
+        (r"edges or untouched triangles", "segments"),
+        (r"each cut one becomes a polygon, split into a fan", "of a cut one the part inside"),
+        (r"(all )?three (vertices|corners)|all vertices", "both ends"),
+        (r"vertices 1 and 2 are", "end 1 is"),
+        (r"vertices", "ends"),
+        (r"vertex", "end"),
         (r"edge 2 of triangle|triangle", "segment"),
         (r"(the )?edge 2\b", "the segment"),
         (r"edge", "segment"),
         (r"corner", "end"),
     ),
     1: (
-        (r", edge 0:", ":"),
+        *_ANY,
+        (r"edge or untouched triangle", "point"),
+        (r"edges or untouched triangles", "points"),
+        (r": each cut one becomes a polygon, split into a fan", ""),
+        (
+            r"extends the values of three corners over the triangle.*",
+            "gives each pixel the values of its point.",
+        ),
+        (r"(all )?three (vertices|corners) are|all vertices are|all of its corners (is|are)", "it is"),
+        (r"vertices", "positions"),
+        (r"vertex", "position"),
         (r"corner 0 of triangle|edge 2 of triangle|triangle", "point"),
         (r"(the )?edge 2\b", "the point"),
         (r"edge", "point"),

@@ -4,12 +4,13 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from core.explain.kinds import of_kind
 from core.explain.records import StageCard
 from core.methods import table
 from core.records.steps import Level
 from core.records.words import counted
 from core.settings import FIELDS
-from core.stages.declared import stage_of
+from core.stages.declared import Stage, stage_of
 from core.trace.stage_trace import MARKS
 
 Account = Callable[[Mapping[str, int]], list[str]]
@@ -57,6 +58,13 @@ def _rows_account(noun: str, done: str) -> Account:
     return lambda counts: [f"{counted(counts['rows'], noun)} {done}"]
 
 
+LINE_CARD = {
+    "title": "Raster: which pixels a line has",
+    "gets": "The ends of every line in the window.",
+    "gives": "The pixels of every line, in order from its first end.",
+    "purpose": "Draws a line as the pixels nearest to it, one in each column or row.",
+}
+"""The card of the rasterization of lines."""
 ACCOUNTS: Mapping[str, Account] = {
     "transform": _rows_account("position", "transformed to the next space"),
     "cull": _cull_account,
@@ -99,12 +107,20 @@ class DepthText(NamedTuple):
     """One sentence: range, cleared value, and which of two is nearer."""
 
 
-def initial_sentence(stage: str) -> str:
-    """Return the sentence of a stage before its first step."""
-    return stage_of(stage).initial
+def initial_sentence(stage: str, corner_count: int = 3) -> str:
+    """Return the sentence of a stage before its first step, or why primitives of so few corners skip it."""
+    return skipped_because(stage, corner_count) or of_kind(stage_of(stage).initial, corner_count)
 
 
-def summary_sentence(stage: str, level: Level, counts: Mapping[str, int], triangle: int | None) -> str:
+def skipped_because(stage: str, corner_count: int) -> str:
+    """Return why primitives of so many corners do not go through a stage; empty: they do."""
+    reason = stage_of(stage).needs_area if corner_count < 3 else ""
+    return reason.format(kind=of_kind("triangle", corner_count))
+
+
+def summary_sentence(
+    stage: str, level: Level, counts: Mapping[str, int], triangle: int | None, corner_count: int = 3
+) -> str:
     """Say what a step larger than one operation did.
 
     Parameters
@@ -115,6 +131,8 @@ def summary_sentence(stage: str, level: Level, counts: Mapping[str, int], triang
         ``rows`` and the marks among them, as ``StageTrace.summary`` counts them.
     triangle : int, optional
         The triangle that all rows are about; ``None`` or -1: several, or none.
+    corner_count : int, optional
+        Corners of what is drawn: 2 of segments, 1 of points.
     """
     known = {name: counts.get(name, 0) for name in ("rows", *MARKS)}
     group = stage_of(stage).group
@@ -126,10 +144,10 @@ def summary_sentence(stage: str, level: Level, counts: Mapping[str, int], triang
         who = "Whole stage"
     elif level == Level.GROUP:
         who = group.capitalize() if who == "All triangles" else f"{who}, {group}"
-    return f"{who}: {account}."
+    return of_kind(f"{who}: {account}.", corner_count)
 
 
-def stage_card(stage: str, method: str = "") -> StageCard:
+def stage_card(stage: str, method: str = "", corner_count: int = 3) -> StageCard:
     """Return the card of a stage.
 
     Parameters
@@ -138,6 +156,8 @@ def stage_card(stage: str, method: str = "") -> StageCard:
         A name of ``core.STAGES``.
     method : str, optional
         The method that ran, as ``fill=hierarchy``: the card then names it and its source.
+    corner_count : int, optional
+        Corners of what is drawn: 2 of segments, 1 of points.
 
     Raises
     ------
@@ -145,12 +165,19 @@ def stage_card(stage: str, method: str = "") -> StageCard:
         If there is no such stage.
     """
     declared = stage_of(stage)
-    card = StageCard(declared.title, declared.takes, declared.gives, declared.purpose, declared.source)
+    texts = LINE_CARD if method.startswith("line=") else _own_texts(declared)
+    if not declared.needs_area:
+        texts = {name: of_kind(text, corner_count) for name, text in texts.items()}
+    card = StageCard(**texts, source=declared.source)
     if not method:
         return card
     family, name = method.split("=", 1)
     text = method_text(family, name)
     return replace(card, source=f"{card.source}. {family_title(family)}, {text.title}: {text.source}")
+
+
+def _own_texts(stage: Stage) -> dict[str, str]:
+    return {"title": stage.title, "gets": stage.takes, "gives": stage.gives, "purpose": stage.purpose}
 
 
 NEARNESS = DepthText(

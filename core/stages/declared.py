@@ -40,6 +40,8 @@ class Stage:
     """Whether multisampling does it once for a pixel and triangle, at the centre."""
     is_schedule: bool = False
     """Whether it only decides what is looked at: methods may differ there and still do the same."""
+    needs_area: str = ""
+    """Why what has no area does not go through it, with ``{kind}`` for a segment or point; empty: it does."""
     outcomes: tuple[str, ...] = ()
     """What comes of a pixel, by columns of its trace."""
 
@@ -110,6 +112,7 @@ DECLARED = (
         heading="Raster",
         tracer="core.trace.edges.trace_edges",
         initial="No corner has been snapped and no edge function set up yet.",
+        needs_area="A {kind} has no edge functions: it has no inside.",
         group="one part of the set-up",
         group_label="All corners, edges",
         row_label="Corner or edge",
@@ -126,6 +129,7 @@ DECLARED = (
         heading="Raster",
         tracer="core.trace.binning.trace_bin",
         initial="No box and no block has been tested yet.",
+        needs_area="A {kind} has no area: its pixels are found without boxes and blocks.",
         group="one block with its parts",
         group_label="Large block",
         row_label="Block",

@@ -1,10 +1,12 @@
 """The run as chapters: what went into each stage and came out, how long it took, why it is there."""
 
 from core import STAGES, Trace
+from core.explain.stage_texts import skipped_because
 from core.explain.subjects.number_formats import replaced_fill
 from core.records.frame import StageCount
 from core.resolved import resolve
 from core.stages.declared import GEOMETRY_STAGES, stage_of
+from core.trace import TraceSource
 from widgets.timeline.chapter_button import Chapter, ChapterState
 
 INSERTED_FOR = {
@@ -15,6 +17,8 @@ INSERTED_FOR = {
 COMPUTED = "No pixel is tested: the ends of the spans are computed."
 """Why the pixels that go into the rasterization are those that come out."""
 _TRIANGLES, _PIXELS, _FRAGMENTS = ("triangles", "tri"), ("pixels", "px"), ("fragments", "frag")
+Units = tuple[tuple[str, str], tuple[str, str]]
+_PRIMITIVES = {2: ("segments", "seg"), 1: ("points", "pt")}
 _UNITS = dict.fromkeys(GEOMETRY_STAGES, (_TRIANGLES, _TRIANGLES)) | {
     "bin": (_TRIANGLES, _PIXELS),
     "raster": (_PIXELS, _FRAGMENTS),
@@ -42,6 +46,8 @@ def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
         found |= {"bin": (pieces, tested), "raster": (tested, fragments)}
         found |= dict.fromkeys(("interpolate", "shade"), (fragments, fragments))
         found |= {"depth": (fragments, passed), "blend": (passed, passed)}
+    if source.scene.corner_count < 3:
+        found |= {"bin": (pieces, pieces), "raster": (pieces, found["raster"][1])}
     elif not found["raster"][0] and found["raster"][1]:
         found["raster"] = found["bin"][1], found["raster"][1]
     return found
@@ -61,17 +67,19 @@ def chapters_of(trace: Trace, *, current: str, is_predicting: bool) -> list[Chap
     """
     counts, through = trace.source.picture.statistics, traced_counts(trace)
     whole_seconds = sum(count.seconds for count in counts.values())
-    is_whole = trace.source.triangle is None
+    is_whole, corner_count = trace.source.triangle is None, trace.source.scene.corner_count
     chapters = []
     for index, stage in enumerate(STAGES):
         count, (incoming, outgoing) = counts[stage], through[stage]
-        state, is_inserted, reason = _state_and_reason(stage, current, count, trace.source.settings.coverage)
-        if stage == "raster" and outgoing and not count.incoming:
+        state, is_inserted, reason = _state_and_reason(stage, current, count, trace.source)
+        if stage == "raster" and outgoing and not count.incoming and corner_count == 3:
             reason = reason or COMPUTED
         if is_whole and not is_predicting and stage in ("interpolate", "shade") and outgoing > count.outgoing:
             reason = f"The picture needs only the {count.outgoing:,} that are seen in the end."
         share = count.seconds / whole_seconds if whole_seconds > 0 else 0.0
-        words, short = (_counted(stage, incoming, outgoing, is_predicting, form) for form in (0, 1))
+        words, short = (
+            _counted(_units(stage, corner_count), incoming, outgoing, is_predicting, form) for form in (0, 1)
+        )
         duration = (
             "" if is_predicting else f"{count.seconds * 1000:.1f} ms, {100 * share:.0f} % of all stages"
         )
@@ -82,27 +90,40 @@ def chapters_of(trace: Trace, *, current: str, is_predicting: bool) -> list[Chap
     return chapters
 
 
-def _counted(stage: str, incoming: int, outgoing: int, is_predicting: bool, form: int) -> str:
+def _units(stage: str, corner_count: int) -> Units:
+    """Return what goes into a stage and comes out of it, each in words and in signs."""
+    takes, gives = _UNITS.get(stage, (_FRAGMENTS, _FRAGMENTS))
+    if corner_count == 3:
+        return takes, gives
+    primitives = _PRIMITIVES[corner_count]
+    return {"bin": (primitives, primitives), "raster": (primitives, gives)}.get(
+        stage, (primitives, primitives) if takes == _TRIANGLES else (takes, gives)
+    )
+
+
+def _counted(units: Units, incoming: int, outgoing: int, is_predicting: bool, form: int) -> str:
     """Return what goes in and comes out with its units, in words (0) or signs (1); one unit is written once."""
-    units = _UNITS.get(stage, (_FRAGMENTS, _FRAGMENTS))
     takes, gives = (unit[form] for unit in units)
     ins, outs = ("?", "?") if is_predicting else (f"{incoming:,}", f"{outgoing:,}")
     return f"{ins} → {outs} {gives}" if takes == gives else f"{ins} {takes} → {outs} {gives}"
 
 
 def _state_and_reason(
-    stage: str, current: str, count: StageCount, coverage: str
+    stage: str, current: str, count: StageCount, source: TraceSource
 ) -> tuple[ChapterState, bool, str]:
     """Return where a stage lies in the run, whether the pipeline has put it in by itself, and why."""
     place, present = STAGES.index(stage), STAGES.index(current)
     state = ChapterState.DONE if place < present else ChapterState.AHEAD
     if place == present:
         state = ChapterState.CURRENT
+    skipped = skipped_because(stage, source.scene.corner_count)
+    if skipped:
+        return state if place == present else ChapterState.SKIPPED, False, skipped
     if count.note == "not-chosen":
         reason = "Nothing is clipped: homogeneous rasterization needs no clipping."
         return state if place == present else ChapterState.SKIPPED, False, reason
     if count.note and stage == "raster":
-        return state, True, replaced_fill(count.note, coverage)
+        return state, True, replaced_fill(count.note, source.settings.coverage)
     if count.note:
         return state, True, f"Inserted because {count.note} needs {INSERTED_FOR[stage]}."
     return state, False, ""

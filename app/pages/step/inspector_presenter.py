@@ -83,7 +83,7 @@ class InspectorPresenter(QObject):
         trace, cursor = session.stage_trace, session.cursor
         if cursor.stage != self._stage:
             self._stage = cursor.stage
-            self._card.show_card(stage_card(cursor.stage, trace.method))
+            self._card.show_card(stage_card(cursor.stage, trace.method, trace.corner_count))
             self._card.show_folded(cursor.stage in self._folded)
         self._sentence.setText(self.sentence())
         explanation = trace.explain(cursor.position)

@@ -1,5 +1,7 @@
 """The history of a pixel, from core's keys and numbers to what the pixel history view shows."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from app.window.message_words import sentence_case
@@ -11,6 +13,7 @@ from core.explain.history.parts import (
     samples_verdict,
 )
 from core.explain.history.sentences import count_sentences, event_reason, event_title, verdict_sentence
+from core.explain.kinds import of_kind
 from core.framebuffer.display import encode_linear, encode_srgb
 from core.pixel_history import PixelHistory, PixelState, why
 from core.pixel_history.pieces import PixelPieces, pixel_pieces
@@ -31,6 +34,18 @@ def story_of(
     source: TraceSource, column: int, row: int, triangle: int | None = None
 ) -> tuple[PixelStory, list[int | None]]:
     """Return the history of a pixel of the traced picture, and the triangle of each of its lines."""
+    story, triangles = _story_of_triangles(source, column, row, triangle)
+    corner_count = source.scene.corner_count
+    entries = [
+        replace(entry, title=of_kind(entry.title, corner_count), reason=of_kind(entry.reason, corner_count))
+        for entry in story.entries
+    ]
+    return replace(story, verdict=of_kind(story.verdict, corner_count), entries=tuple(entries)), triangles
+
+
+def _story_of_triangles(
+    source: TraceSource, column: int, row: int, triangle: int | None
+) -> tuple[PixelStory, list[int | None]]:
     if resolve(source.settings).sampling.count > 1:
         return _story_of_samples(source, column, row, triangle)
     pieces = pixel_pieces(source, column, row) if resolve(source.settings).sampling.is_area else None

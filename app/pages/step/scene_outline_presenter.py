@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QWidget
 from app.session.document import Document, focus_on
 from app.session.scene_edits import outline, set_value
 from app.session.session import Session
+from core.explain.kinds import of_kind
 from core.families import WholeNumber
 from core.methods import table
 from core.scene import Scene
@@ -100,14 +101,15 @@ class SceneOutlinePresenter(QObject):
 
 
 def _document_group(document: Document) -> OutlineGroup:
-    count = document.triangle_count
+    count, corner_count = document.triangle_count, document.scene.corner_count
     rows = [OutlineRow("document/raster", document.raster.label)]
     if document.triangle is None:
         text = "One triangle" if count == 1 else f"All {count:,} triangles are stepped"
-        rows.append(OutlineRow("document/all", text))
+        rows.append(OutlineRow("document/all", of_kind(text, corner_count)))
     else:
         value = OutlineValue("triangle", document.triangle, 0, count - 1)
-        rows.append(OutlineRow("document/focus", f"Triangle in focus, of {count:,}", (value,)))
+        label = of_kind(f"Triangle in focus, of {count:,}", corner_count)
+        rows.append(OutlineRow("document/focus", label, (value,)))
     return OutlineGroup("document", document.title or "Scene", tuple(rows))
 
 

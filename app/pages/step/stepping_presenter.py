@@ -12,6 +12,7 @@ from app.pages.step.bookmarks import Bookmarks
 from app.pages.step.chapters import chapters_of
 from app.session.session import Session
 from core import STAGES
+from core.explain.kinds import of_kind
 from core.methods import table
 from core.raster.fills.tested import effective_fill
 from core.raster.fills.traits import fill_traits
@@ -137,11 +138,13 @@ class SteppingPresenter(QObject):
     def _level_names(self, stage: str) -> dict[Level, str]:
         """Return what a step of each level is in a stage."""
         declared, settings = stage_of(stage), self._session.document.settings
+        corner_count = self._session.document.scene.corner_count
+        names = {Level.TRIANGLE: of_kind("Triangle", corner_count)} if corner_count < 3 else {}
         if stage == "raster":
-            is_wireframe = table.get("polygon_mode", settings.polygon_mode).function()
+            is_wireframe = corner_count < 3 or table.get("polygon_mode", settings.polygon_mode).function()
             fill = effective_fill(settings.fill, settings.coverage)
-            return {Level.GROUP: "Line" if is_wireframe else fill_traits(fill).group_label}
-        names = {Level.GROUP: declared.group_label}
+            return names | {Level.GROUP: "Line" if is_wireframe else fill_traits(fill).group_label}
+        names[Level.GROUP] = declared.group_label
         return names | ({Level.PIXEL: declared.row_label} if declared.row_label else {})
 
     @Slot()

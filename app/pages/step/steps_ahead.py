@@ -19,11 +19,12 @@ def sentence_at(trace: StageTrace, position: int, level: Level) -> str:
     """Return the sentence of the step of a level just done at a position; one larger than a row is summed up."""
     row, _ = trace.steps.row_at(position)
     if row < 0:
-        return initial_sentence(trace.stage)
+        return initial_sentence(trace.stage, trace.corner_count)
     triangle = int(trace.triangle[row])
     first = trace.steps.rows_done(trace.steps.back(position, level))
     if level <= Level.GROUP and row > first:
-        return summary_sentence(trace.stage, level, trace.summary(first, row + 1), triangle)
+        counts = trace.summary(first, row + 1)
+        return summary_sentence(trace.stage, level, counts, triangle, trace.corner_count)
     explanation = trace.explain(position)
     assert explanation is not None
     pixel = (int(trace.pixel[row, 0]), int(trace.pixel[row, 1]))

@@ -1,12 +1,20 @@
 """Segments and points in the window: outlines, handles, typed ends, words, and steps through all stages."""
 
+import re
+
 import numpy as np
 import pytest
 
+from app.pages.step.chapters import chapters_of
+from app.pages.step.pixel_stories import story_of
+from app.pages.step.scene_outline_presenter import settings_records
 from app.session.document import open_document
 from app.window.main_window import MainWindow
+from core import STAGES
+from core.records.steps import Level
 from core.scene import ClipScene
 from lessons.scenes import make_scene
+from widgets.timeline.chapter_button import ChapterState
 
 
 def open_scene(window: MainWindow, name: str) -> ClipScene:
@@ -33,3 +41,61 @@ def test_every_end_has_a_handle_that_moves_it(window: MainWindow, name: str, han
     assert moved.clip[0, 0, :2] == pytest.approx(scene.clip[0, 0, :2] + 2 * np.array([1.0, 2.0]) / scene.size)
     window.session.undo()
     assert window.session.document.scene is scene
+
+
+def test_right_goes_from_stage_to_stage_and_left_back(window: MainWindow) -> None:
+    open_scene(window, "segment")
+    session = window.session
+    session.set_stage("transform", 0)
+    session.set_level(Level.STAGE)
+    reached = []
+    for direction in (1, -1):
+        for _ in range(2 * len(STAGES)):
+            before = session.cursor
+            session.step(direction)
+            reached.append(session.cursor.stage)
+            if session.cursor == before:
+                break
+    assert set(reached) == set(STAGES) - {"edges", "bin"}
+    assert session.cursor.stage == "transform"
+    assert session.cursor.position == 0
+
+
+def test_stages_of_areas_are_skipped_with_a_reason(window: MainWindow) -> None:
+    open_scene(window, "segment")
+    chapters = chapters_of(window.session.trace, current="raster", is_predicting=False)
+    skipped = {chapter.title: chapter.reason for chapter in chapters if chapter.state is ChapterState.SKIPPED}
+    assert skipped["Edges"] == "A segment has no edge functions: it has no inside."
+    assert skipped["Bin"] == "A segment has no area: its pixels are found without boxes and blocks."
+    assert chapters[STAGES.index("raster")].counts == "1 segments → 9 fragments"
+
+
+@pytest.mark.parametrize("name", ["segment", "points"])
+def test_nothing_on_screen_speaks_of_triangles(window: MainWindow, name: str) -> None:
+    open_scene(window, name)
+    session, page = window.session, window.page
+    texts = []
+    for stage in STAGES:
+        session.set_stage(stage, 0)
+        for level in Level:
+            session.set_level(level)
+            session.step(1)
+            texts.append(page.inspector.sentence())
+    texts += [button.text() for button in page.timeline.level_buttons.values()]
+    source = session.trace.source
+    for pixel in np.ndindex(source.raster.shape):
+        story, _ = story_of(source, pixel[1], pixel[0])
+        texts += [story.verdict, *(entry.title + entry.reason for entry in story.entries)]
+    assert len(texts) > 200
+    assert not [text for text in texts if re.search("triangle|corner|edge|vert", text, re.IGNORECASE)]
+
+
+def test_families_of_areas_say_why_they_do_nothing(window: MainWindow) -> None:
+    open_scene(window, "points")
+    reasons = {record.family: record.refusal for record in settings_records(window.session.document)}
+    for family in ("cull", "polygon_mode", "fill", "fill_rule"):
+        assert reasons[family] == "Points have no area."
+    assert reasons["line"] == "A point is one pixel."
+    open_scene(window, "segment")
+    reasons = {record.family: record.refusal for record in settings_records(window.session.document)}
+    assert reasons["line"] == reasons["line_clipping"] == ""
