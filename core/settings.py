@@ -116,6 +116,7 @@ class Settings:
         "core.geometry.line_clipping.liang_barsky",
         taken_by="polygon_mode",
         otherwise="Only wireframes draw lines.",
+        classical=("cohen-sutherland", "liang-barsky", "cyrus-beck"),
     )
     pixel_center: str = choice("half", "Pixel centres", "raster", "core.raster.pixel_runs", is_look=True)
     interpolation: str = choice(

@@ -104,6 +104,8 @@ class SceneOutline(QScrollArea):
 
     value_edited = Signal(str, float)
     """The user has typed another value: the path ``row/name`` and the value."""
+    values_edited = Signal(object)
+    """The user has typed several numbers of a row in one field: path to value."""
     row_selected = Signal(str)
     """The user has selected a row."""
     group_folded = Signal(str, bool)
@@ -253,7 +255,9 @@ class SceneOutline(QScrollArea):
         field.set_range(value.lowest, value.highest)
         field.edit.setReadOnly(not row.is_editable)
         field.edit.installEventFilter(self)
+        field.set_most_numbers(len(row.values) - row.values.index(value))
         field.value_committed.connect(self._edit)
+        field.values_committed.connect(self._edit_several)
         self._fields[path] = field
         return field
 
@@ -262,6 +266,13 @@ class SceneOutline(QScrollArea):
         field = self.sender()
         if isinstance(field, TypedValue):
             self.value_edited.emit(field.objectName(), value)
+
+    @Slot(object)
+    def _edit_several(self, values: list[float]) -> None:
+        path = self.sender().objectName()
+        paths = [f"{row.path}/{value.name}" for g in self._groups for row in g.rows for value in row.values]
+        first = paths.index(path)
+        self.values_edited.emit(dict(zip(paths[first : first + len(values)], values, strict=True)))
 
     @Slot()
     def _fold(self) -> None:

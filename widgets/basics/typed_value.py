@@ -1,15 +1,20 @@
 """A number typed the way one writes it on the board: decimals, fractions, multiples of pi."""
 
 import math
+import re
 
 from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, Slot
 from PySide6.QtGui import QFocusEvent, QFont, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QLineEdit, QSizePolicy, QWidget
 
 from core.explain.number_text import full_text, number_text, parse_number
+from core.records.words import counted
 from widgets.basics.controls import column_layout
 from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
+
+_SEPARATOR = re.compile(r"\s*(?:;|,\s)\s*")
+"""Between numbers typed in one field; a comma without a space is a decimal one."""
 
 
 def tabular_font(font: QFont) -> QFont:
@@ -24,6 +29,8 @@ class TypedValue(QWidget):
 
     value_committed = Signal(float)
     """The user has entered a valid value that differs from the present one."""
+    values_committed = Signal(object)
+    """The user has entered several numbers, for this field and those after it: a list of float."""
 
     def __init__(self, name: str, parent: QWidget | None = None, *, is_compact: bool = False) -> None:
         super().__init__(parent)
@@ -31,6 +38,7 @@ class TypedValue(QWidget):
         self._value = 0.0
         self._lowest = -math.inf
         self._highest = math.inf
+        self._most = 1
         self._is_compact = is_compact
         self.edit = QLineEdit(self)
         self.edit.setAccessibleName(name)
@@ -68,6 +76,10 @@ class TypedValue(QWidget):
         """Refuse values outside [lowest, highest]."""
         self._lowest, self._highest = lowest, highest
         self.updateGeometry()
+
+    def set_most_numbers(self, count: int) -> None:
+        """Take up to so many numbers, the further ones for the fields after this."""
+        self._most = count
 
     def error_text(self) -> str:
         """Return what is wrong with the typed text; empty when nothing is."""
@@ -120,7 +132,9 @@ class TypedValue(QWidget):
                 self._show_text()
             return
         try:
-            value = parse_number(self.edit.text())
+            value, *further = [parse_number(text) for text in _SEPARATOR.split(self.edit.text().strip())]
+            if len(further) >= self._most:
+                raise ValueError(f"expected {counted(self._most, 'number')}, got {len(further) + 1}")
             if not self._lowest <= value <= self._highest:
                 raise ValueError(self._range_text())
         except ValueError as problem:
@@ -130,7 +144,9 @@ class TypedValue(QWidget):
         is_changed = value != self._value
         self._value = value
         self._show_text(is_full=self.edit.hasFocus())
-        if is_changed:
+        if further:
+            self.values_committed.emit([value, *further])
+        elif is_changed:
             self.value_committed.emit(value)
 
     def _range_text(self) -> str:
@@ -144,8 +160,9 @@ class TypedValue(QWidget):
         self.edit.setText(full_text(self._value) if is_full else self._fitting_text())
         self.edit.setCursorPosition(0)
         self.edit.setModified(False)
+        several = "\nType 1.5, 3 to fill the next field too." if self._most > 1 else ""
         self.edit.setToolTip(
-            f"{self._name} = {full_text(self._value)}\nAccepts decimals, fractions (3/256) and pi."
+            f"{self._name} = {full_text(self._value)}\nAccepts decimals, fractions (3/256) and pi.{several}"
         )
 
     def _fitting_text(self) -> str:

@@ -1,5 +1,6 @@
 """The left side: what is in the scene, and which method runs at each stage."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from PySide6.QtCore import QEvent, QObject, Signal, Slot
@@ -39,6 +40,7 @@ class SceneOutlinePresenter(QObject):
             pane.installEventFilter(self)
         session.document_changed.connect(self.refresh)
         scene_outline.value_edited.connect(self._edit_value)
+        scene_outline.values_edited.connect(self._edit_values)
         scene_outline.row_selected.connect(scene_outline.show_selection)
         panel.setting_chosen.connect(self._choose)
         self.refresh()
@@ -72,14 +74,19 @@ class SceneOutlinePresenter(QObject):
 
     @Slot(str, float)
     def _edit_value(self, path: str, value: float) -> None:
+        self._edit_values({path: value})
+
+    @Slot(object)
+    def _edit_values(self, values: Mapping[str, float]) -> None:
         document = self._session.latest
         try:
-            if path == "document/focus/triangle":
-                edited = self._focus(document, value)
-            else:
-                scene = set_value(document.scene, path, value, document.traced_scene.size)
-                edited = replace(document, scene=scene)
-            self._session.edit(edited)
+            for path, value in values.items():
+                if path == "document/focus/triangle":
+                    document = self._focus(document, value)
+                else:
+                    scene = set_value(document.scene, path, value, document.traced_scene.size)
+                    document = replace(document, scene=scene)
+            self._session.edit(document)
         except ValueError as error:
             self.edit_refused.emit(str(error))
             self.refresh()

@@ -112,3 +112,13 @@ def test_a_long_title_does_not_push_the_numbers_out_of_sight(outline) -> None:
     group = OutlineGroup("scene", "Bresenham, integers and DDA, slope added per column, first divergence", ())
     outline.show_groups((group, *groups()))
     assert outline.widget().minimumSizeHint().width() <= outline.width()
+
+
+def test_several_numbers_typed_in_one_field_fill_the_row(qtbot, outline) -> None:
+    seen = []
+    outline.values_edited.connect(seen.append)
+    type_value(qtbot, outline, "tri0/v0/x", "7/2, 4,5")
+    assert seen == [{"tri0/v0/x": 3.5, "tri0/v0/y": 4.5}]
+    type_value(qtbot, outline, "tri0/v0/y", "1; 2")
+    assert "expected 1 number, got 2" in outline.field("tri0/v0/y").edit.toolTip()
+    assert len(seen) == 1

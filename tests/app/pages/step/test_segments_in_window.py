@@ -1,9 +1,12 @@
 """Segments and points in the window: outlines, handles, typed ends, words, and steps through all stages."""
 
 import re
+from collections.abc import Callable
 
 import numpy as np
 import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
 
 from app.pages.step.chapters import chapters_of
 from app.pages.step.pixel_stories import story_of
@@ -99,3 +102,50 @@ def test_families_of_areas_say_why_they_do_nothing(window: MainWindow) -> None:
     open_scene(window, "segment")
     reasons = {record.family: record.refusal for record in settings_records(window.session.document)}
     assert reasons["line"] == reasons["line_clipping"] == ""
+
+
+@pytest.mark.parametrize("clipper", ["Cohen-Sutherland", "Liang-Barsky", "Cyrus-Beck"])
+def test_a_typed_segment_is_stepped_in_six_actions_and_clipped_in_three_more(
+    window: MainWindow, qtbot: QtBot, clipper: str
+) -> None:
+    session, page = window.session, window.page
+    window.pages.show_page("start")
+    actions = 0
+
+    def act(do: Callable[[], object]) -> None:
+        nonlocal actions
+        do()
+        actions += 1
+
+    def type_end(path: str, text: str) -> None:
+        edit = page.outline.field(path).edit
+        edit.setFocus()
+        edit.selectAll()
+        qtbot.keyClicks(edit, text)
+        qtbot.keyClick(edit, Qt.Key.Key_Return)
+
+    def choose(family: str, title: str) -> None:
+        combo = page.settings_panel.combo(family)
+        combo.setCurrentIndex(combo.findText(title))
+        combo.activated.emit(combo.currentIndex())
+
+    (card,) = [card for card in window.pages.current.cards.cards if card.entry.name == "segment"]
+    act(card.click)
+    qtbot.waitUntil(lambda: session.document.title == "Segment", timeout=10000)
+    act(lambda: qtbot.keyClick(window, Qt.Key.Key_S))
+    act(lambda: type_end("corner/0/0/x", "2.5, 3.5"))
+    act(lambda: type_end("corner/0/1/x", "20.5, 10.5"))
+    act(lambda: qtbot.keyClick(window, Qt.Key.Key_6))
+    act(lambda: qtbot.keyClick(window, Qt.Key.Key_Right))
+    assert actions <= 6
+    assert session.cursor.stage == "raster"
+    assert session.cursor.position > 0
+    row, _ = session.stage_trace.steps.row_at(session.cursor.position)
+    assert session.stage_trace.pixel[row].tolist() == [2, 3]
+    actions = 0
+    act(lambda: qtbot.keyClick(window, Qt.Key.Key_M))
+    act(lambda: choose("line_clipping", clipper))
+    act(lambda: qtbot.keyClick(window, Qt.Key.Key_Right))
+    assert actions <= 3
+    assert session.document.settings.line_clipping == clipper.lower()
+    assert session.stage_trace.extra["outline_clip"].lines.is_kept.all()
