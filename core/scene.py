@@ -9,6 +9,7 @@ import numpy as np
 
 from core.records.arrays import Floats, Integers, Singles, checked, checked_size
 from core.records.cached import cached_property
+from core.records.clip_region import checked_region
 
 SIZE_LIMIT = 16384
 """Largest raster, in pixels each way: edge functions stay exact in float64 (see core.raster.edges.edge_functions)."""
@@ -254,6 +255,11 @@ class ClipScene:
     """(T, 3) int64 names of corners: corners of one name move together in the window. ``None``: all separate."""
     kind: str = "triangles"
     """One of `CORNER_COUNTS`."""
+    clip_region: Floats | None = None
+    """Left, bottom, right, top (4,), or the corners (M, 2) of a convex polygon, counter-clockwise, in NDC float64.
+
+    What methods of the family ``line_clipping`` clip to; ``None``: the raster.
+    """
     corner_count: int = field(init=False)
     """How many corners a primitive has."""
 
@@ -283,6 +289,8 @@ class ClipScene:
             object.__setattr__(self, "shared", shared)
         object.__setattr__(self, "size", checked_size("size", self.size, SIZE_LIMIT))
         object.__setattr__(self, "background", checked("background", self.background, (4,)))
+        if self.clip_region is not None:
+            object.__setattr__(self, "clip_region", checked_region(self.clip_region, self.size))
 
 
 AnyScene = Scene | ClipScene

@@ -121,6 +121,12 @@ def segment() -> ClipScene:
     return window_scene("segments", [1.5, 9.5], [1.5, 4.5], [[0, 1]], (16, 12))
 
 
+def clipped_segment() -> ClipScene:
+    """One segment from below a clip window to the right of it: it enters at t = 2/9 and leaves at t = 8/9."""
+    lying = window_scene("segments", [3.0, 13.0], [1.0, 10.0], [[0, 1]], (16, 12))
+    return replace(lying, clip_region=np.array([-0.5, -0.5, 0.5, 0.5]))
+
+
 def line_strip() -> ClipScene:
     """Five segments, each of which begins where the one before ends."""
     index = np.stack([np.arange(5), np.arange(1, 6)], axis=1)
@@ -219,6 +225,13 @@ CATALOGUE = (
         "Segment",
         "One segment from pixel (1, 1) to pixel (9, 4): type its two ends, and step Bresenham.",
         segment,
+    ),
+    BuiltInScene(
+        "clipped-segment",
+        "Segment and clip window",
+        "One segment crosses a window from pixel (4, 3) to (12, 9): choose a line clipper, and step it.",
+        clipped_segment,
+        {"line_clipping": "liang-barsky"},
     ),
     BuiltInScene(
         "line-strip",

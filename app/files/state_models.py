@@ -138,6 +138,7 @@ class ClipSceneRecord(Record):
     clip: ArrayRecord
     attributes: ArrayRecord
     shared: ArrayRecord | None
+    clip_region: ArrayRecord | None = None
     texture: ArrayRecord | None
     texture_name: str = "texture"
     size: Size

@@ -1,5 +1,6 @@
 """Edits of a scene: each takes a frozen scene and returns the edited one, or says what was wrong."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from math import degrees, radians
 
@@ -8,12 +9,14 @@ import numpy as np
 from core.explain.kinds import of_kind
 from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
+from core.records.clip_region import region_in_window, region_of_window
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, PointLight, Scene
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue
 
 TYPED_TRIANGLES = 24
 """Triangles whose corners the outline lists."""
 WINDOW_NAMES = ("x", "y", "depth", "w")
+BORDERS = ("left", "bottom", "right", "top")
 
 
 def window_of_clip(clip: Floats, size: tuple[int, int]) -> Floats:
@@ -111,6 +114,8 @@ def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -
         If the scene would not be valid.
     """
     kind, *names = path.split("/")
+    if isinstance(scene, ClipScene) and kind == "clip-window":
+        return _set_clip_window(scene, {path: value}, size)
     if isinstance(scene, ClipScene):
         triangle, corner, name = int(names[0]), int(names[1]), names[2]
         window = window_of_clip(scene.clip[triangle, corner], size)
@@ -131,6 +136,45 @@ def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -
     index, name = int(names[0]), names[-1]
     mesh = scene.meshes[index]
     return _with_mesh(scene, index, replace(mesh, material=replace(mesh.material, **{name: value})))
+
+
+def set_values(scene: AnyScene, values: Mapping[str, float], size: tuple[int, int]) -> AnyScene:
+    """Return the scene with several values replaced, the borders of a clip window together."""
+    of_window = {path: value for path, value in values.items() if path.startswith("clip-window/")}
+    for path in values.keys() - of_window.keys():
+        scene = set_value(scene, path, values[path], size)
+    if of_window and isinstance(scene, ClipScene):
+        return _set_clip_window(scene, of_window, size)
+    return scene
+
+
+def _set_clip_window(scene: ClipScene, values: Mapping[str, float], size: tuple[int, int]) -> ClipScene:
+    """Return the scene with numbers of its clip window, by their paths, replaced; the raster itself is none."""
+    window = _clip_window(scene, size)
+    for path, value in values.items():
+        _, row, name = path.split("/")
+        place = BORDERS.index(name) if window.ndim == 1 else (int(row), "xy".index(name))
+        window[place] = value
+    is_raster = np.array_equal(window, (0, 0, *size))
+    return replace(scene, clip_region=None if is_raster else region_of_window(window, size))
+
+
+def _clip_window(scene: ClipScene, size: tuple[int, int]) -> Floats:
+    """Return left, bottom, right, top (4,), or corners (M, 2), in pixels."""
+    if scene.clip_region is None:
+        return np.array([0.0, 0.0, *size])
+    return region_in_window(scene.clip_region, size)
+
+
+def _clip_window_outline(scene: ClipScene, size: tuple[int, int]) -> OutlineGroup:
+    window = _clip_window(scene, size)
+    if window.ndim == 1:
+        rows = [_vector_row("clip-window/0", "borders", window, BORDERS)]
+    else:
+        rows = [
+            _vector_row(f"clip-window/{k}", f"corner {k}", corner, "xy") for k, corner in enumerate(window)
+        ]
+    return OutlineGroup("clip-window", "Clip window of lines", tuple(rows))
 
 
 def _set_camera(camera: Camera, names: list[str], value: float) -> Camera:
@@ -165,10 +209,12 @@ def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int])
             rows.append(OutlineRow(path, f"vertex {corner}", values, vertex=corner))
         title = of_kind(f"Triangle {index}", scene.corner_count)
         groups.append(OutlineGroup(f"triangle/{index}", title, tuple(rows)))
+    if scene.corner_count == 2 or scene.clip_region is not None:
+        groups.append(_clip_window_outline(scene, size))
     return tuple(groups)
 
 
-def _vector_row(path: str, label: str, vector: Floats, names: str = "xyz") -> OutlineRow:
+def _vector_row(path: str, label: str, vector: Floats, names: Sequence[str] = "xyz") -> OutlineRow:
     values = tuple(OutlineValue(name, float(number)) for name, number in zip(names, vector, strict=True))
     return OutlineRow(path, label, values)
 

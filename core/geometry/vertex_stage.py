@@ -78,6 +78,8 @@ class VertexStage:
     """Corners of a primitive that are its own: 2 of segments, 1 of points, see ``own_corners``."""
     draws_last: Flags | None = None
     """(T,) bool, the pixel of a segment's second end is drawn, see ``ClipScene``; ``None`` of triangles."""
+    clip_region: Floats | None = None
+    """(4,) or (M, 2) float64, NDC, what lines are clipped to, see ``ClipScene``; ``None``: the raster."""
 
     @property
     def clip_rows(self) -> Floats:
@@ -163,6 +165,7 @@ def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
             size=scene.size,
             corner_count=scene.corner_count,
             draws_last=None if scene.corner_count == 3 else _ends_alone(scene),
+            clip_region=scene.clip_region,
         )
     width, height = scene.size
     view = world_to_camera(scene.camera)

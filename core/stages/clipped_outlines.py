@@ -10,8 +10,9 @@ import numpy as np
 from core.geometry.line_clipping.clipping import clip_lines
 from core.geometry.line_clipping.records import ClippedLines
 from core.raster.lines.wireframe import Outlines
-from core.records.arrays import Integers
+from core.records.arrays import Floats, Integers
 from core.records.cached import cached_property
+from core.records.clip_region import region_in_window
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,8 +40,10 @@ class OutlineClip:
         )
 
 
-def clip_outlines(whole: Outlines, method: str, size: tuple[int, int], center: float) -> OutlineClip:
-    """Clip outlines to the pixels of a raster.
+def clip_outlines(
+    whole: Outlines, method: str, size: tuple[int, int], center: float, region: Floats | None = None
+) -> OutlineClip:
+    """Clip outlines to the pixels of a raster, or to another region.
 
     Parameters
     ----------
@@ -50,7 +53,11 @@ def clip_outlines(whole: Outlines, method: str, size: tuple[int, int], center: f
     size : (width, height)
     center : float
         Coordinate of the centre of pixel 0: the raster begins half a pixel before it.
+    region : (4,) or (M, 2) float64, optional
+        Another region in NDC, see ``ClipScene``.
     """
+    if region is not None:
+        return OutlineClip(whole, clip_lines(whole.window, region_in_window(region, size), method))
     first = center - 0.5
     border = (first, first, size[0] + first, size[1] + first)
     return OutlineClip(whole, clip_lines(whole.window, border, method))

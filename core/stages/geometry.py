@@ -184,7 +184,8 @@ class Geometry:
 
         with self.count:
             method, center = self.settings.line_clipping, resolve(self.settings).center
-            return clip_outlines(self.whole_outlines, method, self.vertices.size, center)
+            vertices = self.vertices
+            return clip_outlines(self.whole_outlines, method, vertices.size, center, vertices.clip_region)
 
     @cached_property
     def whole_outlines(self) -> "Outlines | None":

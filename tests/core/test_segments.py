@@ -161,3 +161,49 @@ def test_no_step_speaks_of_triangles(kind):
                 said.append(account(explanation, int(found.triangle[row]), None)[0])
     assert said
     assert not [text for text in said if re.search("triangle|edge|corner", text, re.IGNORECASE)]
+
+
+CLIPPERS = ("cohen-sutherland", "liang-barsky", "cyrus-beck")
+
+
+@pytest.mark.parametrize("clipper", CLIPPERS)
+def test_a_segment_is_clipped_to_the_window_of_its_scene(clipper):
+    clip = clip_of_window(np.array([[[-1.0, -2], [9, 7]]]), (16, 12))
+    scene = ClipScene(clip, size=(16, 12), kind="segments", clip_region=[-1, -1, 0, 0])
+    settings = Settings(line_clipping=clipper)
+    raster = trace(scene, settings).stage("raster")
+    lines = raster.extra["outline_clip"].lines
+    start, end = lines.segments[0]
+    assert start == pytest.approx([-1 + 10 * 2 / 9, 0])
+    assert end == pytest.approx([-1 + 10 * 8 / 9, 6])
+    if clipper != "cohen-sutherland":
+        crossing = dict(zip(raster.columns["border"], raster.columns["crossing_t"], strict=True))
+        wanted = {"left": 1 / 10, "bottom": 2 / 9, "right": 9 / 10, "top": 8 / 9}
+        assert {name: crossing[name] for name in wanted} == pytest.approx(wanted)
+    check_case(Case(scene, settings, [(1, 0), (7, 5), (7, 6), (12, 9)]))
+
+
+def test_cyrus_beck_clips_to_a_convex_polygon_and_others_say_what_they_need():
+    triangle = np.array([[2.0, 2], [14, 2], [8, 10]])
+    clip = clip_of_window(np.array([[[0.0, 4], [16, 4]]]), (16, 12))
+    region = triangle / (8, 6) - 1
+    scene = ClipScene(clip, size=(16, 12), kind="segments", clip_region=region)
+    raster = trace(scene, Settings(line_clipping="cyrus-beck")).stage("raster")
+    assert raster.extra["outline_clip"].lines.segments[0] == pytest.approx(np.array([[3.5, 4], [12.5, 4]]))
+    with pytest.raises(ValueError, match="cohen-sutherland needs a rectangle"):
+        render(scene, Settings(line_clipping="cohen-sutherland"))
+
+
+@pytest.mark.parametrize(
+    ("region", "message"),
+    [
+        ([0, 0, 0, 1], "the clip window must have an area: left below right, and bottom below top"),
+        ([[0, 0], [0, 1], [1, 0]], "window must be convex and counter-clockwise"),
+        ([[0, 0], [0.5, 0], [1, 0]], "window must have an area"),
+        ([[0, 0], [1, 0]], "window must have at least three corners"),
+        ([0, 0, np.inf, 1], "clip_region"),
+    ],
+)
+def test_a_bad_clip_window_is_refused(region, message):
+    with pytest.raises(ValueError, match=message):
+        ClipScene(np.ones((1, 2, 4)), kind="segments", clip_region=region)

@@ -2,10 +2,12 @@
 
 import numpy as np
 
+from core.geometry.line_clipping.records import polygon_window, rectangle_window
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Floats
+from core.records.clip_region import region_in_window
 from core.stages.clipped_outlines import OutlineClip
-from core.trace import StageTrace
+from core.trace import StageTrace, TraceSource
 from widgets.grid.overlay import Overlay, SegmentOverlay
 
 TICK = 0.3
@@ -13,16 +15,23 @@ TICK = 0.3
 KEPT_KINDS = ("clip-kept", "outcodes-accept")
 
 
-def clip_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Overlay]:
-    """Return what is known of line clipping at a position; nothing where no lines are clipped."""
+def clip_overlays(stage: StageTrace, source: TraceSource, position: int) -> list[Overlay]:
+    """Return what is known of line clipping at a position, and the clip window of the scene if no lines are clipped."""
     clip: OutlineClip | None = stage.extra.get("outline_clip")
-    if clip is None:
-        return []
-    first_column, first_row, _, _ = raster.bounds
+    vertices = source.geometry.vertices
+    first_column, first_row, _, _ = source.raster.bounds
     origin = np.array([first_column, first_row], float)
-    corners = clip.lines.window.corners
-    borders = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)
-    regions = SegmentOverlay("clip window", borders - origin, extended=True, title="clip window")
+    if clip is not None:
+        corners = clip.lines.window.corners
+    elif vertices.clip_region is not None and stage.stage == "raster":
+        region = region_in_window(vertices.clip_region, vertices.size)
+        corners = (rectangle_window(*region) if region.ndim == 1 else polygon_window(region)).corners
+    else:
+        return []
+    borders = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1) - origin
+    regions = SegmentOverlay("clip window", borders, extended=clip is not None, title="clip window")
+    if clip is None:
+        return [regions]
     done = stage.steps.rows_done(position)
     columns = stage.columns
     kinds = np.array([kind in KEPT_KINDS for kind in stage.steps.kinds])

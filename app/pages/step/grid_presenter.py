@@ -223,7 +223,7 @@ class GridPresenter(QObject):
         if spans is not None:
             found.append(spans)
         found += area_overlays(trace, session.trace.source.raster, position)
-        found += clip_overlays(trace, session.trace.source.raster, position)
+        found += clip_overlays(trace, session.trace.source, position)
         lines = edge_overlay(self._geometry, trace, position)
         if lines is not None:
             found.append(lines)

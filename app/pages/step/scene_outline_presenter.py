@@ -7,7 +7,7 @@ from PySide6.QtCore import QEvent, QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.session.document import Document, focus_on
-from app.session.scene_edits import outline, set_value
+from app.session.scene_edits import outline, set_values
 from app.session.session import Session
 from core.explain.kinds import of_kind
 from core.families import WholeNumber
@@ -17,6 +17,9 @@ from core.settings import DEFAULTS, FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
 from core.stages.declared import DECLARED, stage_of
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
+
+FOCUS = "document/focus/triangle"
+"""Path of the number of the triangle in focus."""
 
 
 class SceneOutlinePresenter(QObject):
@@ -80,12 +83,11 @@ class SceneOutlinePresenter(QObject):
     def _edit_values(self, values: Mapping[str, float]) -> None:
         document = self._session.latest
         try:
-            for path, value in values.items():
-                if path == "document/focus/triangle":
-                    document = self._focus(document, value)
-                else:
-                    scene = set_value(document.scene, path, value, document.traced_scene.size)
-                    document = replace(document, scene=scene)
+            if FOCUS in values:
+                document = self._focus(document, values[FOCUS])
+            else:
+                scene = set_values(document.scene, values, document.traced_scene.size)
+                document = replace(document, scene=scene)
             self._session.edit(document)
         except ValueError as error:
             self.edit_refused.emit(str(error))

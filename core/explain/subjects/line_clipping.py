@@ -157,7 +157,7 @@ def kept(step: StepValues) -> Said:
     if step.kind == "clip-empty":
         text = (
             f"The edge would leave at t = {spoken(leave)} before it enters at {spoken(enter)}: "
-            "it misses the raster, and nothing of it is drawn."
+            "it misses the clip window, and nothing of it is drawn."
         )
     elif (enter, leave) == (0.0, 1.0):
         text = "No border cuts the edge: all of it is drawn."

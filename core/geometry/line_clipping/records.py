@@ -2,7 +2,6 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from fractions import Fraction
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -10,6 +9,7 @@ from numpy.typing import ArrayLike
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers, checked
 from core.records.cached import cached_property
+from core.records.clip_region import check_convex
 
 LINE_CLIP_LIMIT = 2.0**500
 """Largest coordinate that is clipped: products of two differences still fit float64."""
@@ -128,27 +128,10 @@ def polygon_window(corners: ArrayLike) -> ClipWindow:
         If it has fewer than three corners, is not convex (decided exactly), clockwise, or without area.
     """
     points = checked("window", corners, ("M", 2), limit=LINE_CLIP_LIMIT)
-    count = len(points)
-    if count < 3:
-        raise ValueError(f"window must have at least three corners, got {count}")
-    exact = [(Fraction(x), Fraction(y)) for x, y in points.tolist()]
-    has_area = False
-    for k in range(count):
-        (x0, y0), (x1, y1) = exact[k], exact[(k + 1) % count]
-        if (x0, y0) == (x1, y1):
-            raise ValueError(f"window must have no two equal corners in turn, got {points[k].tolist()} twice")
-        sides = [(x1 - x0) * (y - y0) - (y1 - y0) * (x - x0) for x, y in exact]
-        if min(sides) < 0:
-            raise ValueError(
-                "window must be convex and counter-clockwise, "
-                f"got corner {sides.index(min(sides))} outside the edge from corner {k}"
-            )
-        has_area |= max(sides) > 0
-    if not has_area:
-        raise ValueError("window must have an area, got corners on one line")
+    check_convex(points)
     along = np.roll(points, -1, axis=0) - points
     normals = np.stack([along[:, 1], -along[:, 0]], axis=1)
-    names = tuple(f"edge {k}" for k in range(count))
+    names = tuple(f"edge {k}" for k in range(len(points)))
     return ClipWindow(points, points, normals, names, is_rectangle=False)
 
 

@@ -236,6 +236,14 @@ def test_the_kind_of_primitives_is_kept_and_checked(tmp_path, name):
             load_state(path)
 
 
+@pytest.mark.parametrize("region", [(-1.0, -1.0, 0.0, 0.0), ((-1.0, -1.0), (1.0, -1.0), (0.0, 1.0))])
+def test_the_clip_window_of_lines_is_kept(tmp_path, region):
+    document = open_any("segment").document
+    scene = replace(document.scene, clip_region=region)
+    state = State(replace(document, scene=scene))
+    assert_same(state, again(tmp_path, state))
+
+
 class TestMeshFiles:
     @pytest.fixture
     def mesh(self, tmp_path):

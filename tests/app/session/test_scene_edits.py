@@ -11,6 +11,7 @@ from app.session.scene_edits import (
     move_corner,
     outline,
     set_value,
+    set_values,
     split_shared,
     window_of_clip,
 )
@@ -102,3 +103,20 @@ def test_ends_of_a_strip_move_and_split_as_corners_do() -> None:
     assert isinstance(joined, ClipScene)
     assert joined.shared is not None
     assert joined.shared[:-1, 1].tolist() == joined.shared[1:, 0].tolist()
+
+
+def test_a_clip_window_is_typed_in_pixels_and_refused_without_area() -> None:
+    scene = make_scene("segment")
+    assert _values(outline(scene, None, scene.size))["clip-window/0/right"] == 16
+    names = [f"clip-window/0/{name}" for name in ("left", "bottom", "right", "top")]
+    typed = set_values(scene, dict(zip(names, (4.1, 2.0, 8.0, 6.0), strict=True)), scene.size)
+    assert isinstance(typed, ClipScene)
+    found = _values(outline(typed, None, scene.size))
+    assert [found[name] for name in names] == pytest.approx([4.1, 2, 8, 6], abs=0)
+    moved = set_values(typed, dict(zip(names, (9.0, 7.0, 12.0, 10.0), strict=True)), scene.size)
+    assert _values(outline(moved, None, scene.size))["clip-window/0/left"] == 9
+    with pytest.raises(ValueError, match="the clip window must have an area"):
+        set_value(typed, "clip-window/0/left", 8.0, scene.size)
+    whole = set_values(typed, dict(zip(names, (0.0, 0.0, 16.0, 12.0), strict=True)), scene.size)
+    assert isinstance(whole, ClipScene)
+    assert whole.clip_region is None
