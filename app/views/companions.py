@@ -81,11 +81,8 @@ class NewDepths(Companion):
         stage, position = self.session.stage_trace, self.session.cursor.position
         row, _ = stage.steps.row_at(position)
         triangle = -1 if row < 0 else int(stage.triangle[row])
-        text = (
-            "New depths appear here."
-            if row < 0
-            else f"New depths, of triangle {triangle}. Left: the buffer's."
-        )
+        of = "none yet" if row < 0 else f"triangle {triangle}"
+        text = f"New depths: {of}\nLeft: the depth buffer"
         self._title.setText(of_kind(text, self.session.trace.source.scene.corner_count))
         self.grid.show_buffer(new_depths(self.session, stage, row))
         origin = self.session.trace.source.raster.bounds[:2]

@@ -7,7 +7,7 @@ from PySide6.QtWidgets import QComboBox, QWidget
 
 from widgets.grid.buffer import GridBuffer
 
-ROOM = 14
+ROOM = 11
 """Letters that the box has room for: other buffers must not move what stands beside it."""
 
 

@@ -27,6 +27,7 @@ class SpaceView(OrbitArea):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._diagram: Diagram | None = None
+        self._longest_caption = ""
         self._origin = np.zeros(3)
         self._is_own_view = False
         """Whether the user has chosen the view."""
@@ -40,6 +41,8 @@ class SpaceView(OrbitArea):
     def show_diagram(self, diagram: Diagram | None) -> None:
         """Show a drawing; None: the empty text."""
         self._diagram = diagram
+        caption = "" if diagram is None else diagram.caption
+        self._longest_caption = max(self._longest_caption, caption, key=len)
         self.setAccessibleDescription(self.empty_text if diagram is None else diagram.caption)
         if diagram is not None:
             self._refit()
@@ -57,6 +60,10 @@ class SpaceView(OrbitArea):
 
     def _drawn_caption(self) -> str | None:
         return None if self._diagram is None else self._diagram.caption
+
+    def _kept_caption(self) -> str:
+        # Room for the longest so far: the drawing must not move where a step's caption is shorter.
+        return self._longest_caption
 
     def _paint_drawing(self, painter: QPainter, theme: Theme) -> None:
         if self._diagram is not None:

@@ -21,7 +21,7 @@ from lessons.scenes import CATALOGUE, TEACHING_SIZE, BuiltInScene
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.image import display_image
 from widgets.basics.labels import text_label
-from widgets.basics.theme import current_theme
+from widgets.basics.theme import current_theme, theme_notifier
 from widgets.start.scene_cards import PICTURE, SceneCards, SceneEntry
 
 if TYPE_CHECKING:
@@ -69,6 +69,7 @@ class StartPage(Page):
         self._panes = _scrolled(self._side(), "Begin"), _scrolled(self._scenes(), "Scenes")
         row.addWidget(self._panes[0])
         row.addWidget(self._panes[1], 1)
+        theme_notifier().theme_changed.connect(self._set_widths)
         session.document_changed.connect(self._show_document)
         self._show_document()
         self.show_recent(())
@@ -80,7 +81,7 @@ class StartPage(Page):
         return button
 
     def _side(self) -> QWidget:
-        side = self._side_pane = QWidget(self)
+        side = QWidget(self)
         layout = column_layout(side, 8, margins=(0, 8, 12, 8))
         layout.addWidget(text_label("Rasterscope", side, role="title"))
         layout.addWidget(text_label(WHAT, side, wraps=True))
@@ -141,7 +142,11 @@ class StartPage(Page):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Give the left column the width that its text needs, if the scenes keep most of the page."""
         super().resizeEvent(event)
-        self._side_pane.setFixedWidth(min(round(SIDE * current_theme().text_px / 13), self.width() * 2 // 5))
+        self._set_widths()
+
+    @Slot()
+    def _set_widths(self) -> None:
+        self._panes[0].setFixedWidth(min(round(SIDE * current_theme().text_px / 13), self.width() * 2 // 5))
 
     def showEvent(self, event: QShowEvent) -> None:
         """Draw the pictures when they are first seen."""

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QStackedWidget, QTabBar, QToolButton, QWidget
+from PySide6.QtWidgets import QSizePolicy, QStackedWidget, QTabBar, QToolButton, QWidget
 
 from app.session.session import Session
 from app.views.companions import COMPANIONS, NewDepths
@@ -79,8 +79,10 @@ class MainArea(QWidget):
         self.rows = PaneSplitter(Qt.Orientation.Vertical, self)
         self.both_sides = QWidget(self)
         beside = row_layout(self.both_sides, 4)
-        beside.addWidget(self.view_stack, 3)
-        beside.addWidget(self.beside, 2)
+        for side in (self.view_stack, self.beside):
+            # Halves, whatever is written in them: a longer title must not move the pictures.
+            side.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
+            beside.addWidget(side, 1)
         self.beside.hide()
         self.rows.addWidget(self.both_sides)
         self.rows.addWidget(self.strip)

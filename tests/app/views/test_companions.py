@@ -1,7 +1,10 @@
 """What stands beside a stage's own view: the space that corners enter, the texture, the new depths."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from PySide6.QtWidgets import QApplication
 
 from app.session.document import open_document
 from app.session.session import Session
@@ -9,6 +12,8 @@ from app.views.companions import COMPANIONS, entered_diagram, new_depths
 from app.window.main_window import MainWindow
 from core.trace.geometry_progress import SPACES, spaces_reached
 from lessons.scenes import make_scene
+from widgets.space.diagram import CUBE, Diagram
+from widgets.space.view import SpaceView
 
 
 @pytest.mark.parametrize(
@@ -55,3 +60,26 @@ def test_new_depths_are_those_that_the_triangle_has_compared_by_now(qapp: object
     assert buffer.known is not None
     assert buffer.known.sum() == len(rows)
     assert np.array_equal(buffer.values[line, column], stage.columns["stored"][rows])
+
+
+def test_both_sides_are_halves_whatever_is_written_in_them(window: MainWindow) -> None:
+    session, area = window.session, window.page.main_area
+    session.open(open_document(make_scene("cube"), "cube"))
+    sizes = set()
+    for stage in ("depth", "transform"):
+        for position in (0, 40):
+            session.set_stage(stage, position)
+            QApplication.processEvents()
+            assert abs(area.view_stack.width() - area.beside.width()) <= 1, stage
+        sizes.add(area.beside.width())
+    assert len(sizes) == 1
+
+
+def test_the_cube_stays_where_it_is_when_its_caption_is_shorter(qapp: object) -> None:
+    view = SpaceView()
+    view.resize(200, 300)
+    diagram = Diagram(frame=CUBE, caption="A caption of several words that fill several lines. " * 3)
+    view.show_diagram(diagram)
+    before = view.projection().project(CUBE)
+    view.show_diagram(replace(diagram, caption="One line."))
+    np.testing.assert_array_equal(view.projection().project(CUBE), before)
