@@ -217,5 +217,5 @@ def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWi
     assert right > 1.4 * before[2]
     assert middle > 0.33 * 1800
     window.appearance.set_theme("light")
-    window.resize(1000, 700)
+    window.resize(1200, 700)
     qtbot.waitUntil(lambda: window.page.columns.sizes()[0] == pytest.approx(before[0], abs=12))
