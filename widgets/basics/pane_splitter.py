@@ -108,8 +108,10 @@ class _Border(QSplitterHandle):
             painter.fillRect(self.contentsRect(), QColor(theme.window))
             painter.setRenderHint(QPainter.RenderHint.Antialiasing)
             painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(QColor(theme.window))
-            painter.drawRoundedRect(self._grip(), 4, 4)
+            if self.underMouse():
+                # Else what the grip reaches over stays legible.
+                painter.setBrush(QColor(theme.window))
+                painter.drawRoundedRect(self._grip(), 4, 4)
             is_upright = self.orientation() == Qt.Orientation.Horizontal
             room = self.height() if is_upright else self.width()
             length = room if self.underMouse() else min(_GRIP, room)
