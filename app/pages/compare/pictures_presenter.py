@@ -217,7 +217,7 @@ def _two(shown: PointsShown, titles: list[str]) -> PicturesRecord:
     amount = difference_of(first.result, second.result)
     scale = _scale(first.result, second.result)
     return PicturesRecord(
-        heading=f"A: {titles[0]} and B: {titles[1]}: {_amount(amount)}",
+        heading=f"A and B: {_amount(amount)}",
         buffers=(
             _buffer("A", first.result, scale),
             _buffer("B", second.result, scale),
