@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 from app.files.state_files import State, StateFileError, save_state
-from app.pages.step.ab_presenter import compare, settings_difference
+from app.pages.step.ab_pictures import compare
+from app.pages.step.ab_settings import settings_difference
 from app.session.document import Document, TeachingRaster
 from core import ClipScene, Settings, draw_picture, render, trace
 from core.fast_path.workers import BandWorkers
@@ -18,6 +19,8 @@ from core.methods import table
 from core.pixel_history import why
 from core.raster.lines.bresenham import bresenham
 from tests.core.strategies import clip_of_window
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.compare_view import Side
 
 SIZE = (8, 8)
 
@@ -69,7 +72,11 @@ def test_a_twin_is_seen_in_the_picture_and_in_the_difference(twin):
         right.primitive, wrong.primitive
     )
     buffer = "primitive" if (right.primitive != wrong.primitive).any() else "cover_count"
-    assert not compare(right, wrong, buffer, settings, faulty, (0, 0)).summary.startswith("0 of")
+    sides = [
+        Side(name, "", buffer=GridBuffer(buffer, getattr(frame, buffer), "ids"))
+        for name, frame in (("A", right), ("B", wrong))
+    ]
+    assert not compare(*sides).summary.startswith("0 of")
     assert settings_difference(settings, faulty).endswith("(replaced)")
     assert not settings_difference(faulty, faulty)
 

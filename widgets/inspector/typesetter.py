@@ -6,7 +6,7 @@ from collections import OrderedDict
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
-from importlib import import_module, resources
+from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
 from threading import Thread
@@ -69,14 +69,7 @@ class Typesetter:
 @cache
 def _typesetting() -> ModuleType:
     """Load the typesetter when the first formula needs it, so that the window opens sooner."""
-    # It opens its font by a call that Python 3.11 and 3.12 call deprecated. What warns is global, so a warning cannot
-    # be kept quiet for one thread: the call is the one that they ask for, until the typesetter is loaded.
-    path = resources.path
-    vars(resources)["path"] = lambda package, name: resources.as_file(resources.files(package) / name)
-    try:
-        module = import_module("ziamath.zmath")
-    finally:
-        vars(resources)["path"] = path
+    module = import_module("ziamath.zmath")
     import_module("widgets.inspector.quick_rows")
     # Qt draws plain paths only; the newer form defines each glyph once and refers to it.
     module.config.svg2 = False

@@ -6,11 +6,12 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.background.turns import CancelledWaitError, Turns
-from app.background.workers import Job
+from app.background.workers import JobGroup
 
 
 def test_work_waits_for_that_of_another_page_and_names_it(qtbot: QtBot) -> None:
-    turns, first, second = Turns(), Job(), Job()
+    turns, group = Turns(), JobGroup()
+    first, second = group.add_job(), group.add_job()
     may_end, order = Event(), []
 
     def measure(progress, is_cancelled) -> None:
@@ -30,6 +31,7 @@ def test_work_waits_for_that_of_another_page_and_names_it(qtbot: QtBot) -> None:
     with qtbot.waitSignals([first.succeeded, second.succeeded]):
         may_end.set()
     assert order == ["Compare", "Plan"]
+    group.shut_down()
 
 
 def test_work_that_is_cancelled_while_it_waits_gives_up() -> None:

@@ -35,6 +35,8 @@ def saved(window: MainWindow, qtbot: QtBot) -> Document:
     title = f"edit {id(window.session.document)}"
     window.session.edit(replace(window.session.document, title=title))
     qtbot.waitUntil(lambda: any(path.title == title for path in states()), timeout=20000)
+    # What the file does not need any more is removed after it.
+    qtbot.waitUntil(lambda: not window.memory.autosave.is_waiting, timeout=20000)
     (path,) = (each.path for each in states() if each.title == title)
     return open_any(str(path)).document
 

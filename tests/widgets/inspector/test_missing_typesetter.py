@@ -3,7 +3,7 @@
 from functools import cache
 
 from core.explain.records import Formula
-from widgets.inspector import typesetter
+from widgets.inspector import formula_view, typesetter
 from widgets.inspector.formula_view import FormulaView
 
 
@@ -21,3 +21,5 @@ def test_a_typesetter_that_cannot_be_loaded_is_not_waited_for(qtbot, monkeypatch
     assert "Shown as plain text: import: there is no ziamath" in view.toolTip()
     assert capfd.readouterr().err == ""
     typesetter.load_typesetter.cache_clear()
+    # Formulas of other tests that waited meanwhile became plain text, too.
+    formula_view._SHARED._cells.clear()

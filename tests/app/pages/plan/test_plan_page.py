@@ -124,6 +124,8 @@ def test_applying_is_one_step_that_undo_takes_back(window: MainWindow, page: Pla
     qtbot.waitUntil(lambda: window.session.document is not before, timeout=60000)
     assert window.session.document.settings == report.plan.settings
     assert not page.plans.is_stale
+    window.pages.show_page("step")
+    window.page.toggle_pane("methods")
     combo = window.page.settings_panel.combo("visibility")
     assert combo.currentData() == report.plan.settings.visibility
     window.session.undo()
