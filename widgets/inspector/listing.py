@@ -191,12 +191,13 @@ class ListingView(QPlainTextEdit):
             block = block.next()
         return None
 
-    def height_of(self, lines: int) -> int:
-        """Return the height in which the first lines are seen whole, wrapped as they are; at least so many rows."""
+    def height_of(self, lines: int, is_wrapped: bool = True) -> int:
+        """Return the height of the first lines, wrapped as they are, or of so many rows."""
         row = self.fontMetrics().lineSpacing()
         block, rows = self.document().firstBlock(), 0.0
         for _ in range(lines):
-            rows += max(self.blockBoundingRect(block).height(), row) if block.isValid() else row
+            height = self.blockBoundingRect(block).height() if is_wrapped and block.isValid() else row
+            rows += max(height, row)
             block = block.next()
         # Half a row more: Qt scrolls by whole ones.
         return math.ceil(min(rows, MOST_ROWS * row) + row / 2 + 2 * self.document().documentMargin())

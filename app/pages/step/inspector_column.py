@@ -16,9 +16,9 @@ from widgets.inspector.variables import VariablesView
 from widgets.timeline.stage_card import StageCardView
 
 LISTING_LINES, PRESENTED_LINES = 10, 4
-"""Least height of the listing, in lines, and the same while presenting: the formula goes before it."""
-DETAIL_LINES = 4
-"""Least height of variables and history, in lines."""
+"""Lines of the listing that are seen whole, and the same while presenting: the formula goes before it."""
+DETAIL_LINES = 8
+"""Height of variables and history, in lines, for which the listing wraps onto fewer rows."""
 
 
 class InspectorColumn(QScrollArea):
@@ -88,10 +88,15 @@ class InspectorColumn(QScrollArea):
         """Keep room for three lines of the sentence, two of the formula and some of the listing, in any type."""
         line = round(1.25 * current_theme().text_px)
         self.sentence.setMinimumHeight(3 * line)
+        details = DETAIL_LINES * (line + 6)
+        room = self.viewport().height() - self.rows.y() - self.rows.handleWidth() - details
+        rows, lines = (
+            self.listing.height_of(self._listing_lines, is_wrapped) for is_wrapped in (False, True)
+        )
         for widget, height in (
             (self._step_pane, 3 * line + 4 * line + 4),
-            (self.listing, self.listing.height_of(self._listing_lines)),
-            (self.detail_tabs, DETAIL_LINES * (line + 6)),
+            (self.listing, max(rows, min(lines, room))),
+            (self.detail_tabs, details),
         ):
             if widget.minimumHeight() != height:
                 widget.setMinimumHeight(height)

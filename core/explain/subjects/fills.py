@@ -164,11 +164,10 @@ def _why_covered(step: StepValues, values: list[float]) -> str:
 def _why_outside(step: StepValues, values: list[float], owns: list[bool]) -> str:
     reasons = []
     for k in range(3):
-        value, away = spoken(values[k]), _away(step, k)
+        value, distance = spoken(values[k]), step.vector("distance")[k]
         if values[k] < 0:
-            reasons.append(
-                f"edge {k} {f'is {away} away (E{k} = {value})' if away else f'has E{k} = {value}'}"
-            )
+            beyond = f"it lies {spoken(-distance)} px beyond edge {k} (E{k} = {value})"
+            reasons.append(beyond if math.isfinite(distance) else f"edge {k} has E{k} = {value}")
         elif math.isnan(values[k]):
             reasons.append(f"E{k} is {value}, not a number")
     unowned = [_on_edge(step, k) for k in range(3) if values[k] == 0 and not owns[k]]

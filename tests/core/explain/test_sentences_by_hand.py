@@ -41,13 +41,14 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.test.decide",
             BRUTE_FORCE,
-            "Pixel (0, 3) is outside: edge 1 is −0.5 px away (E1 = −3).",
+            "Pixel (0, 3) is outside: it lies 0.5 px beyond edge 1 (E1 = −3).",
         ),
         (
             "raster",
             "raster.test.decide",
             BRUTE_FORCE,
-            "Pixel (0, 0) is outside: edge 1 is −0.5 px away (E1 = −3) and edge 2 is −0.5 px away (E2 = −3).",
+            "Pixel (0, 0) is outside: it lies 0.5 px beyond edge 1 (E1 = −3) and it lies 0.5 px beyond "
+            "edge 2 (E2 = −3).",
         ),
         (
             "raster",

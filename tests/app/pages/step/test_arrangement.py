@@ -178,7 +178,18 @@ def test_nothing_is_cut_that_stands_nowhere_else(window: MainWindow) -> None:
                 assert not widget.horizontalScrollBar().maximum(), where
                 lines = [widget.document().findBlockByNumber(number) for number in range(10)]
                 rows = sum(widget.blockBoundingRect(line).height() for line in lines if line.isValid())
-                assert rows <= widget.viewport().height(), (where, rows)
+                least = min(rows, 10 * widget.fontMetrics().lineSpacing())
+                assert least <= widget.viewport().height(), (where, rows)
+
+
+def test_the_listing_leaves_room_for_variables_and_the_history_of_a_pixel(window: MainWindow) -> None:
+    column = window.page.column
+    window.resize(1280, 760)  # what a title bar leaves of 800
+    for stage in STAGES:
+        window.session.set_stage(stage)
+        QApplication.processEvents()
+        seen = column.height() - column.detail_tabs.mapTo(column, QPoint(0, 0)).y()
+        assert seen >= 7 * 24, stage  # tabs, heading, five rows
 
 
 LEAST_TARGET = 24
