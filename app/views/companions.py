@@ -67,13 +67,15 @@ class NewDepths(Companion):
     name = "new-depths"
 
     def make_widget(self) -> QWidget:
-        """Return the grid below its title."""
+        """Return the grid below its title, and above what stands beside it."""
         pane = QWidget()
         self.grid = PixelGrid(pane)
         self._title = text_label("", pane, role="muted")
         layout = column_layout(pane, 4)
         layout.addWidget(self._title)
         layout.addWidget(self.grid, 1)
+        # One line above and one below: both grids have the same height.
+        layout.addWidget(text_label("Left: the depth buffer", pane, role="muted"))
         return pane
 
     def draw(self) -> None:
@@ -82,8 +84,7 @@ class NewDepths(Companion):
         row, _ = stage.steps.row_at(position)
         triangle = -1 if row < 0 else int(stage.triangle[row])
         of = "none yet" if row < 0 else f"triangle {triangle}"
-        text = f"New depths: {of}\nLeft: the depth buffer"
-        self._title.setText(of_kind(text, self.session.trace.source.scene.corner_count))
+        self._title.setText(of_kind(f"New depths: {of}", self.session.trace.source.scene.corner_count))
         self.grid.show_buffer(new_depths(self.session, stage, row))
         origin = self.session.trace.source.raster.bounds[:2]
         has_pixel = row >= 0 and stage.pixel[row, 0] >= 0

@@ -12,6 +12,7 @@ from app.views.stage_views import StageViews
 from core.stages.declared import stage_of
 from widgets.basics.accessible import announce
 from widgets.basics.controls import column_layout, flat_button, row_layout
+from widgets.basics.labels import text_label
 from widgets.basics.pane_splitter import PaneSplitter
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.buffer_choice import BufferChoice
@@ -56,6 +57,9 @@ class MainArea(QWidget):
         self.beside = QStackedWidget(self)
         for companion in self.companions.values():
             self.beside.addWidget(companion.widget)
+        self._veil = text_label("Hidden while you predict.", self.beside, role="muted")
+        self._veil.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.beside.addWidget(self._veil)
         self._lay_out()
         self.view_bar.currentChanged.connect(self._show_view)
         self.view_bar.tabBarClicked.connect(self._choose_view)
@@ -148,12 +152,16 @@ class MainArea(QWidget):
         """Show the other side of a stage beside its own view: the space entered, the texture, the new depths."""
         stage = self._session.cursor.stage
         companion = self.companions.get(stage)
-        is_own = self.current_view() == stage_of(stage).view and not self._session.is_predicting
+        is_own = self.current_view() == stage_of(stage).view
         if companion is None or not is_own or not companion.is_wanted():
             self.beside.hide()
             return
-        companion.refresh()
-        self.beside.setCurrentWidget(companion.widget)
+        if self._session.is_predicting:
+            # It keeps its place, so that the main view keeps its own.
+            self.beside.setCurrentWidget(self._veil)
+        else:
+            companion.refresh()
+            self.beside.setCurrentWidget(companion.widget)
         self.beside.show()
 
     # Views.

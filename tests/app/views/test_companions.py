@@ -75,6 +75,18 @@ def test_both_sides_are_halves_whatever_is_written_in_them(window: MainWindow) -
     assert len(sizes) == 1
 
 
+def test_predicting_hides_the_other_side_and_moves_nothing(window: MainWindow) -> None:
+    session, area = window.session, window.page.main_area
+    session.open(open_document(make_scene("cube"), "cube"))
+    session.set_stage("depth", 40)
+    QApplication.processEvents()
+    before = area.grid.mapTo(window, area.grid.rect().topLeft()), area.grid.size()
+    session.set_predicting(True)
+    QApplication.processEvents()
+    assert not area.companions["depth"].widget.isVisible()
+    assert (area.grid.mapTo(window, area.grid.rect().topLeft()), area.grid.size()) == before
+
+
 def test_the_cube_stays_where_it_is_when_its_caption_is_shorter(qapp: object) -> None:
     view = SpaceView()
     view.resize(200, 300)
