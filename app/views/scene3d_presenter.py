@@ -243,7 +243,8 @@ class Scene3dPresenter(QObject):
             return
         handles = []
         if self.focus is not None:
-            for index, (x, y) in enumerate(fractions(space, orbit, size, space.corners(self.focus)).tolist()):
+            corners = space.corners(self.focus)[: space.scene.corner_count]
+            for index, (x, y) in enumerate(fractions(space, orbit, size, corners).tolist()):
                 if np.isfinite([x, y]).all():
                     handles.append(SceneHandle(index, x, y))
         words = space_words(space)
@@ -284,7 +285,8 @@ class Scene3dPresenter(QObject):
         if self._has_new_figures and self._drawn is not None:
             self._has_new_figures = False
             self._figures_timer.start()
-            self._view.show_figures(figures_text(self._drawn.figures, self._rate.per_second()))
+            text = figures_text(self._drawn.figures, self._rate.per_second())
+            self._view.show_figures(of_kind(text, self._drawn.shot.scene.corner_count))
             self._view.corner().show_details(drawing_text(self._drawn.figures))
 
     def _caption(self) -> str:

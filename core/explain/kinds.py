@@ -21,6 +21,7 @@ _WORDS = {
         (r"each cut one becomes a polygon, split into a fan", "of a cut one the part inside"),
         (r"(all )?three (vertices|corners)|all vertices", "both ends"),
         (r"vertices 1 and 2 are", "end 1 is"),
+        (r"\ba corner", "an end"),
         (r"vertices", "ends"),
         (r"vertex", "end"),
         (r"edge 2 of triangle|triangle", "segment"),

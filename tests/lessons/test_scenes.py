@@ -77,7 +77,8 @@ def test_bad_window_coordinates_are_refused(arguments, wanted):
 def test_the_catalogue():
     assert scene_names() == (
         "single-triangle", "shared-edge", "fan", "segment", "clipped-segment", "line-strip", "points",
-        "near-plane", "intersecting", "z-fighting", "textured-floor", "cube", "teapot", "sphere", "torus", "knot",
+        "triangle-strip", "polygon", "near-plane", "intersecting", "z-fighting", "textured-floor",
+        "cube", "teapot", "sphere", "torus", "knot",
     )  # fmt: skip
     for scene in CATALOGUE:
         assert scene.title[0].isupper()
@@ -101,7 +102,9 @@ def test_a_scene_is_made_anew_and_fills_a_good_part_of_its_picture(name):
     assert (scene.size == TEACHING_SIZE) == (not is_mesh)
 
 
-@pytest.mark.parametrize("name", ["single-triangle", "shared-edge", "fan", "intersecting"])
+@pytest.mark.parametrize(
+    "name", ["single-triangle", "shared-edge", "fan", "triangle-strip", "polygon", "intersecting"]
+)
 def test_typed_triangles_face_the_viewer_on_the_grid(name):
     scene = make_scene(name)
     for clip in scene.clip:
@@ -122,8 +125,9 @@ def test_the_segment_has_the_decisions_of_the_lecture(line, decisions):
     assert raster.pixel[[0, -1]].tolist() == [[1, 1], [9, 4]]
 
 
-def test_the_line_strip_draws_each_pixel_once():
-    assert render(make_scene("line-strip")).cover_count.max() == 1
+@pytest.mark.parametrize("name", ["line-strip", "triangle-strip", "polygon"])
+def test_shared_vertices_draw_each_pixel_once(name):
+    assert render(make_scene(name)).cover_count.max() == 1
 
 
 def test_a_point_outside_of_the_raster_is_dropped():

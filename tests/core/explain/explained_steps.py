@@ -12,6 +12,7 @@ from core.settings import families
 from core.trace import Explanation, StageTrace
 from lessons.scenes import make_scene, scene_names
 from tests.core.strategies import clip_of_window
+from tests.core.trace.trace_cases import LEFT_OUT
 from tests.covering import is_everything
 
 Step = tuple[Explanation, int, tuple[int, int]]
@@ -115,7 +116,7 @@ def steps_of(traced: Trace | StageTrace) -> Iterator[Step]:
 def traces() -> dict[str, list[Trace]]:
     """Return the traces of built-in scenes, each method on one of them, and of the rare triangles together."""
     # The others have no step of another kind.
-    scenes = [scene_and_window(name) for name in scene_names() if name not in ("fan", "z-fighting", "teapot")]
+    scenes = [scene_and_window(name) for name in scene_names() if name not in LEFT_OUT]
     choices = every_choice()
     windows = []
     for number, settings in enumerate([Settings()] * len(scenes) + choices):
