@@ -314,7 +314,7 @@ class ListingView(QPlainTextEdit):
     def _mark_line(self) -> None:
         theme = current_theme()
         marks = []
-        if self.hasFocus() and self.textCursor().blockNumber() + 1 != self._line:
+        if self.hasFocus() and self._title and self.textCursor().blockNumber() + 1 != self._line:
             chosen = self.textCursor()
             chosen.movePosition(QTextCursor.MoveOperation.StartOfBlock)
             chosen.movePosition(QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveMode.KeepAnchor)

@@ -48,7 +48,6 @@ class PredictionView(QWidget):
         self.next_button.clicked.connect(self.next_requested)
         self.choice_buttons: tuple[QPushButton, ...] = ()
         self._choices = column_layout(spacing=4)
-        self.hint = text_label("Click the pixels in the grid.", self, role="muted")
         self._icon = QLabel(self)
         self.verdict = text_label("", self, name="Verdict", wraps=True)
         self.count = text_label("", self, role="muted")
@@ -99,7 +98,6 @@ class PredictionView(QWidget):
         layout.addWidget(self.question)
         layout.addLayout(answer)
         layout.addLayout(self._choices)
-        layout.addWidget(self.hint)
         layout.addLayout(result)
         layout.addLayout(going)
 
@@ -124,7 +122,6 @@ class PredictionView(QWidget):
         self.field.setVisible(kind is AnswerKind.NUMBER)
         self.field.setReadOnly(not is_open)
         self.check_button.setVisible(kind is AnswerKind.NUMBER and is_open)
-        self.hint.setVisible(is_grid)
         self.reveal_button.setVisible(is_open)
         self.next_button.setVisible(self._question is not None and not is_open)
         for button in self.choice_buttons:

@@ -287,6 +287,8 @@ class StepPage(Page):
             self.show_panes(["inspector", *self.shown_panes()])
         self.column.show_prediction(is_on)
         self.predicting.set_active(is_on)
+        if not is_on:
+            self.main_area.show_own_view()
 
     @Slot(int)
     def _choose_event(self, index: int) -> None:

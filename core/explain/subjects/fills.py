@@ -33,7 +33,8 @@ from core.records.words import counted, joined
 SNAP_DISTANCE = 1 / SUBPIXELS
 """Largest distance in pixels at which snapping can reverse a decision."""
 COVERAGE_QUESTION = Question(
-    "Click the covered pixels, each is checked at once; or step on to be asked about one at a time.",
+    "Click the covered pixels in the grid: each is checked at once. "
+    "Or press Right to be asked about one pixel at a time.",
     AnswerKind.GRID,
 )
 """What is asked of coverage as a whole."""

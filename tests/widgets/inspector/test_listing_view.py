@@ -1,6 +1,7 @@
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QApplication
 
 from widgets.basics.theme import current_theme
 from widgets.inspector.listing import ListingText, ListingView, token_formats
@@ -155,3 +156,12 @@ def test_the_marked_line_is_in_view_in_a_view_that_shrinks_or_was_hidden(qtbot, 
     view.resize(420, 80)
     view.show()
     qtbot.waitUntil(lambda: is_in_view(31))
+
+
+def test_no_line_is_marked_over_the_hint_of_an_empty_view(view) -> None:
+    view.activateWindow()
+    view.setFocus()
+    QApplication.processEvents()
+    assert view.hasFocus()
+    view.show_listing(None)
+    assert not view.extraSelections()

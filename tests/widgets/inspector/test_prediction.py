@@ -75,7 +75,6 @@ def test_choices_are_buttons(qtbot, view) -> None:
 
 def test_reveal_and_next_are_asked_for(qtbot, view) -> None:
     view.show_question(Question("Which pixels?", AnswerKind.GRID))
-    assert view.hint.isVisible()
     with qtbot.waitSignal(view.reveal_requested):
         qtbot.mouseClick(view.reveal_button, Qt.MouseButton.LeftButton)
     view.show_verdict(Verdict(True, "12 pixels."))

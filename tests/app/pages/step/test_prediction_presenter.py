@@ -34,6 +34,14 @@ def test_everything_is_shown_again(asking: MainWindow) -> None:
     assert any(len(places) for places in page.timeline.bar.run().marks.values())
 
 
+def test_the_view_of_the_stage_comes_back_with_its_results(window: MainWindow) -> None:
+    window.session.set_stage("transform", 3)
+    assert window.page.current_view() == "scene"
+    window.run_action("predict")
+    window.run_action("predict")
+    assert window.page.current_view() == "scene"
+
+
 def test_coverage_is_clicked_and_judged_at_once(asking: MainWindow) -> None:
     page = asking.page
     covered = asking.session.trace.source.picture.primitive >= 0
