@@ -35,6 +35,7 @@ COMMANDS = (
     Command("trace", "write what one stage did, row by row, as text, JSON, CSV or npz", "app.cli.trace"),
     Command("methods", "list the methods that settings choose from", "app.cli.methods"),
     Command("scenes", "list the built-in scenes", "app.cli.scenes"),
+    Command("slides", "list the lectures' numbers and listings, and check them", "app.cli.slides"),
     Command("screenshot", "save a picture of the window without showing it", "app.cli.screenshot"),
     Command("opengl-check", "compare the core with the OpenGL of this machine", "app.cli.opengl_check"),
     Command("study", "measure the methods of a family: speed against accuracy", "app.cli.study"),

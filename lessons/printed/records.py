@@ -1,0 +1,209 @@
+"""What every printed listing has, and how a printed line listing runs in the pipeline in place of a method."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import partial
+from math import floor
+from typing import Any
+
+import numpy as np
+
+from core import Settings
+from core.methods import Method, table
+from core.raster.lines.records import LineRun, Segments, limited_steps
+from core.raster.lines.traits import LineTraits, line_coefficients
+
+Listed = list[tuple[int, int, float]]
+"""Column, row and decision of each pixel; the decision is NaN where nothing had to be decided."""
+
+
+@dataclass(frozen=True)
+class ListedLines:
+    """The rule of a line method that runs a scalar listing for every segment.
+
+    Two rules of one listing are equal, so settings that hold them are too.
+    """
+
+    listing: Callable[..., Listed]
+    """From x0, y0, x1, y1 and ``last_pixel`` to its pixels."""
+    tie: float | None
+    """The decision at a tie; ``None``: the decision is a coordinate, and a tie is a fraction of 1/2."""
+    takes_pixels: bool
+    """Whether it is called with the pixels of the ends; else with positions where pixel centres are whole."""
+    rises: bool = True
+    """Whether it is printed for slopes from 0 to 1; else for slopes from -1 to 0."""
+
+    def __call__(self, segments: Segments, last_pixel: bool) -> LineRun:
+        """Run the listing for L segments.
+
+        Raises
+        ------
+        ValueError
+            If a segment does not run from left to right with a slope that the listing is printed for, or has too
+            many steps.
+        """
+        ends: np.ndarray = segments.pixel_indices if self.takes_pixels else segments.centered_ends
+        dx, dy = (ends[:, 1] - ends[:, 0]).T
+        is_meant = (dx > 0) & (np.abs(dy) <= dx) & ((dy >= 0) if self.rises else (dy <= 0))
+        if not is_meant.all():
+            slopes = "from 0 to 1" if self.rises else "from -1 to 0"
+            first = ends[int(np.argmin(is_meant))].tolist()
+            raise ValueError(f"the slide prints this for x0 < x1 and slopes {slopes}, got {first}")
+        limited_steps(self.listing.__name__, np.zeros(len(dx), np.int64), np.ceil(dx).astype(np.int64))
+        rows = [
+            (owner, index, *pixel)
+            for owner, (x0, y0, x1, y1) in enumerate(ends.reshape(-1, 4).tolist())
+            for index, pixel in enumerate(self.listing(x0, y0, x1, y1, last_pixel))
+        ]
+        table_of_rows = np.array(rows, float).reshape(-1, 5)
+        owner, index, column, row = table_of_rows[:, :4].T.astype(np.int64)
+        decision = table_of_rows[:, 4]
+        has_stepped = (index > 0) & (row != np.roll(row, 1))
+        is_tie = decision - np.floor(decision) == 0.5 if self.tie is None else decision == self.tie
+        return LineRun(owner, index, column, row, decision, has_stepped, is_tie)
+
+
+@dataclass(frozen=True)
+class SlideNumber:
+    """A number, and how it is computed again."""
+
+    lecture: str
+    """Zwicker, Pellacini, Jubair or LMU."""
+    slide: str
+    """Title of the slide."""
+    what: str
+    """What the number is of."""
+    number: Any
+    """As on the slide, or as counted before: numbers, texts, and tuples of them."""
+    compute: Callable[[], Any]
+    """Finds it again."""
+    right: Any = None
+    """What must come out where the slide slips; ``None``: the number itself."""
+    is_counted: bool = False
+    """The number does not stand on the slide: it was counted with what the slide prints."""
+
+    @property
+    def recorded_verdict(self) -> str:
+        """``agrees``, ``slip``, or ``counted``."""
+        if self.right is not None:
+            return "slip"
+        return "counted" if self.is_counted else "agrees"
+
+    def verdict(self, ours: Any) -> str:
+        """Judge what was computed: the recorded verdict, or ``CHANGED``."""
+        wanted = self.number if self.right is None else self.right
+        is_slip = self.right is None or not is_same(self.number, ours)
+        return self.recorded_verdict if is_same(wanted, ours) and is_slip else "CHANGED"
+
+
+def slide_number(
+    lecture: str, slide: str, what: str, number: Any, compute: Callable[..., Any], *values: Any
+) -> SlideNumber:
+    """Return a number that stands on a slide, computed by ``compute(*values)``."""
+    return SlideNumber(lecture, slide, what, number, partial(compute, *values))
+
+
+def is_same(expected: Any, found: Any) -> bool:
+    """Return whether two nested tuples are the same: floats up to rounding, all else exactly."""
+    if isinstance(expected, tuple):
+        return len(expected) == len(found) and all(map(is_same, expected, found))
+    if isinstance(expected, float):
+        return bool(abs(expected - found) <= 1e-12 * max(1.0, abs(expected)))
+    return bool(expected == found)
+
+
+@dataclass(frozen=True, eq=False)
+class PrintedListing:
+    """A listing as a slide prints it."""
+
+    name: str
+    title: str
+    lecture: str
+    slide: str
+    text: str
+    """The listing as the slide has come to us, its layout restored."""
+    family: str
+    """Family of the method that is right."""
+    right: str
+    """Name of the method that is right."""
+    readings: Mapping[str, Callable[..., Any]]
+    """What runs, by how a doubtful place of ``text`` is read; the first is what the author must have meant."""
+    note: str = ""
+    """Which characters may be a slip of the transcription, and how they are read."""
+    numbers: tuple[SlideNumber, ...] = ()
+    """What is known of it."""
+    rule: ListedLines | None = None
+    """Of a line listing: its first reading in the pipeline."""
+    like: str = ""
+    """Of a line listing: the method whose rows and sentences its trace has."""
+    registered: str = ""
+    """Name of the method of the table that is this listing; empty: it is in no table."""
+    method: Method | None = field(init=False, default=None)
+    """Of a line listing: a row like that of ``like``, with its own function and listing."""
+
+    def __post_init__(self) -> None:
+        if self.rule is not None:
+            made = replace(
+                table.get(self.family, self.like),
+                title=f"{self.title} ({self.lecture})",
+                source=f"{self.lecture}, {self.slide}",
+                exact_for="",
+                breaks_where="",
+                function=self.rule,
+                listing=self.rule.listing,
+                traits=LineTraits(takes_pixels=self.rule.takes_pixels, coefficients=line_coefficients),
+            )
+            object.__setattr__(self, "method", made)
+
+    def settings(self, others: Settings) -> Settings:
+        """Return ``others`` with this listing in place of a line method.
+
+        Raises
+        ------
+        ValueError
+            If it is not a line listing that runs in the pipeline.
+        """
+        if self.method is None:
+            raise ValueError(f"{self.name} does not run in place of a line method")
+        return replace(others, line=self.like).replaced(line=self.method)
+
+
+@dataclass(frozen=True)
+class Divergence:
+    """The first step at which a printed listing and the right method differ."""
+
+    step: int
+    """Number of the pixel along the line, from 0."""
+    printed: tuple[int, int, float] | None
+    """Column, row and decision of the printed listing; ``None``: it has ended."""
+    right: tuple[int, int, float] | None
+    """The same of the right method."""
+
+
+def first_divergence(
+    listing: Callable[..., Listed], right: str, ends: tuple[float, float, float, float]
+) -> Divergence | None:
+    """Return where a printed line listing first draws another pixel than a method, ``None``: nowhere.
+
+    Parameters
+    ----------
+    listing : callable
+        A reading of a printed line listing.
+    right : str
+        Name of a method of the family ``line``.
+    ends : tuple of float
+        x0, y0, x1, y1, with pixel centres on whole numbers; both draw the last pixel if they ever do.
+    """
+    method = table.get("line", right).listing
+    assert method is not None, f"{right} has no listing"
+    mine, its = listing(*ends, True), method(*ends, True)
+    for step in range(max(len(mine), len(its))):
+        printed, wanted = (pixels[step] if step < len(pixels) else None for pixels in (mine, its))
+        if printed is None or wanted is None or printed[:2] != wanted[:2]:
+            return Divergence(step, printed, wanted)
+    return None
+
+
+def half_up(value: float) -> int:
+    """Round to the nearest whole number, half up, as the slides' ``round``."""
+    return floor(value) + (value - floor(value) >= 0.5)
