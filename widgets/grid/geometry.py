@@ -8,6 +8,7 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF, QRegion
 
 from widgets.basics.theme import Theme, text_font
+from widgets.grid.edge_ends import edge_segments, towards
 from widgets.grid.line_clip import widget_lines
 from widgets.grid.view import GridPlacement
 
@@ -47,6 +48,8 @@ class GridGeometry:
     """Whether the vertices of the triangle in focus can be dragged."""
     labels: tuple[str, ...] = ()
     """A name per vertex; empty: 0, 1, 2 for those of the primitive in focus."""
+    behind: NDArray[np.float64] | None = field(default=None, repr=False)
+    """(V, 3) float64 homogeneous window coordinates (x w, y w, w) of the vertices at w <= 0, else NaN; None: none."""
 
     def __post_init__(self) -> None:
         if self.vertices.ndim != 2 or self.vertices.shape[1] != 2:
@@ -57,6 +60,8 @@ class GridGeometry:
             raise ValueError(f"triangles must index {len(self.vertices)} vertices")
         if self.snapped is not None and self.snapped.shape != self.vertices.shape:
             raise ValueError(f"snapped must be {self.vertices.shape}, got {self.snapped.shape}")
+        if self.behind is not None and self.behind.shape != (len(self.vertices), 3):
+            raise ValueError(f"behind must be {(len(self.vertices), 3)}, got {self.behind.shape}")
         if self.labels and len(self.labels) != len(self.vertices):
             raise ValueError(
                 f"labels must have one entry per vertex ({len(self.vertices)}), got {len(self.labels)}"
@@ -68,6 +73,10 @@ class GridGeometry:
         if not 0 <= self.focus < len(self.triangles):
             return ()
         return tuple(dict.fromkeys(self.triangles[self.focus].tolist()))
+
+    def edges(self, pairs: NDArray[np.integer]) -> NDArray[np.float64]:
+        """Return (N, 2, 2) float64 the ends in the window of the edges between pairs (N, 2) of vertices."""
+        return edge_segments(self.vertices, self.behind, pairs)
 
     def label(self, vertex: int) -> str:
         """Return the name of a vertex."""
@@ -106,11 +115,14 @@ def outline_lines(placement: GridPlacement, geometry: GridGeometry) -> list[QLin
         else geometry.triangles
     )
     pairs = np.concatenate((others[:, [0, 1]], others[:, [1, 2]], others[:, [2, 0]]))
-    places = np.ascontiguousarray(geometry.vertices, np.float64).view(np.complex128)
+    told_apart = geometry.vertices
+    if geometry.behind is not None:
+        told_apart = np.where(np.isfinite(told_apart), told_apart, geometry.behind[:, :2])
+    places = np.ascontiguousarray(told_apart, np.float64).view(np.complex128)
     _, place = np.unique(places.ravel(), return_inverse=True)
     low, high = np.sort(place[pairs], axis=1).T
     _, once = np.unique(low * len(place) + high, return_index=True)
-    lines, _ = widget_lines(geometry.vertices[pairs[once]], placement)
+    lines, _ = widget_lines(geometry.edges(pairs[once]), placement)
     return lines
 
 
@@ -148,7 +160,7 @@ def paint_focus(
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     sides = SIDES[len(corners)]
     ends = np.array([[corners[(k + 1) % 3], corners[(k + 2) % 3]] for k in sides], int).reshape(-1, 2)
-    lines, source = widget_lines(geometry.vertices[ends], placement)
+    lines, source = widget_lines(geometry.edges(ends), placement)
     scale = theme.text_px / 13
     width = 1.2 if small else 2.2 * scale
     if free is not None:
@@ -258,9 +270,6 @@ def _paint_edge_names(
     theme: Theme,
 ) -> None:
     """Write the name of each edge function beside its edge, outside of the triangle."""
-    corners = geometry.vertices[list(geometry.focus_vertices)]
-    if not np.isfinite(corners).all():
-        return
     metrics = painter.fontMetrics()
     width, height = metrics.horizontalAdvance("E0") + 6, metrics.height()
     viewport = QRectF(placement.viewport)
@@ -268,15 +277,25 @@ def _paint_edge_names(
         inside = viewport.intersected(QRectF(line.p1(), line.p2()).normalized().adjusted(-1, -1, 1, 1))
         if line.length() < _NAMED_LENGTH * theme.text_px or inside.isEmpty():
             continue
-        facing = placement.to_widget(*corners[edge].clip(-1e6, 1e6).tolist())
         normal = line.normalVector().unitVector()
         away = QPointF(normal.dx(), normal.dy())
         middle = line.center()
-        if QPointF.dotProduct(away, facing - middle) > 0:
+        right, up = _facing(geometry, geometry.focus_vertices[edge], placement.to_window(middle))
+        if away.x() * right - away.y() * up > 0:
             away = -away
         box = QRectF(0, 0, width, height)
         box.moveCenter(middle + away * (RIM + abs(away.x()) * width / 2 + abs(away.y()) * height / 2))
         _paint_chip(painter, moved_inside(box, viewport), f"E{edge}", theme.vertex_text[edge], theme)
+
+
+def _facing(geometry: GridGeometry, vertex: int, place: tuple[float, float]) -> tuple[float, float]:
+    """Return the direction to the right and up in which a vertex lies from a place in the window, of any length."""
+    start = np.array(place)
+    direction = geometry.vertices[vertex] - start
+    if geometry.behind is not None and not np.isfinite(direction).all():
+        direction = towards(start, geometry.behind[vertex])
+    right, up = np.clip(direction, -1e6, 1e6).tolist()
+    return right, up
 
 
 def _paint_chip(painter: QPainter, box: QRectF, text: str, color: str, theme: Theme) -> None:

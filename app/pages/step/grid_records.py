@@ -137,8 +137,16 @@ def geometry_of(
     # The triangle in focus keeps its handles: a drag may bring it back.
     is_left = ~is_dropped(trace, stage, position)[chosen] | (triangles == wanted)
     is_placed &= is_left[:, None]
-    in_front = (geometry.vertices.clip[corners, 3:] > 0) & is_placed.reshape(-1, 1)
+    clip = geometry.vertices.clip[corners]
+    in_front = (clip[:, 3:] > 0) & is_placed.reshape(-1, 1)
     window = np.where(in_front, geometry.vertices.window[corners, :2], np.nan)
+    is_behind = ~(clip[:, 3] > 0) & is_placed.ravel()
+    behind = None
+    if is_behind.any():
+        size = np.array(source.scene.size, float)
+        x_y, w = clip[:, :2], clip[:, 3:]
+        behind = np.hstack(((x_y + w) * size / 2 - origin * w, w))
+        behind[~is_behind] = np.nan
     with np.errstate(invalid="ignore"):
         snapped = np.rint(window * SUBPIXELS) / SUBPIXELS
     snaps = number_format(document.settings.coverage).corner_kind == "snapped"
@@ -148,6 +156,7 @@ def geometry_of(
         triangles=own_corners(np.arange(len(triangles)), corner_count).T,
         focus=0 if len(triangles) == 1 else int(place[0]) if len(place) else -1,
         snapped=(snapped - origin) if snaps else None,
+        behind=behind,
     )
 
 
@@ -164,8 +173,8 @@ def edge_overlay(geometry: GridGeometry, stage: StageTrace, position: int) -> Se
         count = known_edges(stage.steps.rows_done(position))[1]
     if len(geometry.focus_vertices) < 3 or not count:
         return None
-    a, b, c = geometry.vertices[geometry.triangles[geometry.focus]]
-    segments = np.array([[b, c], [c, a], [a, b]])[:count]
+    a, b, c = geometry.triangles[geometry.focus].tolist()
+    segments = geometry.edges(np.array([[b, c], [c, a], [a, b]]))[:count]
     return SegmentOverlay("edge lines", segments, (0, 1, 2)[:count], extended=True, title="edge lines")
 
 
