@@ -26,7 +26,7 @@ def edge_segments(
     From the end p in front, the edge to (X, Y, W) begins in the direction (X, Y) - W p, for any W: what is seen of it
     is a ray, since it meets the plane w = 0 infinitely far away.
     """
-    ends = vertices[pairs]
+    ends: NDArray[np.float64] = vertices[pairs]
     if behind is None:
         return ends
     for here, there in ((0, 1), (1, 0)):
@@ -41,4 +41,5 @@ def edge_segments(
 
 def towards(start: NDArray[np.float64], goal: NDArray[np.float64]) -> NDArray[np.float64]:
     """Return (..., 2) the direction in which goals (..., 3) in homogeneous window coordinates lie, of any length."""
-    return goal[..., :2] - start * goal[..., 2:]
+    direction: NDArray[np.float64] = goal[..., :2] - start * goal[..., 2:]
+    return direction

@@ -44,5 +44,9 @@ def test_drawn_edges_bound_the_pixels_of_a_triangle_that_crosses_the_near_plane(
             for start, stop in pieces
             if min(start[1], stop[1]) <= row + 0.5
         ]
-        inside = [x for x in np.arange(64) if min(ends) <= x + 0.5 <= max([*ends[1:], 64.0 if len(ends) < 2 else 0.0])]
+        inside = [
+            x
+            for x in np.arange(64)
+            if min(ends) <= x + 0.5 <= max([*ends[1:], 64.0 if len(ends) < 2 else 0.0])
+        ]
         np.testing.assert_array_equal(in_row, inside)
