@@ -127,6 +127,13 @@ def clipped_segment() -> ClipScene:
     return replace(lying, clip_region=np.array([-0.5, -0.5, 0.5, 0.5]))
 
 
+def segment_in_polygon() -> ClipScene:
+    """One segment through a clip window of five corners, which it enters and leaves through slanted sides."""
+    lying = assembled("segments", [1.5, 14.5], [3.5, 9.5], (16, 12))
+    corners = np.array([[4, 2], [12, 2], [14, 6], [8, 10], [2, 6]])
+    return replace(lying, clip_region=corners / (8, 6) - 1)
+
+
 def line_strip() -> ClipScene:
     """Five segments, each of which begins where the one before ends."""
     x, y = [2.5, 9.5, 14.5, 20.5, 24.5, 29.5], [12.5, 12.5, 18.5, 18.5, 8.5, 8.5]
@@ -242,6 +249,13 @@ CATALOGUE = (
         "One segment crosses a window from pixel (4, 3) to (12, 9): choose a line clipper, and step it.",
         clipped_segment,
         {"line_clipping": "liang-barsky"},
+    ),
+    BuiltInScene(
+        "polygon-window",
+        "Segment and convex polygon",
+        "One segment crosses a window of five corners, which Cyrus-Beck clips to.",
+        segment_in_polygon,
+        {"line_clipping": "cyrus-beck"},
     ),
     BuiltInScene(
         "line-strip",

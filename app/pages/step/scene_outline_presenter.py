@@ -12,7 +12,7 @@ from app.session.session import Session
 from core.explain.kinds import of_kind
 from core.families import WholeNumber
 from core.methods import table
-from core.scene import Scene
+from core.scene import ClipScene, Scene
 from core.settings import DEFAULTS, FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
 from core.stages.declared import DECLARED, stage_of
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
@@ -160,4 +160,7 @@ def _choice(document: Document, family: str, name: str) -> SettingChoice:
     is_orthographic = isinstance(scene, Scene) and scene.camera.projection == "orthographic"
     if "perspective" in found.needs and is_orthographic:
         refusal = "It needs a perspective camera: 1/w is constant for an orthographic one."
+    region = scene.clip_region if isinstance(scene, ClipScene) else None
+    if "rectangle" in found.needs and region is not None and region.ndim == 2:
+        refusal = "It needs a rectangle, and the clip window is a polygon."
     return SettingChoice(name, found.title, tooltip, refusal, name not in FAMILIES[family].classical)

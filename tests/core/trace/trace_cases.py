@@ -81,7 +81,17 @@ def textured_clip_scene() -> ClipScene:
     return ClipScene(clip, uv, (10, 8), texture)
 
 
-LEFT_OUT = ("fan", "triangle-strip", "polygon", "z-fighting", "teapot", "sphere", "torus", "knot")
+LEFT_OUT = (
+    "fan",
+    "triangle-strip",
+    "polygon",
+    "polygon-window",
+    "z-fighting",
+    "teapot",
+    "sphere",
+    "torus",
+    "knot",
+)
 """Built-in scenes with too many triangles, or with nothing that the others lack."""
 SCENES = {name: small_scene(name) for name in scene_names() if name not in LEFT_OUT} | {
     "lit": lit_scene(),

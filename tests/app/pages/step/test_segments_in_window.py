@@ -149,3 +149,21 @@ def test_a_typed_segment_is_stepped_in_six_actions_and_clipped_in_three_more(
     assert actions <= 3
     assert session.document.settings.line_clipping == clipper.lower()
     assert session.stage_trace.extra["outline_clip"].lines.is_kept.all()
+
+
+def test_clippers_of_rectangles_are_refused_for_a_polygon(window: MainWindow) -> None:
+    open_scene(window, "polygon-window")
+    (record,) = (r for r in settings_records(window.session.document) if r.family == "line_clipping")
+    refused = {choice.value for choice in record.choices if choice.refusal}
+    assert {"cohen-sutherland", "liang-barsky"} <= refused
+    assert not {"none", "cyrus-beck"} & refused
+    before = window.session.document
+    with pytest.raises(ValueError, match="cohen-sutherland needs a rectangle"):
+        window.session.set_setting("line_clipping", "cohen-sutherland")
+    assert window.session.document is before
+    window.session.set_setting("line_clipping", "cyrus-beck")
+    assert len(window.page.grids.geometry.focus_vertices) == 2
+    open_scene(window, "clipped-segment")
+    window.session.set_setting("line_clipping", "liang-barsky")
+    window.open_path("polygon-window")
+    assert window.session.document.settings.line_clipping in ("none", "liang-barsky")
