@@ -1,0 +1,74 @@
+"""What all types of answers share."""
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+from lessons.exercises.draws import Draws
+
+Response = Any
+"""An answer that was read: its type of answer knows its shape, and two that are the same compare equal."""
+
+
+class NotCheckedError(ValueError):
+    """An answer is empty or malformed: it is not checked yet and costs nothing. The message is one sentence."""
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What an answer earns, and why."""
+
+    score: float
+    """From 0 to 1."""
+    counts: str
+    """In words, as ``12 right, 1 missing, 2 extra``."""
+    marks: Mapping[str, Any] = field(default_factory=dict)
+    """What is right and what is not, by ``right``, ``missing``, ``extra`` or ``wrong``; pixels, cells or items."""
+
+
+class Answer(ABC):
+    """A type of answer with the right one."""
+
+    kind: ClassVar[str]
+    """The name of files, as ``pixels``."""
+    reference: Response
+    """The right answer."""
+
+    @property
+    @abstractmethod
+    def credit(self) -> str:
+        """How points are given, as the question states it."""
+
+    @property
+    def chance(self) -> float:
+        """Mean score of random answers; 0: nothing to speak of."""
+        return 0.0
+
+    @abstractmethod
+    def read(self, given: object) -> Response:
+        """Return what ``given``, from a TOML file or a form, means; NotCheckedError where it means nothing."""
+
+    @abstractmethod
+    def check(self, response: Response) -> Verdict:
+        """Return what an answer earns."""
+
+    @abstractmethod
+    def is_same(self, one: Response, other: Response) -> bool:
+        """Return whether two answers say the same, within the tolerance."""
+
+    @abstractmethod
+    def is_slip(self, response: Response) -> bool:
+        """Return whether a wrong answer differs from the right one in the smallest way: one pixel, one digit."""
+
+    @abstractmethod
+    def text(self, response: Response) -> str:
+        """Return an answer as text, as it was understood."""
+
+    @abstractmethod
+    def random(self, draws: Draws) -> Response:
+        """Return an answer of somebody who guesses."""
+
+    @abstractmethod
+    def extremes(self) -> list[Response]:
+        """Return the answers of somebody who marks all, or nothing: they must earn nothing."""

@@ -1,0 +1,116 @@
+"""Numbers as a learner writes them: ``1/3``, ``sqrt(2)``, ``-inf``, ``1e-3``, and products and quotients of these."""
+
+import re
+from fractions import Fraction
+from math import inf, isclose, isqrt, sqrt
+
+Number = Fraction | float
+"""Exact wherever it can be; a float for roots of other than squares, and for infinities."""
+
+LENGTH_LIMIT = 60
+"""Longest number in characters."""
+LARGEST = 10**300
+"""Largest number that is finite."""
+_DECIMAL = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
+_FACTOR = rf"(?:{_DECIMAL}|sqrt\({_DECIMAL}(?:/{_DECIMAL})?\)|inf)"
+_NUMBER = re.compile(rf"([+-]?)({_FACTOR})((?:[*/]{_FACTOR})*)")
+_NEXT = re.compile(rf"([*/])({_FACTOR})")
+
+
+def read_number(text: str) -> Number:
+    """Return the number that ``text`` stands for.
+
+    Raises
+    ------
+    ValueError
+        If it is no number, not a number (NaN), or beyond ``LARGEST``; the message is one sentence.
+
+    Examples
+    --------
+    >>> read_number("-2/6"), read_number("sqrt(9/4)"), read_number("1e-3")
+    (Fraction(-1, 3), Fraction(3, 2), Fraction(1, 1000))
+    """
+    plain = text.strip().replace("−", "-").replace(" ", "")
+    found = _NUMBER.fullmatch(plain) if len(plain) <= LENGTH_LIMIT else None
+    if found is None:
+        shown = f"{plain[:20]}..." if len(plain) > 20 else plain
+        raise ValueError(f"expected a number such as 5, 1/3, sqrt(2), -inf or 1e-3, got {shown!a}")
+    sign, first, rest = found.groups()
+    value = _factor(first)
+    for operator, factor in _NEXT.findall(rest):
+        value = _combined(value, operator, _factor(factor), plain)
+    if plain not in ("inf", "+inf", "-inf") and not -LARGEST <= value <= LARGEST:
+        raise ValueError(f"expected a number up to 1e300, got {plain}; infinity is written inf")
+    return -value if sign == "-" else value
+
+
+def is_infinite(value: Number) -> bool:
+    """Return whether a number is infinite; `math.isinf` fails on large fractions."""
+    return value in (inf, -inf)
+
+
+def _factor(text: str) -> Number:
+    if text == "inf":
+        return inf
+    if not text.startswith("sqrt"):
+        number = Fraction(text)
+        if number > LARGEST:
+            raise ValueError(f"expected a number up to 1e300, got {text}; infinity is written inf")
+        return number
+    numerator, _, denominator = text[5:-1].partition("/")
+    if denominator and not Fraction(denominator):
+        raise ValueError(f"division by zero in {text}")
+    square = Fraction(numerator) / Fraction(denominator or "1")
+    root = Fraction(isqrt(square.numerator), isqrt(square.denominator))
+    if root * root == square:
+        return root
+    if not 1 / LARGEST < square < LARGEST:
+        raise ValueError(f"expected the root of a number up to 1e300, got {text}")
+    return sqrt(square)
+
+
+def _combined(value: Number, operator: str, factor: Number, text: str) -> Number:
+    if is_infinite(value) or is_infinite(factor):
+        raise ValueError(f"infinity stands alone, as inf or -inf, got {text}")
+    if operator == "/" and factor == 0:
+        raise ValueError(f"division by zero in {text}")
+    result: Number = value * factor if operator == "*" else value / factor
+    return result
+
+
+def number_text(value: Number) -> str:
+    """Return a number as it was understood: exact fractions with their decimals behind them.
+
+    Examples
+    --------
+    >>> number_text(Fraction(1, 3)), number_text(Fraction(-4)), number_text(inf)
+    ('1/3 (0.3333)', '-4', 'inf')
+    """
+    if isinstance(value, float):
+        return f"{value:.6g}"
+    if value.denominator == 1 and abs(value) < 10**12:
+        return str(value.numerator)
+    decimals = f"{float(value):.4g}"
+    if value.denominator > 10**6 or abs(value.numerator) > 10**12 or Fraction(decimals) == value:
+        return decimals
+    return f"{value} ({decimals})"
+
+
+def are_close(one: Number, other: Number, tolerance: float) -> bool:
+    """Return whether two numbers differ by no more than ``tolerance``, absolute; 0: exact but for rounded roots."""
+    if is_infinite(one) or is_infinite(other):
+        return one == other
+    if isinstance(one, Fraction) and isinstance(other, Fraction):
+        return abs(one - other) <= Fraction(tolerance)
+    return abs(float(one) - float(other)) <= tolerance or isclose(one, other, rel_tol=1e-12)
+
+
+def is_one_digit_off(one: Number, other: Number) -> bool:
+    """Return whether two numbers differ in one digit, or in the sign alone, as they are written."""
+    if is_infinite(one) or is_infinite(other) or one == other:
+        return False
+    if one == -other:
+        return True
+    texts = [str(value) if isinstance(value, Fraction) else f"{value:.6g}" for value in (one, other)]
+    first, second = texts
+    return len(first) == len(second) and sum(a != b for a, b in zip(first, second, strict=True)) == 1

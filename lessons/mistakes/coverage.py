@@ -1,0 +1,180 @@
+"""Mistakes of coverage, of the window and of culling."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from core import Settings
+from core.raster.edges.snapping import window_position
+from core.records.arrays import Flags, Floats
+from core.records.frame import Frame
+from core.scene import ClipScene
+from lessons.mistakes.twin import Case, Twin
+from lessons.small_scenes import rectangle_corners, triangle_scene
+
+SQUARE = triangle_scene(rectangle_corners(0.5, 0.5, 4.5, 4.5), (6, 6))
+"""Its sides and its diagonal run through pixel centres."""
+FREE = triangle_scene([[(1.1, 1.2), (6.3, 2.1), (3.2, 6.4)]], (8, 8))
+"""No pixel centre lies on its edges."""
+WHOLE = triangle_scene([[(1, 1), (6, 2), (3, 6)]], (8, 8))
+"""Its corners are whole numbers."""
+EVERYWHERE = triangle_scene([[(-20, -20), (40, -20), (-20, 40)]], (6, 6))
+LEVEL = triangle_scene([*rectangle_corners(1, 1, 4, 2.5), *rectangle_corners(1, 2.5, 4, 4)], (6, 6))
+"""A level edge runs through the centres of row 2."""
+THIN = triangle_scene([[(1.4, 1.4), (2.4, 1.4), (1.9, 8)]], (5, 9))
+LOW = triangle_scene([[(1, 1.6), (6, 1.6), (3, 6.4)]], (8, 8))
+
+
+def in_window(scene: ClipScene) -> Floats:
+    """Return the corners of a scene in pixels, (T, 3, 2)."""
+    return np.asarray(window_position(scene.clip, scene.size))
+
+
+def with_places(scene: ClipScene, places: Floats) -> ClipScene:
+    """Return a scene whose corners lie at other places (T, 3, 2) in the window; depth and w are unchanged."""
+    clip = scene.clip.copy()
+    clip[..., :2] = (2 * places / scene.size - 1) * clip[..., 3:]
+    return replace(scene, clip=clip)
+
+
+def rounded(scene: ClipScene) -> ClipScene:
+    """Round all corners to whole pixels, half up."""
+    return with_places(scene, np.floor(in_window(scene) + 0.5))
+
+
+def rounded_rows(scene: ClipScene) -> ClipScene:
+    """Round the y of all corners, half up."""
+    places = in_window(scene)
+    places[..., 1] = np.floor(places[..., 1] + 0.5)
+    return with_places(scene, places)
+
+
+def y_down(scene: ClipScene) -> ClipScene:
+    """Count y from the top; triangles keep their facing, as in a program that also exchanges it."""
+    clip = scene.clip.copy()
+    clip[..., 1] *= -1
+    return replace(scene, clip=clip)
+
+
+def transposed(frame: Frame, scene: ClipScene) -> Frame:
+    """Exchange rows and columns; what falls out of the window is lost, what is missing is cleared."""
+    buffers = {}
+    for name, cleared in (
+        ("color", 0),
+        ("depth", 1),
+        ("primitive", -1),
+        ("attributes", 0),
+        ("cover_count", 0),
+    ):
+        buffer = getattr(frame, name)
+        turned = np.full_like(buffer, cleared)
+        side = min(buffer.shape[:2])
+        turned[:side, :side] = buffer[:side, :side].swapaxes(0, 1)
+        buffers[name] = turned
+    return replace(frame, **buffers)
+
+
+def short_box(frame: Frame, scene: ClipScene) -> Frame:
+    """Leave out what lies in the column and the row of the truncated right and upper end of a triangle's box."""
+    primitive = frame.primitive.copy()
+    for triangle, (column, row) in enumerate(in_window(scene).max(axis=1).astype(int)):
+        kept = np.zeros(primitive.shape, bool)
+        kept[: max(row, 0), : max(column, 0)] = True
+        primitive[(primitive == triangle) & ~kept] = -1
+    return replace(frame, primitive=primitive)
+
+
+def owns_slanted(a: Floats, b: Floats) -> Flags:
+    """Own left edges, and never a level one."""
+    return np.asarray(a > 0)
+
+
+def owns_level(a: Floats, b: Floats) -> Flags:
+    """Own left edges, and every level one."""
+    return np.asarray(a >= 0)
+
+
+def facing_exchanged(settings: Settings) -> Settings:
+    """Drop front faces where back faces should go, and the other way round."""
+    return replace(settings, cull={"back": "front", "front": "back"}.get(settings.cull, settings.cull))
+
+
+TWINS = (
+    Twin(
+        "corner-for-center",
+        "The pixel was tested at its lower left corner (i, j). Its centre (i + 1/2, j + 1/2) decides.",
+        Case(WHOLE),
+        Case(EVERYWHERE),
+        change_settings=lambda settings: replace(settings, pixel_center="integer"),
+    ),
+    Twin(
+        "all-edges-inclusive",
+        "Every centre on an edge was counted (E >= 0). Of two triangles that share the edge only one owns it.",
+        Case(SQUARE),
+        Case(FREE),
+        change_settings=lambda settings: replace(settings, fill_rule="inclusive"),
+    ),
+    Twin(
+        "all-edges-exclusive",
+        "No centre on an edge was counted (E > 0). Left edges, and level bottom edges, own theirs.",
+        Case(SQUARE),
+        Case(FREE),
+        change_settings=lambda settings: replace(settings, fill_rule="exclusive"),
+    ),
+    Twin(
+        "level-edges-never",
+        "Centres on level edges were never counted. A level edge owns them where it is the bottom edge.",
+        Case(LEVEL),
+        Case(FREE),
+        change_settings=lambda settings: settings.replaced(fill_rule=owns_slanted),
+    ),
+    Twin(
+        "level-edges-always",
+        "Centres on level edges were always counted. A level edge owns them only where it is the bottom edge.",
+        Case(LEVEL),
+        Case(FREE),
+        change_settings=lambda settings: settings.replaced(fill_rule=owns_level),
+    ),
+    Twin(
+        "vertices-rounded",
+        "The vertices were rounded to whole pixels. They keep their fractions (to 1/256 pixel).",
+        Case(THIN),
+        Case(WHOLE),
+        change_scene=rounded,
+    ),
+    Twin(
+        "rows-rounded",
+        "The y of the vertices was rounded to whole pixels. It keeps its fraction (to 1/256 pixel).",
+        Case(LOW),
+        Case(WHOLE),
+        change_scene=rounded_rows,
+    ),
+    Twin(
+        "box-truncated",
+        "The last column and row are missing: the box ended before int(max). It must include that pixel.",
+        Case(triangle_scene([[(1, 1), (6.9, 1), (6.9, 6)]], (8, 8))),
+        Case(WHOLE),
+        change_frame=short_box,
+    ),
+    Twin(
+        "y-down",
+        "The picture is upside down: y was counted from the top. Row 0 is the bottom row.",
+        Case(FREE),
+        Case(triangle_scene([[(1.1, 3), (5.3, 1.3), (5.3, 4.7)]], (6, 6))),
+        change_scene=y_down,
+    ),
+    Twin(
+        "rows-and-columns",
+        "Rows and columns are exchanged. A pixel is (column, row): x first.",
+        Case(FREE),
+        Case(triangle_scene([[(1.1, 1.1), (5.3, 1.3), (1.3, 5.3)]], (6, 6))),
+        change_frame=transposed,
+    ),
+    Twin(
+        "facing-exchanged",
+        "The facing is exchanged: counter-clockwise triangles are the front.",
+        Case(FREE, Settings(cull="back")),
+        Case(FREE),
+        change_settings=facing_exchanged,
+    ),
+)

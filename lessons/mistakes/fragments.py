@@ -1,0 +1,209 @@
+"""Mistakes of interpolation, depth and blending."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from core import Settings
+from core.framebuffer.blending import over
+from core.framebuffer.depth import DepthFormat
+from core.framebuffer.display import linear_light, srgb
+from core.methods import table
+from core.records.arrays import Floats, Singles
+from core.records.frame import Frame
+from core.scene import ClipScene
+from lessons.mistakes.twin import Case, Twin
+from lessons.small_scenes import triangle_scene
+
+WINDOW = [(-20, -20), (40, -20), (-20, 40)]
+"""A triangle over the whole of a small window."""
+CORNERS = [(1, 1), (7, 1), (1, 7)]
+RAMP = [[(1, 0, 0, 1), (0, 1, 0, 1), (0, 0, 1, 1)]]
+TILTED = triangle_scene([CORNERS], (8, 8), w=[[1, 4, 2]], attributes=RAMP)
+UPRIGHT = triangle_scene([CORNERS], (8, 8), attributes=RAMP)
+GREY = triangle_scene([CORNERS], (8, 8), attributes=np.full((1, 3, 4), 0.5))
+NEAR_FIRST = triangle_scene([WINDOW, WINDOW], (4, 4), depth=[[0.25] * 3, [0.75] * 3])
+FAR_FIRST = triangle_scene([WINDOW, WINDOW], (4, 4), depth=[[0.75] * 3, [0.25] * 3])
+ONE_CARD = triangle_scene([WINDOW], (4, 4))
+
+
+def layers(*colors: tuple[float, float, float, float]) -> Case:
+    """Return cards over the whole window, blended in drawing order over black."""
+    attributes = [[color] * 3 for color in colors]
+    scene = triangle_scene([WINDOW] * len(colors), (4, 4), attributes=attributes)
+    black = np.array([0.0, 0.0, 0.0, 1.0])
+    return Case(replace(scene, background=black), Settings(blend="over", visibility="last-drawn"))
+
+
+RED_AND_BLUE = layers((1, 0, 0, 0.5), (0, 0, 1, 0.5))
+CLEAR_RED = layers((1, 0, 0, 0.25))
+OPAQUE = layers((1, 0, 0, 1))
+
+
+def divided_by_w(scene: ClipScene) -> ClipScene:
+    """Divide the attributes by w."""
+    assert scene.attributes is not None
+    return replace(scene, attributes=scene.attributes / scene.clip[..., 3:])
+
+
+def inverted_w(scene: ClipScene) -> ClipScene:
+    """Put 1/w in place of w; corners and depths stay where they are."""
+    return replace(scene, clip=scene.clip / scene.clip[..., 3:] ** 2)
+
+
+def without_w(scene: ClipScene) -> ClipScene:
+    """Put 1 in place of w; corners and depths stay where they are."""
+    return replace(scene, clip=scene.clip / scene.clip[..., 3:])
+
+
+def turned_attributes(scene: ClipScene) -> ClipScene:
+    """Give each corner the attributes of the next one."""
+    assert scene.attributes is not None
+    return replace(scene, attributes=np.roll(scene.attributes, 1, axis=1))
+
+
+def affine(settings: Settings) -> Settings:
+    """Interpolate without w."""
+    return replace(settings, interpolation="affine")
+
+
+def farther_wins(settings: Settings) -> Settings:
+    """Compare depths the wrong way, and clear to the nearest."""
+    right: DepthFormat = table.get("depth", settings.depth).function()
+    wrong = replace(right, cleared=1.0 - right.cleared, larger_is_nearer=not right.larger_is_nearer)
+    return settings.replaced(depth=lambda: wrong)
+
+
+def reversed_order(scene: ClipScene) -> ClipScene:
+    """Draw the triangles in the other order."""
+    assert scene.attributes is not None
+    return replace(scene, clip=scene.clip[::-1], attributes=scene.attributes[::-1])
+
+
+def original_numbers(frame: Frame, scene: ClipScene) -> Frame:
+    """Number the triangles as they were given before their order was turned round."""
+    primitive = np.where(frame.primitive < 0, -1, len(scene.clip) - 1 - frame.primitive)
+    return replace(frame, primitive=primitive.astype(np.int32))
+
+
+def multiplied_twice(source: Floats, destination: Singles) -> Singles:
+    """Blend a colour that was multiplied by its alpha already."""
+    return over(np.concatenate([source[:, :3] * source[:, 3:], source[:, 3:]], axis=1), destination)
+
+
+def factors_exchanged(source: Floats, destination: Singles) -> Singles:
+    """Weigh the source by 1 - alpha and what is there by alpha; the alpha of the result is right."""
+    mixed = over(np.concatenate([source[:, :3], 1 - source[:, 3:]], axis=1), destination)
+    return np.concatenate([mixed[:, :3], over(source, destination)[:, 3:]], axis=1)
+
+
+def blended_in_srgb(source: Floats, destination: Singles) -> Singles:
+    """Blend encoded colours as if they were linear."""
+    encoded = np.concatenate([srgb(source[:, :3]), source[:, 3:]], axis=1)
+    there = np.concatenate([srgb(destination[:, :3].astype(float)), destination[:, 3:]], axis=1)
+    mixed = over(encoded, there.astype(np.float32))
+    mixed[:, :3] = linear_light(mixed[:, :3].astype(float))
+    return mixed
+
+
+def alpha_of_source(source: Floats, destination: Singles) -> Singles:
+    """Keep the alpha of the source as that of the result."""
+    mixed = over(source, destination)
+    mixed[:, 3] = source[:, 3]
+    return mixed
+
+
+def with_blend(rule: Callable[[Floats, Singles], Singles]) -> Callable[[Settings], Settings]:
+    """Return what replaces the blending of settings."""
+    return lambda settings: settings.replaced(blend=rule)
+
+
+TWINS = (
+    Twin(
+        "affine-for-perspective",
+        "The attribute was interpolated without w. With perspective, u/w and 1/w are linear in the window, u is not.",
+        Case(TILTED),
+        Case(UPRIGHT),
+        change_settings=affine,
+    ),
+    Twin(
+        "w-overwritten",
+        "w was 1 when it was used. The w of the clip position must be kept after the divide.",
+        Case(TILTED),
+        Case(UPRIGHT),
+        change_scene=without_w,
+    ),
+    Twin(
+        "not-divided-back",
+        "u/w was interpolated but not divided by the interpolated 1/w.",
+        Case(TILTED),
+        Case(UPRIGHT),
+        change_settings=affine,
+        change_scene=divided_by_w,
+    ),
+    Twin(
+        "multiplied-by-w",
+        "The attribute was multiplied by w where it is divided by w.",
+        Case(TILTED),
+        Case(UPRIGHT),
+        change_scene=inverted_w,
+    ),
+    Twin(
+        "weights-permuted",
+        "The weights are turned by one vertex: alpha belongs to vertex 0, beta to vertex 1, gamma to vertex 2.",
+        Case(UPRIGHT),
+        Case(GREY),
+        change_scene=turned_attributes,
+    ),
+    Twin(
+        "farther-wins",
+        "The depth test went the wrong way: the smaller window depth is nearer.",
+        Case(NEAR_FIRST),
+        Case(ONE_CARD),
+        change_settings=farther_wins,
+    ),
+    Twin(
+        "no-depth-test",
+        "Depths were stored without a test, so the last one drawn won.",
+        Case(NEAR_FIRST),
+        Case(FAR_FIRST),
+        change_settings=lambda settings: replace(settings, visibility="last-drawn"),
+    ),
+    Twin(
+        "order-reversed",
+        "The layers were blended in the other order. The one drawn last lies on top.",
+        RED_AND_BLUE,
+        CLEAR_RED,
+        change_scene=reversed_order,
+        change_frame=original_numbers,
+    ),
+    Twin(
+        "multiplied-twice",
+        "The colour was multiplied by its alpha twice.",
+        CLEAR_RED,
+        OPAQUE,
+        change_settings=with_blend(multiplied_twice),
+    ),
+    Twin(
+        "factors-exchanged",
+        "The factors are exchanged: the source counts alpha, what is there counts 1 - alpha.",
+        CLEAR_RED,
+        RED_AND_BLUE,
+        change_settings=with_blend(factors_exchanged),
+    ),
+    Twin(
+        "blended-in-srgb",
+        "sRGB values were mixed as if they were linear. Decode them, mix, encode the result.",
+        CLEAR_RED,
+        OPAQUE,
+        change_settings=with_blend(blended_in_srgb),
+    ),
+    Twin(
+        "alpha-of-source",
+        "The result got the alpha of the source. It is a + (1 - a) times the alpha that was there.",
+        CLEAR_RED,
+        OPAQUE,
+        change_settings=with_blend(alpha_of_source),
+    ),
+)

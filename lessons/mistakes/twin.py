@@ -1,0 +1,96 @@
+"""A faulty twin: a run with another function, a changed input, or a changed output."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from core import Settings, clip_lines, draw_lines, render
+from core.raster.edges.snapping import window_position
+from core.records.arrays import Floats
+from core.records.frame import Frame
+from core.scene import ClipScene
+from core.settings import DEFAULTS
+
+Reading = Callable[[ClipScene, Settings], object]
+"""What is compared of a run that draws no frame; two readings are the same run where they compare equal."""
+
+
+def _same_settings(settings: Settings) -> Settings:
+    return settings
+
+
+def _same_scene(scene: ClipScene) -> ClipScene:
+    return scene
+
+
+def _same_frame(frame: Frame, scene: ClipScene) -> Frame:
+    return frame
+
+
+@dataclass(frozen=True)
+class Case:
+    """A scene in which a mistake shows, or hides."""
+
+    scene: ClipScene
+    settings: Settings = DEFAULTS
+    reading: Reading | None = None
+    """What is compared; ``None``: all buffers of the frame."""
+
+
+@dataclass(frozen=True)
+class Twin:
+    """One mistake."""
+
+    name: str
+    """The spelling of files, as ``corner-for-center``."""
+    sentence: str
+    """What was done, and what is right, in a sentence or two that a learner reads."""
+    shows: Case
+    hides: Case
+    change_settings: Callable[[Settings], Settings] = _same_settings
+    """Chooses another method, or replaces its function."""
+    change_scene: Callable[[ClipScene], ClipScene] = _same_scene
+    change_frame: Callable[[Frame, ClipScene], Frame] = _same_frame
+    """Changes what was drawn, of the scene as it was given: this can be shown, not stepped."""
+
+    def draw(self, scene: ClipScene, settings: Settings) -> Frame:
+        """Draw a scene with this mistake."""
+        return self.change_frame(render(self.change_scene(scene), self.change_settings(settings)), scene)
+
+    def read(self, case: Case) -> object:
+        """Return what this mistake makes of a case."""
+        if case.reading is None:
+            return frame_bytes(self.draw(case.scene, case.settings))
+        return case.reading(self.change_scene(case.scene), self.change_settings(case.settings))
+
+
+def right_reading(case: Case) -> object:
+    """Return what a case gives without a mistake."""
+    if case.reading is None:
+        return frame_bytes(render(case.scene, case.settings))
+    return case.reading(case.scene, case.settings)
+
+
+def frame_bytes(frame: Frame) -> tuple[bytes, ...]:
+    """Return the bytes of all buffers of a frame."""
+    buffers = (frame.color, frame.depth, frame.primitive, frame.attributes, frame.cover_count)
+    return tuple(buffer.tobytes() for buffer in buffers)
+
+
+def segment_ends(scene: ClipScene) -> Floats:
+    """Return where the segments of a scene lie in the window, (L, 2, 2) pixels."""
+    return np.asarray(window_position(scene.clip, scene.size))
+
+
+def line_pixels(scene: ClipScene, settings: Settings) -> frozenset[tuple[int, int]]:
+    """Return the pixels of the segments of a scene."""
+    pixels = draw_lines(segment_ends(scene), *scene.size, settings.line).pixels
+    return frozenset((column, row) for column, row in pixels.tolist())
+
+
+def clipped_ends(scene: ClipScene, settings: Settings) -> list[list[list[float]]]:
+    """Return what is left of the segments of a scene in its window."""
+    clipped = clip_lines(segment_ends(scene), (0, 0, *scene.size), settings.line_clipping)
+    left: list[list[list[float]]] = clipped.segments[clipped.is_kept].tolist()
+    return left

@@ -1,0 +1,75 @@
+"""Every faulty twin shows in one scene and hides in another; the figures that go with some of them."""
+
+import numpy as np
+import pytest
+
+from core import Settings, render, trace
+from lessons.mistakes import coverage, fragments, lines
+from lessons.mistakes.clipping import ACROSS, segment
+from lessons.mistakes.shelf import SHELF, twin_named
+from lessons.mistakes.twin import Twin, line_pixels, right_reading
+
+
+@pytest.mark.parametrize("twin", SHELF.values(), ids=SHELF)
+def test_a_mistake_shows_in_one_scene_and_hides_in_another(twin: Twin) -> None:
+    assert twin.read(twin.shows) != right_reading(twin.shows)
+    assert twin.read(twin.hides) == right_reading(twin.hides)
+    assert twin.sentence.endswith(".")
+
+
+def test_names_are_unique_and_unknown_ones_refused() -> None:
+    modules = (coverage, lines, fragments)
+    assert len(SHELF) == 6 + sum(len(module.TWINS) for module in modules)
+    with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):
+        twin_named("'; DROP TABLE twins")
+
+
+def covers(name: str, scene) -> tuple[int, int]:
+    frame = twin_named(name).draw(scene, Settings()) if name else render(scene)
+    return int((frame.primitive >= 0).sum()), int((frame.cover_count > 1).sum())
+
+
+def test_the_square_on_centres_has_25_or_6_pixels_for_16() -> None:
+    assert covers("", coverage.SQUARE) == (16, 0)
+    assert covers("all-edges-inclusive", coverage.SQUARE) == (25, 5)
+    assert covers("all-edges-exclusive", coverage.SQUARE) == (6, 0)
+    assert covers("", coverage.WHOLE) == covers("corner-for-center", coverage.WHOLE) == (11, 0)
+
+
+def test_lines_go_wrong_where_they_are_known_to() -> None:
+    def pixels(name: str, case) -> set[tuple[int, int]]:
+        settings = twin_named(name).change_settings(case.settings) if name else case.settings
+        return line_pixels(case.scene, settings)
+
+    right = pixels("", lines.GENTLE)
+    columns = {
+        name: {x for x, _ in pixels(name, lines.GENTLE) ^ right} for name in ("ties-step", "row-truncated")
+    }
+    assert columns == {"ties-step": {5}, "row-truncated": {3, 6, 8}}
+    assert {x for x, _ in pixels("start-not-doubled", lines.GENTLE) ^ right} == {8}
+    steep = twin_named("one-octant").shows
+    assert {y for _, y in pixels("one-octant", steep)} == {1, 2, 3}
+    assert max(y for _, y in pixels("slope-always-up", twin_named("slope-always-up").shows)) == 7
+
+
+def test_clipped_ends_are_those_of_the_mistakes() -> None:
+    def ends(name: str, case) -> list[list[float]]:
+        return np.round(twin_named(name).read(case), 9).reshape(-1, 2).tolist()
+
+    assert ends("ends-clamped", ACROSS) == [[0, 0], [8, 6]]
+    assert ends("crossings-rounded", ACROSS) == [[1, 0], [8, 6]]
+    assert ends("cut-once", ACROSS) == [[0, -1.1], [8, 6.1]]
+    assert ends("top-and-bottom", ACROSS) == ends("normals-inward", segment((2, 1), (6, 5))) == []
+
+
+def test_mistakes_that_draw_the_same_are_known() -> None:
+    case = twin_named("affine-for-perspective").shows
+    assert twin_named("w-overwritten").read(case) == twin_named("affine-for-perspective").read(case)
+
+
+def test_a_faulty_line_can_be_stepped() -> None:
+    faulty = twin_named("ties-step").change_settings(lines.LECTURE)
+    traced = trace(lines.GENTLE.scene, faulty).stage("raster")
+    last = traced.state(traced.steps.count)["overdraw"]
+    np.testing.assert_array_equal(last, render(lines.GENTLE.scene, faulty).cover_count)
+    assert (last != render(lines.GENTLE.scene, lines.LECTURE).cover_count).any()
