@@ -172,8 +172,12 @@ class ListingView(QPlainTextEdit):
             return
         block = self.document().findBlockByNumber(self._line - 1)
         if block.isValid():
-            self.setTextCursor(QTextCursor(block))
-            self.ensureCursorVisible()
+            # Its last row first, then its first one: a line that is wrapped is seen whole where there is room.
+            cursor = QTextCursor(block)
+            for part in (QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveOperation.StartOfBlock):
+                cursor.movePosition(part)
+                self.setTextCursor(cursor)
+                self.ensureCursorVisible()
 
     @Slot(object)
     def show_breakpoints(self, lines: Collection[int]) -> None:

@@ -103,9 +103,12 @@ def _units(stage: str, corner_count: int) -> Units:
 
 def _counted(units: Units, incoming: int, outgoing: int, is_predicting: bool, form: int) -> str:
     """Return what goes in and comes out with its units, in words (0) or signs (1); one unit is written once."""
-    takes, gives = (unit[form] for unit in units)
+    takes, gives = (
+        unit[form].removesuffix("s") if count == 1 and not is_predicting else unit[form]
+        for unit, count in zip(units, (incoming, outgoing), strict=True)
+    )
     ins, outs = ("?", "?") if is_predicting else (f"{incoming:,}", f"{outgoing:,}")
-    return f"{ins} → {outs} {gives}" if takes == gives else f"{ins} {takes} → {outs} {gives}"
+    return f"{ins} → {outs} {gives}" if units[0] == units[1] else f"{ins} {takes} → {outs} {gives}"
 
 
 def _state_and_reason(

@@ -156,6 +156,11 @@ def test_the_marked_line_is_in_view_in_a_view_that_shrinks_or_was_hidden(qtbot, 
     view.resize(420, 80)
     view.show()
     qtbot.waitUntil(lambda: is_in_view(31))
+    lines = [f"line_{number} = {number}" for number in range(1, 41)]
+    lines[20] = " + ".join(["a_long_name"] * 10)
+    view.show_listing(ListingText("wrapped", "\n".join(lines)))
+    view.show_line(21)
+    assert is_in_view(21)
 
 
 def test_no_line_is_marked_over_the_hint_of_an_empty_view(view) -> None:

@@ -53,6 +53,13 @@ def test_an_empty_picture_computes_nothing() -> None:
     assert chapter.reason == ""
 
 
+def test_one_is_not_written_in_the_plural() -> None:
+    chapters = chapters_by_stage("single-triangle")
+    assert chapters["cull"].counts == "1 → 1 triangle"
+    assert chapters["bin"].counts == "1 triangle → 816 pixels"
+    assert chapters_by_stage("single-triangle", is_predicting=True)["cull"].counts == "? → ? triangles"
+
+
 def test_the_present_stage_and_those_that_nobody_chose() -> None:
     chapters = chapters_by_stage("single-triangle")
     assert chapters["raster"].state is ChapterState.CURRENT

@@ -70,7 +70,7 @@ def test_stages_of_areas_are_skipped_with_a_reason(window: MainWindow) -> None:
     skipped = {chapter.title: chapter.reason for chapter in chapters if chapter.state is ChapterState.SKIPPED}
     assert skipped["Edges"] == "A segment has no edge functions: it has no inside."
     assert skipped["Bin"] == "A segment has no area: its pixels are found without boxes and blocks."
-    assert chapters[STAGES.index("raster")].counts == "1 segments → 9 fragments"
+    assert chapters[STAGES.index("raster")].counts == "1 segment → 9 fragments"
 
 
 @pytest.mark.parametrize("name", ["segment", "points"])
