@@ -131,8 +131,7 @@ class GridDisplay(QWidget):
         if not before.is_same(mark):
             placement = self.placement()
             for reach in (before.reach(placement), mark.reach(placement)):
-                if not reach.isNull():
-                    self._update_rect(reach)
+                self._update_rect(reach)
 
     def show_hidden(self, hidden: NDArray[np.bool_] | None) -> None:
         """Cover the cells of an (H, W) mask until they have been predicted; None covers none."""
@@ -277,9 +276,21 @@ class GridDisplay(QWidget):
                 self.update(area)
 
     def _update_rect(self, rect: QRectF) -> None:
-        """Have a part painted, with the room that marks take around it."""
+        """Have a part painted, with the room that marks take around it.
+
+        Where the step's mark reaches into it, all of the mark is: Qt draws a part of a smooth line otherwise than the
+        whole line.
+        """
+        area, mark = self._with_room(rect), self._with_room(self._step.reach(self.placement()))
+        self.update(area)
+        if area.intersects(mark):
+            self.update(mark)
+
+    def _with_room(self, rect: QRectF) -> QRect:
+        """Return the part of the widget in which something in a rectangle is drawn; of none, none."""
         room = 10
-        self.update(rect.adjusted(-room, -room, room, room).toAlignedRect().intersected(self.rect()))
+        grown = QRectF() if rect.isNull() else rect.adjusted(-room, -room, room, room)
+        return grown.toAlignedRect().intersected(self.rect())
 
     def _viewport(self, rows: int) -> QRect:
         """Return the part of the widget that shows pixels."""

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
 from widgets.basics.theme import Theme, faded
 from widgets.grid.line_clip import widget_lines
@@ -14,6 +14,8 @@ from widgets.grid.view import GridPlacement
 
 _LEAST_SIDE = 7.0
 """Marks of smaller cells are drawn around the cell at this size, so that they are found."""
+_RING = 9.0
+"""Radius of the ring around a point, in widget pixels."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,13 +44,20 @@ class StepMark:
         )
 
     def reach(self, placement: GridPlacement) -> QRectF:
-        """Return where in the widget something is marked; lines may lie anywhere."""
+        """Return where in the widget something is marked; of nothing, nothing."""
         if len(self.lines) or len(self.points):
-            return QRectF(placement.viewport)
-        places = np.concatenate([self.pixels, self.trail])
-        if not len(places):
+            points = self.points[np.isfinite(self.points).all(axis=1)].tolist()
+            places = [placement.to_widget(x, y) for x, y in points]
+            places += [
+                end for line in widget_lines(self.lines, placement)[0] for end in (line.p1(), line.p2())
+            ]
+            ring = _RING + 3.0  # with its pen
+            around = QPolygonF(places).boundingRect().adjusted(-ring, -ring, ring, ring)
+            return around.intersected(QRectF(placement.viewport)) if places else QRectF()
+        pixels = np.concatenate([self.pixels, self.trail])
+        if not len(pixels):
             return QRectF()
-        (column0, row0), (column1, row1) = places.min(axis=0).tolist(), places.max(axis=0).tolist()
+        (column0, row0), (column1, row1) = pixels.min(axis=0).tolist(), pixels.max(axis=0).tolist()
         return placement.cells_rect(column0, row0, column1 - column0 + 1, row1 - row0 + 1)
 
 
@@ -62,7 +71,7 @@ def paint_step_mark(painter: QPainter, placement: GridPlacement, mark: StepMark,
         painter.setPen(pen)
         painter.drawLines(lines)
         for x, y in mark.points[np.isfinite(mark.points).all(axis=1)].tolist():
-            painter.drawEllipse(placement.to_widget(x, y), 9.0, 9.0)
+            painter.drawEllipse(placement.to_widget(x, y), _RING, _RING)
     painter.restore()
     paint_step(painter, placement, mark.pixels, theme)
 

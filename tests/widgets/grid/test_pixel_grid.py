@@ -187,6 +187,21 @@ def test_partial_painting_equals_painting_everything(grid: PixelGrid, qtbot, zoo
         assert picture(grid) == picture(fresh), index
 
 
+def test_a_cell_under_the_trail_is_painted_as_with_everything(grid: PixelGrid) -> None:
+    # Part of a smooth line is not what the whole line is there: its pixels differed by 1 of 255.
+    places = np.stack((np.arange(8) * 5 % 24, np.arange(8) * 7 % 16), axis=1)
+    values = np.random.default_rng(3).random((16, 24))
+    grid.show_step(StepMark(places[-1:], trail=places))
+    for column, row in ((10, 7), (14, 3), (6, 10), (17, 9)):
+        values = values.copy()
+        values[row, column] = 1.0 - values[row, column]
+        grid.show_buffer(GridBuffer("z", values, range=(0, 1)))
+        QApplication.processEvents()
+        in_parts = grid.screen().grabWindow(grid.winId()).toImage()
+        grid.repaint()
+        assert in_parts == grid.screen().grabWindow(grid.winId()).toImage()
+
+
 def test_the_same_again_paints_nothing(grid: PixelGrid, qtbot) -> None:
     values = np.arange(384.0).reshape(16, 24)
     mask = values > 100
