@@ -31,7 +31,9 @@ def trace_clip(source: TraceSource) -> StageTrace:
     clipped = geometry.clipped
     kept = geometry.kept
     crossed = clipped.clipped if clipped is not None else np.empty(0, np.int64)
-    untouched = np.setdiff1d(np.arange(len(kept)), crossed)
+    is_untouched = np.ones(len(kept), bool)
+    is_untouched[crossed] = False
+    untouched = np.flatnonzero(is_untouched)
     rows = clipped.rows if clipped is not None else None
     polygon = np.concatenate([crossed[rows.polygon] if rows is not None else crossed, untouched])
     order = np.argsort(polygon, kind="stable")

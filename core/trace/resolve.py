@@ -191,7 +191,9 @@ def _pieces(source: TraceSource) -> tuple[Parts, PixelCuts | None]:
     most = int(place.max(initial=0)) + 1
     samples, weights = np.zeros((count, most, 4), np.float32), np.zeros((count, most))
     triangle = np.full((count, most), -1)
-    untouched = np.setdiff1d(np.arange(count), pieces.touched)
+    is_untouched = np.ones(count, bool)
+    is_untouched[pieces.touched] = False
+    untouched = np.flatnonzero(is_untouched)
     samples[untouched, 0], weights[untouched, 0] = source.scene.background, 1.0
     at = pixel, place
     samples[at], weights[at] = pieces.color[order], pieces.area[order]

@@ -6,7 +6,7 @@ from importlib import import_module
 
 from core.resolved import resolve
 from core.settings import Settings
-from core.stages.declared import stage_of
+from core.stages.declared import STAGES, stage_of
 from core.trace.samples import trace_samples
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace
@@ -17,6 +17,12 @@ def tracer_of(stage: str) -> Callable[[TraceSource], StageTrace]:
     module, _, name = stage_of(stage).tracer.rpartition(".")
     found: Callable[[TraceSource], StageTrace] = getattr(import_module(module), name)
     return found
+
+
+def load_tracers() -> None:
+    """Import what traces the stages: each of them is otherwise imported when it is first traced."""
+    for stage in STAGES:
+        tracer_of(stage)
 
 
 def trace_stage(source: TraceSource, name: str) -> StageTrace:

@@ -2,7 +2,7 @@
 
 import numpy as np
 from PySide6.QtCore import QRect, QSize, Qt, Signal
-from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap
+from PySide6.QtGui import QColor, QIcon, QPainter, QPixmap, QShowEvent
 from PySide6.QtWidgets import QCheckBox, QWidget
 
 from widgets.basics.controls import column_layout
@@ -50,6 +50,9 @@ class OverlayLegend(QWidget):
         super().__init__(parent)
         self._boxes: dict[str, QCheckBox] = {}
         self._overlays: tuple[Overlay, ...] = ()
+        self._shown: frozenset[str] = frozenset()
+        self._listed: list[tuple[str, str, str]] = []
+        """Key, label and look of each checkbox."""
         self._rows = column_layout(self, 0)
         self.setAccessibleName("Overlays")
         theme_notifier().theme_changed.connect(self._repaint_swatches)
@@ -58,14 +61,26 @@ class OverlayLegend(QWidget):
         self, overlays: tuple[Overlay, ...] | list[Overlay], shown: frozenset[str] | None = None
     ) -> None:
         """List the overlays on offer; ``shown`` are the keys of those that are on (None: as before)."""
-        before, kept = self._overlays, self.shown_keys() if shown is None else shown
         self._overlays = tuple(overlays)
+        kept = self._shown if shown is None else shown
+        self._shown = kept & {overlay.key for overlay in self._overlays}
+        if self.isVisible():
+            self._fill()
+
+    def showEvent(self, event: QShowEvent) -> None:
+        """List what came while nobody saw it."""
+        super().showEvent(event)
+        self._fill()
+
+    def _fill(self) -> None:
+        """List the overlays, with those checked that are on."""
         looks = [(item.key, item.label, _look(item)) for item in self._overlays]
-        if looks != [(item.key, item.label, _look(item)) for item in before]:
+        if looks != self._listed:
+            self._listed = looks
             self._rebuild()
         for key, box in self._boxes.items():
             box.blockSignals(True)
-            box.setChecked(key in kept)
+            box.setChecked(key in self._shown)
             box.blockSignals(False)
 
     def box(self, key: str) -> QCheckBox:
@@ -74,7 +89,7 @@ class OverlayLegend(QWidget):
 
     def shown_keys(self) -> frozenset[str]:
         """Return the keys of the overlays that are on."""
-        return frozenset(key for key, box in self._boxes.items() if box.isChecked())
+        return self._shown
 
     def shown_overlays(self) -> tuple[Overlay, ...]:
         """Return the overlays that are on, the first lowest."""
@@ -99,12 +114,14 @@ class OverlayLegend(QWidget):
 
     def _tell(self) -> None:
         """Tell which overlays are on."""
-        self.overlays_changed.emit(self.shown_keys())
+        self._shown = frozenset(key for key, box in self._boxes.items() if box.isChecked())
+        self.overlays_changed.emit(self._shown)
 
     def _repaint_swatches(self) -> None:
         """Paint the swatches with the present theme."""
         for item in self._overlays:
-            self._boxes[item.key].setIcon(QIcon(swatch(item, current_theme(), self.devicePixelRatioF())))
+            if item.key in self._boxes:
+                self._boxes[item.key].setIcon(QIcon(swatch(item, current_theme(), self.devicePixelRatioF())))
 
 
 def swatch(overlay: Overlay, theme: Theme, ratio: float) -> QPixmap:

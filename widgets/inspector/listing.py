@@ -5,8 +5,9 @@ import keyword
 import math
 import re
 import tokenize
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 
 from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
@@ -23,6 +24,7 @@ from PySide6.QtGui import (
     QShowEvent,
     QTextCharFormat,
     QTextCursor,
+    QTextLayout,
     QTextOption,
 )
 from PySide6.QtWidgets import QApplication, QFrame, QPlainTextEdit, QTextEdit, QWidget
@@ -51,23 +53,22 @@ class ListingText:
     """Python text; line numbers count from 1."""
 
 
-def token_formats(source: str) -> Iterator[tuple[int, int, int, int, str]]:
-    """Where each token that has a look of its own begins and ends.
+@lru_cache(maxsize=64)
+def token_formats(source: str) -> tuple[tuple[int, int, int, int, str], ...]:
+    """Return where each token that has a look of its own begins and ends.
 
-    Yields
-    ------
-    tuple of int, int, int, int, str
+    Returns
+    -------
+    tuple of (int, int, int, int, str)
         First line (from 1), first column, last line, last column, and one of ``keyword``, ``comment``,
         ``string``, ``number``, ``vertex0``, ``vertex1``, ``vertex2``.
     """
     try:
         tokens = list(tokenize.generate_tokens(io.StringIO(source).readline))
     except (tokenize.TokenError, SyntaxError):
-        return
-    for token in tokens:
-        kind = _token_kind(token)
-        if kind:
-            yield *token.start, *token.end, kind
+        return ()
+    kinds = [_token_kind(token) for token in tokens]
+    return tuple((*token.start, *token.end, kind) for token, kind in zip(tokens, kinds, strict=True) if kind)
 
 
 def _token_kind(token: tokenize.TokenInfo) -> str:
@@ -115,6 +116,8 @@ class ListingView(QPlainTextEdit):
     """The user wants the next step of this line (from 1)."""
     breakpoint_toggled = Signal(int)
     """The user wants a breakpoint set on, or removed from, this line (from 1)."""
+    room_changed = Signal()
+    """`height_of` is another: for other listings, in another width or type."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -122,6 +125,7 @@ class ListingView(QPlainTextEdit):
         self._breakpoints: frozenset[int] = frozenset()
         self._pressed_at = QPoint()
         self._title = ""
+        self._in_turn: frozenset[str] = frozenset()
         self.setReadOnly(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setWordWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
@@ -153,7 +157,16 @@ class ListingView(QPlainTextEdit):
         self.setPlainText(listing.source.rstrip("\n") if listing else "")
         self.setAccessibleName(f"Listing of {self._title}" if self._title else "Listing")
         self._color_tokens()
-        self._follow_theme()
+        self._place_margin()
+        if self.toPlainText() not in self._in_turn:
+            self.room_changed.emit()
+
+    def keep_room_for(self, sources: Iterable[str]) -> None:
+        """Be high enough for each of these listings, which are shown in turn: then none of them moves anything."""
+        in_turn = frozenset(source.rstrip("\n") for source in sources)
+        if in_turn != self._in_turn:
+            self._in_turn = in_turn
+            self.room_changed.emit()
 
     @Slot(object)
     def show_line(self, line: int | None) -> None:
@@ -196,15 +209,27 @@ class ListingView(QPlainTextEdit):
         return None
 
     def height_of(self, lines: int, is_wrapped: bool = True) -> int:
-        """Return the height of the first lines, wrapped as they are, or of so many rows."""
-        row = self.fontMetrics().lineSpacing()
-        block, rows = self.document().firstBlock(), 0.0
-        for _ in range(lines):
-            height = self.blockBoundingRect(block).height() if is_wrapped and block.isValid() else row
-            rows += max(height, row)
-            block = block.next()
+        """Return the height of the first lines of every listing shown in turn, wrapped, or of so many rows."""
+        row, rows = self.fontMetrics().lineSpacing(), lines
+        if is_wrapped:
+            rows = max(self._rows(source, lines) for source in {self.toPlainText(), *self._in_turn})
         # Half a row more: Qt scrolls by whole ones.
-        return math.ceil(min(rows, MOST_ROWS * row) + row / 2 + 2 * self.document().documentMargin())
+        return math.ceil(min(rows, MOST_ROWS) * row + row / 2 + 2 * self.document().documentMargin())
+
+    def _rows(self, source: str, lines: int) -> int:
+        """Return how many rows the first lines of a source take, beside a scroll bar; at least one for each."""
+        bar = self.verticalScrollBar().sizeHint().width()
+        width = self.width() - self.margin_width() - bar - 2 * self.document().documentMargin()
+        rows = lines
+        for text in source.split("\n")[:lines]:
+            layout = QTextLayout(text, self.font())
+            layout.setTextOption(QTextOption(self.document().defaultTextOption()))
+            layout.beginLayout()
+            while (line := layout.createLine()).isValid():
+                line.setLineWidth(width)
+            layout.endLayout()
+            rows += max(layout.lineCount() - 1, 0)
+        return rows
 
     def margin_width(self) -> int:
         """Room for a mark and the largest line number."""
@@ -259,6 +284,8 @@ class ListingView(QPlainTextEdit):
         """Keep the margin beside the text, and the line of the step in view."""
         super().resizeEvent(event)
         self._place_margin()
+        if event.size().width() != event.oldSize().width():
+            self.room_changed.emit()
         self._bring_line_into_view()
 
     def showEvent(self, event: QShowEvent) -> None:
@@ -350,6 +377,7 @@ class ListingView(QPlainTextEdit):
         }
         looks |= {"string": _look(theme.muted_text), "number": _look(theme.text)}
         everything = QTextCursor(self.document())
+        everything.beginEditBlock()  # The text is laid out once, at its end.
         everything.select(QTextCursor.SelectionType.Document)
         everything.setCharFormat(_look(theme.text))
         for first_line, first_column, last_line, last_column, kind in token_formats(self.toPlainText()):
@@ -358,6 +386,7 @@ class ListingView(QPlainTextEdit):
             end = self.document().findBlockByNumber(last_line - 1).position() + last_column
             cursor.setPosition(end, QTextCursor.MoveMode.KeepAnchor)
             cursor.setCharFormat(looks[kind])
+        everything.endEditBlock()
 
     @Slot()
     def _follow_theme(self) -> None:
@@ -373,6 +402,7 @@ class ListingView(QPlainTextEdit):
         self._color_tokens()
         self._mark_line()
         self._place_margin()
+        self.room_changed.emit()
 
 
 def _look(color: str, *, is_bold: bool = False, is_italic: bool = False) -> QTextCharFormat:

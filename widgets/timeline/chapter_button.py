@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass
 from enum import Enum, IntEnum
+from functools import lru_cache
 
 from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import (
@@ -16,7 +17,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QAbstractButton, QSizePolicy, QWidget
 
 from widgets.basics.marks import blended
-from widgets.basics.theme import current_theme, text_font
+from widgets.basics.theme import Theme, current_theme, text_font
 
 _SIDE = 6
 """Room at both sides of a chapter's text."""
@@ -113,15 +114,7 @@ class ChapterButton(QAbstractButton):
 
     def wanted_width(self, spelling: Spelling) -> int:
         """Return the width in pixels that a spelling needs."""
-        chapter, small = self._chapter, QFontMetrics(self._small_font())
-        # The title may become bold, and a stage may become needed, while nothing should move.
-        name = QFontMetrics(self._title_font(is_bold=True)).horizontalAdvance(chapter.title)
-        key = small.horizontalAdvance(chapter.key)
-        if spelling is Spelling.KEY and chapter.key and chapter.state is not ChapterState.CURRENT:
-            return key + 2 * _SIDE
-        title = name + (key + 4 if chapter.key else 0)
-        line = small.horizontalAdvance(chapter.second_line(spelling))
-        return max(title, line) + 2 * _SIDE
+        return _wanted_width(self._chapter, spelling, current_theme())
 
     def sizeHint(self) -> QSize:
         """Room for a title and a line of counts."""
@@ -207,9 +200,26 @@ class ChapterButton(QAbstractButton):
             painter.fillRect(QRectF(x, track.top() - 3.0, 3.0, _STRIP + 3.0), QColor(theme.accent))
 
     def _title_font(self, *, is_bold: bool = False) -> QFont:
-        font = text_font(current_theme())
-        font.setBold(is_bold)
-        return font
+        return _title_font(current_theme(), is_bold=is_bold)
 
     def _small_font(self) -> QFont:
         return text_font(current_theme(), current_theme().small_px)
+
+
+@lru_cache(maxsize=256)
+def _wanted_width(chapter: Chapter, spelling: Spelling, theme: Theme) -> int:
+    small = QFontMetrics(text_font(theme, theme.small_px))
+    # The title may become bold, and a stage may become needed, while nothing should move.
+    name = QFontMetrics(_title_font(theme, is_bold=True)).horizontalAdvance(chapter.title)
+    key = small.horizontalAdvance(chapter.key)
+    if spelling is Spelling.KEY and chapter.key and chapter.state is not ChapterState.CURRENT:
+        return key + 2 * _SIDE
+    title = name + (key + 4 if chapter.key else 0)
+    line = small.horizontalAdvance(chapter.second_line(spelling))
+    return max(title, line) + 2 * _SIDE
+
+
+def _title_font(theme: Theme, *, is_bold: bool = False) -> QFont:
+    font = text_font(theme)
+    font.setBold(is_bold)
+    return font

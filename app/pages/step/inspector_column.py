@@ -68,12 +68,12 @@ class InspectorColumn(QScrollArea):
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         session.pin_changed.connect(self._show_history)
-        self.listing.textChanged.connect(self.fit)
+        self.listing.room_changed.connect(self.fit)
         theme_notifier().theme_changed.connect(self.fit)
         self.fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Wrap the listing anew."""
+        """Give the listing what room there is now."""
         super().resizeEvent(event)
         self.fit()
 

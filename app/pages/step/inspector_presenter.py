@@ -85,6 +85,7 @@ class InspectorPresenter(QObject):
             self._stage = cursor.stage
             self._card.show_card(stage_card(cursor.stage, trace.method, trace.corner_count))
             self._card.show_folded(cursor.stage in self._folded)
+            self._listing.keep_room_for(listing.source for listing in trace.listings.values())
         self._sentence.setText(self.sentence())
         explanation = trace.explain(cursor.position)
         if explanation is None:

@@ -1,11 +1,16 @@
 """What the next steps say, made before they are shown, while the user looks at this one."""
 
+from functools import cache
+from threading import Thread
+
 from PySide6.QtCore import QObject, QTimer, Slot
 
 from app.session.session import Session
 from core.explain import formula, initial_sentence, sentence, summary_sentence, variables
+from core.explain.steps import load_subjects
 from core.records.steps import Level
 from core.trace import StageTrace
+from core.trace.tracers import load_tracers
 from widgets.inspector.formula_view import Formula, FormulaView
 
 QUIET_MS = 20
@@ -29,6 +34,19 @@ def sentence_at(trace: StageTrace, position: int, level: Level) -> str:
     assert explanation is not None
     pixel = (int(trace.pixel[row, 0]), int(trace.pixel[row, 1]))
     return sentence(explanation, triangle, pixel if pixel[0] >= 0 else None)
+
+
+@cache
+def load_stages() -> Thread:
+    """Begin to load what stages are traced and explained with, off the GUI thread; later calls only return it."""
+    loading = Thread(target=_load, name="stages", daemon=True)
+    loading.start()
+    return loading
+
+
+def _load() -> None:
+    load_tracers()
+    load_subjects()
 
 
 class StepsAhead(QObject):
@@ -66,6 +84,9 @@ class StepsAhead(QObject):
     @Slot()
     def _prepare(self) -> None:
         """Explain one step, or typeset one cell of its formula."""
+        if load_stages().is_alive():
+            self._timer.start(QUIET_MS)
+            return
         if self._formula is None:
             if not self._positions:
                 return

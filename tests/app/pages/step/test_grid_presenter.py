@@ -48,6 +48,7 @@ def test_a_title_brings_its_buffer_into_the_main_view(window: MainWindow) -> Non
 
 
 def test_overlays_stack(window: MainWindow) -> None:
+    window.page.toggle_pane("overlays")
     legend = window.page.legend
     for key in ("covered", "outside 0"):
         legend.box(key).click()

@@ -5,9 +5,10 @@ from collections import Counter
 import pytest
 from PySide6.QtCore import QEvent, QObject, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QWidget
+from PySide6.QtWidgets import QApplication, QCheckBox, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.pages.step.steps_ahead import load_stages
 from app.window.main_window import MainWindow
 from core.records.steps import Level
 
@@ -70,3 +71,28 @@ def test_panes_that_are_folded_away_are_filled_when_they_are_unfolded(window: Ma
     assert page.settings_panel.findChildren(QComboBox) == []
     page.show_panes(["methods"])
     assert page.settings_panel.findChildren(QComboBox) != []
+    assert page.legend.findChildren(QCheckBox) == []
+    page.show_panes(["overlays"])
+    assert page.legend.findChildren(QCheckBox) != []
+
+
+def test_listings_that_take_turns_in_a_stage_move_nothing(window: MainWindow, qtbot: QtBot) -> None:
+    session, listing = window.session, window.page.listing
+    qtbot.waitUntil(lambda: listing.width() < 400)
+    session.set_stage("edges", 0)
+    session.set_level(Level.GROUP)
+    session.step(1)
+    room, functions = listing.minimumHeight(), set()
+    for _ in range(4):
+        functions.add(listing.accessibleName())
+        assert listing.minimumHeight() == room
+        session.step(1)
+    assert len(functions) > 1
+
+
+def test_what_stages_are_traced_with_is_loaded_once_the_window_stands(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(lambda: not window.page.inspector.ahead.is_working)
+    assert load_stages.cache_info().currsize == 1
+    assert not load_stages().is_alive()
