@@ -307,6 +307,7 @@ class StepPage(Page):
             if self.formula.is_complete():
                 break
             QThread.msleep(10)
+        self._settle_layouts()
         while self.views.is_drawing or self.navigation.is_drawing:
             QCoreApplication.processEvents()
             QThread.msleep(5)
