@@ -5,6 +5,7 @@ from functools import partial
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QTimer, Signal, Slot
+from PySide6.QtGui import QPolygonF
 
 from app.session.document import Document
 from app.session.latest_call import LatestCall
@@ -139,15 +140,14 @@ class NavigatorPresenter(QObject):
         return window if is_seen else None
 
     def _place(self) -> None:
-        """Put it into the corner of the grid where it hides neither the step nor much of the triangle in focus."""
+        """Put it into the corner of the grid where it hides neither the step nor a vertex, nor much of the triangle."""
         navigator, placement = self._navigator, self._grid.placement()
         inside = placement.viewport.adjusted(MARGIN, MARGIN, -MARGIN, -MARGIN)
         box = navigator.rect()
-        triangle, corners = QRectF(), self._focus_corners()
+        triangle, corners = QPolygonF(), self._focus_corners()
         if corners is not None:
             own = corners * self._session.document.traced_scene.size - np.array(placement.origin)
-            low, high = (placement.to_widget(*own_ends.tolist()) for own_ends in (own.min(0), own.max(0)))
-            triangle = QRectF(low, high).normalized()
+            triangle = QPolygonF([placement.to_widget(*corner) for corner in own.tolist()])
         places = [
             QPoint(x, y)
             for x in (inside.right() - box.width() + 1, inside.left())
@@ -156,10 +156,10 @@ class NavigatorPresenter(QObject):
 
         step = self._step_cell()
 
-        def hidden(place: QPoint) -> tuple[bool, float]:
+        def hidden(place: QPoint) -> tuple[bool, int, float]:
             own = QRectF(place, box.size())
-            part = triangle.intersected(own)
-            return own.intersects(step), part.width() * part.height()
+            part = triangle.intersected(QPolygonF(own))
+            return own.intersects(step), sum(map(own.contains, triangle.toList())), _area(part)
 
         navigator.move(min(places, key=hidden))
         navigator.raise_()
@@ -222,6 +222,11 @@ class NavigatorPresenter(QObject):
             if not region.intersects(QRectF(QPointF(*low), QPointF(*high))):
                 triangle = self._session.document.triangle
                 self.message_sent.emit(f"Triangle {triangle} is not in this region. F goes back to it.")
+
+
+def _area(polygon: QPolygonF) -> float:
+    x, y = np.array([(point.x(), point.y()) for point in polygon.toList()]).reshape(-1, 2).T
+    return float(abs(x @ np.roll(y, -1) - y @ np.roll(x, -1))) / 2
 
 
 def _region_of(document: Document) -> tuple[float, float, float, float]:

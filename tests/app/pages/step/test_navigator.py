@@ -132,3 +132,18 @@ def test_the_navigator_keeps_off_the_step(window: MainWindow) -> None:
     session.go_to(trace.steps.position_after(hidden))
     cell = placement.cells_rect(*trace.pixel[hidden].tolist()).toRect()
     assert not page.navigator.geometry().intersects(cell)
+
+
+def test_the_navigator_hides_no_vertex_where_a_corner_is_free(window: MainWindow) -> None:
+    page, session = window.page, window.session
+    window.resize(1280, 800)
+    session.open(open_document(built_in_scene("teapot").make(), "Teapot"))
+    page.show_view("pixels")
+    session.set_stage("raster", 0)
+    QApplication.processEvents()
+    placement, document = page.grid.placement(), session.document
+    assert document.triangle is not None
+    vertices = session.trace.source.geometry.vertices
+    window = vertices.window[vertices.corners[document.triangle], :2] - np.array(placement.origin)
+    box = page.navigator.geometry()
+    assert not any(box.contains(placement.to_widget(*place).toPoint()) for place in window.tolist())
