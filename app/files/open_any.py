@@ -13,7 +13,7 @@ from app.files.named_files import OutsideWarning
 from app.files.state_files import EXTENSION, State, load_state
 from app.session.document import Document, check_drawing, open_document, shortened
 from core.scene import AnyScene
-from lessons.scenes import built_in_scene, scene_names
+from lessons.slides.scenes import ALL_SCENES
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,12 +58,12 @@ def open_any(
     OpeningCancelledError
         If ``is_cancelled()``.
     """
-    if target in scene_names():
-        built_in = built_in_scene(target)
+    built_in = ALL_SCENES.get(target)
+    if built_in is not None:
         return Opened(open_document(built_in.make(), built_in.title))
     path = Path(target)
     if not target or (not path.suffix and not path.exists()):
-        known = ", ".join(scene_names())
+        known = ", ".join(ALL_SCENES)
         raise MeshFileError(
             f"there is no file and no built-in scene named '{target}'; the built-in scenes are {known}"
         )

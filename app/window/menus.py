@@ -15,7 +15,8 @@ from app.window.appearance import DESK_THEMES, TEXT_SIZES
 from app.window.key_choices import KeyChoices
 from app.window.keys import ACTIONS, KeyAction, key_text
 from app.window.preferences import preferences_folder
-from lessons.scenes import CATALOGUE
+from lessons.scenes import CATALOGUE, BuiltInScene
+from lessons.slides.scenes import LECTURE_SCENES
 from widgets.basics.theme import current_theme
 
 MENUS = ("File", "Edit", "Step", "Stage", "Raster", "Compare", "Stability", "Plan", "View", "Help")
@@ -59,6 +60,7 @@ class Menus(QObject):
         self.recent_menu = QMenu("Open &recent", window)
         self.earlier_menu = QMenu("Earlier &windows", window)
         self.scene_menu = QMenu("Built-in &scenes", window)
+        self.lecture_menu = QMenu("Scenes of the &lectures", window)
         self.scale_group = QActionGroup(self)
         self.bookmark_menu = QMenu("Boo&kmarks", window)
         self.theme_group, self.text_size_group = QActionGroup(self), QActionGroup(self)
@@ -74,6 +76,7 @@ class Menus(QObject):
                 menus["File"].addMenu(self.recent_menu)
                 menus["File"].addMenu(self.earlier_menu)
                 menus["File"].addMenu(self.scene_menu)
+                menus["File"].addMenu(self.lecture_menu)
             if entry.name == "export_caption":
                 self._add_scales(menus["File"])
             if entry.name == "note_bookmark":
@@ -100,13 +103,18 @@ class Menus(QObject):
         return made
 
     def _fill_scenes(self) -> None:
-        for scene in CATALOGUE:
-            made = self.scene_menu.addAction(scene.title)
+        self._fill_scene_menu(self.scene_menu, CATALOGUE)
+        for lecture, scenes in LECTURE_SCENES.items():
+            self._fill_scene_menu(self.lecture_menu.addMenu(lecture), scenes)
+
+    def _fill_scene_menu(self, menu: QMenu, scenes: tuple[BuiltInScene, ...]) -> None:
+        for scene in scenes:
+            made = menu.addAction(scene.title)
             made.setStatusTip(scene.description)
             made.setToolTip(scene.description)
             made.setData(scene.name)
-        self.scene_menu.setToolTipsVisible(True)
-        self.scene_menu.triggered.connect(self._choose_scene)
+        menu.setToolTipsVisible(True)
+        menu.triggered.connect(self._choose_scene)
 
     def _add_rasters(self, menu: QMenu) -> None:
         sizes = menu.addMenu("Whole view at")

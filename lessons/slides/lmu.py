@@ -4,7 +4,7 @@ from functools import partial
 
 import numpy as np
 
-from core import Mesh, Scene, Settings, clip_lines, draw_lines, render
+from core import Settings, clip_lines, draw_lines, render
 from core.framebuffer.display import encode_srgb
 from core.geometry.line_clipping.records import ParameterRows
 from core.geometry.matrices import projection, scaling, transform
@@ -15,10 +15,9 @@ from lessons.printed.clipping import WINDOW
 from lessons.printed.projection import printed_depth_of
 from lessons.printed.records import slide_number
 from lessons.shapes import linear_color
+from lessons.slides.scenes import VERTICES, three_js_triangle
 
 SEGMENT = (-2.0, 1.0, 6.0, 5.0)
-VERTICES = np.array([(-5.0, -3.0, -10.0), (0.0, 5.0, -10.0), (10.0, -5.0, -10.0)])
-"""The three.js triangle."""
 LIANG_BARSKY, THREE_JS = "Liang-Barsky Algorithm", "Task 2 g) three.js construction"
 SCANLINE = "Task 1 g) Scan Line Algorithm for Triangles (cont.)"
 
@@ -68,17 +67,9 @@ def scanlines(*corners: tuple[float, float]) -> int:
     return len(draw_triangle(first, second, third, 16))
 
 
-def triangle_scene(face: tuple[int, int, int]) -> Scene:
-    """Return the three.js triangle with one order of its vertices, seen from the origin."""
-    colors = np.stack([linear_color(color) for color in ("#3399ff", "#00ffff", "#5500ee")])
-    mesh = Mesh(VERTICES * (1.5, 0.5, 2.0), np.array([face]), colors=colors, name="three.js triangle")
-    camera = Camera(np.zeros(3), np.array([0.0, 0.0, -1.0]), near=0.1, far=100.0)
-    return Scene((mesh,), camera, (), (64, 48))
-
-
 def drawn_pixels(face: tuple[int, int, int]) -> bool:
     """Return whether back-face culling leaves anything of the three.js triangle."""
-    return bool(render(triangle_scene(face), Settings(cull="back")).cover_count.any())
+    return bool(render(three_js_triangle(face), Settings(cull="back")).cover_count.any())
 
 
 def byte_color(color: str) -> tuple[int, ...]:

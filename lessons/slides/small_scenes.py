@@ -6,21 +6,18 @@ from numpy.typing import ArrayLike
 from core import ClipScene, Settings, render
 from core.geometry.polygon_clipping.sutherland_hodgman import clip_polygons, distance_from
 from core.records.arrays import Floats
-from lessons.scenes import window_triangle
+from lessons.small_scenes import triangle_scene
 
 Corners = tuple[tuple[float, float], ...]
+SPLIT_SQUARE = (((1.5, 1.5), (5.5, 1.5), (5.5, 4.5)), ((1.5, 1.5), (5.5, 4.5), (1.5, 4.5)))
+"""Two triangles whose outer edges and diagonal meet pixel centres."""
 
 
 def triangles(
-    *corners: Corners, size: tuple[int, int] = (8, 6), depth: ArrayLike = 0.5, colors: ArrayLike | None = None
+    *corners: Corners, size: tuple[int, int] = (8, 6), colors: ArrayLike | None = None
 ) -> ClipScene:
-    """Return triangles with w = 1 given by x and y in the window, each at its depth; ``colors`` (T, 3, 4)."""
-    depths = np.broadcast_to(np.asarray(depth, float), len(corners))
-    clip = [
-        window_triangle([x for x, _ in three], [y for _, y in three], np.full(3, z), np.ones(3), size)
-        for three, z in zip(corners, depths, strict=True)
-    ]
-    return ClipScene(np.array(clip), None if colors is None else np.asarray(colors, float), size)
+    """Return triangles with w = 1 given by x and y in the window, ``colors`` (T, 3, 4) at their corners."""
+    return triangle_scene(corners, size, attributes=colors)
 
 
 def pixel_count(scene: ClipScene, settings: Settings | None = None) -> int:

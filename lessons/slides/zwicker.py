@@ -12,7 +12,7 @@ from core.geometry.matrices import transform, viewport
 from core.raster.edges.edge_functions import covers
 from core.raster.number_formats.inverse import inverse_coefficients
 from lessons.printed.records import slide_number
-from lessons.slides.small_scenes import pixel_count, rounded, triangles
+from lessons.slides.small_scenes import SPLIT_SQUARE, pixel_count, rounded, triangles
 
 CORNERS = ((1.0, 0.0, 1.0), (6.0, 2.0, 2.0), (6.0, 15.0, 3.0))
 """x, y, w of a triangle, not divided."""
@@ -21,8 +21,6 @@ INVERSE, DETERMINANT = inverse_coefficients([list(corner) for corner in CORNERS]
 TURNED = (CORNERS[0], CORNERS[2], CORNERS[1])
 TEXTURE = [[[0.0], [1.0]], [[2.0], [4.0]]]
 """2 x 2 texels, the bottom row first."""
-SQUARE = (((1.5, 1.5), (5.5, 1.5), (5.5, 4.5)), ((1.5, 1.5), (5.5, 4.5), (1.5, 4.5)))
-"""Two triangles whose outer edges and diagonal meet pixel centres."""
 
 
 def edge_functions_at(x: float, y: float, w: float) -> tuple[float, ...]:
@@ -73,7 +71,7 @@ def unlike_brute_force() -> int:
 
 def cover_counts(fill_rule: str) -> tuple[int, int]:
     """Return how many pixels of two triangles with a common edge are drawn, and how many of them twice."""
-    count = render(triangles(*SQUARE), Settings(fill_rule=fill_rule)).cover_count
+    count = render(triangles(*SPLIT_SQUARE), Settings(fill_rule=fill_rule)).cover_count
     return int(np.count_nonzero(count)), int(np.count_nonzero(count > 1))
 
 

@@ -26,6 +26,8 @@ from core.methods import table
 from core.scene import ClipScene
 from core.trace.symbols import symbols_of
 from lessons.scenes import make_scene, scene_names
+from lessons.slides.catalogue import LECTURES
+from lessons.slides.scenes import ALL_SCENES
 from tests.app.cli.cli_runs import ROOT, run_program, start_program
 from tests.app.files.mesh_writing import SQUARE, write
 from tests.covering import in_turn
@@ -251,8 +253,11 @@ def test_methods_lists_the_whole_table():
 
 def test_scenes_lists_the_catalogue():
     lines = succeeded("scenes").splitlines()
-    assert [line.split()[0] for line in lines] == list(scene_names())
-    assert [row["name"] for row in json.loads(succeeded("scenes", "--json"))] == list(scene_names())
+    rows = json.loads(succeeded("scenes", "--json"))
+    assert [line.split()[0] for line in lines if line not in LECTURES.values()] == list(ALL_SCENES)
+    assert [row["name"] for row in rows] == list(ALL_SCENES)
+    assert list(dict.fromkeys(row["lecture"] for row in rows)) == ["", *LECTURES]
+    assert [row["name"] for row in rows if not row["lecture"]] == list(scene_names())
 
 
 def test_version_and_help():

@@ -5,7 +5,6 @@ from functools import cache
 
 import pytest
 
-from app.files.open_any import scene_names
 from app.help.library import find_page, guide_page, page
 from app.help.places import occurrences, places
 from app.help.reference import NEEDS, listings_of
@@ -17,6 +16,7 @@ from core.stages.declared import STAGES
 from core.study.accuracy.families import study_families
 from core.study.stability import experiments
 from lessons.glossary import find_terms, glossary
+from lessons.scenes import scene_names
 from tests.core.test_methods_are_complete import NEEDS as KNOWN_NEEDS
 
 

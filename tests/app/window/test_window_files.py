@@ -19,6 +19,7 @@ from app.window.reopening import reopen
 from core.records.steps import Level
 from core.scene import Scene
 from lessons.scenes import built_in_scene
+from lessons.slides.scenes import LECTURE_SCENES
 from tests.app.files.mesh_writing import write_image
 from widgets.basics.theme import DARK, current_theme
 from widgets.grid.view import GridView
@@ -130,6 +131,16 @@ def test_a_built_in_scene_by_menu(window: MainWindow, qtbot: QtBot) -> None:
     cube.trigger()
     qtbot.waitUntil(lambda: window.session.document.title == cube.text(), timeout=20000)
     assert window.page.grid.buffer() is not None
+
+
+def test_a_scene_of_a_lecture_by_menu(window: MainWindow, qtbot: QtBot) -> None:
+    lectures = [action.menu() for action in window.menus.lecture_menu.actions()]
+    assert [menu.title() for menu in lectures] == list(LECTURE_SCENES)
+    line = lectures[1].actions()[0]
+    line.trigger()
+    qtbot.waitUntil(
+        lambda: window.session.document.title == line.text() == "Line of slope 0.4", timeout=20000
+    )
 
 
 def test_a_state_opens_where_it_was_left(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:

@@ -1,0 +1,134 @@
+"""The lectures' own examples as scenes, lecture by lecture: their numbers are those of `lessons.slides.catalogue`."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+
+from core.scene import Camera, ClipScene, Mesh, Scene
+from lessons.scenes import CATALOGUE, RED_GREEN_BLUE, BuiltInScene
+from lessons.shapes import linear_color
+from lessons.slides.small_scenes import SPLIT_SQUARE, triangles
+from lessons.small_scenes import pixel_segments, segment_scene
+
+VERTICES = np.array([(-5.0, -3.0, -10.0), (0.0, 5.0, -10.0), (10.0, -5.0, -10.0)])
+"""The three.js triangle."""
+
+
+def three_js_triangle(face: tuple[int, int, int] = (0, 2, 1)) -> Scene:
+    """Return the three.js triangle after its vertex shader, with one order of its vertices, seen from the origin."""
+    colors = np.stack([linear_color(color) for color in ("#3399ff", "#00ffff", "#5500ee")])
+    mesh = Mesh(VERTICES * (1.5, 0.5, 2.0), np.array([face]), colors=colors, name="three.js triangle")
+    camera = Camera(np.zeros(3), np.array([0.0, 0.0, -1.0]), near=0.1, far=100.0)
+    return Scene((mesh,), camera, (), (64, 48))
+
+
+def segment(x0: float, y0: float, x1: float, y1: float) -> Callable[[], ClipScene]:
+    """Return the maker of a segment between the centres of two pixels of 16 x 12."""
+    return lambda: pixel_segments([((x0, y0), (x1, y1))], (16, 12))
+
+
+def clipped(x0: float, y0: float, x1: float, y1: float) -> Callable[[], ClipScene]:
+    """Return the maker of a segment and a clip window of 8 x 6 in the middle of 16 x 12, its corner at (0, 0)."""
+
+    def make() -> ClipScene:
+        lying = segment_scene([((x0 + 4, y0 + 3), (x1 + 4, y1 + 3))], (16, 12))
+        return replace(lying, clip_region=np.array([-0.5, -0.5, 0.5, 0.5]))
+
+    return make
+
+
+def _scene(name: str, title: str, description: str, make: Callable[[], ClipScene | Scene]) -> BuiltInScene:
+    return BuiltInScene(name, title, description, make)
+
+
+LECTURE_SCENES = {
+    "Zwicker": (
+        _scene(
+            "zwicker-4x3",
+            "4 x 3 pixels",
+            "One triangle on 4 x 3 pixels, with centres from (0.5, 0.5) to (3.5, 2.5).",
+            lambda: triangles(((0.0, 0.0), (4.0, 0.0), (0.0, 3.0)), size=(4, 3), colors=RED_GREEN_BLUE[None]),
+        ),
+        _scene(
+            "zwicker-shared-edge",
+            "Shared edge through pixel centres",
+            "A split square with pixel centres on its sides: 12 pixels, none twice.",
+            lambda: triangles(
+                *SPLIT_SQUARE, colors=np.repeat([RED_GREEN_BLUE[:1], RED_GREEN_BLUE[2:]], 3, axis=1)
+            ),
+        ),
+    ),
+    "Pellacini": (
+        _scene(
+            "pellacini-line",
+            "Line of slope 0.4",
+            "The segment (0, 0)-(5, 2), where the printed Bresenham loop steps one column early.",
+            segment(0, 0, 5, 2),
+        ),
+    ),
+    "Jubair": (
+        _scene(
+            "jubair-triangle",
+            "Barycentric coordinates",
+            "A triangle of area 16 with red, green and blue corners: a pixel's colour is its weights.",
+            lambda: triangles(((0.0, 0.0), (8.0, 0.0), (0.0, 4.0)), colors=RED_GREEN_BLUE[None]),
+        ),
+        _scene(
+            "jubair-cyrus-beck",
+            "Cyrus-Beck, four edges",
+            "The segment (-2, -1)-(10, 8) enters the window 8 x 6 at t = 1/6 and leaves it at t = 7/9.",
+            clipped(-2, -1, 10, 8),
+        ),
+        _scene(
+            "jubair-rejected",
+            "Cyrus-Beck, entry after exit",
+            "The segment (-2, 5)-(2, 9) has t_E = 1/2 above t_L = 1/4, so nothing is left.",
+            clipped(-2, 5, 2, 9),
+        ),
+        _scene(
+            "jubair-parallel",
+            "Cyrus-Beck, parallel segment outside",
+            "The segment (2, 8)-(6, 8) lies above the window; the printed algorithm keeps it.",
+            clipped(2, 8, 6, 8),
+        ),
+    ),
+    "LMU": (
+        _scene(
+            "lmu-clipped",
+            "Liang-Barsky",
+            "The segment (-2, 1)-(6, 5) with p = (-8, 8, -4, 4) and q = (-2, 10, 1, 5).",
+            clipped(-2, 1, 6, 5),
+        ),
+        _scene(
+            "lmu-line",
+            "Bresenham's rewritings",
+            "The segment (0, 0)-(6, 5), the shortest where the versions with floats draw other pixels.",
+            segment(0, 0, 6, 5),
+        ),
+        _scene(
+            "lmu-falling-line",
+            "Bresenham, dy < 0",
+            "A segment that falls by 2 in 5 columns; the printed case starts with D = -9 instead of -1.",
+            segment(0, 4, 5, 2),
+        ),
+        _scene(
+            "lmu-scanline-triangle",
+            "Scanline fill",
+            "The triangle (2, 12), (9, 7), (4, 1), which is drawn in 12 lines.",
+            lambda: triangles(
+                ((2.5, 12.5), (9.5, 7.5), (4.5, 1.5)), size=(16, 16), colors=RED_GREEN_BLUE[None]
+            ),
+        ),
+        _scene(
+            "lmu-three-js",
+            "three.js triangle",
+            "The triangle of face (0, 2, 1), scaled by its vertex shader; (0, 1, 2) is culled.",
+            three_js_triangle,
+        ),
+    ),
+}
+"""Short name of a lecture to its scenes."""
+
+ALL_SCENES = {scene.name: scene for scene in (*CATALOGUE, *(s for of in LECTURE_SCENES.values() for s in of))}
+"""Every scene that can be opened by name: the built-in ones, then those of the lectures."""

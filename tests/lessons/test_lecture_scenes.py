@@ -1,0 +1,85 @@
+"""The scenes of the lectures show the numbers of their slides, and step."""
+
+import numpy as np
+import pytest
+
+from app.files.open_any import open_any
+from core import Settings, render, trace
+from core.stages.declared import STAGES
+from lessons.printed.catalogue import printed_listing
+from lessons.slides.catalogue import LECTURES
+from lessons.slides.scenes import ALL_SCENES, LECTURE_SCENES
+
+OF_LECTURES = [scene.name for scenes in LECTURE_SCENES.values() for scene in scenes]
+
+
+def make(name):
+    return ALL_SCENES[name].make()
+
+
+def pixels(name, settings):
+    rows, columns = np.nonzero(render(make(name), settings).cover_count)
+    return sorted(zip(columns.tolist(), rows.tolist(), strict=True))
+
+
+def test_every_lecture_has_scenes_with_a_name_and_a_sentence():
+    assert list(LECTURE_SCENES) == list(LECTURES)
+    assert len(ALL_SCENES) == len(set(ALL_SCENES)) > len(OF_LECTURES)
+    for lecture, scenes in LECTURE_SCENES.items():
+        for scene in scenes:
+            assert scene.name.startswith(f"{lecture.lower()}-")
+            assert scene.description.endswith(".")
+
+
+@pytest.mark.parametrize("name", OF_LECTURES)
+def test_it_opens_by_its_name_draws_and_steps(name):
+    scene = open_any(name).document.scene
+    frame = render(scene)
+    assert frame.cover_count.any() or name in ("jubair-parallel", "jubair-rejected")
+    traced = trace(scene, Settings())
+    assert all(traced.stage(stage) is not None for stage in STAGES)
+
+
+def test_lines_show_where_the_printed_listing_leaves_the_right_one():
+    right, early = [(0, 0), (1, 0), (2, 1), (3, 1), (4, 2), (5, 2)], [(0, 0), (1, 1), (2, 1), (3, 2), (4, 2)]
+    assert pixels("pellacini-line", Settings(line="midpoint")) == right
+    assert pixels("pellacini-line", printed_listing("pellacini-bresenham").settings(Settings())) == early
+    naive = printed_listing("lmu-naive").settings(Settings())
+    assert (3, 2) in pixels("lmu-line", Settings(line="bresenham-lecture"))
+    assert (3, 3) in pixels("lmu-line", naive)
+    falling = printed_listing("lmu-falling").settings(Settings())
+    assert (5, 2) in pixels("lmu-falling-line", Settings())
+    assert (5, 2) not in pixels("lmu-falling-line", falling)
+
+
+@pytest.mark.parametrize(
+    ("name", "method", "column", "values"),
+    [
+        ("jubair-cyrus-beck", "cyrus-beck", "t_enter", 1 / 6),
+        ("jubair-cyrus-beck", "cyrus-beck", "t_leave", 7 / 9),
+        ("jubair-rejected", "cyrus-beck", "t_enter", 1 / 2),
+        ("jubair-rejected", "cyrus-beck", "t_leave", 1 / 4),
+        ("lmu-clipped", "liang-barsky", "t_enter", 1 / 4),
+        ("lmu-clipped", "liang-barsky", "t_leave", 1.0),
+    ],
+)
+def test_clipped_segments_have_the_numbers_of_their_slide(name, method, column, values):
+    rows = trace(make(name), Settings(line_clipping=method)).stage("raster")
+    found = rows.columns[column][np.isfinite(rows.columns[column])]
+    assert found[-1] == pytest.approx(values, abs=1e-12)
+
+
+def test_the_printed_clipper_keeps_a_parallel_segment_outside():
+    assert pixels("jubair-parallel", Settings(line_clipping="cyrus-beck")) == []
+    printed = Settings(line_clipping="cyrus-beck-lecture")
+    assert pixels("jubair-parallel", printed) == [(column, 11) for column in range(6, 11)]
+
+
+def test_triangles_have_the_pixels_of_their_slide():
+    count = render(make("zwicker-shared-edge"), Settings()).cover_count
+    assert (np.count_nonzero(count), count.max()) == (12, 1)
+    assert render(make("lmu-three-js"), Settings(cull="back")).cover_count.any()
+    assert not render(make("lmu-three-js"), Settings(cull="front")).cover_count.any()
+    np.testing.assert_allclose(render(make("jubair-triangle")).color[0, 1, :3], [0.6875, 0.1875, 0.125])
+    lit = render(make("lmu-scanline-triangle"), Settings(fill="scanline-lecture")).cover_count
+    assert np.count_nonzero(lit.any(axis=1)) == 12
