@@ -15,10 +15,13 @@ from PySide6.QtWidgets import (
 )
 
 from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
+from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
 
 _COLUMN_WIDTH = 360
+_MOST_KEYS = 160
+"""Width of the keys of an entry, at most: more of them stand on more lines."""
 
 
 @dataclass(frozen=True)
@@ -123,7 +126,7 @@ class KeyHelp(QWidget):
         metrics = self.fontMetrics()
         rows = [entry.keys.split(", ") for entry in entries]
         widths = [sum(metrics.horizontalAdvance(key) + 16 for key in row) for row in rows]
-        return min(max(widths, default=0), round(200 * current_theme().text_px / 13))
+        return min(max(widths, default=0), round(_MOST_KEYS * current_theme().text_px / 13))
 
     @Slot()
     def _narrow(self) -> None:
@@ -171,13 +174,13 @@ def _group(name: str, entries: Sequence[KeyEntry], key_width: int) -> QWidget:
     grid.setContentsMargins(0, 0, 0, 0)
     grid.setHorizontalSpacing(12)
     grid.setVerticalSpacing(6)
-    grid.setColumnMinimumWidth(0, key_width)
     grid.setColumnStretch(1, 1)
     heading = text_label(name, None, role="title")
     grid.addWidget(heading, 0, 0, 1, 2)
     for number, entry in enumerate(entries, start=1):
         caps = QWidget()
-        row = row_layout(caps, 4)
+        caps.setFixedWidth(key_width)
+        row = FlowLayout(caps, 4)
         for key in entry.keys.split(", "):
             cap = QLabel(key)
             cap.setStyleSheet(
@@ -185,7 +188,6 @@ def _group(name: str, entries: Sequence[KeyEntry], key_width: int) -> QWidget:
                 f"background: {theme.raised};"
             )
             row.addWidget(cap)
-        row.addStretch(1)
         what = text_label(entry.what, None, wraps=True)
         grid.addWidget(caps, number, 0, Qt.AlignmentFlag.AlignTop)
         grid.addWidget(what, number, 1)

@@ -76,3 +76,16 @@ def test_the_table_is_made_when_the_page_is_opened(qtbot) -> None:
     page.show()
     assert "Space" in shown_texts(page)
     assert "Go to a pixel" not in shown_texts(page)
+
+
+def test_many_keys_of_one_entry_leave_room_for_what_they_do(page) -> None:
+    many = "Shift+Left, Shift+Right, Shift+Up, Shift+Down"
+    page.show_keys([*KEYS, KeyEntry("Pixel", many, "In the texture: read the next texel")])
+    page.resize(380, 400)
+    labels = {label.text(): label for label in page._scroll.widget().findChildren(QLabel)}
+    page.grab()
+    text, cap = labels["In the texture: read the next texel"], labels["Shift+Down"]
+    right = cap.mapTo(page, cap.rect().topRight()).x()
+    assert right < text.mapTo(page, text.rect().topLeft()).x()
+    assert text.width() > 140
+    assert cap.parentWidget().height() >= cap.geometry().bottom()
