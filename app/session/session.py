@@ -8,7 +8,15 @@ from PySide6.QtCore import QObject, QTimer, Signal, Slot
 from app.session.document import Document
 from app.session.held_bytes import held_arrays
 from app.session.history import History
-from app.session.tracing import QUICK_SECONDS, Order, Traced, Tracing, trace_drag, trace_now
+from app.session.tracing import (
+    QUICK_SECONDS,
+    RESTING_SECONDS,
+    Order,
+    Traced,
+    Tracing,
+    trace_drag,
+    trace_now,
+)
 from core import STAGES, Settings, Trace
 from core.explain.stage_texts import skipped_because
 from core.records.steps import Level
@@ -55,7 +63,7 @@ class Session(QObject):
         self.tracing = Tracing(self)
         """What traces large documents in the background."""
         self.tracing.traced.connect(self._take_traced)
-        self.tracing.failed.connect(self.edit_failed)
+        self.tracing.failed.connect(self._refuse)
         self.tracing.busy_changed.connect(self.history_changed)
         self._history = History(document, held_arrays)
         self._cursor = Cursor()
@@ -179,16 +187,22 @@ class Session(QObject):
         if not isinstance(self._trace.source, Draft):
             return
         document, gesture, stage = self.document, self._history.gesture, self._cursor.stage
-        if document.estimated_seconds > QUICK_SECONDS:
+        if document.estimated_seconds > RESTING_SECONDS:
             self.tracing.start(Order(document, gesture, stage))
             return
         try:
             trace = trace_now(document, stage)
         except ValueError as error:
-            self.take_back(gesture)
-            self.edit_failed.emit(error)
+            self._refuse(error)
             return
         self._document_replaced(trace)
+
+    @Slot(object)
+    def _refuse(self, error: Exception) -> None:
+        """Say why something could not be traced; a drag that came to rest there is taken back."""
+        if isinstance(self._trace.source, Draft) and self.tracing.newest is None:
+            self.take_back(self._history.gesture)
+        self.edit_failed.emit(error)
 
     def take_back(self, gesture: str) -> None:
         """End a gesture as if it had not been; redo does it after all."""

@@ -12,6 +12,8 @@ from core.trace.incremental.draft import draft
 
 QUICK_SECONDS = 0.3
 """What is estimated to take longer is traced off the GUI thread."""
+RESTING_SECONDS = 0.05
+"""The same for what a drag has left out: what was dragged is seen already, so that nobody waits for the rest."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -129,8 +131,8 @@ class Tracing(QObject):
 
     @Slot(object)
     def _fail(self, error: Exception) -> None:
-        self.failed.emit(error)
         self._go_on()
+        self.failed.emit(error)
 
     def _go_on(self) -> None:
         waiting, self._waiting, self._newest = self._waiting, None, None

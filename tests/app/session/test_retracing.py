@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
+import app.session.session
 from app.session.document import TEACHING_LIMIT, Document, focus_on, open_document
 from app.session.scene_edits import move_corner
 from app.session.session import Session
-from app.session.tracing import QUICK_SECONDS
+from app.session.tracing import QUICK_SECONDS, RESTING_SECONDS
 from core import ClipScene, Settings
 from core.trace import Trace, source
 from core.trace.incremental.draft import Draft
@@ -176,17 +177,36 @@ def test_a_drag_that_rests_is_traced_whole_by_itself(qtbot: QtBot, session: Sess
     session.come_to_rest()
 
 
+@pytest.mark.parametrize("limit", [RESTING_SECONDS, 0.0], ids=["at once", "in the background"])
 def test_a_scene_that_cannot_be_drawn_whole_goes_back_to_that_before_the_drag(
-    qtbot: QtBot, session: Session, monkeypatch: pytest.MonkeyPatch
+    qtbot: QtBot, session: Session, monkeypatch: pytest.MonkeyPatch, limit: float
 ) -> None:
     session.open(replace(session.document, triangle=4))
     before = session.document
     session.drag(dragged(session.document, 4, 10.0), "drag")
     monkeypatch.setattr(Document, "check_length", refuse_once())
+    monkeypatch.setattr(app.session.session, "RESTING_SECONDS", limit)
     with qtbot.waitSignal(session.edit_failed):
         session.come_to_rest()
     assert session.document is before
     assert_traced_as_from_nothing(session)
+
+
+def test_what_a_drag_left_out_of_a_large_scene_is_traced_in_the_background(qtbot: QtBot) -> None:
+    scene = many_triangles(100, TEACHING_LIMIT)
+    session = Session(open_document(scene, "Many", settings=Settings(fill="brute-force")))
+    session.open(replace(session.document, triangle=4))
+    assert session.document.estimated_seconds > RESTING_SECONDS
+    wanted = dragged(session.document, 4, 10.0)
+    session.drag(wanted, "drag")
+    session.come_to_rest()
+    assert session.tracing.is_busy
+    assert isinstance(session.trace.source, Draft), "what was dragged stays in sight"
+    qtbot.waitUntil(lambda: not session.tracing.is_busy and not isinstance(session.trace.source, Draft))
+    assert session.document is wanted
+    assert_traced_as_from_nothing(session)
+    session.undo()
+    session.tracing.shut_down()
 
 
 def refuse_once() -> Callable[[Document], None]:
