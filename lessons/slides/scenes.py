@@ -38,6 +38,15 @@ def clipped(x0: float, y0: float, x1: float, y1: float) -> Callable[[], ClipScen
     return make
 
 
+def frustum_segments() -> ClipScene:
+    """Return a segment that crosses the near plane at t = 1/4, and one that lies right of the frustum."""
+    clip = np.array(
+        [[[-1.0, -0.5, -3.0, 2.0], [1.4, 0.5, 1.0, 2.0]], [[2.5, -1.0, 0.0, 2.0], [4.0, 1.5, 0.0, 2.0]]]
+    )
+    colors = np.repeat([[linear_color("#E69F00")], [linear_color("#56B4E9")]], 2, axis=1)
+    return ClipScene(clip, colors, (16, 12), kind="segments")
+
+
 def _scene(name: str, title: str, description: str, make: Callable[[], ClipScene | Scene]) -> BuiltInScene:
     return BuiltInScene(name, title, description, make)
 
@@ -65,6 +74,13 @@ LECTURE_SCENES = {
             "Line of slope 0.4",
             "The segment (0, 0)-(5, 2), where the printed Bresenham loop steps one column early.",
             segment(0, 0, 5, 2),
+        ),
+        _scene(
+            "pellacini-frustum",
+            "Segments against the frustum",
+            "One segment begins 1 beyond the near plane and is cut at t = 1/4; the other lies right of the "
+            "frustum and is rejected early.",
+            frustum_segments,
         ),
     ),
     "Jubair": (

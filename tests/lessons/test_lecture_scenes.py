@@ -75,6 +75,13 @@ def test_the_printed_clipper_keeps_a_parallel_segment_outside():
     assert pixels("jubair-parallel", printed) == [(column, 11) for column in range(6, 11)]
 
 
+def test_a_segment_is_cut_at_the_near_plane_and_another_rejected_early():
+    traced = trace(make("pellacini-frustum"), Settings(clipping="sutherland-hodgman"))
+    rows = traced.stage("clip").columns
+    assert traced.source.geometry.culled.kept.tolist() == [True, False]
+    assert rows["t"][np.isfinite(rows["t"])] == pytest.approx([0.75])  # from the inside end
+
+
 def test_triangles_have_the_pixels_of_their_slide():
     count = render(make("zwicker-shared-edge"), Settings()).cover_count
     assert (np.count_nonzero(count), count.max()) == (12, 1)

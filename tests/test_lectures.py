@@ -1,0 +1,61 @@
+"""docs/lectures.md has all topics of the lectures and names nothing that there is not."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from core.methods import table
+from core.settings import families
+from core.stages.declared import STAGES
+from lessons.printed.catalogue import PRINTED
+from lessons.slides.scenes import ALL_SCENES
+
+ROOT = Path(__file__).parents[1]
+TEXT = (ROOT / "docs" / "lectures.md").read_text(encoding="utf-8")
+COLUMNS = ("number", "topic", "lecture", "scene", "stage", "method", "test", "missing")
+NONE = "-"
+ROWS = [
+    dict(zip(COLUMNS, (cell.strip() for cell in line.strip("|").split("|")), strict=True))
+    for line in TEXT.splitlines()
+    if re.match(r"\| \d+ \|", line)
+]
+
+
+def names(row, column):
+    """Return the names in a cell."""
+    return [] if row[column] == NONE else row[column].split(", ")
+
+
+def test_all_48_topics_are_there_and_every_gap_is_named():
+    assert [int(row["number"]) for row in ROWS] == list(range(1, 49))
+    for row in ROWS:
+        has_test = row["test"] != NONE
+        assert row["missing"], row
+        assert (row["scene"] != NONE) == (row["stage"] != NONE) == has_test, row
+        assert has_test or row["missing"] != "nothing", row
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["number"])
+def test_every_name_of_a_row_exists(row):
+    assert set(names(row, "scene")) <= set(ALL_SCENES)
+    assert set(names(row, "stage")) <= set(STAGES)
+    for method in names(row, "method"):
+        family, _, name = method.partition("=")
+        assert family in families()
+        assert name in table.names(family)
+    for test in names(row, "test"):
+        file, _, function = test.partition("::")
+        assert (
+            f"def {function}(" in (ROOT / file).read_text(encoding="utf-8")
+            if function
+            else (ROOT / file).exists()
+        )
+
+
+def test_printed_listings_and_scenes_of_the_text_exist():
+    shown = set(re.findall(r"`rasterscope slides ([a-z][\w-]*)", TEXT))
+    assert shown <= {printed.name for printed in PRINTED}
+    assert {line.split("|")[-2].strip() for line in TEXT.splitlines() if line.endswith("-parallel |")} <= set(
+        ALL_SCENES
+    )
