@@ -106,8 +106,9 @@ class CompareView(QWidget):
 
     def _lay_out(self) -> None:
         row = row_layout(spacing=8)
-        for widget in (QLabel("Compare", self), self.buffer_box, QLabel("B:", self)):
-            row.addWidget(widget)
+        row.addWidget(QLabel("Compare", self))
+        row.addWidget(self.buffer_box, 1)
+        row.addWidget(QLabel("B:", self))
         row.addWidget(self.family_box, 1)
         row.addWidget(self.value_box, 2)
         row.addStretch(1)

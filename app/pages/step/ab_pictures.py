@@ -1,5 +1,6 @@
 """What A | B shows of two runs at their cursors: each one's buffer and step, and where the buffers differ."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -39,6 +40,20 @@ def buffers_at(place: Place) -> dict[str, GridBuffer]:
     cursor = place.cursor
     found = buffers_of(place.trace.stage(cursor.stage), place.trace, cursor.position)
     return {buffer.name: buffer for buffer in found}
+
+
+def first_comparable(buffers: Sequence[dict[str, GridBuffer]]) -> str:
+    """Return the name of the first buffer that holds the same in all runs, or else of the first one."""
+    first, *others = buffers
+    for name, buffer in first.items():
+        if all(name in other and _hold_the_same(buffer, other[name]) for other in others):
+            return name
+    return next(iter(first))
+
+
+def _hold_the_same(a: GridBuffer, b: GridBuffer) -> bool:
+    """Return whether it is not other numbers for the same thing, as 16 bits and 1/w for a depth."""
+    return a.kind != "scalar" or (a.unit, a.description) == (b.unit, b.description)
 
 
 def side_of(
@@ -83,8 +98,7 @@ def compare(first: Side, second: Side) -> Comparison:
         return Comparison(first, second, None, "There is nothing to compare: one side is blank.")
     if a.values.shape != b.values.shape:
         return Comparison(first, second, None, "The two buffers have different numbers of channels.")
-    if a.kind == "scalar" and (a.unit, a.description) != (b.unit, b.description):
-        # Other numbers for the same thing, as 16 bits and 1/w for a depth.
+    if not _hold_the_same(a, b):
         return Comparison(first, second, None, f"“{a.label}” holds other numbers in A and in B: {OTHER}")
     if a.kind in ("scalar", "signed"):
         scale = _common_range(a, b)
@@ -104,9 +118,9 @@ def compare(first: Side, second: Side) -> Comparison:
     is_choice = a.kind in ("ids", "bool")
     if is_choice:
         in_a, in_b = (_has(buffer) for buffer in (a, b))
-        summary += (
-            f"; {np.count_nonzero(in_a & ~in_b):,} only in A, {np.count_nonzero(in_b & ~in_a):,} only in B"
-        )
+        if (in_a != in_b).any():
+            only = np.count_nonzero(in_a & ~in_b), np.count_nonzero(in_b & ~in_a)
+            summary += f"; {only[0]:,} only in A, {only[1]:,} only in B"
         amount = differs.astype(float)
     else:
         both = differs & ours & theirs

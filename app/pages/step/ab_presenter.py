@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job, Progress
-from app.pages.step.ab_pictures import Place, buffers_at, compare, side_of
+from app.pages.step.ab_pictures import Place, buffers_at, compare, first_comparable, side_of
 from app.pages.step.ab_settings import first_difference, settings_difference
 from app.pages.step.grid_presenter import OUTLINING
 from app.pages.step.grid_records import geometry_of
@@ -309,7 +309,7 @@ class ComparePresenter(QObject):
             theirs = replace(theirs, done=steps.done(1), steps=steps.steps(1), waits=steps.waits(1))
         buffers = [buffers_at(place) for place in (mine, theirs) if place is not None]
         names = {name: buffer.label for each in reversed(buffers) for name, buffer in each.items()}
-        chosen = self._buffer if self._buffer in names else next(iter(buffers[0]))
+        chosen = self._buffer if self._buffer in names else first_comparable(buffers)
         self._view.show_buffers(tuple(names.items()), chosen)
         first = side_of(
             "A", "current settings", mine, self._outlines(mine), buffers[0].get(chosen), names[chosen]

@@ -16,11 +16,13 @@ FIRST_CHOICES = {
     "bin": (("fill", "hierarchy"), ("fill", "blocks")),
     "raster": (("line", "dda"), ("fill", "scanline"), ("fill_rule", "inclusive")),
     "interpolate": (("interpolation", "affine"),),
-    "depth": (("visibility", "last-drawn"), ("visibility", "z-buffer")),
+    "depth": (("visibility", "last-drawn"), ("visibility", "z-buffer"), ("depth", "z-16")),
     "blend": (("blend", "over"), ("blend", "additive")),
     "resolve": (("antialiasing", "msaa-4"),),
 }
 """Stage to families and methods that are tried before the classical ones of the stage."""
+BY_OUTCOME = frozenset({"depth"})
+"""Stages in which other steps to the same result are no difference: where no triangle is hidden, B keeps the test."""
 ANYWHERE = (("interpolation", "affine"), ("depth", "z-16"), ("fill", "scanline"))
 """What is tried where no method of the stage makes a difference."""
 
@@ -45,7 +47,9 @@ def first_difference(document: Document, trace: Trace, stage: str) -> dict[str, 
             mine, theirs = trace.stage(stage), other.make_trace(earlier=trace).stage(stage)
         except ValueError:
             continue
-        if not is_same_schedule(mine, theirs) or stage_divergence(mine, theirs) is not None:
+        by_outcome = stage in BY_OUTCOME
+        has_other_steps = not by_outcome and not is_same_schedule(mine, theirs)
+        if has_other_steps or stage_divergence(mine, theirs, by_outcome) is not None:
             return {family: method}
         drawn = drawn or {family: method}
     return drawn

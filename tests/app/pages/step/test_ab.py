@@ -8,7 +8,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.pages.step.ab_settings import settings_difference
+from app.pages.step.ab_settings import first_difference, settings_difference
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES, Settings
@@ -48,6 +48,27 @@ def test_b_differs_in_the_stage_that_is_shown_and_draws(window: MainWindow, name
         if stage != "blend":
             assert not is_same_schedule(mine, theirs) or stage_divergence(mine, theirs) is not None
         assert view.family_box.currentText().startswith("\u2022 ")
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [("intersecting", {"visibility": "last-drawn"}), ("z-fighting", {"depth": "z-16"})],
+)
+def test_b_hides_other_pixels_where_any_method_of_the_depth_stage_does(
+    name: str, expected: dict[str, str]
+) -> None:
+    document = open_document(make_scene(name), name)
+    assert first_difference(document, document.make_trace(document.settings), "depth") == expected
+
+
+def test_two_depth_formats_are_compared_in_what_both_hold(window: MainWindow) -> None:
+    window.session.open(open_document(make_scene("z-fighting"), "Plates"))
+    window.session.set_stage("depth")
+    window.page.show_view("compare")
+    assert window.page.comparing.other.depth == "z-16"
+    shown = window.page.compare_view.grids[2].buffer()
+    assert shown is not None
+    assert shown.values.any()
 
 
 def test_both_step_and_who_has_no_more_steps_waits(window: MainWindow) -> None:
