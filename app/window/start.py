@@ -75,7 +75,7 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
     first = reopen(is_replaced=target is not None)
     window = MainWindow(first.opened.document, preferences)
     window.page.views.scene_presenter.draw_with(BandWorkers())
-    window.files.show_opened(first.opened)
+    window.files.show_opened(first.opened, window.session.trace)
     window.resize(first_size(application))
     window.memory.restore(window)
     window.memory.autosave.begin(first.file, None if first.file else first.opened.document)

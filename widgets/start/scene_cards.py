@@ -19,7 +19,7 @@ from PySide6.QtWidgets import QAbstractButton, QWidget
 
 from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.key_claim import KeyClaim
-from widgets.basics.theme import current_theme, text_font, theme_notifier
+from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
 
 PICTURE = QSize(64, 48)
 """Logical pixels of a picture at a text size of 13, times 3 or 4: a teaching raster keeps square pixels."""
@@ -47,6 +47,8 @@ class SceneCard(QAbstractButton):
         self.entry = entry
         self._image: QImage | None = None
         self._size = SIZES[0]
+        self._heights: tuple[tuple[int, Theme], tuple[int, int]] | None = None
+        """Of title and sentence, and what they are made from."""
         self.setObjectName(entry.name)
         self.setText(entry.title)
         self.setAccessibleName(entry.title)
@@ -117,13 +119,16 @@ class SceneCard(QAbstractButton):
         return title, text_font(theme, theme.text_px - 1)
 
     def _text_heights(self) -> tuple[int, int]:
-        """Return the heights of title and sentence, wrapped to the width of the picture."""
-        room = QRect(0, 0, self._picture_size().width(), 1000)
-        title, sentence = (
-            QFontMetrics(font).boundingRect(room, WRAPPED, text).height()
-            for font, text in zip(self._fonts(), (self.entry.title, self.entry.description), strict=True)
-        )
-        return title, sentence
+        """Return the heights of title and sentence, wrapped to the width of the picture: a layout asks many times."""
+        made_from = self._picture_size().width(), current_theme()
+        if self._heights is None or self._heights[0] != made_from:
+            room = QRect(0, 0, made_from[0], 1000)
+            title, sentence = (
+                QFontMetrics(font).boundingRect(room, WRAPPED, text).height()
+                for font, text in zip(self._fonts(), (self.entry.title, self.entry.description), strict=True)
+            )
+            self._heights = made_from, (title, sentence)
+        return self._heights[1]
 
     def _picture_size(self) -> QSize:
         return PICTURE * (self._size * current_theme().text_px / 13)

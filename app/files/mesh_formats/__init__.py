@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 
 from app.files.memory import MemoryBoundError
-from app.files.mesh_formats.gltf import read_gltf
 from app.files.mesh_formats.obj import read_obj
 from app.files.mesh_formats.off import read_off
 from app.files.mesh_formats.ply import read_ply
@@ -28,6 +27,14 @@ from app.files.mesh_formats.stl import read_stl
 from app.files.mesh_formats.through_trimesh import describe
 from app.files.named_files import NamedFiles, OutsideWarning
 from core.scene import Mesh
+
+
+def read_gltf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
+    """Read a GLB or glTF file; its reader, the largest, is loaded when there is one to read."""
+    from app.files.mesh_formats import gltf
+
+    return gltf.read_gltf(path, report, files)
+
 
 READERS: dict[str, Reader] = {
     ".obj": read_obj,
