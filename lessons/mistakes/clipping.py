@@ -1,6 +1,7 @@
 """Mistakes in clipping lines to a rectangle."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -45,6 +46,13 @@ def parallel_kept(p: Floats, q: Floats) -> tuple[Floats, Floats]:
 def inward(p: Floats, q: Floats) -> tuple[Floats, Floats]:
     """Turn the normals round."""
     return -p, -q
+
+
+def sides_exchanged(segments: Floats, window: ClipWindow) -> ClippedLines:
+    """Take entries for exits; p, q and t are right."""
+    p, q = liang_barsky_rows(segments, window)
+    walk = replace(walk_edges(-p, -q, stops_early=False), along=p, room=q)
+    return clipped_lines(segments, window, walk, on_borders(points_at(segments, walk), walk.cut_by, window))
 
 
 def top_and_bottom(p: Floats, q: Floats) -> tuple[Floats, Floats]:
@@ -111,6 +119,13 @@ TWINS = (
         segment((2, 1), (6, 5)),
         segment((-3, 1), (-1, 5)),
         change_settings=with_clipper(partial(walked, inward)),
+    ),
+    Twin(
+        "entries-and-exits",
+        "PE and PL are exchanged: p < 0 enters, p > 0 leaves.",
+        segment((2, 1), (6, 5)),
+        segment((-3, 1), (-1, 5)),
+        change_settings=with_clipper(sides_exchanged),
     ),
     Twin(
         "top-and-bottom",

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from lessons.mistakes import coverage, fragments, lines
+from lessons.mistakes import clipping, coverage, fragments, lines
 from lessons.mistakes.clipping import ACROSS, segment
 from lessons.mistakes.shelf import SHELF, twin_named
 from lessons.mistakes.twin import Twin, line_pixels, right_reading
@@ -18,8 +18,8 @@ def test_a_mistake_shows_in_one_scene_and_hides_in_another(twin: Twin) -> None:
 
 
 def test_names_are_unique_and_unknown_ones_refused() -> None:
-    modules = (coverage, lines, fragments)
-    assert len(SHELF) == 6 + sum(len(module.TWINS) for module in modules)
+    modules = (clipping, coverage, fragments, lines)
+    assert len(SHELF) == sum(len(module.TWINS) for module in modules)
     with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):
         twin_named("'; DROP TABLE twins")
 

@@ -1,0 +1,132 @@
+"""``rasterscope exercise``: questions by seed, their check, and exercises that teachers write."""
+
+import argparse
+from pathlib import Path
+
+from pydantic import BaseModel, ConfigDict
+
+from app.cli.commands import UsageError
+from lessons.exercises.answers.answer import NotCheckedError
+from lessons.exercises.catalogue import TEMPLATES, template_named
+from lessons.exercises.draws import SEED_LIMIT
+from lessons.exercises.exercise_file import read_exercise
+from lessons.exercises.question import Question, ask, judge
+from lessons.exercises.selftest import check_template
+from lessons.exercises.toml_file import TomlFile
+
+DESCRIPTION = """Ask a question by its seed, check an answer, or check an exercise that a teacher wrote."""
+EXAMPLES = """examples:
+  rasterscope exercise list
+  rasterscope exercise show triangle-coverage --seed 7
+  rasterscope exercise check triangle-coverage --seed 7 answer.toml
+  rasterscope exercise validate my-exercise.toml
+  rasterscope exercise show my-exercise.toml
+  rasterscope exercise selftest --seeds 200
+
+An answer is a TOML file with one key. Pixels: answer = text art, top row first, or a list of [column, row].
+Numbers: answer = "1/3", or a list of numbers. Table: a list of rows. Order and choice: a list of names.
+"""
+
+
+class AnswerFile(BaseModel):
+    """A file with an answer."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    answer: object
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the command takes."""
+    parsers = parser.add_subparsers(dest="action", required=True, metavar="ACTION")
+    parsers.add_parser("list", help="list the exercises", allow_abbrev=False)
+    show = parsers.add_parser("show", help="print a question", allow_abbrev=False)
+    check = parsers.add_parser("check", help="check an answer", allow_abbrev=False)
+    for one in (show, check):
+        one.add_argument("name", metavar="NAME", help="an exercise of the list, or a .toml file")
+        one.add_argument("--seed", metavar="N", type=seed_of_text, default=0, help="seed of the question (0)")
+    show.add_argument("--hints", action="store_true", help="print the hints, too")
+    check.add_argument("answer", metavar="ANSWER.toml", help="a file with answer = ...")
+    validate = parsers.add_parser("validate", help="check an exercise file", allow_abbrev=False)
+    validate.add_argument("path", metavar="PATH", help="a .toml file")
+    selftest = parsers.add_parser("selftest", help="check all exercises", allow_abbrev=False)
+    selftest.add_argument("--seeds", metavar="K", type=seed_of_text, default=10, help="seeds of each (10)")
+
+
+def seed_of_text(text: str) -> int:
+    """Return a seed, or a number of them."""
+    if not (text.isascii() and text.isdecimal() and len(text) <= 10 and int(text) <= SEED_LIMIT):
+        raise argparse.ArgumentTypeError(f"must be a whole number from 0 to {SEED_LIMIT}, got {text!a}")
+    return int(text)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Do what the action asks."""
+    if options.action == "list":
+        for template in TEMPLATES.values():
+            print(f"{template.name:<24}{template.stage:<13}{template.title}")
+        return 0
+    if options.action == "selftest":
+        return _selftest(options.seeds)
+    if options.action == "validate":
+        template = read_exercise(Path(options.path))
+        question = ask(template, 0)
+        print(
+            f"{options.path}: valid: {template.title}; {question.draft.answer.kind}, {template.points} points"
+        )
+        return 0
+    question = ask(template_named(options.name), options.seed)
+    if options.action == "show":
+        print("\n".join(shown_question(question, options.hints)))
+        return 0
+    return _check(question, Path(options.answer))
+
+
+def shown_question(question: Question, has_hints: bool) -> list[str]:
+    """Return a question as lines of text."""
+    template, draft = question.template, question.draft
+    lines = [f"{template.title} ({question.mark})", "", draft.text]
+    if draft.given:
+        lines += ["", draft.given]
+    lines += ["", f"{template.points} points. {draft.answer.credit}"]
+    if has_hints:
+        count = len(draft.hints)
+        lines += [f"Hint {number} of {count}: {hint}" for number, hint in enumerate(draft.hints, 1)]
+    return lines
+
+
+def _check(question: Question, path: Path) -> int:
+    answer = question.draft.answer
+    file = TomlFile(path)
+    given = file.checked(AnswerFile).answer
+    try:
+        response = answer.read(given)
+    except NotCheckedError as problem:
+        raise ValueError(f"not checked yet: {file.error(('answer',), str(problem))}") from None
+    judgement = judge(question, response)
+    print(f"Understood:\n{answer.text(response)}")
+    print(f"{judgement.points:.3g} of {question.template.points} points: {judgement.verdict.counts}")
+    for sentence in judgement.sentences:
+        print(sentence)
+    return 0
+
+
+def _selftest(count: int) -> int:
+    if count < 1:
+        raise UsageError("argument --seeds: must be 1 or more, got 0")
+    problems = 0
+    for template in TEMPLATES.values():
+        found = check_template(template, range(count))
+        alike = (
+            "; one answer: " + ", ".join(sorted(" = ".join(pair) for pair in found.equal))
+            if found.equal
+            else ""
+        )
+        print(
+            f"{found.name:<24}{found.seeds} seeds, random answers earn {found.guessed:.1%} "
+            f"(stated {found.chance:.1%}), {found.digest}{alike}"
+        )
+        for problem in found.problems:
+            print(f"  {problem}")
+        problems += len(found.problems)
+    return 1 if problems else 0

@@ -1,0 +1,22 @@
+"""All templates that ship with the program, and how one is found."""
+
+from pathlib import Path
+
+from lessons.exercises.exercise_file import read_exercise
+from lessons.exercises.question import Template
+from lessons.exercises.templates import clipping, coverage, fragments, lines
+
+TEMPLATES = {
+    template.name: template
+    for template in (*coverage.TEMPLATES, *lines.TEMPLATES, *clipping.TEMPLATES, *fragments.TEMPLATES)
+}
+"""By name, stage by stage."""
+
+
+def template_named(name: str) -> Template:
+    """Return a template by its name, or that of a TOML file by its path; ValueError where there is none."""
+    if name.endswith(".toml"):
+        return read_exercise(Path(name))
+    if name not in TEMPLATES:
+        raise ValueError(f"expected a .toml file or one of {', '.join(TEMPLATES)}, got {name!r:.60}")
+    return TEMPLATES[name]

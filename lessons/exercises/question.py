@@ -1,0 +1,139 @@
+"""A question: drawn from a template by a seed, answered, checked, and the mistake behind a wrong answer named."""
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import combinations
+
+from lessons.exercises.answers.answer import Answer, Response, Verdict
+from lessons.exercises.draws import Draws
+from lessons.mistakes.shelf import SHELF
+
+TRY_LIMIT = 1000
+"""Most draws of a question in which each named mistake must show."""
+APART_LIMIT = 30
+"""Most draws after the first such one, until the mistakes also differ from each other."""
+
+
+@dataclass(frozen=True, eq=False)
+class Draft:
+    """What a template draws."""
+
+    text: str
+    """What is asked, with the rule that decides."""
+    given: str
+    """The numbers of the question, or its picture as text."""
+    answer: Answer
+    hints: tuple[str, ...] = ()
+    """In order: where to look, which rule, the rule with this question's numbers."""
+    mistakes: Mapping[str, Response] = field(default_factory=dict)
+    """By the name of a twin, the answer that it gives."""
+
+
+@dataclass(frozen=True, eq=False)
+class Template:
+    """What questions of one kind are drawn from."""
+
+    name: str
+    version: int
+    """Changes when a seed gives another question than before."""
+    title: str
+    stage: str
+    """Of ``core.STAGES``."""
+    points: int
+    make: Callable[[Draws], Draft | None]
+    """Draws a question; ``None``: this draw makes none."""
+    alike: tuple[frozenset[str], ...] = ()
+    """Mistakes that always give the same answer."""
+    is_fixed: bool = False
+    """Every draw is the same."""
+
+
+@dataclass(frozen=True, eq=False)
+class Question:
+    """One question."""
+
+    template: Template
+    seed: int
+    draft: Draft
+
+    @property
+    def mark(self) -> str:
+        """Name, version and seed: what gives the same question everywhere."""
+        return f"{self.template.name} {self.template.version}, seed {self.seed}"
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """What an answer earns, and which mistake makes it."""
+
+    verdict: Verdict
+    points: float
+    mistakes: tuple[str, ...]
+    """Names of all twins that give exactly this answer."""
+    is_slip: bool
+    """No twin gives it, and it differs from the right answer in the smallest way."""
+
+    @property
+    def sentences(self) -> list[str]:
+        """The mistakes in words; of several that give one answer, all."""
+        if self.is_slip:
+            return ["A slip: all but one is right."]
+        return [SHELF[name].sentence for name in self.mistakes]
+
+
+def ask(template: Template, seed: int) -> Question:
+    """Draw the question of a seed.
+
+    Raises
+    ------
+    ValueError
+        If no draw makes a question in which each named mistake shows.
+
+    Notes
+    -----
+    The first draw is taken in which every mistake gives an answer that differs from the right one; if one of the next
+    draws also keeps the mistakes apart from each other, that one.
+    """
+    draws, first, reason = Draws(seed), None, "no draw makes a question"
+    tries = 1 if template.is_fixed else TRY_LIMIT
+    left = tries
+    while left:
+        left -= 1
+        draft = template.make(draws)
+        if draft is None:
+            continue
+        hidden = [name for name in draft.mistakes if not _shows(draft, draft.mistakes[name])]
+        if hidden:
+            reason = f"{hidden[0]} gives the right answer, or none"
+        elif template.is_fixed or all(_differ(draft, *pair, template.alike) for pair in _pairs(draft)):
+            return Question(template, seed, draft)
+        elif first is None:
+            first, left = draft, min(left, APART_LIMIT)
+    if first is not None:
+        return Question(template, seed, first)
+    tried = "" if template.is_fixed else f" in {tries} tries"
+    raise ValueError(f"{template.name} cannot draw its question{tried}: {reason}")
+
+
+def _pairs(draft: Draft) -> Iterator[tuple[str, str]]:
+    return combinations(draft.mistakes, 2)
+
+
+def _shows(draft: Draft, response: Response) -> bool:
+    return bool(response) and not draft.answer.is_same(response, draft.answer.reference)
+
+
+def _differ(draft: Draft, one: str, other: str, alike: tuple[frozenset[str], ...]) -> bool:
+    is_alike = any({one, other} <= names for names in alike)
+    return is_alike or not draft.answer.is_same(draft.mistakes[one], draft.mistakes[other])
+
+
+def judge(question: Question, response: Response) -> Judgement:
+    """Check an answer that was read; an exact twin wins over a slip."""
+    draft = question.draft
+    verdict = draft.answer.check(response)
+    points = question.template.points * verdict.score
+    if draft.answer.is_same(response, draft.answer.reference):
+        return Judgement(verdict, points, (), False)
+    names = tuple(name for name, wrong in draft.mistakes.items() if draft.answer.is_same(response, wrong))
+    return Judgement(verdict, points, names, not names and draft.answer.is_slip(response))

@@ -1,0 +1,89 @@
+"""What must hold of every template at every seed: checked by tests and by ``rasterscope exercise selftest``."""
+
+from dataclasses import dataclass
+from hashlib import sha256
+
+from lessons.exercises.answers.answer import Response
+from lessons.exercises.draws import Draws
+from lessons.exercises.question import Question, Template, ask, judge
+
+GUESSES = 100
+"""Random answers to a question."""
+GUESS_LIMIT = 0.05
+"""Most that random answers earn on average above the stated score of chance."""
+NAMED_LIMIT = 0.01
+"""Largest share of random answers that are called by the name of a mistake, where the answers are many."""
+
+
+@dataclass(frozen=True)
+class Findings:
+    """What was found of one template."""
+
+    name: str
+    seeds: int
+    problems: tuple[str, ...]
+    guessed: float
+    """Mean score of random answers."""
+    chance: float
+    """The stated mean score of random answers."""
+    equal: frozenset[tuple[str, str]]
+    """Mistakes that gave one answer at some seed."""
+    digest: str
+    """Of all questions and answers as text: the same on every machine."""
+
+
+def check_template(template: Template, seeds: range) -> Findings:
+    """Check the questions of seeds."""
+    problems: list[str] = []
+    equal: set[tuple[str, str]] = set()
+    guessed = chance = named = 0.0
+    digest = sha256()
+    for seed in seeds:
+        question = ask(template, seed)
+        answer = question.draft.answer
+        problems += [f"seed {seed}: {problem}" for problem in question_problems(question)]
+        for name, wrong in question.draft.mistakes.items():
+            equal.update((name, other) for other in judge(question, wrong).mistakes if other > name)
+        draws = Draws(seed)
+        judged = [judge(question, answer.random(draws)) for _ in range(GUESSES)]
+        guessed += sum(one.verdict.score for one in judged) / GUESSES
+        named += sum(bool(one.mistakes) for one in judged) / GUESSES
+        chance += answer.chance
+        digest.update(question_text(question).encode())
+    count = len(seeds)
+    guessed, chance, named = guessed / count, chance / count, named / count
+    if guessed > chance + GUESS_LIMIT:
+        problems.append(f"random answers earn {guessed:.1%}, stated {chance:.1%}")
+    if not chance and named > NAMED_LIMIT:
+        problems.append(f"{named:.1%} of random answers are called a mistake")
+    return Findings(
+        template.name, count, tuple(problems), guessed, chance, frozenset(equal), digest.hexdigest()[:16]
+    )
+
+
+def question_problems(question: Question) -> list[str]:
+    """Return what is wrong with a question: the right answer, all, none, each mistake."""
+    answer = question.draft.answer
+    problems = []
+    right = judge(question, answer.reference)
+    if right.verdict.score != 1 or right.mistakes or right.is_slip:
+        problems.append("the right answer does not earn all points")
+    if any(answer.check(extreme).score for extreme in answer.extremes()):
+        problems.append("all or none earns points")
+    for name, wrong in question.draft.mistakes.items():
+        found = judge(question, wrong)
+        if name not in found.mistakes or found.is_slip:
+            problems.append(f"{name} is not recognised")
+        if found.verdict.score == 1:
+            problems.append(f"{name} earns all points")
+    return problems
+
+
+def question_text(question: Question) -> str:
+    """Return a question with all its answers as text, to record and to compare."""
+    draft = question.draft
+    answers: dict[str, Response] = {"right": draft.answer.reference, **draft.mistakes}
+    lines = [question.mark, draft.text, draft.given]
+    for name, response in answers.items():
+        lines += [f"{name}:", draft.answer.text(response)]
+    return "\n".join([*lines, ""])

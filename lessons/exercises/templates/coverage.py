@@ -1,0 +1,132 @@
+"""Which pixels a triangle covers, and which way it faces."""
+
+from fractions import Fraction
+
+import numpy as np
+
+from core import Settings, render
+from core.scene import ClipScene
+from lessons.exercises.answers.choices import ChoiceAnswer
+from lessons.exercises.answers.pixels import PixelAnswer
+from lessons.exercises.draws import Draws
+from lessons.exercises.exercise_file import seen_pixels
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.mistakes.shelf import SHELF
+from lessons.small_scenes import triangle_scene
+
+Corner = tuple[Fraction, Fraction]
+SIZE = (12, 9)
+RULE = (
+    "A pixel is covered where its centre (i + 1/2, j + 1/2) lies inside. A centre on an edge belongs to the triangle "
+    "that contains the point moved a tiny step right, then up: left edges and level bottom edges own theirs."
+)
+
+
+def corner_text(corners: list[Corner]) -> str:
+    """Return corners as text."""
+    return ", ".join(f"({number_text(x)}, {number_text(y)})" for x, y in corners)
+
+
+def twice_area(corners: list[Corner]) -> Fraction:
+    """Return the determinant: positive where the corners run counter-clockwise."""
+    (x0, y0), (x1, y1), (x2, y2) = corners
+    return (x1 - x0) * (y2 - y0) - (y1 - y0) * (x2 - x0)
+
+
+def _covered(
+    corners: list[Corner], text: str, hints: tuple[str, ...], names: tuple[str, ...]
+) -> Draft | None:
+    """Ask for the pixels of a triangle; ``None`` where it is small or clockwise."""
+    if twice_area(corners) < 16:
+        return None
+    scene = triangle_scene(np.array([corners], float), SIZE)
+    right = seen_pixels(render(scene))
+    wrong = {name: seen_pixels(SHELF[name].draw(scene, Settings())) for name in names}
+    given = (
+        f"Window of {SIZE[0]} x {SIZE[1]} pixels, row 0 at the bottom.\nTriangle A: {corner_text(corners)}"
+    )
+    return Draft(f"{text} {RULE}", given, PixelAnswer(SIZE, right), hints, wrong)
+
+
+def draw_triangle(draws: Draws) -> Draft | None:
+    """A triangle with corners on half pixels, so that edges meet centres."""
+    half = Fraction(1, 2)
+    corners = [(draws.step(half, Fraction(11), half), draws.step(half, Fraction(8), half)) for _ in range(3)]
+    hints = (
+        "Look at one row of centres at a time: y = j + 1/2.",
+        "In a row, the centres between the crossings of two edges are covered.",
+        "Where a crossing falls on a centre, it belongs to the triangle if the edge is on its left.",
+    )
+    names = ("corner-for-center", "all-edges-inclusive", "all-edges-exclusive", "y-down", "vertices-rounded")
+    return _covered(corners, "Which pixels does triangle A cover?", hints, names)
+
+
+def draw_shared_edge(draws: Draws) -> Draft | None:
+    """One of two triangles whose common edge runs through centres."""
+    half = Fraction(1, 2)
+    left, right = draws.whole(0, 3) + half, draws.whole(7, 10) + half
+    low, high = draws.whole(0, 2) + half, draws.whole(5, 7) + half
+    is_upper = draws.fraction() < 0.5
+    lower = [(left, low), (right, low), (right, high)]
+    upper = [(left, low), (right, high), (left, high)]
+    mine, other = (upper, lower) if is_upper else (lower, upper)
+    hints = (
+        "Find the centres on the common edge first, then those on the sides.",
+        "Of the two triangles exactly one owns each of the centres between them.",
+        "Is the triangle on the right of the common edge, or on its left?",
+    )
+    # The level edge of the lower triangle is its bottom edge, which owns its centres.
+    level = "level-edges-always" if is_upper else "level-edges-never"
+    names = ("all-edges-inclusive", "all-edges-exclusive", level)
+    text = (
+        f"Triangle A shares an edge with triangle B: {corner_text(other)}. Which pixels belong to triangle A?"
+    )
+    return _covered(mine, text, hints, names)
+
+
+FACES = tuple("ABCD")
+FACING_SIZE = (24, 7)
+
+
+def draw_facing(draws: Draws) -> Draft | None:
+    """Triangles side by side, of which some face away."""
+    triangles = [
+        [(Fraction(6 * k + draws.whole(0, 5)), Fraction(draws.whole(0, 6))) for _ in range(3)]
+        for k in range(len(FACES))
+    ]
+    areas = [twice_area(corners) for corners in triangles]
+    if min(map(abs, areas)) < 5:
+        return None
+    away = frozenset(k for k, area in enumerate(areas) if area < 0)
+    if not 1 <= len(away) <= 3:
+        return None
+    scene = triangle_scene(np.array(triangles, float), FACING_SIZE)
+    settings = Settings(cull="back")
+    wrong = culled(SHELF["facing-exchanged"].change_settings(settings), scene)
+    text = (
+        "Which triangles are back faces? Counter-clockwise corners, y up, are the front: the determinant "
+        "(x1 - x0)(y2 - y0) - (y1 - y0)(x2 - x0) is positive."
+    )
+    given = "\n".join(
+        f"{name}: {corner_text(corners)}" for name, corners in zip(FACES, triangles, strict=True)
+    )
+    hints = (
+        "Sketch each triangle with its corners in order.",
+        "The sign of the determinant decides, not its size.",
+    )
+    answer = ChoiceAnswer(FACES, away, is_several=True)
+    return Draft(text, given, answer, hints, {"facing-exchanged": wrong})
+
+
+def culled(settings: Settings, scene: ClipScene) -> frozenset[int]:
+    """Return the triangles of a scene of which no pixel is seen."""
+    seen = set(np.unique(render(scene, settings).primitive).tolist())
+    return frozenset(range(len(scene.clip))) - seen
+
+
+TEMPLATES = (
+    Template("triangle-coverage", 1, "Pixels of a triangle", "raster", 4, draw_triangle),
+    Template("shared-edge", 1, "Centres on a shared edge", "raster", 4, draw_shared_edge),
+    Template("facing", 1, "Facing by the determinant", "cull", 2, draw_facing),
+)

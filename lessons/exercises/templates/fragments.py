@@ -1,0 +1,207 @@
+"""Weights, perspective, depth and blending at a pixel, and the order of the stages."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from core import STAGES, Settings, render
+from core.records.frame import Frame
+from core.scene import ClipScene
+from lessons.exercises.answers.amounts import NumberAnswer, Numbers
+from lessons.exercises.answers.choices import OrderAnswer
+from lessons.exercises.answers.tables import Cell, Column, Row, Rows, TableAnswer, number_rows
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.coverage import corner_text, twice_area
+from lessons.mistakes.shelf import SHELF
+from lessons.small_scenes import triangle_scene
+
+NAMES = ("alpha", "beta", "gamma")
+TOLERANCE = 0.005
+WITHIN = "Fractions, or decimals within 0.005."
+
+
+def attributes_at(frame: Frame, pixel: tuple[int, int]) -> Numbers:
+    """Return the attributes at a pixel."""
+    return tuple(float(value) for value in frame.attributes[pixel[1], pixel[0]])
+
+
+def draw_weights(draws: Draws) -> Draft | None:
+    """Barycentric weights at a centre."""
+    corners = [(Fraction(draws.whole(0, 10)), Fraction(draws.whole(0, 8))) for _ in range(3)]
+    pixel = draws.whole(2, 8), draws.whole(2, 6)
+    center = (pixel[0] + Fraction(1, 2), pixel[1] + Fraction(1, 2))
+    area = twice_area(corners)
+    if area < 20:
+        return None
+    weights = tuple(twice_area([center, corners[(k + 1) % 3], corners[(k + 2) % 3]]) / area for k in range(3))
+    if min(weights) < Fraction(1, 20):
+        return None
+    scene = triangle_scene(np.array([corners], float), (11, 9), attributes=np.eye(3)[None])
+    wrong = {"weights-permuted": attributes_at(SHELF["weights-permuted"].draw(scene, Settings()), pixel)}
+    shifted = SHELF["corner-for-center"].draw(scene, Settings())
+    if shifted.primitive[pixel[1], pixel[0]] >= 0:
+        wrong["corner-for-center"] = attributes_at(shifted, pixel)
+    text = f"What are alpha, beta and gamma at the centre of pixel {pixel}? {WITHIN}"
+    hints = (
+        "Each weight is an area over the area of the triangle.",
+        "alpha belongs to vertex 0: it is the area of the centre with vertices 1 and 2.",
+        "The three weights sum to 1.",
+    )
+    answer = NumberAnswer(weights, (3,), NAMES, TOLERANCE)
+    return Draft(text, f"Vertices 0, 1, 2: {corner_text(corners)}", answer, hints, wrong)
+
+
+def draw_perspective(draws: Draws) -> Draft | None:
+    """An attribute under perspective; the weights are given."""
+    pixel = draws.whole(1, 6), draws.whole(1, 6)
+    beta, gamma = Fraction(pixel[0], 8), Fraction(pixel[1], 8)
+    weights = (1 - beta - gamma, beta, gamma)
+    if weights[0] <= 0:
+        return None
+    w = [Fraction(draws.item((1, 2, 4, 5))) for _ in range(3)]
+    u = [Fraction(draws.whole(0, 8)) for _ in range(3)]
+    over_w = sum((weight / each for weight, each in zip(weights, w, strict=True)), Fraction(0))
+    u_over_w = sum((a * b / c for a, b, c in zip(weights, u, w, strict=True)), Fraction(0))
+    corners = [(0.5, 0.5), (8.5, 0.5), (0.5, 8.5)]
+    values = np.array(u, float).reshape(1, 3, 1)
+    scene = triangle_scene([corners], (10, 10), w=np.array([w], float), attributes=values)
+    names = ("affine-for-perspective", "w-overwritten", "not-divided-back", "multiplied-by-w")
+    wrong = {name: attributes_at(SHELF[name].draw(scene, Settings()), pixel) for name in names}
+    rows = zip(NAMES, weights, u, w, strict=True)
+    given = "\n".join(
+        f"Vertex {k}: {name} = {number_text(weight)}, u = {number_text(value)}, w = {number_text(each)}"
+        for k, (name, weight, value, each) in enumerate(rows)
+    )
+    text = f"What is u at this pixel with perspective? The weights are those of the window. {WITHIN}"
+    hints = (
+        "u is not linear in the window, but two other values are.",
+        "Interpolate u/w and 1/w with the weights.",
+        "u = (sum of weight u/w) / (sum of weight 1/w).",
+    )
+    answer = NumberAnswer((u_over_w / over_w,), (), ("u",), TOLERANCE)
+    return Draft(text, given, answer, hints, wrong)
+
+
+Fragment = tuple[int, int]
+"""Pixel and hundredths of depth."""
+FRAGMENT_COUNT = 7
+
+
+def card_scene(fragments: Sequence[Fragment]) -> ClipScene:
+    """Return triangles that each cover one pixel of a row."""
+    corners = [[(k + 0.25, 0.25), (k + 0.9, 0.25), (k + 0.25, 0.9)] for k, _ in fragments]
+    depth = [[z / 100] * 3 for _, z in fragments]
+    return triangle_scene(corners, (4, 1), depth=depth)
+
+
+def stored_depths(fragments: Sequence[Fragment], twin: str = "") -> Rows:
+    """Return the hundredths of depth stored after each fragment at its pixel, by drawing one more each time."""
+    depths = []
+    for count, (pixel, _) in enumerate(fragments, 1):
+        scene = card_scene(fragments[:count])
+        frame = SHELF[twin].draw(scene, Settings()) if twin else render(scene)
+        depths.append([round(100 * float(frame.depth[0, pixel]))])
+    return number_rows(depths)
+
+
+def depth_table(fragments: Sequence[Fragment]) -> TableAnswer:
+    """Return the table of stored depths, with follow-through."""
+
+    def follow(own: Sequence[Row], row: int, mine: Row) -> Cell:
+        pixel, z = fragments[row]
+        before = [cells[0] for cells, (its, _) in zip(own, fragments, strict=False) if its == pixel]
+        if before and before[-1] and before[-1][1] is not None:
+            return "", min(Fraction(z), before[-1][1])
+        return "", Fraction(z)
+
+    labels = tuple(f"pixel {pixel}, z = {z}" for pixel, z in fragments)
+    return TableAnswer((Column("stored"),), labels, stored_depths(fragments), follow)
+
+
+def draw_depths(draws: Draws) -> Draft | None:
+    """A z-buffer, fragment by fragment."""
+    fragments = [(draws.whole(0, 2), draws.whole(10, 99)) for _ in range(FRAGMENT_COUNT)]
+    if len(set(fragments)) < len(fragments):
+        return None
+    wrong = {name: stored_depths(fragments, name) for name in ("farther-wins", "no-depth-test")}
+    text = (
+        "These fragments are drawn in order. What does the z-buffer hold at the pixel of each right after it was "
+        "tested? Smaller is nearer, the buffer begins at infinity, and a tie keeps what is there."
+    )
+    given = "\n".join(f"Fragment {k}: pixel {pixel}, z = {z}" for k, (pixel, z) in enumerate(fragments))
+    hints = (
+        "Follow one pixel at a time.",
+        "A fragment passes only where its z is smaller than what its pixel holds.",
+        "After a fragment that fails, the pixel holds what it held.",
+    )
+    return Draft(text, given, depth_table(fragments), hints, wrong)
+
+
+COLORS = {"red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1), "yellow": (1, 1, 0), "white": (1, 1, 1)}
+
+
+def draw_blend(draws: Draws) -> Draft:
+    """Layers blended in order."""
+    names = draws.shuffled(tuple(COLORS))[:2]
+    alphas = [Fraction(draws.whole(1, 3), 4) for _ in names]
+    color = [Fraction(0)] * 3
+    for name, alpha in zip(names, alphas, strict=True):
+        color = [alpha * new + (1 - alpha) * old for new, old in zip(COLORS[name], color, strict=True)]
+    everywhere = [(-20, -20), (40, -20), (-20, 40)]
+    layers = [[(*COLORS[name], float(alpha))] * 3 for name, alpha in zip(names, alphas, strict=True)]
+    scene = replace(
+        triangle_scene([everywhere] * 2, (2, 2), attributes=layers), background=np.array([0.0, 0.0, 0.0, 1.0])
+    )
+    settings = Settings(blend="over", visibility="last-drawn")
+    twins = ("order-reversed", "multiplied-twice", "blended-in-srgb", "factors-exchanged")
+    wrong = {
+        twin: tuple(float(value) for value in SHELF[twin].draw(scene, settings).color[0, 0, :3])
+        for twin in twins
+    }
+    given = "Background: black, opaque.\n" + "\n".join(
+        f"Layer {k}: {name} {COLORS[name]}, alpha = {number_text(alpha)}"
+        for k, (name, alpha) in enumerate(zip(names, alphas, strict=True))
+    )
+    text = f"The layers are blended with over, layer 0 first. What are red, green and blue, linear? {WITHIN}"
+    hints = (
+        "Blend layer 0 over the background first.",
+        "over: alpha times the new colour plus (1 - alpha) times what is there.",
+        "Layer 1 weakens everything below it by 1 - alpha.",
+    )
+    return Draft(
+        text, given, NumberAnswer(tuple(color), (3,), ("red", "green", "blue"), TOLERANCE), hints, wrong
+    )
+
+
+def draw_stages(draws: Draws) -> Draft:
+    """Stages in order."""
+    mixed = draws.shuffled(tuple(stage for stage in STAGES if stage != "edges"))[:6]
+    options = tuple(stage for stage in STAGES if stage in mixed)
+    shown = draws.shuffled(options)
+    hints = (
+        "What needs triangles comes before what needs pixels.",
+        "A colour is found before it is blended.",
+    )
+    answer = OrderAnswer(options, shown)
+    return Draft("Put these stages of the pipeline in order, first to last.", ", ".join(shown), answer, hints)
+
+
+TEMPLATES = (
+    Template("barycentric-weights", 1, "Barycentric weights", "interpolate", 3, draw_weights),
+    Template(
+        "perspective-u",
+        1,
+        "Perspective against affine",
+        "interpolate",
+        3,
+        draw_perspective,
+        alike=(frozenset({"affine-for-perspective", "w-overwritten"}),),
+    ),
+    Template("z-buffer-table", 1, "Z-buffer, fragment by fragment", "depth", 4, draw_depths),
+    Template("blend-over", 1, "Layers blended in order", "blend", 3, draw_blend),
+    Template("stage-order", 1, "Order of the stages", "transform", 2, draw_stages),
+)

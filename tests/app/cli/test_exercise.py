@@ -1,0 +1,73 @@
+"""``rasterscope exercise``: a question is shown, answered in a file, and its mistake named."""
+
+from pathlib import Path
+
+import pytest
+
+from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.question import ask
+from lessons.mistakes.shelf import SHELF
+from tests.app.cli.cli_runs import refused, run_program
+
+
+def answered(folder: Path, text: str) -> Path:
+    path = folder / "answer.toml"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_exercises_are_listed_shown_and_checked(tmp_path: Path) -> None:
+    listed = run_program("exercise", "list")
+    assert [line.split()[0] for line in listed.stdout.splitlines()] == list(TEMPLATES)
+    shown = run_program("exercise", "show", "triangle-coverage", "--seed", "7", "--hints")
+    draft = ask(TEMPLATES["triangle-coverage"], 7).draft
+    assert shown.stdout.startswith("Pixels of a triangle (triangle-coverage 1, seed 7)\n\n")
+    assert all(text in shown.stdout for text in (draft.given, draft.answer.credit, "Hint 3 of 3: "))
+
+    wrong = draft.mistakes["all-edges-exclusive"]
+    path = answered(tmp_path, f"answer = '''\n{draft.answer.text(wrong)}\n'''\n")
+    checked = run_program("exercise", "check", "triangle-coverage", "--seed", "7", path)
+    assert checked.returncode == 0, checked.stderr
+    assert draft.answer.text(wrong) in checked.stdout
+    assert " of 4 points: " in checked.stdout
+    assert SHELF["all-edges-exclusive"].sentence in checked.stdout
+
+
+def test_a_teachers_file_is_validated_and_asked(tmp_path: Path) -> None:
+    path = tmp_path / "own.toml"
+    head = 'version = 1\ntitle = "Own"\nstage = "depth"\nquestion = "1/2 of 4?"\n'
+    path.write_text(f'{head}[answer]\ntype = "numbers"\nvalues = [2]\n')
+    assert run_program("exercise", "validate", path).stdout == f"{path}: valid: Own; numbers, 1 points\n"
+    assert "(own 1, seed 0)" in run_program("exercise", "show", path).stdout
+    checked = run_program("exercise", "check", path, answered(tmp_path, 'answer = "4/2"\n'))
+    assert checked.stdout == "Understood:\n2\n1 of 1 points: 1 of 1 numbers right\n"
+
+
+@pytest.mark.parametrize(
+    ("code", "arguments", "answer", "wanted"),
+    [
+        (2, [], "", "arguments are required: ACTION"),
+        (2, ["show", "facing", "--seed", "-1"], "", "--seed"),
+        (2, ["show", "facing", "--seed", "\u0661"], "", "a whole number from 0"),
+        (2, ["selftest", "--seeds", "0"], "", "must be 1 or more"),
+        (1, ["show", "'; DROP TABLE"], "", "expected a .toml file or one of"),
+        (1, ["validate", "missing.toml"], "", "missing.toml cannot be read or written"),
+        (1, ["check", "perspective-u"], 'answer = ""', "not checked yet: "),
+        (1, ["check", "perspective-u"], "answer = nan", "line 1: answer: expected a number such as"),
+        (1, ["check", "perspective-u"], "\nanswer = 1e400", "line 2: answer: expected a number up to 1e300"),
+        (1, ["check", "perspective-u"], "anwser = 1", "expected answer here, which is missing"),
+        (1, ["check", "perspective-u"], "answer = 1\nmore = 2", "line 2: more: unknown 'more'"),
+        (1, ["check", "facing"], "answer = ['E; DROP TABLE']", "expected one of A, B, C, D"),
+    ],
+)
+def test_bad_input_is_one_sentence(
+    code: int, arguments: list[str], answer: str, wanted: str, tmp_path: Path
+) -> None:
+    paths = [answered(tmp_path, answer)] if answer else []
+    assert wanted in refused(code, "exercise", *arguments, *paths, cwd=tmp_path)
+
+
+def test_the_selftest_passes_for_one_seed() -> None:
+    tested = run_program("exercise", "selftest", "--seeds", "1")
+    assert tested.returncode == 0, tested.stdout
+    assert len(tested.stdout.splitlines()) == len(TEMPLATES)

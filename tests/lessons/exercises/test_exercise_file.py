@@ -1,0 +1,155 @@
+"""Exercises that teachers write: what they may say, and one sentence with file and line for what they may not."""
+
+from pathlib import Path
+
+import pytest
+
+from lessons.exercises.exercise_file import read_exercise
+from lessons.exercises.question import ask, judge
+
+DRAWN = """
+version = 1
+title = "My triangle"
+stage = "raster"
+points = 4
+question = \"\"\"
+Which pixels does the triangle cover?
+version = 7 is no key here: centres on an edge belong to left and level bottom edges.\"\"\"
+hints = ["Look at the centres.", "Which edges are on the left?"]
+mistakes = ["corner-for-center", "all-edges-inclusive"]
+
+[scene]
+size = [12, 9]
+triangles = [
+    [["0.5..3.5 step 1", 1.5], ["7..11 step 0.5", 1.5], [4, "6..8 step 1/2"]],
+]
+
+[settings]
+fill = "bounding-box"
+
+[answer]
+type = "pixels"
+"""
+HEAD = """
+version = 1
+title = "Mine"
+stage = "raster"
+question = "What comes out?"
+[answer]
+"""
+ART = "type = \"pixels\"\nart = '''\n..?\n.##\n'''\n"
+TABLE = 'type = "table"\ncolumns = ["x", "y"]\nlabels = ["a", "b"]\ncells = [[1, 0.5], ["1/3", inf]]\n'
+
+
+def written(folder: Path, text: str) -> Path:
+    path = folder / "mine.toml"
+    path.write_bytes(text.encode() if isinstance(text, str) else text)
+    return path
+
+
+def test_a_drawn_exercise_is_the_same_for_a_seed_and_shows_its_mistakes(tmp_path: Path) -> None:
+    template = read_exercise(written(tmp_path, DRAWN))
+    one, same, other = (ask(template, seed).draft for seed in (1, 1, 3))
+    assert one.given == same.given != other.given
+    assert one.given.startswith("Window of 12 x 9 pixels, row 0 at the bottom.\nTriangle 0: (")
+    question = ask(template, 1)
+    assert judge(question, one.answer.reference).points == 4
+    for name, wrong in one.mistakes.items():
+        assert judge(question, wrong).mistakes == (name,)
+
+
+@pytest.mark.parametrize(
+    ("part", "right"),
+    [
+        (ART, [[1, 0], [2, 0], [2, 1]]),
+        (ART, "...\n.##"),
+        (TABLE, [["1", "1/2"], ["0.33333333333333333333", "inf"]]),
+        ('type = "numbers"\nvalues = ["sqrt(2)"]\ntolerance = 0.01\n', "1.41"),
+        ('type = "numbers"\nvalues = [1, 0, 0, 1]\nrows = 2\n', [[1, 0], ["0", 1]]),
+        ('type = "order"\nitems = ["cull", "clip", "raster"]\n', ["cull", "clip", "raster"]),
+        ('type = "choice"\noptions = ["yes", "no"]\nright = ["no"]\n', "no"),
+        ('type = "choice"\noptions = ["a", "b", "c"]\nright = ["b", "c"]\nseveral = true\n', ["c", "b"]),
+    ],
+)
+def test_every_type_of_answer_can_be_written(part: str, right: object, tmp_path: Path) -> None:
+    question = ask(read_exercise(written(tmp_path, HEAD + part.replace("1/3", "0.33333333333333333333"))), 0)
+    assert judge(question, question.draft.answer.read(right)).verdict.score == 1
+
+
+def changed(old: str, new: str) -> str:
+    assert old in DRAWN
+    return DRAWN.replace(old, new)
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("", "line 1: expected version here, which is missing"),
+        (changed("version = 1\n", "version = 2\n"), "line 2: version: expected 1, got 2"),
+        (changed("points = 4", "points = nan"), "line 5: points: expected a valid integer, got 'nan'"),
+        (changed("points = 4", "punkte = 4"), "line 5: punkte: unknown 'punkte'"),
+        (changed('"raster"', '"rasta"'), "line 4: stage: expected a stage of transform"),
+        (
+            changed("[12, 9]", "[1000, 1000]"),
+            "line 13: scene.size.0: expected less than or equal to 128, got 1000",
+        ),
+        (changed("[12, 9]", "[12]"), "line 13: scene.size: List must have at least 2 items"),
+        (changed("1.5]", "1e400]"), r"line 14: scene.triangles.0.0.1: expected a number up to 1e300"),
+        (changed("1.5]", "nan]"), r"line 14: scene.triangles.0.0.1: expected a number such as"),
+        (changed("1.5]", '"١٢"]'), r"line 14: scene.triangles.0.0.1: expected a number such as"),
+        (changed("1.5]", "99999]"), "expected a coordinate from -4096 to 4096, got 99999"),
+        (changed("7..11 step 0.5", "8..7 step 1"), "expected a range such as"),
+        (changed("7..11 step 0.5", "8..11 step 0"), "expected a range such as"),
+        (changed(", 1.5]", "]"), r"line 12: scene: expected 3 corners \[x, y\] in triangles\[0\]"),
+        (
+            changed('"corner-for-center"', '"\'; DROP TABLE twins"'),
+            "line 10: mistakes.0: expected a mistake such as",
+        ),
+        (changed('"bounding-box"', '"magic"'), "line 18: settings: fill must be one of"),
+        (changed('"pixels"', '"guess"'), "line 21: answer: expected type to be one of 'pixels', 'numbers'"),
+        (changed("[scene]", "[[scene]]"), "line 12: scene: expected a valid dictionary"),
+        (DRAWN + 'art = "#.\\n##"\n', "line 10: mistakes: expected an answer that is found by drawing"),
+        (DRAWN + "= 3", "line 23: expected TOML: invalid statement"),
+        (DRAWN + 'x = """', "expected TOML: unterminated string"),
+        (DRAWN[:100], "expected TOML"),
+        (HEAD + 'type = "pixels"\n', "line 6: answer: expected art, or a scene to draw"),
+        (
+            HEAD + 'type = "pixels"\nart = "##\\n##"\n',
+            "line 6: answer: expected pixels that must and others that must not",
+        ),
+        (HEAD + 'type = "pixels"\nart = "#x"\n', "line 8: answer.art: |expected #"),
+        (HEAD + TABLE.replace(", inf", ""), "expected 2 rows of 2 cells"),
+        (
+            HEAD + 'type = "choice"\noptions = ["a", "b"]\nright = ["c"]\n',
+            "expected one of the options, got c",
+        ),
+        (
+            HEAD + 'type = "choice"\noptions = ["a", "b"]\nright = ["a", "b"]\n',
+            "expected one option to be right",
+        ),
+        (HEAD + f'type = "numbers"\nvalues = [{"9" * 5000}]\n', "number or a list too long to read"),
+        (HEAD + f"type = {'[' * 5000}{']' * 5000}\n", "number or a list too long to read"),
+        (HEAD + "#" * 70000, "expected a file of up to 64 KiB"),
+        (b"title = '\xff'\n", "line 1: expected text in UTF-8"),
+    ],
+)
+def test_what_is_no_exercise_is_refused_with_its_line(text: str | bytes, wanted: str, tmp_path: Path) -> None:
+    path = written(tmp_path, text)
+    with pytest.raises(ValueError, match=wanted) as problem:
+        read_exercise(path)
+    sentence = str(problem.value)
+    assert sentence.startswith(f"{path}: ")
+    assert "\n" not in sentence
+    assert len(sentence) - len(str(path)) < 1400
+
+
+def test_a_mistake_that_never_shows_is_refused(tmp_path: Path) -> None:
+    hidden = changed("mistakes = [", 'mistakes = ["facing-exchanged", ')
+    for drawn, fixed in (("0.5..3.5 step 1", "1"), ("7..11 step 0.5", "8"), ("6..8 step 1/2", "7")):
+        hidden = hidden.replace(drawn, fixed)
+    with pytest.raises(
+        ValueError, match="line 10: mistakes: mine cannot draw its question: facing-exchanged gives"
+    ):
+        read_exercise(written(tmp_path, hidden))
+    with pytest.raises(ValueError, match="expected a file"):
+        read_exercise(tmp_path)
