@@ -34,6 +34,8 @@ class BuiltInScene:
     make: Callable[[], AnyScene]
     picture_settings: Mapping[str, str] = field(default_factory=dict)
     """Settings of its picture on the start page, where not the defaults show what it is about."""
+    settings: Mapping[str, str] = field(default_factory=dict)
+    """Settings that it opens with, where not those of every scene."""
 
 
 def window_triangle(

@@ -11,8 +11,9 @@ from app.files.mesh_formats import Report
 from app.files.mesh_sources import remember_file
 from app.files.named_files import OutsideWarning
 from app.files.state_files import EXTENSION, State, load_state
-from app.session.document import Document, check_drawing, open_document, shortened
+from app.session.document import STEPPED, Document, check_drawing, open_document, shortened
 from core.scene import AnyScene
+from core.settings import settings_from_texts
 from lessons.slides.scenes import ALL_SCENES
 
 
@@ -60,7 +61,8 @@ def open_any(
     """
     built_in = ALL_SCENES.get(target)
     if built_in is not None:
-        return Opened(open_document(built_in.make(), built_in.title))
+        settings = settings_from_texts(built_in.settings, STEPPED)
+        return Opened(open_document(built_in.make(), built_in.title, settings=settings))
     path = Path(target)
     if not target or (not path.suffix and not path.exists()):
         known = ", ".join(ALL_SCENES)

@@ -47,8 +47,10 @@ def frustum_segments() -> ClipScene:
     return ClipScene(clip, colors, (16, 12), kind="segments")
 
 
-def _scene(name: str, title: str, description: str, make: Callable[[], ClipScene | Scene]) -> BuiltInScene:
-    return BuiltInScene(name, title, description, make)
+def _scene(
+    name: str, title: str, description: str, make: Callable[[], ClipScene | Scene], **settings: str
+) -> BuiltInScene:
+    return BuiltInScene(name, title, description, make, settings=settings)
 
 
 LECTURE_SCENES = {
@@ -74,6 +76,7 @@ LECTURE_SCENES = {
             "Line of slope 0.4",
             "The segment (0, 0)-(5, 2), where the printed Bresenham loop steps one column early.",
             segment(0, 0, 5, 2),
+            line="midpoint",
         ),
         _scene(
             "pellacini-frustum",
@@ -81,6 +84,7 @@ LECTURE_SCENES = {
             "One segment begins 1 beyond the near plane and is cut at t = 1/4; the other lies right of the "
             "frustum and is rejected early.",
             frustum_segments,
+            clipping="sutherland-hodgman",
         ),
     ),
     "Jubair": (
@@ -95,18 +99,21 @@ LECTURE_SCENES = {
             "Cyrus-Beck, four edges",
             "The segment (-2, -1)-(10, 8) enters the window 8 x 6 at t = 1/6 and leaves it at t = 7/9.",
             clipped(-2, -1, 10, 8),
+            line_clipping="cyrus-beck",
         ),
         _scene(
             "jubair-rejected",
             "Cyrus-Beck, entry after exit",
             "The segment (-2, 5)-(2, 9) has t_E = 1/2 above t_L = 1/4, so nothing is left.",
             clipped(-2, 5, 2, 9),
+            line_clipping="cyrus-beck",
         ),
         _scene(
             "jubair-parallel",
             "Cyrus-Beck, parallel segment outside",
             "The segment (2, 8)-(6, 8) lies above the window; the printed algorithm keeps it.",
             clipped(2, 8, 6, 8),
+            line_clipping="cyrus-beck-lecture",
         ),
     ),
     "LMU": (
@@ -115,18 +122,21 @@ LECTURE_SCENES = {
             "Liang-Barsky",
             "The segment (-2, 1)-(6, 5) with p = (-8, 8, -4, 4) and q = (-2, 10, 1, 5).",
             clipped(-2, 1, 6, 5),
+            line_clipping="liang-barsky",
         ),
         _scene(
             "lmu-line",
             "Bresenham's rewritings",
             "The segment (0, 0)-(6, 5), the shortest where the versions with floats draw other pixels.",
             segment(0, 0, 6, 5),
+            line="bresenham-lecture",
         ),
         _scene(
             "lmu-falling-line",
             "Bresenham, dy < 0",
             "A segment that falls by 2 in 5 columns; the printed case starts with D = -9 instead of -1.",
             segment(0, 4, 5, 2),
+            line="bresenham-lecture",
         ),
         _scene(
             "lmu-scanline-triangle",
@@ -135,12 +145,14 @@ LECTURE_SCENES = {
             lambda: triangles(
                 ((2.5, 12.5), (9.5, 7.5), (4.5, 1.5)), size=(16, 16), colors=RED_GREEN_BLUE[None]
             ),
+            fill="scanline-lecture",
         ),
         _scene(
             "lmu-three-js",
             "three.js triangle",
             "The triangle of face (0, 2, 1), scaled by its vertex shader; (0, 1, 2) is culled.",
             three_js_triangle,
+            cull="back",
         ),
     ),
 }

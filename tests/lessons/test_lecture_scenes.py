@@ -1,9 +1,12 @@
 """The scenes of the lectures show the numbers of their slides, and step."""
 
+import dataclasses
+
 import numpy as np
 import pytest
 
 from app.files.open_any import open_any
+from app.session.document import STEPPED
 from core import Settings, render, trace
 from core.stages.declared import STAGES
 from lessons.printed.catalogue import printed_listing
@@ -36,8 +39,16 @@ def test_it_opens_by_its_name_draws_and_steps(name):
     scene = open_any(name).document.scene
     frame = render(scene)
     assert frame.cover_count.any() or name in ("jubair-parallel", "jubair-rejected")
-    traced = trace(scene, Settings())
+    traced = trace(scene, open_any(name).document.settings)
     assert all(traced.stage(stage) is not None for stage in STAGES)
+
+
+def test_a_scene_opens_with_the_method_of_its_slide():
+    opened = open_any("jubair-cyrus-beck").document
+    assert opened.settings == dataclasses.replace(STEPPED, line_clipping="cyrus-beck")
+    assert open_any("cube").document.settings == STEPPED
+    rows = trace(opened.scene, opened.settings).stage("raster").columns["t_leave"]
+    assert rows[np.isfinite(rows)][-1] == pytest.approx(7 / 9)
 
 
 def test_lines_show_where_the_printed_listing_leaves_the_right_one():
