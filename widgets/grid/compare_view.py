@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QLabel, QWidget
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.labels import text_label
 from widgets.basics.settings_panel import ChoiceBox, Setting
+from widgets.basics.theme import theme_notifier
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.linked_grids import LinkedGrids
@@ -103,6 +104,7 @@ class CompareView(QWidget):
         self.family_box.activated.connect(self._show_values)
         self.value_box.activated.connect(self._choose_value)
         self._lay_out()
+        theme_notifier().theme_changed.connect(self._show_again)
 
     def _lay_out(self) -> None:
         row = row_layout(spacing=8)
@@ -197,8 +199,12 @@ class CompareView(QWidget):
         """Show B in the place of A and A in the place of B, or both in their own places."""
         if is_flipped != self._is_flipped:
             self._is_flipped = is_flipped
-            if self._comparison is not None:
-                self.show_comparison(self._comparison)
+            self._show_again()
+
+    @Slot()
+    def _show_again(self) -> None:
+        if self._comparison is not None:
+            self.show_comparison(self._comparison)
 
     def flip_while_held(self) -> None:
         """Show B in the place of A and A in the place of B until the key is released."""

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.pages.step.ab_settings import first_difference, settings_difference
@@ -251,3 +252,15 @@ def test_a_vertex_is_dragged_in_any_of_the_pictures(window: MainWindow) -> None:
     assert session.document is not document
     QTest.keyClick(grid, Qt.Key.Key_Escape)
     assert session.document is document
+
+
+def test_titles_and_notes_have_room_for_larger_type(window: MainWindow) -> None:
+    window.appearance.set_theme("light")
+    window.resize(1280, 720)
+    window.page.show_view("compare")
+    QApplication.processEvents()
+    window.presenter.arrange()
+    view = window.page.compare_view
+    for labels, lines in ((view.titles, 3), (view.notes, 5)):
+        for label in labels:
+            assert label.height() >= lines * label.fontMetrics().lineSpacing()
