@@ -126,7 +126,7 @@ def _pixel_answer(
         marks = read_art(part.art)
         columns, rows = (1 + max(place) for place in zip(*marks, strict=True))
         of = {mark: frozenset(pixel for pixel, its in marks.items() if its == mark) for mark in "#?"}
-        return PixelAnswer((columns, rows), of["#"], of["?"]), {}
+        return PixelAnswer((columns, rows), of["#"], of["?"], part.noun), {}
     assert scene is not None
     settings = settings_from_texts(exercise.settings, Settings())
     answer = PixelAnswer(scene.size, seen_pixels(render(scene, settings), part.triangle))

@@ -4,7 +4,7 @@ import re
 from fractions import Fraction
 from typing import Annotated, Any, Literal
 
-from pydantic import BaseModel, BeforeValidator, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, model_validator
 
 from core import STAGES
 from core.scene import CORNER_COUNTS
@@ -81,6 +81,12 @@ def _known_stage(given: object) -> str:
     return str(given)
 
 
+def _printable(text: str) -> str:
+    if not text.replace("\n", "").isprintable():
+        raise ValueError(f"expected text without control characters, got {text!a:.60}")
+    return text
+
+
 def _settings(given: object) -> dict[str, str]:
     if not isinstance(given, dict):
         raise ValueError('expected methods by family, such as fill_rule = "inclusive"')
@@ -93,8 +99,8 @@ Coordinate = Annotated[Range, BeforeValidator(_range)]
 Place = tuple[Coordinate, Coordinate]
 AnyNumber = Annotated[Any, BeforeValidator(_number)]
 Tolerance = Annotated[float, BeforeValidator(_finite_positive)]
-Text = Annotated[str, Field(min_length=1, max_length=TEXT_LIMIT)]
-Word = Annotated[str, Field(min_length=1, max_length=80)]
+Text = Annotated[str, Field(min_length=1, max_length=TEXT_LIMIT), AfterValidator(_printable)]
+Word = Annotated[str, Field(min_length=1, max_length=80), AfterValidator(_printable)]
 Side = Annotated[int, Field(ge=1, le=SIDE_LIMIT)]
 
 
@@ -130,6 +136,8 @@ class PixelPart(Part):
 
     type: Literal["pixels"]
     art: Text | None = None
+    noun: Literal["pixels", "blocks"] = "pixels"
+    """What the art's marks are."""
     triangle: Annotated[int, Field(ge=0)] | None = None
     """Only the pixels where this triangle is seen; without it, all that are drawn."""
 
@@ -139,6 +147,8 @@ class PixelPart(Part):
             read_art(self.art)
             if self.triangle is not None:
                 raise ValueError("expected either art or triangle")
+        elif self.noun != "pixels":
+            raise ValueError("expected art that shows the blocks")
         return self
 
 

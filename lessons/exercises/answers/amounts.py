@@ -1,7 +1,6 @@
 """A number, a vector or a matrix."""
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
@@ -29,6 +28,17 @@ def read_entry(given: object) -> Number:
         raise NotCheckedError(str(problem)) from None
 
 
+@dataclass(frozen=True)
+class NearMiss:
+    """A wrong answer that earns something."""
+
+    numbers: Numbers
+    share: Fraction
+    """Of all points."""
+    sentence: str
+    """What earns this share, as the question states it."""
+
+
 @dataclass(frozen=True, eq=False)
 class NumberAnswer(Answer):
     """Numbers that are right all together or not at all, but for near misses with a price."""
@@ -41,8 +51,7 @@ class NumberAnswer(Answer):
     """Of the numbers, as the question calls them; empty: none."""
     tolerance: float = 0.0
     """Largest difference of each number, absolute."""
-    near: Mapping[Numbers, float] = field(default_factory=dict)
-    """Near misses and what each of them earns."""
+    near: tuple[NearMiss, ...] = ()
 
     kind: ClassVar[str] = "numbers"
 
@@ -50,9 +59,9 @@ class NumberAnswer(Answer):
     def credit(self) -> str:
         """How points are given."""
         within = f" within {self.tolerance:g}" if self.tolerance else ""
-        if len(self.reference) == 1:
-            return f"The number earns all points{within}."
-        return f"The {len(self.reference)} numbers earn all points together{within}."
+        count = len(self.reference)
+        all_points = "The number earns" if count == 1 else f"The {count} numbers together earn"
+        return " ".join([f"{all_points} all points{within}.", *(miss.sentence for miss in self.near)])
 
     def read(self, given: object) -> Numbers:
         """Read a number, or lists of them."""
@@ -73,9 +82,9 @@ class NumberAnswer(Answer):
         """Score numbers, all or nothing."""
         right = [self._close(mine, its) for mine, its in zip(response, self.reference, strict=True)]
         count = f"{sum(right)} of {len(right)} numbers right"
-        price = next((price for miss, price in self.near.items() if self.is_same(response, miss)), 0.0)
+        shares = [float(miss.share) for miss in self.near if self.is_same(response, miss.numbers)]
         wrong = [k for k, is_right in enumerate(right) if not is_right]
-        return Verdict(1.0 if all(right) else price, count, {"wrong": wrong})
+        return Verdict(1.0 if all(right) else max(shares, default=0.0), count, {"wrong": wrong})
 
     def _close(self, one: Number, other: Number) -> bool:
         return are_close(one, other, self.tolerance)

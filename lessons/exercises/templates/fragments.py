@@ -9,7 +9,7 @@ import numpy as np
 from core import STAGES, Settings, render
 from core.records.frame import Frame
 from core.scene import ClipScene
-from lessons.exercises.answers.amounts import NumberAnswer, Numbers
+from lessons.exercises.answers.amounts import NearMiss, NumberAnswer, Numbers
 from lessons.exercises.answers.choices import OrderAnswer
 from lessons.exercises.answers.tables import Cell, Column, Row, Rows, TableAnswer, number_rows
 from lessons.exercises.draws import Draws
@@ -51,7 +51,10 @@ def draw_weights(draws: Draws) -> Draft | None:
         "alpha belongs to vertex 0: it is the area of the centre with vertices 1 and 2.",
         "The three weights sum to 1.",
     )
-    answer = NumberAnswer(weights, (3,), NAMES, TOLERANCE)
+    turned = NearMiss(
+        (weights[2], *weights[:2]), Fraction(1, 3), "The right weights, turned by one, earn a third."
+    )
+    answer = NumberAnswer(weights, (3,), NAMES, TOLERANCE, (turned,))
     return Draft(text, f"Vertices 0, 1, 2: {corner_text(corners)}", answer, hints, wrong)
 
 

@@ -5,7 +5,7 @@ from math import inf, sqrt
 
 import pytest
 
-from lessons.exercises.answers.amounts import NumberAnswer
+from lessons.exercises.answers.amounts import NearMiss, NumberAnswer
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
 from lessons.exercises.answers.pixels import PixelAnswer, read_art
@@ -130,8 +130,11 @@ def test_a_slip_in_a_table_costs_one_cell() -> None:
 def test_numbers_are_right_together_but_for_near_misses() -> None:
     assert VECTOR.check(VECTOR.read(["0.33", "inf"])).score == 1
     assert VECTOR.check(VECTOR.read(["0.33", "-inf"])).score == 0
-    priced = NumberAnswer((Fraction(5),), near={(Fraction(-5),): 0.5})
+    priced = NumberAnswer(
+        (Fraction(5),), near=(NearMiss((Fraction(-5),), Fraction(1, 2), "The sign costs half."),)
+    )
     assert [priced.check(priced.read(text)).score for text in ("5", "-5", "4")] == [1, 0.5, 0]
+    assert priced.credit == "The number earns all points. The sign costs half."
     assert priced.is_slip(priced.read("4"))
     assert not priced.is_slip(priced.read("15"))
     matrix = NumberAnswer(tuple(map(Fraction, range(4))), (2, 2))

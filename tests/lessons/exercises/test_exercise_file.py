@@ -88,6 +88,7 @@ def changed(old: str, new: str) -> str:
         (changed("version = 1\n", "version = 2\n"), "line 2: version: expected 1, got 2"),
         (changed("points = 4", "points = nan"), "line 5: points: expected a valid integer, got 'nan'"),
         (changed("points = 4", "punkte = 4"), "line 5: punkte: unknown 'punkte'"),
+        (changed("My triangle", r"\u001b[31m"), "line 3: title: expected text without control characters"),
         (changed('"raster"', '"rasta"'), "line 4: stage: expected a stage of transform"),
         (
             changed("[12, 9]", "[1000, 1000]"),
