@@ -146,7 +146,8 @@ class StartPage(Page):
 
     @Slot()
     def _set_widths(self) -> None:
-        self._panes[0].setFixedWidth(min(round(SIDE * current_theme().text_px / 13), self.width() * 2 // 5))
+        wanted = min(round(SIDE * current_theme().text_px / 13), self.width() * 2 // 5)
+        self._panes[0].setFixedWidth(max(wanted, self._panes[0].widget().minimumSizeHint().width()))
 
     def showEvent(self, event: QShowEvent) -> None:
         """Draw the pictures when they are first seen."""

@@ -112,10 +112,13 @@ def test_the_page_is_reached_by_tab_from_begin_to_the_last_card(window: MainWind
     assert [card.entry.name for card in page.cards.cards if card not in reached] == []
 
 
-def test_the_left_column_is_not_cut_while_presenting(window: MainWindow, page: StartPage) -> None:
-    window.resize(1920, 1080)
+@pytest.mark.parametrize("width", [900, 1920])
+def test_the_left_column_is_not_cut_while_presenting(window: MainWindow, page: StartPage, width: int) -> None:
+    window.resize(width, 1080)
     window.presenter.arrange()
     QApplication.processEvents()
     side = page.begin_button.mapTo(page, page.begin_button.rect().topRight()).x()
     assert side < page.cards.mapTo(page, page.cards.rect().topLeft()).x()
     assert page.begin_button.width() >= page.begin_button.sizeHint().width()
+    column = page.begin_button.parentWidget()
+    assert column.width() <= column.parentWidget().width()
