@@ -12,7 +12,7 @@ from core.settings import settings_from_texts
 from lessons.exercises.answers.amounts import NumberAnswer
 from lessons.exercises.answers.answer import Answer
 from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
-from lessons.exercises.answers.pixels import PixelAnswer, Pixels, read_art
+from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer, Pixels, read_art
 from lessons.exercises.answers.tables import Column, TableAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
@@ -67,14 +67,19 @@ def has_ranges(exercise: Exercise) -> bool:
     return any(one.low < one.high for corners in primitives for place in corners for one in place)
 
 
-def draft_of(exercise: Exercise, draws: Draws) -> Draft:
-    """Draw the question of an exercise."""
+def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:
+    """Draw the question of an exercise; ``None``: this draw covers no pixel, or all."""
     scene, given = (None, "") if exercise.scene is None else drawn_scene(exercise.scene, draws)
     mistakes: dict[str, Pixels] = {}
     part = exercise.answer
     answer: Answer
     if isinstance(part, PixelPart):
-        answer, mistakes = _pixel_answer(exercise, part, scene)
+        try:
+            answer, mistakes = _pixel_answer(exercise, part, scene)
+        except NothingToMarkError:
+            if has_ranges(exercise):
+                return None
+            raise
     elif part.type == "numbers":
         count = len(part.values)
         shape = (part.rows, count // part.rows) if part.rows > 1 else (count,) if count > 1 else ()

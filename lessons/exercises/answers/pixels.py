@@ -15,6 +15,10 @@ SIDE_LIMIT = 128
 """Most pixels of a question on a side: each can be pointed at."""
 
 
+class NothingToMarkError(ValueError):
+    """All pixels must be marked, or none: there is nothing to ask."""
+
+
 def marked_score(hits: int, must: int, wrong: int, must_not: int) -> float:
     """Return ``max(0, hits / must - wrong / min(must, must_not))``: all and none earn nothing."""
     return max(0.0, hits / must - wrong / min(must, must_not))
@@ -40,7 +44,7 @@ class PixelAnswer(Answer):
             raise ValueError(f"expected 1 to {SIDE_LIMIT} {self.noun} each way, got {columns} x {rows}")
         if not self.reference or not self._must_not_count:
             missing = "must not (.)" if self.reference else "must (#)"
-            raise ValueError(
+            raise NothingToMarkError(
                 f"expected {self.noun} that must and others that must not, got none that {missing}"
             )
 

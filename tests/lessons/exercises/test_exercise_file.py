@@ -154,3 +154,61 @@ def test_a_mistake_that_never_shows_is_refused(tmp_path: Path) -> None:
         read_exercise(written(tmp_path, hidden))
     with pytest.raises(ValueError, match="expected a file"):
         read_exercise(tmp_path)
+
+
+LINE = """
+version = 1
+title = "A line"
+stage = "raster"
+question = "Which pixels does Bresenham's line draw, with D > 0?"
+mistakes = ["ties-step", "not-corrected"]
+[scene]
+size = [14, 9]
+segments = [[[1.5, 1.5], ["7.5..11.5 step 1", "3.5..5.5 step 1"]]]
+[settings]
+line = "bresenham-lecture"
+[answer]
+type = "pixels"
+"""
+FAR = """
+version = 1
+title = "Often outside"
+stage = "raster"
+question = "Which pixels?"
+[scene]
+size = [8, 6]
+triangles = [[["-40..40 step 8", 0], [6, "-40..40 step 8"], [1, 5]]]
+[answer]
+type = "pixels"
+"""
+CUBE = """
+version = 1
+title = "Cube"
+stage = "depth"
+question = "Where is triangle 5 seen?"
+[scene]
+builtin = "cube"
+size = [24, 16]
+[answer]
+type = "pixels"
+triangle = 5
+"""
+
+
+def test_lines_and_meshes_are_drawn_too(tmp_path: Path) -> None:
+    question = ask(read_exercise(written(tmp_path, LINE)), 2)
+    assert len(question.draft.answer.reference) in range(7, 12)
+    assert set(question.draft.mistakes) == {"ties-step", "not-corrected"}
+    assert "Segment 0: (1.5, 1.5), (" in question.draft.given
+    cube = ask(read_exercise(written(tmp_path, CUBE)), 0)
+    assert len(cube.draft.answer.reference) > 2
+    named = CUBE.replace("[scene]", 'mistakes = ["y-down"]\n[scene]')
+    with pytest.raises(
+        ValueError, match="expected triangles or segments in the window where mistakes are named"
+    ):
+        read_exercise(written(tmp_path, named))
+
+
+def test_draws_with_nothing_to_mark_are_drawn_again(tmp_path: Path) -> None:
+    template = read_exercise(written(tmp_path, FAR))
+    assert all(ask(template, seed).draft.answer.reference for seed in range(20))

@@ -1,7 +1,9 @@
 """Every template at one seed, its questions everywhere the same, and two tables done by hand."""
 
+import re
 import subprocess
 import sys
+from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -115,6 +117,27 @@ def test_what_is_culled_is_what_the_determinant_says() -> None:
     assert (
         question.draft.mistakes["facing-exchanged"] == frozenset(range(4)) - question.draft.answer.reference
     )
+
+
+def is_inside(corners: list[tuple[Fraction, Fraction]], x: Fraction, y: Fraction) -> bool:
+    """Decide in exact numbers whether a counter-clockwise triangle owns a point: an independent reference."""
+    for (x0, y0), (x1, y1) in zip(corners, [*corners[1:], corners[0]], strict=True):
+        a, b = y0 - y1, x1 - x0
+        value = a * (x - x0) + b * (y - y0)
+        if not (value > 0 or (value == 0 and (a > 0 or (a == 0 and b > 0)))):
+            return False
+    return True
+
+
+@pytest.mark.parametrize("name", ["triangle-coverage", "shared-edge"])
+def test_pixels_are_those_of_exact_arithmetic(name: str) -> None:
+    half = Fraction(1, 2)
+    for seed in range(4):
+        draft = ask(TEMPLATES[name], seed).draft
+        texts = re.findall(r"\(([^,]+), ([^)]+)\)", draft.given)
+        corners = [(Fraction(x), Fraction(y)) for x, y in texts]
+        inside = {(i, j) for i in range(12) for j in range(9) if is_inside(corners, i + half, j + half)}
+        assert inside == draft.answer.reference
 
 
 class Faultless:
