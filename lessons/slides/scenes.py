@@ -39,7 +39,7 @@ def clipped(x0: float, y0: float, x1: float, y1: float) -> Callable[[], ClipScen
 
 
 def frustum_segments() -> ClipScene:
-    """Return a segment that crosses the near plane at t = 1/4, and one that lies right of the frustum."""
+    """Return a segment that loses a quarter to the near plane, and one that lies right of the frustum."""
     clip = np.array(
         [[[-1.0, -0.5, -3.0, 2.0], [1.4, 0.5, 1.0, 2.0]], [[2.5, -1.0, 0.0, 2.0], [4.0, 1.5, 0.0, 2.0]]]
     )
@@ -81,8 +81,8 @@ LECTURE_SCENES = {
         _scene(
             "pellacini-frustum",
             "Segments against the frustum",
-            "One segment begins 1 beyond the near plane and is cut at t = 1/4; the other lies right of the "
-            "frustum and is rejected early.",
+            "One segment begins beyond the near plane and loses a quarter of its length; the other lies right of "
+            "the frustum and is rejected early.",
             frustum_segments,
             clipping="sutherland-hodgman",
         ),
