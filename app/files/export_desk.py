@@ -77,6 +77,8 @@ class ExportActions(QObject):
             printer.setCreator("Rasterscope")
             dialog = QPrintPreviewDialog(printer, self._pages.window())
             dialog.setWindowTitle("Print view")
+            # Qt's own size is that of its buttons: a page of a few pixels.
+            dialog.resize(self._pages.window().size() * 0.9)
             dialog.paintRequested.connect(sheet.print_on)
             if dialog.exec():
                 self._tell("Printed the view.")

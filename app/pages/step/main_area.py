@@ -14,6 +14,7 @@ from widgets.basics.accessible import announce
 from widgets.basics.controls import column_layout, flat_button, row_layout
 from widgets.basics.labels import text_label
 from widgets.basics.pane_splitter import PaneSplitter
+from widgets.basics.theme import current_theme, theme_notifier
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.buffer_choice import BufferChoice
 from widgets.grid.buffer_strip import BufferStrip
@@ -21,6 +22,9 @@ from widgets.grid.compare_view import CompareView
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.range_button import RangeButton
 from widgets.grid.range_control import RangeControl
+
+LEAST_WIDTH_OF_BOTH = 34
+"""Heights of the text below which the area shows one side of a stage only."""
 
 
 class MainArea(QWidget):
@@ -66,6 +70,7 @@ class MainArea(QWidget):
         session.cursor_changed.connect(self._follow_stage)
         for change in (session.cursor_changed, session.document_changed, session.predicting_changed):
             change.connect(self.refresh_beside)
+        theme_notifier().theme_changed.connect(self.refresh_beside)
         new_depths = self.companions["depth"]
         assert isinstance(new_depths, NewDepths)
         self.grid.view_changed.connect(new_depths.grid.set_view)
@@ -126,6 +131,8 @@ class MainArea(QWidget):
         """Keep the control of the range inside."""
         super().resizeEvent(event)
         self._place_ranges()
+        if self._has_two_sides() == self.beside.isHidden():
+            self.refresh_beside()
 
     def _place_ranges(self) -> None:
         size = self.ranges.sizeHint()
@@ -147,15 +154,21 @@ class MainArea(QWidget):
         self.thumbnails_button.setEnabled(has_choice)
         self.strip.setVisible(is_shown and has_choice)
 
-    @Slot()
-    def refresh_beside(self) -> None:
-        """Show the other side of a stage beside its own view: the space entered, the texture, the new depths."""
+    def _has_two_sides(self) -> bool:
+        """Return whether the stage is shown in its own view, with another side, in an area wide enough for both."""
         stage = self._session.cursor.stage
         companion = self.companions.get(stage)
         is_own = self.current_view() == stage_of(stage).view
-        if companion is None or not is_own or not companion.is_wanted():
+        is_wide = self.width() >= LEAST_WIDTH_OF_BOTH * current_theme().text_px
+        return companion is not None and is_own and is_wide and companion.is_wanted()
+
+    @Slot()
+    def refresh_beside(self) -> None:
+        """Show the other side of a stage beside its own view: the space entered, the texture, the new depths."""
+        if not self._has_two_sides():
             self.beside.hide()
             return
+        companion = self.companions[self._session.cursor.stage]
         if self._session.is_predicting:
             # It keeps its place, so that the main view keeps its own.
             self.beside.setCurrentWidget(self._veil)

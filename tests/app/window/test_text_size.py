@@ -73,3 +73,15 @@ def test_nothing_of_the_step_page_lies_off_the_window(
     assert page.timeline.bar.height() == page.timeline.bar.sizeHint().height()
     assert view.width() >= 200
     assert view.height() >= 150
+
+
+def test_large_text_leaves_room_for_the_picture_of_a_stage_with_two_sides(window: MainWindow) -> None:
+    window.session.set_stage("transform", 0)
+    QApplication.processEvents()
+    assert window.page.main_area.beside.isVisible()
+    window.appearance.set_text_size(TEXT_SIZES[-1])
+    QApplication.processEvents()
+    assert not window.page.main_area.beside.isVisible()
+    window.appearance.set_text_size(100)
+    QApplication.processEvents()
+    assert window.page.main_area.beside.isVisible()

@@ -292,6 +292,7 @@ def test_the_view_is_printed_on_one_page_and_light(
         printer.setOutputFileName(str(tmp_path / "page.pdf"))
         dialog.paintRequested.emit(printer)
         printed.append(current_theme().is_dark)
+        assert dialog.height() > 0.8 * window.height()
         return 1
 
     monkeypatch.setattr(QPrintPreviewDialog, "exec", exec_)
