@@ -81,7 +81,7 @@ class StartPage(Page):
         return button
 
     def _side(self) -> QWidget:
-        side = QWidget(self)
+        side = self._side_pane = QWidget(self)
         layout = column_layout(side, 8, margins=(0, 8, 12, 8))
         layout.addWidget(text_label("Rasterscope", side, role="title"))
         layout.addWidget(text_label(WHAT, side, wraps=True))
@@ -147,7 +147,7 @@ class StartPage(Page):
     @Slot()
     def _set_widths(self) -> None:
         wanted = min(round(SIDE * current_theme().text_px / 13), self.width() * 2 // 5)
-        self._panes[0].setFixedWidth(max(wanted, self._panes[0].widget().minimumSizeHint().width()))
+        self._panes[0].setFixedWidth(max(wanted, self._side_pane.minimumSizeHint().width()))
 
     def showEvent(self, event: QShowEvent) -> None:
         """Draw the pictures when they are first seen."""
