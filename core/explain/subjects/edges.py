@@ -246,7 +246,7 @@ def tie_reason(a: float, b: float, owns: bool, rule: str) -> str:
 def tie(step: StepValues) -> Said:
     """Whether the triangle owns the pixel centres on an edge."""
     k, a, b, owns = step.whole("edge"), step.number("a"), step.number("b"), step.flag("owns_tie")
-    rule, found = step.fill_rule(0), "inside" if owns else "outside"
+    rule, found = step.fill_rule(0), "owned" if owns else "not owned"
     verb = "belongs" if owns else "does not belong"
     reason = tie_reason(a, b, owns, rule)
     text = f"A pixel centre exactly on edge {k} {verb} to triangle {step.triangle}: {reason}."
@@ -255,7 +255,7 @@ def tie(step: StepValues) -> Said:
     tests = [comparison(f"a_{k}", ">", a)]
     if a == 0:
         tests = [comparison(f"a_{k}", "=", a), comparison(f"b_{k}", ">", b)]
-    return text, all_of(tests, *conclusion("inside", found))
+    return text, all_of(tests, *conclusion("owned", found))
 
 
 shows(

@@ -102,6 +102,13 @@ def only(stage: str, key: str, settings: Settings, place: int = 0, name: str = "
     return made
 
 
+def test_the_owner_of_an_edge_is_not_called_inside() -> None:
+    traced = rare_trace("grid-ties", Settings()).stage("edges")
+    said = [e for e in map(traced.explain, range(1, traced.steps.count + 1)) if e and e.key.endswith(".tie")]
+    ends = {split_cells(made.substituted)[-1] for made in map(formula, said) if made is not None}
+    assert ends == {r"\text{owned}", r"\text{not owned}"}
+
+
 def test_an_edge_function_with_its_numbers() -> None:
     # Pixel (0, 0) of the triangle (1, 1), (7, 1), (1, 7): E0 = -6 x - 6 y + 48 at (0.5, 0.5).
     made = only("raster", "raster.test.edge-0", Settings(fill="brute-force"))
