@@ -1,4 +1,5 @@
 """The course: text, scenes, exercises, checking and progress, without Qt.
 
-``scenes`` is the catalogue of built-in scenes, ``shapes`` makes the meshes that some of them show.
+``exercises`` asks questions and checks answers, ``mistakes`` has the faulty runs that explain wrong ones. ``scenes`` is
+the catalogue of built-in scenes, ``shapes`` makes the meshes that some of them show.
 """

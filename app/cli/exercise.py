@@ -72,7 +72,7 @@ def run(options: argparse.Namespace) -> int:
         template = read_exercise(Path(options.path))
         question = ask(template, 0)
         print(
-            f"{options.path}: valid: {template.title}; {question.draft.answer.kind}, {template.points} points"
+            f"{options.path}: valid: {template.title}; {question.draft.answer.kind}, {points_text(template.points)}"
         )
         return 0
     question = ask(template_named(options.name), options.seed)
@@ -82,13 +82,18 @@ def run(options: argparse.Namespace) -> int:
     return _check(question, Path(options.answer))
 
 
+def points_text(points: int) -> str:
+    """Return a number of points in words."""
+    return "1 point" if points == 1 else f"{points} points"
+
+
 def shown_question(question: Question, has_hints: bool) -> list[str]:
     """Return a question as lines of text."""
     template, draft = question.template, question.draft
     lines = [f"{template.title} ({question.mark})", "", draft.text]
     if draft.given:
         lines += ["", draft.given]
-    lines += ["", f"{template.points} points. {draft.answer.credit}"]
+    lines += ["", f"{points_text(template.points)}. {draft.answer.credit}"]
     if has_hints:
         count = len(draft.hints)
         lines += [f"Hint {number} of {count}: {hint}" for number, hint in enumerate(draft.hints, 1)]
@@ -105,7 +110,7 @@ def _check(question: Question, path: Path) -> int:
         raise ValueError(f"not checked yet: {file.error(('answer',), str(problem))}") from None
     judgement = judge(question, response)
     print(f"Understood:\n{answer.text(response)}")
-    print(f"{judgement.points:.3g} of {question.template.points} points: {judgement.verdict.counts}")
+    print(f"{judgement.points:.3g} of {points_text(question.template.points)}: {judgement.verdict.counts}")
     for sentence in judgement.sentences:
         print(sentence)
     return 0

@@ -1,5 +1,6 @@
 """What must hold of every template at every seed: checked by tests and by ``rasterscope exercise selftest``."""
 
+import re
 from dataclasses import dataclass
 from hashlib import sha256
 
@@ -13,6 +14,9 @@ GUESS_LIMIT = 0.05
 """Most that random answers earn on average above the stated score of chance."""
 NAMED_LIMIT = 0.01
 """Largest share of random answers that are called by the name of a mistake, where the answers are many."""
+
+RULE_NUMBERS = {"0", "1", "2"}
+"""Numbers of rules and names, such as 2 dy and x0: hints may hold them, and those that the question shows."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +80,16 @@ def question_problems(question: Question) -> list[str]:
             problems.append(f"{name} is not recognised")
         if found.verdict.score == 1:
             problems.append(f"{name} earns all points")
+    shown = numbers_in(question.draft.text, question.draft.given) | RULE_NUMBERS
+    for hint in question.draft.hints:
+        for number in sorted(numbers_in(hint) - shown):
+            problems.append(f"a hint holds {number}, which the question does not show")
     return problems
+
+
+def numbers_in(*texts: str) -> set[str]:
+    """Return the whole numbers that stand in texts."""
+    return {number for text in texts for number in re.findall("[0-9]+", text)}
 
 
 def question_text(question: Question) -> str:

@@ -54,6 +54,12 @@ def _ends(draws: Draws) -> Ends:
     return (x0, y0), (x0 + dx, y0 + dy)
 
 
+def _lengths(ends: Ends) -> str:
+    """Return dx and dy as expressions."""
+    (x0, y0), (x1, y1) = ends
+    return f"dx = {x1} - {x0}, dy = {y1} - {y0}"
+
+
 def draw_pixels(draws: Draws) -> Draft:
     """Pixels of a line."""
     ends = _ends(draws)
@@ -71,7 +77,7 @@ def draw_pixels(draws: Draws) -> Draft:
     hints = (
         "One pixel in every column, from the first end to the second.",
         "Keep D beside each pixel; its sign chooses the row of the next one.",
-        f"dx = {ends[1][0] - ends[0][0]}, dy = {ends[1][1] - ends[0][1]}.",
+        f"{_lengths(ends)}.",
     )
     given = f"From pixel {ends[0]} to pixel {ends[1]}, in a window of {SIZE[0]} x {SIZE[1]} pixels."
     return Draft(f"Which pixels does the line draw? {RULE}", given, answer, hints, wrong)
@@ -85,7 +91,7 @@ def draw_table(draws: Draws) -> Draft:
     hints = (
         "Begin with the D of the first pixel.",
         "Each D follows from the one before: its sign decides whether 2 dx is subtracted.",
-        f"dx = {ends[1][0] - ends[0][0]}, dy = {ends[1][1] - ends[0][1]}: add 2 dy every time.",
+        f"{_lengths(ends)}: add 2 dy every time.",
     )
     text = f"What is D before each move? {RULE}"
     return Draft(text, f"From pixel {ends[0]} to pixel {ends[1]}.", d_table(ends), hints, wrong)

@@ -3,6 +3,7 @@
 import re
 import subprocess
 import sys
+from dataclasses import replace
 from fractions import Fraction
 from pathlib import Path
 
@@ -14,7 +15,7 @@ from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template, ask, judge
-from lessons.exercises.selftest import check_template, question_text
+from lessons.exercises.selftest import check_template, question_problems, question_text
 from lessons.exercises.templates import clipping, fragments, lines
 from lessons.exercises.templates.clipping import outcode_table, parameter_table
 from lessons.exercises.templates.lines import d_table
@@ -197,6 +198,13 @@ def test_a_template_that_cannot_draw_its_question_says_so() -> None:
         ask(Template("hides", 1, "Hides", "depth", 1, hides), 0)
     with pytest.raises(ValueError, match=r"expected a .toml file or one of triangle-coverage"):
         template_named("'; DROP TABLE exercises")
+
+
+def test_a_hint_that_holds_a_number_of_the_answer_is_found() -> None:
+    question = ask(TEMPLATES["bresenham-table"], 2)
+    assert question_problems(question) == []
+    telling = replace(question, draft=replace(question.draft, hints=("The third D is 77.",)))
+    assert question_problems(telling) == ["a hint holds 77, which the question does not show"]
 
 
 def test_malformed_tables_are_not_checked() -> None:
