@@ -84,6 +84,14 @@ def short_box(frame: Frame, scene: ClipScene) -> Frame:
     return replace(frame, primitive=primitive)
 
 
+def dropped_at_border(scene: ClipScene) -> ClipScene:
+    """Drop triangles of which any corner lies outside of the view volume; the others keep their numbers."""
+    is_outside = (np.abs(scene.clip[..., :3]) > scene.clip[..., 3:]).any(axis=(1, 2))
+    clip = scene.clip.copy()
+    clip[is_outside] = clip[is_outside][:, :1]
+    return replace(scene, clip=clip)
+
+
 def owns_slanted(a: Floats, b: Floats) -> Flags:
     """Own left edges, and never a level one."""
     return np.asarray(a > 0)
@@ -155,6 +163,13 @@ TWINS = (
         Case(triangle_scene([[(1, 1), (6.9, 1), (6.9, 6)]], (8, 8))),
         Case(WHOLE),
         change_frame=short_box,
+    ),
+    Twin(
+        "dropped-at-border",
+        "The triangle was dropped because a vertex lies outside. What is inside of the window is drawn.",
+        Case(triangle_scene([[(1, 1), (12, 2), (3, 6)]], (8, 8))),
+        Case(WHOLE),
+        change_scene=dropped_at_border,
     ),
     Twin(
         "y-down",

@@ -5,7 +5,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from core import Settings
+from core import Settings, Texture
 from core.framebuffer.blending import over
 from core.framebuffer.depth import DepthFormat
 from core.framebuffer.display import linear_light, srgb
@@ -13,7 +13,7 @@ from core.methods import table
 from core.records.arrays import Floats, Singles
 from core.records.frame import Frame
 from core.scene import ClipScene
-from lessons.mistakes.twin import Case, Twin
+from lessons.mistakes.twin import Case, Twin, frame_colors
 from lessons.small_scenes import triangle_scene
 
 WINDOW = [(-20, -20), (40, -20), (-20, 40)]
@@ -61,6 +61,34 @@ def turned_attributes(scene: ClipScene) -> ClipScene:
     """Give each corner the attributes of the next one."""
     assert scene.attributes is not None
     return replace(scene, attributes=np.roll(scene.attributes, 1, axis=1))
+
+
+def not_divided(scene: ClipScene) -> ClipScene:
+    """Take x, y and z of the clip position for those after the divide."""
+    clip = scene.clip.copy()
+    clip[..., 3] = 1
+    return replace(scene, clip=clip)
+
+
+def only_places_sorted(scene: ClipScene) -> ClipScene:
+    """Sort the corners of each triangle by y, and leave their attributes in the order given."""
+    order = np.argsort(scene.clip[..., 1] / scene.clip[..., 3], axis=1, kind="stable")
+    return replace(scene, clip=np.take_along_axis(scene.clip, order[..., None], axis=1))
+
+
+def v_flipped(scene: ClipScene) -> ClipScene:
+    """Take 1 - v for v."""
+    assert scene.attributes is not None
+    attributes = scene.attributes.copy()
+    attributes[..., 1] = 1 - attributes[..., 1]
+    return replace(scene, attributes=attributes)
+
+
+def textured(texels: list[list[float]]) -> Case:
+    """Return a triangle with a texture of grey values, row 0 at v = 0."""
+    grey = np.repeat(np.array(texels)[..., None], 3, axis=2)
+    scene = triangle_scene([CORNERS], (8, 8), attributes=[[(0, 0), (1, 0), (0, 1)]])
+    return Case(replace(scene, texture=Texture(grey)), Settings(texture_filter="nearest"), frame_colors)
 
 
 def affine(settings: Settings) -> Settings:
@@ -148,6 +176,27 @@ TWINS = (
         Case(TILTED),
         Case(UPRIGHT),
         change_scene=inverted_w,
+    ),
+    Twin(
+        "not-divided",
+        "x, y and z were not divided by w. The divide follows the projection.",
+        Case(TILTED),
+        Case(UPRIGHT),
+        change_scene=not_divided,
+    ),
+    Twin(
+        "attributes-not-sorted",
+        "The vertices were sorted by y, their attributes were not. Sort them together.",
+        Case(triangle_scene([[(7, 3), (2, 6), (1, 1)]], (8, 8), attributes=RAMP)),
+        Case(triangle_scene([[(1, 1), (7, 3), (2, 6)]], (8, 8), attributes=RAMP)),
+        change_scene=only_places_sorted,
+    ),
+    Twin(
+        "texture-upside-down",
+        "The texture is upside down: v = 0 is its bottom row.",
+        textured([[0.0, 0.25], [0.5, 1.0]]),
+        textured([[0.0, 0.25], [0.0, 0.25]]),
+        change_scene=v_flipped,
     ),
     Twin(
         "weights-permuted",

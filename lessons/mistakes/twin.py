@@ -78,6 +78,11 @@ def frame_bytes(frame: Frame) -> tuple[bytes, ...]:
     return tuple(buffer.tobytes() for buffer in buffers)
 
 
+def frame_colors(scene: ClipScene, settings: Settings) -> bytes:
+    """Return the bytes of the colours alone, where other buffers always differ."""
+    return render(scene, settings).color.tobytes()
+
+
 def segment_ends(scene: ClipScene) -> Floats:
     """Return where the segments of a scene lie in the window, (L, 2, 2) pixels."""
     return np.asarray(window_position(scene.clip, scene.size))
