@@ -283,9 +283,10 @@ class ListingView(QPlainTextEdit):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the margin beside the text, and the line of the step in view."""
         super().resizeEvent(event)
-        self._place_margin()
         if event.size().width() != event.oldSize().width():
             self.room_changed.emit()
+        # After whoever gives it more room, which may be at once.
+        self._place_margin()
         self._bring_line_into_view()
 
     def showEvent(self, event: QShowEvent) -> None:

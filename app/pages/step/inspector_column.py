@@ -17,6 +17,8 @@ from widgets.timeline.stage_card import StageCardView
 
 LISTING_LINES, PRESENTED_LINES = 10, 4
 """Lines of the listing that are seen whole, and the same while presenting: the formula goes before it."""
+SENTENCE_LINES, FORMULA_LINES = 3, 6.5
+"""Height of the sentence, and of the formula, in which two fractions stand one below the other, in lines of text."""
 DETAIL_LINES = 8
 """Height of variables and history, in lines, for which the listing wraps onto fewer rows."""
 
@@ -85,16 +87,17 @@ class InspectorColumn(QScrollArea):
 
     @Slot()
     def fit(self) -> None:
-        """Keep room for three lines of the sentence, two of the formula and some of the listing, in any type."""
+        """Keep room for sentence, formula and some of the listing, in any type, whatever the present step has."""
         line = round(1.25 * current_theme().text_px)
-        self.sentence.setMinimumHeight(3 * line)
-        details = DETAIL_LINES * (line + 6)
-        room = self.viewport().height() - self.rows.y() - self.rows.handleWidth() - details
+        self.sentence.setMinimumHeight(SENTENCE_LINES * line)
+        step, details = round((SENTENCE_LINES + FORMULA_LINES) * line), DETAIL_LINES * (line + 6)
+        above = self._step_pane.y() + step
+        room = self.viewport().height() - above - 2 * self.rows.handleWidth() - details
         rows, lines = (
             self.listing.height_of(self._listing_lines, is_wrapped) for is_wrapped in (False, True)
         )
         for widget, height in (
-            (self._step_pane, 3 * line + 4 * line + 4),
+            (self._step_pane, step),
             (self.listing, max(rows, min(lines, room))),
             (self.detail_tabs, details),
         ):
