@@ -281,3 +281,4 @@ shows(
 )
 hides("edges.orientation|determinant", ("corner", "homogeneous"))
 hides("edges.edge|anchored-edge|left-out-edge|inverse-edge", ("homogeneous",))
+hides("edges.edge|left-out-edge|inverse-edge", ("direction",))
