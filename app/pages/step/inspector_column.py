@@ -60,10 +60,10 @@ class InspectorColumn(QScrollArea):
         self.rows.setChildrenCollapsible(False)
         self.rows.setStretchFactor(1, 1)
         content = QWidget(self)
-        parts = column_layout(content, 4)
+        self._parts = column_layout(content, 4)
         for pane in (self.card, self.prediction, self._step_pane):
-            parts.addWidget(pane)
-        parts.addWidget(self.rows, 1)
+            self._parts.addWidget(pane)
+        self._parts.addWidget(self.rows, 1)
         self.setWidget(content)
         self.setWidgetResizable(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
@@ -91,6 +91,7 @@ class InspectorColumn(QScrollArea):
         line = round(1.25 * current_theme().text_px)
         self.sentence.setMinimumHeight(SENTENCE_LINES * line)
         step, details = round((SENTENCE_LINES + FORMULA_LINES) * line), DETAIL_LINES * (line + 6)
+        self._parts.activate()  # What has just come or gone above has moved the pane.
         above = self._step_pane.y() + step
         room = self.viewport().height() - above - 2 * self.rows.handleWidth() - details
         rows, lines = (
