@@ -200,7 +200,7 @@ class Geometry:
             outlines = set_up_outlines(
                 self.primitives.gathered(),
                 self.corners,
-                self._corner_shares(),
+                self._corner_shares() if self.draws_last is None else None,
                 self.vertices.size,
                 self.draws_last,
             )
@@ -220,7 +220,7 @@ class Geometry:
         whole = Primitives(kept.clip, shares, kept.triangle, kept.mesh, {})
         distances = clipping_distances(kept, self.clipping_inserted)
         clipping = DEPTH_CLIPPING if self.clipping_inserted else resolve(self.settings).clipping
-        return clipping.clip(whole, distances, self.vertices.corner_count).primitives.varyings
+        return clipping.clip(whole, distances, 3).primitives.varyings
 
 
 def all_projected(window: WindowVertices, corner: Integers) -> Flags:

@@ -16,6 +16,7 @@ from core.geometry.polygon_clipping.sutherland_hodgman import (
     ClipRows,
     distance_from,
     join_rows,
+    new_corners,
 )
 from core.records.arrays import Floats, Integers
 from core.records.primitives import Primitives
@@ -57,11 +58,7 @@ def clip_ends(ends: Floats, index: Integers, plane: int) -> tuple[Floats, ClipRo
     start_distance, end_distance = distance_from(start, plane), distance_from(end, plane)
     case = 2 * (start_distance >= 0) + (end_distance >= 0)
     leaves, enters = case == IN_OUT, case == OUT_IN
-    d_in, d_out = np.where(leaves, (start_distance, end_distance), (end_distance, start_distance))
-    with np.errstate(divide="ignore", invalid="ignore"):
-        t = np.where(leaves | enters, d_in / (d_in - d_out), np.nan)
-    inner, outer = np.where(leaves[:, None], (start, end), (end, start))
-    corner = inner + t[:, None] * (outer - inner)
+    t, corner = new_corners(start, end, start_distance, end_distance, leaves | enters, leaves)
     result = ends.copy()
     result[index[enters], 0], result[index[leaves], 1] = corner[enters], corner[leaves]
     rows = ClipRows(

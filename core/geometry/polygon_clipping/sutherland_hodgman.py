@@ -17,7 +17,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.records.arrays import Floats, Integers
+from core.records.arrays import Flags, Floats, Integers
 from core.records.primitives import Primitives
 
 OUT_OUT, OUT_IN, IN_OUT, IN_IN = range(4)
@@ -172,11 +172,7 @@ def clip_polygons(
     # The new corner, from the inside end to the outside end, or in the polygon's order.
     crosses = (case == OUT_IN) | (case == IN_OUT)
     leaving = (case == IN_OUT) | (not is_canonical)
-    d_in, d_out = np.where(leaving, distance, end_distance), np.where(leaving, end_distance, distance)
-    with np.errstate(divide="ignore", invalid="ignore"):
-        t = np.where(crosses, d_in / (d_in - d_out), np.nan)
-    inner, outer = np.where(leaving[..., None], polygon, end), np.where(leaving[..., None], end, polygon)
-    corner = inner + t[..., None] * (outer - inner)
+    t, corner = new_corners(polygon, end, distance, end_distance, crosses, leaving)
 
     # Emit the new corner where the edge crosses, then the edge's end where that is inside.
     keeps_end = (case == OUT_IN) | (case == IN_IN)
@@ -203,6 +199,20 @@ def clip_polygons(
         corner[at],
     )
     return result, kept_count, rows
+
+
+def new_corners(
+    start: Floats, end: Floats, start_distance: Floats, end_distance: Floats, crosses: Flags, leaving: Flags
+) -> tuple[Floats, Floats]:
+    """Return t (...) and the new corners (..., 4 + K) of edges that cross a plane, NaN where they do not.
+
+    They are computed from the start where ``leaving`` (...), else from the end.
+    """
+    d_in, d_out = np.where(leaving, (start_distance, end_distance), (end_distance, start_distance))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        t = np.where(crosses, d_in / (d_in - d_out), np.nan)
+    inner, outer = np.where(leaving[..., None], (start, end), (end, start))
+    return t, inner + t[..., None] * (outer - inner)
 
 
 def distance_from(position: Floats, plane: int) -> Floats:

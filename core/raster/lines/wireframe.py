@@ -136,9 +136,10 @@ def set_up_outlines(
     count = len(primitives)
     if shares is None:
         shares = np.broadcast_to(np.eye(3), (count, 3, 3))
-    is_drawn, edge = trace_sides(shares, primitives.triangle)
-    if draws_last is not None:
-        is_drawn, edge = np.broadcast_to(SIDE_STARTS == 0, edge.shape), np.full_like(edge, ONLY_EDGE)
+    if draws_last is None:
+        is_drawn, edge = trace_sides(shares, primitives.triangle)
+    else:
+        is_drawn, edge = np.broadcast_to(SIDE_STARTS == 0, (count, 3)), np.full((count, 3), ONLY_EDGE)
     primitive, side = np.nonzero(is_drawn)
     first, second = SIDE_STARTS[side], SIDE_ENDS[side]
 
