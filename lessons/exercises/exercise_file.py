@@ -93,7 +93,8 @@ def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:
     else:
         right = frozenset(part.options.index(option) for option in part.right)
         answer = ChoiceAnswer(tuple(part.options), right, part.several)
-    return Draft(exercise.question, given, answer, tuple(exercise.hints), mistakes)
+    settings = settings_from_texts(exercise.settings, Settings())
+    return Draft(exercise.question, given, answer, tuple(exercise.hints), mistakes, scene, settings)
 
 
 def drawn_scene(part: ScenePart, draws: Draws) -> tuple[AnyScene, str]:

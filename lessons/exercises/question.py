@@ -4,6 +4,9 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from itertools import combinations
 
+from core import Settings
+from core.scene import AnyScene
+from core.settings import DEFAULTS
 from lessons.exercises.answers.answer import Answer, Response, Verdict
 from lessons.exercises.draws import Draws
 from lessons.mistakes.shelf import SHELF
@@ -27,6 +30,12 @@ class Draft:
     """In order: where to look, which rule, the rule with this question's numbers."""
     mistakes: Mapping[str, Response] = field(default_factory=dict)
     """By the name of a twin, the answer that it gives."""
+    scene: AnyScene | None = None
+    """What is drawn: its outline stands beside the question, and its run is the model answer; ``None``: nothing is."""
+    settings: Settings = DEFAULTS
+    """Of the right run."""
+    pixel: tuple[int, int] | None = None
+    """Column and row of the pixel that the question is about, where there is one."""
 
 
 @dataclass(frozen=True, eq=False)

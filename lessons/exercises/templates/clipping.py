@@ -5,11 +5,13 @@ from fractions import Fraction
 
 from core import Settings, clip_lines
 from core.geometry.line_clipping.records import ENTER, LEAVE, ParameterRows
+from core.scene import ClipScene
 from lessons.exercises.answers.tables import ENTERS, LEAVES, Cell, Column, Row, Rows, TableAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import Number
 from lessons.exercises.question import Draft, Template
 from lessons.mistakes.shelf import SHELF
+from lessons.small_scenes import segment_scene
 
 Place = tuple[Number, Number]
 Ends = tuple[tuple[int, int], tuple[int, int]]
@@ -138,7 +140,7 @@ def draw_parameters(draws: Draws) -> Draft | None:
         "p is -dx, dx, -dy, dy; q is x0 - left, right - x0, y0 - bottom, top - y0.",
         "t = q/p; its word depends on the sign of p.",
     )
-    return Draft(text, _given(ends), parameter_table(ends), hints, wrong)
+    return Draft(text, _given(ends), parameter_table(ends), hints, wrong, _scene(ends), PARAMETERS)
 
 
 def draw_outcodes(draws: Draws) -> Draft | None:
@@ -158,7 +160,12 @@ def draw_outcodes(draws: Draws) -> Draft | None:
         "A new end lies on the line through the two given ends.",
     )
     answer = outcode_table(ends, count)
-    return Draft(text, _given(ends), answer, hints, {})
+    settings = Settings(line_clipping="cohen-sutherland")
+    return Draft(text, _given(ends), answer, hints, {}, _scene(ends), settings)
+
+
+def _scene(ends: Ends) -> ClipScene:
+    return segment_scene([ends], SIZE)
 
 
 def _given(ends: Ends) -> str:

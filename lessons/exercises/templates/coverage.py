@@ -46,7 +46,7 @@ def _covered(
     given = (
         f"Window of {SIZE[0]} x {SIZE[1]} pixels, row 0 at the bottom.\nTriangle A: {corner_text(corners)}"
     )
-    return Draft(f"{text} {RULE}", given, PixelAnswer(SIZE, right), hints, wrong)
+    return Draft(f"{text} {RULE}", given, PixelAnswer(SIZE, right), hints, wrong, scene)
 
 
 def draw_triangle(draws: Draws) -> Draft | None:
@@ -116,7 +116,7 @@ def draw_facing(draws: Draws) -> Draft | None:
         "The sign of the determinant decides, not its size.",
     )
     answer = ChoiceAnswer(FACES, away, is_several=True)
-    return Draft(text, given, answer, hints, {"facing-exchanged": wrong})
+    return Draft(text, given, answer, hints, {"facing-exchanged": wrong}, scene, settings)
 
 
 def culled(settings: Settings, scene: ClipScene) -> frozenset[int]:

@@ -55,7 +55,8 @@ def draw_weights(draws: Draws) -> Draft | None:
         (weights[2], *weights[:2]), Fraction(1, 3), "The right weights, turned by one, earn a third."
     )
     answer = NumberAnswer(weights, (3,), NAMES, TOLERANCE, (turned,))
-    return Draft(text, f"Vertices 0, 1, 2: {corner_text(corners)}", answer, hints, wrong)
+    given = f"Vertices 0, 1, 2: {corner_text(corners)}"
+    return Draft(text, given, answer, hints, wrong, scene, pixel=pixel)
 
 
 def draw_perspective(draws: Draws) -> Draft | None:
@@ -86,7 +87,7 @@ def draw_perspective(draws: Draws) -> Draft | None:
         "u = (sum of weight u/w) / (sum of weight 1/w).",
     )
     answer = NumberAnswer((u_over_w / over_w,), (), ("u",), TOLERANCE)
-    return Draft(text, given, answer, hints, wrong)
+    return Draft(text, given, answer, hints, wrong, scene, pixel=pixel)
 
 
 Fragment = tuple[int, int]
@@ -141,7 +142,7 @@ def draw_depths(draws: Draws) -> Draft | None:
         "A fragment passes only where its z is smaller than what its pixel holds.",
         "After a fragment that fails, the pixel holds what it held.",
     )
-    return Draft(text, given, depth_table(fragments), hints, wrong)
+    return Draft(text, given, depth_table(fragments), hints, wrong, card_scene(fragments))
 
 
 COLORS = {"red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1), "yellow": (1, 1, 0), "white": (1, 1, 1)}
@@ -175,9 +176,8 @@ def draw_blend(draws: Draws) -> Draft:
         "over: alpha times the new colour plus (1 - alpha) times what is there.",
         "Layer 1 weakens everything below it by 1 - alpha.",
     )
-    return Draft(
-        text, given, NumberAnswer(tuple(color), (3,), ("red", "green", "blue"), TOLERANCE), hints, wrong
-    )
+    answer = NumberAnswer(tuple(color), (3,), ("red", "green", "blue"), TOLERANCE)
+    return Draft(text, given, answer, hints, wrong, scene, settings, (0, 0))
 
 
 def draw_stages(draws: Draws) -> Draft:

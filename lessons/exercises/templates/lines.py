@@ -80,7 +80,7 @@ def draw_pixels(draws: Draws) -> Draft:
         f"{_lengths(ends)}.",
     )
     given = f"From pixel {ends[0]} to pixel {ends[1]}, in a window of {SIZE[0]} x {SIZE[1]} pixels."
-    return Draft(f"Which pixels does the line draw? {RULE}", given, answer, hints, wrong)
+    return Draft(f"Which pixels does the line draw? {RULE}", given, answer, hints, wrong, scene, LECTURE)
 
 
 def draw_table(draws: Draws) -> Draft:
@@ -94,7 +94,8 @@ def draw_table(draws: Draws) -> Draft:
         f"{_lengths(ends)}: add 2 dy every time.",
     )
     text = f"What is D before each move? {RULE}"
-    return Draft(text, f"From pixel {ends[0]} to pixel {ends[1]}.", d_table(ends), hints, wrong)
+    given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
+    return Draft(text, given, d_table(ends), hints, wrong, scene, LECTURE)
 
 
 TEMPLATES = (

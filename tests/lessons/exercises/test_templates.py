@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from core import clip_lines
+from core import clip_lines, trace
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.draws import Draws
@@ -30,6 +30,13 @@ SEGMENT = ((-1, -2), (9, 7))
 def test_a_template_asks_fairly(template: Template) -> None:
     found = check_template(template, range(1))
     assert found.problems == ()
+
+
+@pytest.mark.parametrize("template", TEMPLATES.values(), ids=TEMPLATES)
+def test_the_scene_of_a_question_can_be_stepped_in_its_stage(template: Template) -> None:
+    draft = ask(template, 0).draft
+    if draft.scene is not None:
+        assert trace(draft.scene, draft.settings).stage(template.stage).steps.row_count > 0
 
 
 @pytest.mark.slow
