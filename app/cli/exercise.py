@@ -5,6 +5,7 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict
 
+from app.cli import attempts
 from app.cli.commands import UsageError
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.catalogue import TEMPLATES, template_named
@@ -22,6 +23,7 @@ EXAMPLES = """examples:
   rasterscope exercise validate my-exercise.toml
   rasterscope exercise show my-exercise.toml
   rasterscope exercise selftest --seeds 200
+  rasterscope exercise export attempts.json --user me
 
 An answer is a TOML file with one key. Pixels: answer = text art, top row first, or a list of [column, row].
 Numbers: answer = "1/3", or a list of numbers. Table: a list of rows. Order and choice: a list of names.
@@ -47,10 +49,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         one.add_argument("--seed", metavar="N", type=seed_of_text, default=0, help="seed of the question (0)")
     show.add_argument("--hints", action="store_true", help="print the hints, too")
     check.add_argument("answer", metavar="ANSWER.toml", help="a file with answer = ...")
+    check.add_argument("--user", metavar="NAME", help="keep the attempt under this name")
     validate = parsers.add_parser("validate", help="check an exercise file", allow_abbrev=False)
     validate.add_argument("path", metavar="PATH", help="a .toml file")
     selftest = parsers.add_parser("selftest", help="check all exercises", allow_abbrev=False)
     selftest.add_argument("--seeds", metavar="K", type=seed_of_text, default=10, help="seeds of each (10)")
+    attempts.add_parsers(parsers)
 
 
 def seed_of_text(text: str) -> int:
@@ -66,6 +70,8 @@ def run(options: argparse.Namespace) -> int:
         for template in TEMPLATES.values():
             print(f"{template.name:<24}{template.stage:<13}{template.title}")
         return 0
+    if options.action in ("export", "import"):
+        return attempts.run(options)
     if options.action == "selftest":
         return _selftest(options.seeds)
     if options.action == "validate":
@@ -79,7 +85,7 @@ def run(options: argparse.Namespace) -> int:
     if options.action == "show":
         print("\n".join(shown_question(question, options.hints)))
         return 0
-    return _check(question, Path(options.answer))
+    return _check(question, Path(options.answer), options.user)
 
 
 def points_text(points: int) -> str:
@@ -100,7 +106,7 @@ def shown_question(question: Question, has_hints: bool) -> list[str]:
     return lines
 
 
-def _check(question: Question, path: Path) -> int:
+def _check(question: Question, path: Path, user: str | None) -> int:
     answer = question.draft.answer
     file = TomlFile(path)
     given = file.checked(AnswerFile).answer
@@ -109,6 +115,8 @@ def _check(question: Question, path: Path) -> int:
     except NotCheckedError as problem:
         raise ValueError(f"not checked yet: {file.error(('answer',), str(problem))}") from None
     judgement = judge(question, response)
+    if user is not None:
+        attempts.keep(user, question, response, judgement)
     print(f"Understood:\n{answer.text(response)}")
     print(f"{judgement.points:.3g} of {points_text(question.template.points)}: {judgement.verdict.counts}")
     for sentence in judgement.sentences:

@@ -4,17 +4,16 @@ They are the files that an export writes, in a folder of the user's data: one fo
 result of that name. All of them together stay below a size; the oldest go first.
 """
 
-import os
 from collections.abc import Callable
 from pathlib import Path
 from threading import Lock
 from typing import Any
 
-from PySide6.QtCore import QObject, QStandardPaths, Signal, Slot
+from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import JobGroup, Progress
+from app.files.data_folder import data_folder
 from app.files.file_writing import FileWriteError, make_folder, write_file
-from app.window.preferences import FOLDER_VARIABLE
 
 LARGEST = 4 << 20
 """Bytes of one file; a result that is larger is not kept."""
@@ -26,20 +25,8 @@ _turn = Lock()
 
 
 def results_folder() -> Path:
-    """Return the folder of kept results; it may not exist yet.
-
-    Raises
-    ------
-    FileWriteError
-        If this user has no folder for data.
-    """
-    chosen = os.environ.get(FOLDER_VARIABLE)
-    if chosen:
-        return Path(chosen).absolute() / "results"
-    folder = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.GenericDataLocation)
-    if not folder:
-        raise FileWriteError(f"there is no folder for results; {FOLDER_VARIABLE} may name one")
-    return Path(folder) / "rasterscope" / "results"
+    """Return the folder of kept results; it may not exist yet. Errors as `data_folder`."""
+    return data_folder() / "results"
 
 
 class KeptResults(JobGroup):

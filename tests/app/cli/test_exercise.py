@@ -43,6 +43,31 @@ def test_a_teachers_file_is_validated_and_asked(tmp_path: Path) -> None:
     assert checked.stdout == "Understood:\n2\n1 of 1 point: 1 of 1 numbers right\n"
 
 
+def test_attempts_of_a_user_are_kept_exported_and_imported(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path / "data"))
+    path = answered(tmp_path, 'answer = "1/7"\n')
+    check = ("exercise", "check", "perspective-u", "--seed", "3", path, "--user")
+    assert run_program(*check, "Zoë").returncode == 0
+    assert run_program(*check, "'; DROP TABLE attempts").returncode == 0
+    assert "expected a name without control characters" in refused(2, *check, "a\nb")
+    out = tmp_path / "class.json"
+    assert run_program("exercise", "export", out, "--user", "Zoë").stdout == f"{out}: 1 attempt\n"
+    assert run_program("exercise", "export", out).stdout == f"{out}: 2 attempts\n"
+    monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path / "other"))
+    taken = [run_program("exercise", "import", out).stdout for _ in range(2)]
+    assert taken == [
+        f"{out}: 2 attempts added, 0 known before\n",
+        f"{out}: 0 attempts added, 2 known before\n",
+    ]
+    assert "is no file of attempts" in refused(1, "exercise", "import", path)
+    (tmp_path / "other" / "attempts.sqlite").write_bytes(b"not a database")
+    checked = run_program(*check, "Zoë")
+    assert checked.returncode == 0
+    assert "It is kept as attempts.sqlite.broken-1" in checked.stderr
+
+
 @pytest.mark.parametrize(
     ("code", "arguments", "answer", "wanted"),
     [

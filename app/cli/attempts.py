@@ -1,0 +1,64 @@
+"""``rasterscope exercise export`` and ``import``: the attempts of users, as files."""
+
+import argparse
+import sys
+from datetime import UTC, datetime
+
+from pydantic import ValidationError
+
+from app.cli.commands import PROGRAM, UsageError
+from app.files.file_writing import write_file
+from app.files.input_files import read_input
+from lessons.attempts.record import attempt_of, attempts_json, read_attempts_json
+from lessons.attempts.store import FILE_NAME, AttemptFile
+from lessons.exercises.answers.answer import Response
+from lessons.exercises.question import Judgement, Question
+
+SIZE_LIMIT = 1 << 26
+"""Most bytes of an imported file."""
+
+
+def add_parsers(parsers: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the actions."""
+    export = parsers.add_parser("export", help="write attempts into a JSON file", allow_abbrev=False)
+    export.add_argument("path", metavar="ATTEMPTS.json", help="the file to write")
+    export.add_argument("--user", metavar="NAME", help="only the attempts of this user")
+    taken = parsers.add_parser("import", help="add the attempts of a JSON file", allow_abbrev=False)
+    taken.add_argument("path", metavar="ATTEMPTS.json", help="a file that export has written")
+
+
+def run(options: argparse.Namespace) -> int:
+    """Do what the action asks."""
+    file = attempt_file()
+    if options.action == "export":
+        attempts = file.attempts(options.user)
+        write_file(options.path, attempts_json(attempts))
+        print(f"{options.path}: {counted(len(attempts))}")
+        return 0
+    attempts = tuple(read_attempts_json(read_input(options.path, SIZE_LIMIT), options.path))
+    added = file.add_all(attempts)
+    print(f"{options.path}: {counted(added)} added, {len(attempts) - added} known before")
+    return 0
+
+
+def keep(user: str, question: Question, response: Response, judgement: Judgement) -> None:
+    """Save the attempt of a user; UsageError for what is no name."""
+    try:
+        attempt = attempt_of(user, question, response, judgement, 0, datetime.now(UTC))
+    except ValidationError as problem:
+        raise UsageError(f"argument --user: {problem.errors()[0]['msg']}") from None
+    told = attempt_file().add(attempt)
+    if told:
+        print(f"{PROGRAM}: warning: {told}", file=sys.stderr)
+
+
+def counted(count: int) -> str:
+    """Return a number of attempts in words."""
+    return "1 attempt" if count == 1 else f"{count} attempts"
+
+
+def attempt_file() -> AttemptFile:
+    """Return the file of attempts in the user's folder of data; FileWriteError where there is none."""
+    from app.files.data_folder import data_folder  # Qt takes a moment: not before an attempt is kept.
+
+    return AttemptFile(data_folder() / FILE_NAME)

@@ -1,0 +1,141 @@
+"""One attempt: a question, the answer of a user, and what came of it; and many of them as JSON."""
+
+from collections.abc import Iterable, Sequence
+from datetime import UTC, datetime
+from typing import Annotated, Literal
+
+from pydantic import AfterValidator, AwareDatetime, BaseModel, ConfigDict, Field, ValidationError
+
+from lessons.exercises.answers.answer import Response
+from lessons.exercises.draws import SEED_LIMIT
+from lessons.exercises.question import Judgement, Question
+
+FORMAT: Literal["rasterscope attempts"] = "rasterscope attempts"
+"""First words of an exported file."""
+VERSION: Literal[1] = 1
+"""Of the database and of exported files; later ones are refused."""
+DEFAULT_USER = "me"
+"""Name of the user where nobody has chosen one."""
+ANSWER_LIMIT = 1 << 16
+"""Longest answer in characters."""
+
+
+def _printable(text: str) -> str:
+    if not text.isprintable() or text != text.strip():
+        raise ValueError(f"expected a name without control characters and outer spaces, got {text!a:.60}")
+    return text
+
+
+def _in_utc(at: datetime) -> datetime:
+    if not 1970 < at.year < 9999:
+        raise ValueError(f"expected a time from 1971 to 9998, got {at}")
+    return at.astimezone(UTC)
+
+
+def _one_word(text: str) -> str:
+    if text.split() != [text] or not text.isprintable():
+        raise ValueError(f"expected the name of a mistake without spaces, got {text!a:.60}")
+    return text
+
+
+Name = Annotated[str, Field(min_length=1, max_length=200), AfterValidator(_printable)]
+Mistake = Annotated[str, Field(max_length=200), AfterValidator(_one_word)]
+Whole = Annotated[int, Field(ge=0, le=SEED_LIMIT)]
+Amount = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
+
+
+class Attempt(BaseModel):
+    """One answer that was checked."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    user: Name
+    at: Annotated[AwareDatetime, AfterValidator(_in_utc)]
+    """When it was checked, in UTC, to the microsecond."""
+    template: Name
+    version: Whole
+    """Of the template: with it the seed gives the same question."""
+    seed: Whole
+    stage: Name
+    asked: tuple[Mistake, ...] = ()
+    """Names of the mistakes that this question shows."""
+    answer: Annotated[str, Field(max_length=ANSWER_LIMIT)]
+    """As it was understood."""
+    verdict: Annotated[str, Field(max_length=ANSWER_LIMIT)]
+    """What was right in words, as ``12 right, 1 missing``."""
+    score: Annotated[float, Field(ge=0, le=1)]
+    points: Amount
+    most: Whole
+    """Points of the right answer."""
+    mistakes: tuple[Mistake, ...] = ()
+    """Names of the mistakes that give exactly this answer."""
+    is_slip: bool = False
+    seconds: Amount
+    """Time taken."""
+
+
+def attempt_of(
+    user: str, question: Question, response: Response, judgement: Judgement, seconds: float, at: datetime
+) -> Attempt:
+    """Return the attempt of a ``user`` who gave ``response`` after ``seconds``, checked ``at`` a time with its zone."""
+    template, draft = question.template, question.draft
+    return Attempt(
+        user=user,
+        at=at,
+        template=template.name,
+        version=template.version,
+        seed=question.seed,
+        stage=template.stage,
+        asked=tuple(draft.mistakes),
+        answer=draft.answer.text(response)[:ANSWER_LIMIT],
+        verdict=judgement.verdict.counts,
+        score=judgement.verdict.score,
+        points=judgement.points,
+        most=template.points,
+        mistakes=judgement.mistakes,
+        is_slip=judgement.is_slip,
+        seconds=seconds,
+    )
+
+
+class AttemptList(BaseModel):
+    """An exported file."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    format: Literal["rasterscope attempts"] = FORMAT
+    version: Literal[1] = VERSION
+    attempts: tuple[Attempt, ...]
+
+
+class _Head(BaseModel):
+    format: Literal["rasterscope attempts"]
+    version: int
+
+
+def attempts_json(attempts: Iterable[Attempt]) -> bytes:
+    """Return attempts as the content of a file."""
+    return AttemptList(attempts=tuple(attempts)).model_dump_json(indent=1).encode() + b"\n"
+
+
+def read_attempts_json(content: bytes, name: object) -> Sequence[Attempt]:
+    """Return the attempts of a file, all of them or none.
+
+    Raises
+    ------
+    ValueError
+        If ``content`` is no such file, or one of a later version; the message is one sentence with ``name``.
+    """
+    try:
+        head = _Head.model_validate_json(content)
+        if head.version > VERSION:
+            raise ValueError(
+                f"{name} was written by a later version of the program: "
+                f"its version is {head.version}, this one reads {VERSION}"
+            )
+        return AttemptList.model_validate_json(content).attempts
+    except ValidationError as problem:
+        first = problem.errors(include_url=False)[0]
+        place = ".".join(map(str, first["loc"]))
+        reason = f"{place}: {first['msg']}" if place else first["msg"]
+        raise ValueError(f"{name} is no file of attempts: {' '.join(reason.split()):.200}") from None

@@ -1,0 +1,250 @@
+"""The SQLite file of attempts: what `AttemptFile.add` has returned from is on the disk.
+
+Every operation opens the file and closes it, so several windows and threads may use it, and a file that was set aside
+is not written to any more. Writing takes a lock beside the file; the system releases it when its process ends.
+"""
+
+import os
+import sqlite3
+from collections.abc import Iterable, Iterator
+from contextlib import closing, contextmanager
+from dataclasses import dataclass
+from itertools import count
+from pathlib import Path
+from typing import Any
+
+from lessons.attempts.record import VERSION, Attempt
+
+FILE_NAME = "attempts.sqlite"
+APPLICATION = 0x52415354
+"""The application of the file's header: RAST."""
+SECONDS_TO_WAIT = 10.0
+"""For another window that is writing."""
+TABLE = """CREATE TABLE attempts (
+    user TEXT NOT NULL,
+    at TEXT NOT NULL,
+    template TEXT NOT NULL,
+    version INTEGER NOT NULL,
+    seed INTEGER NOT NULL,
+    stage TEXT NOT NULL,
+    asked TEXT NOT NULL,
+    answer TEXT NOT NULL,
+    verdict TEXT NOT NULL,
+    score REAL NOT NULL,
+    points REAL NOT NULL,
+    most INTEGER NOT NULL,
+    mistakes TEXT NOT NULL,
+    is_slip INTEGER NOT NULL,
+    seconds REAL NOT NULL,
+    UNIQUE (user, at, template, version, seed, answer)
+)"""
+"""``at`` as in 2026-11-23T08:00:00.000000Z, so that texts are in the order of time; names of mistakes are separated by
+spaces."""
+COLUMNS = tuple(Attempt.model_fields)
+_INSERT = (
+    f"INSERT INTO attempts ({', '.join(COLUMNS)}) VALUES ({', '.join('?' * len(COLUMNS))}) "
+    "ON CONFLICT (user, at, template, version, seed, answer) DO NOTHING"
+)
+_TIME = "%Y-%m-%dT%H:%M:%S.%fZ"
+_REASONS = {
+    sqlite3.SQLITE_FULL: "the disk is full",
+    sqlite3.SQLITE_BUSY: "another window is writing to it",
+    sqlite3.SQLITE_READONLY: "permission is denied",
+    sqlite3.SQLITE_PERM: "permission is denied",
+    sqlite3.SQLITE_CANTOPEN: "its folder cannot be written to, or it is no file",
+}
+
+
+class AttemptFileError(OSError):
+    """Attempts cannot be read or saved; the message is one sentence that names the file."""
+
+
+class DamagedFileError(AttemptFileError):
+    """The file of attempts was truncated, altered, or is another file."""
+
+
+@dataclass(frozen=True)
+class AttemptFile:
+    """A file of attempts; it may not exist yet."""
+
+    path: Path
+
+    def check(self) -> str:
+        """Look at the whole file; begin one where there is none, and set aside one that is damaged.
+
+        Returns
+        -------
+        str
+            What to tell the user, in sentences; empty if all is well.
+
+        Raises
+        ------
+        AttemptFileError
+            If it cannot be read or begun, or is one of a later version, which is left alone.
+        """
+        with self._alone():
+            return self._checked()
+
+    def add(self, attempt: Attempt) -> str:
+        """Save one attempt, so that neither the end of the process nor that of the machine loses it.
+
+        Returns
+        -------
+        str
+            What to tell the user, as `check` does: a damaged file is set aside first.
+
+        Raises
+        ------
+        AttemptFileError
+            If it is not saved; what was saved before is unchanged. It may be tried again.
+        """
+        with self._alone():
+            told = "" if self.path.exists() else self._checked()
+            try:
+                self._insert([attempt])
+            except DamagedFileError:
+                told = self._checked()
+                self._insert([attempt])
+            return told
+
+    def add_all(self, attempts: Iterable[Attempt]) -> int:
+        """Save attempts, all or none, and return how many were not there before; errors as `add`."""
+        with self._alone():
+            if not self.path.exists():
+                self._checked()
+            return self._insert(attempts)
+
+    def attempts(self, user: str | None = None) -> tuple[Attempt, ...]:
+        """Return the attempts of a user, or of all, in the order of time.
+
+        Raises
+        ------
+        AttemptFileError
+            If they cannot be read.
+        """
+        query = f"SELECT {', '.join(COLUMNS)} FROM attempts WHERE user = ? OR ? IS NULL ORDER BY at, rowid"
+        if not self.path.exists():
+            return ()
+        with self._opened() as connection:
+            rows = connection.execute(query, (user, user)).fetchall()
+        try:
+            return tuple(_attempt_of_row(row) for row in rows)
+        except ValueError as problem:
+            raise DamagedFileError(f"{self.path} holds an attempt that cannot be read") from problem
+
+    def users(self) -> tuple[str, ...]:
+        """Return the names of all users; errors as `attempts`."""
+        if not self.path.exists():
+            return ()
+        with self._opened() as connection:
+            return tuple(
+                user for (user,) in connection.execute("SELECT DISTINCT user FROM attempts ORDER BY 1")
+            )
+
+    def _insert(self, attempts: Iterable[Attempt]) -> int:
+        with self._opened() as connection:
+            connection.execute("BEGIN IMMEDIATE")
+            added = connection.executemany(_INSERT, map(_row_of_attempt, attempts)).rowcount
+            connection.execute("COMMIT")
+        return max(added, 0)
+
+    def _checked(self) -> str:
+        """Do what `check` does, alone."""
+        if not self.path.exists():
+            self._replace()
+            return ""
+        try:
+            with self._opened() as connection:
+                (found,) = connection.execute("PRAGMA quick_check(1)").fetchone()
+            if found == "ok":
+                self.attempts()
+                return ""
+        except DamagedFileError:
+            pass
+        kept = self._replace()
+        return f"{self.path} was truncated or altered. It is kept as {kept}, and a new file was begun."
+
+    def _replace(self) -> str:
+        """Begin a file; one that is there, and what belongs to it, get another name, which is returned."""
+        new = self.path.with_name(f"{self.path.name}.new")
+        kept = next(
+            name
+            for number in count(1)
+            if not os.path.lexists(self.path.with_name(name := f"{self.path.name}.broken-{number}"))
+        )
+        new.unlink(missing_ok=True)
+        with self._connected(new, "rwc") as connection:
+            for statement in (
+                f"PRAGMA application_id = {APPLICATION}",
+                f"PRAGMA user_version = {VERSION}",
+                TABLE,
+            ):
+                connection.execute(statement)
+        # The journal of another file would be played back into the new one.
+        for ending in ("-journal", "-wal", "-shm", ""):
+            old = self.path.with_name(self.path.name + ending)
+            if os.path.lexists(old):
+                os.replace(old, self.path.with_name(kept + ending))
+        os.replace(new, self.path)
+        return kept
+
+    @contextmanager
+    def _alone(self) -> Iterator[None]:
+        """Keep other windows from writing; they wait."""
+        lock = self.path.with_name(f"{self.path.name}.lock")
+        try:
+            self.path.parent.mkdir(parents=True, exist_ok=True)
+            with self._connected(lock, "rwc") as connection:
+                connection.execute("BEGIN EXCLUSIVE")
+                yield
+        except AttemptFileError:
+            raise
+        except OSError as problem:
+            reason = (problem.strerror or str(problem)).lower()
+            raise AttemptFileError(f"{self.path} cannot be written: {reason}") from problem
+
+    @contextmanager
+    def _opened(self) -> Iterator[sqlite3.Connection]:
+        """Open the file, if it is one of this version."""
+        with self._connected(self.path, "rw") as connection:
+            (version,) = connection.execute("PRAGMA user_version").fetchone()
+            (application,) = connection.execute("PRAGMA application_id").fetchone()
+            if application == APPLICATION and version > VERSION:
+                raise AttemptFileError(
+                    f"{self.path} was written by a later version of the program: "
+                    f"its version is {version}, this one reads {VERSION}. It is left alone"
+                )
+            statements = connection.execute("SELECT sql FROM sqlite_master WHERE sql IS NOT NULL").fetchall()
+            if (application, version, statements) != (APPLICATION, VERSION, [(TABLE,)]):
+                raise DamagedFileError(f"{self.path} is no file of attempts")
+            # After a commit, the folder is written too: its entry of the journal must be gone.
+            connection.execute("PRAGMA synchronous = EXTRA")
+            yield connection
+
+    @contextmanager
+    def _connected(self, path: Path, mode: str) -> Iterator[sqlite3.Connection]:
+        address = f"{path.absolute().as_uri()}?mode={mode}"
+        try:
+            with closing(
+                sqlite3.connect(address, SECONDS_TO_WAIT, isolation_level=None, uri=True)
+            ) as connection:
+                yield connection
+        except sqlite3.Error as problem:
+            code = getattr(problem, "sqlite_errorcode", sqlite3.SQLITE_ERROR) & 0xFF
+            if code in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB):
+                raise DamagedFileError(f"{self.path} is damaged: {problem}") from problem
+            reason = _REASONS.get(code, str(problem))
+            raise AttemptFileError(f"{self.path} cannot be read or written: {reason}") from problem
+
+
+def _row_of_attempt(attempt: Attempt) -> tuple[Any, ...]:
+    values = {name: getattr(attempt, name) for name in COLUMNS}
+    values["at"] = attempt.at.strftime(_TIME)
+    values |= {name: " ".join(values[name]) for name in ("asked", "mistakes")}
+    return tuple(values.values())
+
+
+def _attempt_of_row(row: tuple[Any, ...]) -> Attempt:
+    values = dict(zip(COLUMNS, row, strict=True))
+    values |= {name: tuple(str(values[name]).split()) for name in ("asked", "mistakes")}
+    return Attempt(**values)
