@@ -109,6 +109,11 @@ class NumberAnswer(Answer):
             return "\n".join(f"{name} = {text}" for name, text in zip(self.names, texts, strict=True))
         return ", ".join(texts)
 
+    def first_wrong(self, response: Numbers) -> str:
+        """Name the first number that is wrong, where the question names them."""
+        wrong = self.check(response).marks["wrong"]
+        return f"The first number that is wrong: {self.names[wrong[0]]}." if wrong and self.names else ""
+
     def random(self, draws: Draws) -> Numbers:
         """Guess numbers of the size and the fineness of the right ones."""
         return tuple(random_number(draws, self.reference) for _ in self.reference)

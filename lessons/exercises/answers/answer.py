@@ -11,6 +11,15 @@ Response = Any
 """An answer that was read: its type of answer knows its shape, and two that are the same compare equal."""
 
 
+CANDIDATES = 100
+"""Most answers of which a run is asked, where what chance gives is found by running."""
+
+
+def spread(count: int, limit: int) -> list[int]:
+    """Return all of 0 ... ``count`` - 1, or ``limit`` of them at even distances."""
+    return [k * count // min(count, limit) for k in range(min(count, limit))]
+
+
 class NotCheckedError(ValueError):
     """An answer is empty or malformed: it is not checked yet and costs nothing. The message is one sentence."""
 
@@ -45,6 +54,11 @@ class Answer(ABC):
         """Mean score of random answers; 0: nothing to speak of."""
         return 0.0
 
+    @property
+    def is_many(self) -> bool:
+        """Whether more than a thousand different answers can be given."""
+        return True
+
     @abstractmethod
     def read(self, given: object) -> Response:
         """Return what ``given``, from a TOML file or a form, means; NotCheckedError where it means nothing."""
@@ -64,6 +78,10 @@ class Answer(ABC):
     @abstractmethod
     def text(self, response: Response) -> str:
         """Return an answer as text, as it was understood."""
+
+    def first_wrong(self, response: Response) -> str:
+        """Return a sentence that says where a wrong answer goes wrong first, without what is right; may be empty."""
+        return ""
 
     @abstractmethod
     def random(self, draws: Draws) -> Response:

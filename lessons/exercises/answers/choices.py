@@ -79,6 +79,11 @@ class OrderAnswer(Answer):
         by_chance: float = self.__dict__["_by_chance"]
         return max(0.0, (run - by_chance) / (len(self.options) - by_chance))
 
+    @property
+    def is_many(self) -> bool:
+        """Whether there are more than a thousand orders."""
+        return len(self.options) > 6
+
     def read(self, given: object) -> Order:
         """Read the names in order."""
         order = read_names(given, self.options)
@@ -103,6 +108,13 @@ class OrderAnswer(Answer):
     def text(self, response: Order) -> str:
         """Return the names in order."""
         return " > ".join(self.options[k] for k in response)
+
+    def first_wrong(self, response: Order) -> str:
+        """Name the first two neighbours that do not belong together."""
+        for one, other in pairwise(response):
+            if other != one + 1:
+                return f"{self.options[other]} does not come right after {self.options[one]}."
+        return ""
 
     def random(self, draws: Draws) -> Order:
         """Guess an order."""
@@ -146,6 +158,11 @@ class ChoiceAnswer(Answer):
         indices = range(len(self.options))
         choices = [frozenset(chosen) for k in indices for chosen in combinations(indices, k + 1)]
         return sum(self.check(chosen).score for chosen in choices) / len(choices)
+
+    @property
+    def is_many(self) -> bool:
+        """There are few options."""
+        return False
 
     def read(self, given: object) -> frozenset[int]:
         """Read one name, or a list of them."""

@@ -111,6 +111,11 @@ class PixelAnswer(Answer):
         lines = ["".join(".#"[(i, j) in response] for i in range(columns)) for j in range(rows)]
         return "\n".join(reversed(lines))
 
+    def first_wrong(self, response: Pixels) -> str:
+        """Name the lowest row with a wrong pixel."""
+        wrong = (response ^ self.reference) - self.may
+        return f"The lowest row with a wrong one: row {min(row for _, row in wrong)}." if wrong else ""
+
     def random(self, draws: Draws) -> Pixels:
         """Mark every pixel with one probability, itself drawn."""
         share = draws.fraction()

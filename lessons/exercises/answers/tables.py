@@ -179,6 +179,14 @@ class TableAnswer(Answer):
         )
         return "\n".join(line.rstrip() for line in padded)
 
+    def first_wrong(self, response: Rows) -> str:
+        """Name the first cell that is wrong."""
+        wrong = self.check(response).marks["wrong"]
+        if not wrong:
+            return ""
+        row, column = wrong[0]
+        return f"The first wrong cell: {self.columns[column].name}, {self.labels[row]}."
+
     def random(self, draws: Draws) -> Rows:
         """Guess every cell."""
         of_column = list(zip(*self.reference, strict=True))

@@ -1,0 +1,238 @@
+"""Be the rasterizer: one step at a time, each judged at once; a wrong one is tried again or put right."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any, ClassVar, Literal
+
+from lessons.exercises.answers.amounts import random_number, read_entry
+from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
+from lessons.exercises.answers.choices import read_names
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import are_close, number_text
+
+Value = Any
+"""Of a step: (column, row), a number, the number of an option, or (x, y)."""
+Tries = tuple[Value, ...]
+"""What was tried at a step, in order; ``FIXED`` last where the program put it right."""
+Run = tuple[Tries, ...]
+"""The steps that were done, and the one that is being tried."""
+
+FIXED = None
+"""In place of a try: the program put the step right."""
+TRY_LIMIT = 20
+"""Most tries of a step that are read."""
+
+
+@dataclass(frozen=True)
+class Step:
+    """One step of a run."""
+
+    prompt: str
+    """What is asked, as ``the next pixel``."""
+    kind: Literal["pixel", "number", "choice", "place"]
+    right: Value
+    options: tuple[str, ...] = ()
+    """Of a choice."""
+    tolerance: float = 0.0
+    """Largest difference of each number, absolute."""
+
+    def read(self, given: object) -> Value:
+        """Return what one try means; NotCheckedError where it means nothing."""
+        if self.kind == "choice":
+            chosen = read_names(given, self.options)
+            if len(chosen) != 1:
+                raise NotCheckedError(f"expected one of {', '.join(self.options)}, got {len(chosen)}")
+            return chosen[0]
+        if self.kind == "number":
+            return read_entry(given)
+        pair = given.strip("() ").split(",") if isinstance(given, str) else given
+        if not isinstance(pair, list) or len(pair) != 2:
+            raise NotCheckedError(f"expected two numbers for {self.prompt}, got {given!r:.60}")
+        numbers = tuple(map(read_entry, pair))
+        if self.kind == "pixel":
+            if any(not isinstance(number, Fraction) or number.denominator != 1 for number in numbers):
+                raise NotCheckedError(f"expected a pixel such as 3, 2, got {given!r:.60}")
+            return tuple(map(int, numbers))
+        return numbers
+
+    def is_right(self, value: Value) -> bool:
+        """Return whether a try is right."""
+        if value is FIXED or self.kind in ("pixel", "choice"):
+            return bool(value == self.right)
+        mine, its = ((value,), (self.right,)) if self.kind == "number" else (value, self.right)
+        return all(are_close(one, other, self.tolerance) for one, other in zip(mine, its, strict=True))
+
+    def text(self, value: Value) -> str:
+        """Return a try as text."""
+        if value is FIXED:
+            return "fixed"
+        if self.kind == "choice":
+            return self.options[value]
+        if self.kind == "number":
+            return number_text(value)
+        return (
+            f"({', '.join(number_text(Fraction(part) if isinstance(part, int) else part) for part in value)})"
+        )
+
+    def is_done(self, tries: Tries) -> bool:
+        """Return whether the step is right by now."""
+        return bool(tries) and (tries[-1] is FIXED or self.is_right(tries[-1]))
+
+
+@dataclass(frozen=True, eq=False)
+class StepsAnswer(Answer):
+    """The steps of a run, each from the right state before it: only a first try earns."""
+
+    steps: tuple[Step, ...]
+    size: tuple[int, int] = (1, 1)
+    """Columns and rows of the raster, for pixels and places."""
+
+    kind: ClassVar[str] = "steps"
+
+    def __post_init__(self) -> None:
+        if not self.steps:
+            raise ValueError("expected steps, got none")
+
+    @property
+    def reference(self) -> Run:
+        """Every step right at the first try."""
+        return tuple((step.right,) for step in self.steps)
+
+    @property
+    def credit(self) -> str:
+        """How points are given."""
+        return (
+            f"Each of the {len(self.steps)} steps earns its share where the first try is right. "
+            "A wrong step may be tried again, or be put right, and earns nothing."
+        )
+
+    @property
+    def chance(self) -> float:
+        """Mean score of a guess at every step; numbers and places are not guessed."""
+        return sum(1 / self._count(step) for step in self.steps) / len(self.steps)
+
+    def _count(self, step: Step) -> float:
+        """Return how many answers a step can be given."""
+        if step.kind == "choice":
+            return len(step.options)
+        return self.size[0] * self.size[1] if step.kind == "pixel" else float("inf")
+
+    @property
+    def is_many(self) -> bool:
+        """Whether first wrong steps are many: by them runs are compared."""
+        return sum(map(self._count, self.steps)) > 1000
+
+    def open_step(self, run: Run) -> int | None:
+        """Return the number of the step that is asked now; ``None``: all are done."""
+        done = len(run) - bool(run and not self.steps[len(run) - 1].is_done(run[-1]))
+        return done if done < len(self.steps) else None
+
+    def tried(self, run: Run, value: Value) -> Run:
+        """Return the run after one more try, or after ``FIXED``, at the step that is asked."""
+        number = self.open_step(run)
+        if number is None:
+            raise ValueError("all steps are done")
+        before = run[number] if number < len(run) else ()
+        return (*run[:number], (*before, value))
+
+    def read(self, given: object) -> Run:
+        """Read a list with a try, a list of tries or ``fixed`` for each step; the last ones may be missing."""
+        if given in ("", [], None):
+            raise NotCheckedError("the answer is empty")
+        if not isinstance(given, list) or len(given) > len(self.steps):
+            got = f"{len(given)}" if isinstance(given, list) else type(given).__name__
+            raise NotCheckedError(f"expected a list of up to {len(self.steps)} steps, got {got}")
+        run = []
+        for number, (step, entry) in enumerate(zip(self.steps, given, strict=False)):
+            tries = self._read_tries(step, entry)
+            if not step.is_done(tries) and number < len(given) - 1:
+                tries = (*tries, FIXED)
+            run.append(tries)
+        return tuple(run)
+
+    def _read_tries(self, step: Step, entry: object) -> Tries:
+        # A pixel or place as a list of two numbers is one try, not two.
+        is_pair = step.kind in ("pixel", "place") and isinstance(entry, list) and len(entry) == 2
+        is_one = not isinstance(entry, list) or (is_pair and not any(_is_pair(part) for part in entry))
+        tries = [entry] if is_one else entry
+        assert isinstance(tries, list)
+        if not 1 <= len(tries) <= TRY_LIMIT:
+            raise NotCheckedError(f"expected 1 to {TRY_LIMIT} tries of a step, got {len(tries)}")
+        return tuple(FIXED if one == "fixed" else step.read(one) for one in tries)
+
+    def check(self, response: Run) -> Verdict:
+        """Count the steps whose first try is right."""
+        marks: dict[str, list[int]] = {"right": [], "wrong": [], "fixed": []}
+        for number, (step, tries) in enumerate(zip(self.steps, response, strict=False)):
+            marks["right" if tries and step.is_right(tries[0]) else "wrong"].append(number)
+            if FIXED in tries:
+                marks["fixed"].append(number)
+        right, count = len(marks["right"]), len(self.steps)
+        wrong, left = len(marks["wrong"]), count - len(response)
+        counts = f"{right} of {count} steps right, {wrong} wrong, {left} not done"
+        return Verdict(right / count, counts, marks)
+
+    def _first_wrong(self, run: Run) -> tuple[int, Value] | None:
+        for number, (step, tries) in enumerate(zip(self.steps, run, strict=False)):
+            if not tries or not step.is_right(tries[0]):
+                return number, tries[0] if tries else FIXED
+        return None
+
+    def is_same(self, one: Run, other: Run) -> bool:
+        """Compare the first wrong step: what follows begins again from the right state."""
+        first, second = self._first_wrong(one), self._first_wrong(other)
+        if first is None or second is None:
+            return first is second and len(one) == len(other)
+        number, mine = first
+        if number != second[0]:
+            return False
+        step, its = self.steps[number], second[1]
+        if mine is FIXED or its is FIXED:
+            return mine is its
+        return Step(step.prompt, step.kind, its, step.options, step.tolerance).is_right(mine)
+
+    def is_slip(self, response: Run) -> bool:
+        """All steps are done, and one alone went wrong."""
+        is_complete = len(response) == len(self.steps) > 2
+        return is_complete and len(self.check(response).marks["wrong"]) == 1
+
+    def text(self, response: Run) -> str:
+        """Return the steps, one a line, with all tries."""
+        return "\n".join(
+            f"{step.prompt}: {', then '.join(map(step.text, tries))}"
+            for step, tries in zip(self.steps, response, strict=False)
+        )
+
+    def first_wrong(self, response: Run) -> str:
+        """Name the first wrong step."""
+        found = self._first_wrong(response)
+        return "" if found is None else f"The first wrong step: {self.steps[found[0]].prompt}."
+
+    def random(self, draws: Draws) -> Run:
+        """Guess every step."""
+        return tuple((self._guess(step, draws),) for step in self.steps)
+
+    def _guess(self, step: Step, draws: Draws) -> Value:
+        columns, rows = self.size
+        if step.kind == "choice":
+            return draws.whole(0, len(step.options) - 1)
+        if step.kind == "pixel":
+            return draws.whole(0, columns - 1), draws.whole(0, rows - 1)
+        if step.kind == "place":
+            return Fraction(draws.whole(0, 10 * columns), 10), Fraction(draws.whole(0, 10 * rows), 10)
+        return random_number(draws, (step.right,))
+
+    def extremes(self) -> list[Run]:
+        """Have every step put right, or do none."""
+        return [((FIXED,),) * len(self.steps), ()]
+
+
+def _is_pair(given: object) -> bool:
+    return isinstance(given, list) or (isinstance(given, str) and "," in given)
+
+
+def first_tries(values: Sequence[Value], steps: Sequence[Step]) -> Run:
+    """Return a run of first tries; ``FIXED`` where there are fewer of them than steps."""
+    missing = max(len(steps) - len(values), 0)
+    return tuple((value,) for value in (*values[: len(steps)], *(FIXED,) * missing))

@@ -1,0 +1,304 @@
+"""Answers that are judged by running: break a weak method, and no more than needed."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from itertools import product
+from typing import ClassVar
+
+from core import Settings
+from core.scene import ClipScene
+from core.settings import with_method
+from lessons.exercises.answers.amounts import read_entry
+from lessons.exercises.answers.answer import CANDIDATES, Answer, NotCheckedError, Verdict, spread
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+
+Values = tuple[Fraction, ...]
+"""Of the dials, in their order."""
+Choices = tuple[int, ...]
+"""Of every family, the number of its method."""
+
+COMBINATION_LIMIT = 256
+"""Most combinations of methods: all of them are drawn to find the cheapest."""
+
+
+@dataclass(frozen=True)
+class Dial:
+    """A number that the learner changes."""
+
+    name: str
+    low: Fraction
+    high: Fraction
+    step: Fraction
+    corner: tuple[int, int, int] | None = None
+    """Number of the primitive, its corner, 0 for x or 1 for y; ``None``: it is no coordinate of a corner."""
+
+    @property
+    def count(self) -> int:
+        """How many values it has."""
+        return (self.high - self.low) // self.step + 1
+
+    def value(self, index: int) -> Fraction:
+        """Return one of its values."""
+        return self.low + index * self.step
+
+
+@dataclass(frozen=True, eq=False)
+class BreakAnswer(Answer):
+    """Numbers with which a weak method fails and a robust one does not; any that do so are right."""
+
+    dials: tuple[Dial, ...]
+    start: Values
+    """What the dials begin with."""
+    reference: Values
+    scene_of: Callable[[Values], ClipScene]
+    """The scene of some values."""
+    weak: Settings
+    robust: Settings
+    fails: Callable[[ClipScene, Settings], bool]
+    """Runs a scene and says whether the picture is wrong."""
+    rule: str
+    """When a method fails, as the question states it: ``a pixel is drawn twice``."""
+
+    kind: ClassVar[str] = "break"
+
+    def __post_init__(self) -> None:
+        if self.check(self.reference).score != 1:
+            raise ValueError("expected numbers with which the weak method alone fails")
+
+    @property
+    def credit(self) -> str:
+        """How points are given."""
+        return (
+            f"All points where the weak method fails and the other does not; a method fails where {self.rule}. "
+            "Any such answer counts."
+        )
+
+    @cached_property
+    def chance(self) -> float:
+        """Mean score of answers spread evenly over all."""
+        counts = [dial.count for dial in self.dials]
+        total = 1
+        for count in counts:
+            total *= count
+        scores = []
+        for index in spread(total, CANDIDATES):
+            values, rest = [], index
+            for dial, count in zip(self.dials, counts, strict=True):
+                values.append(dial.value(rest % count))
+                rest //= count
+            scores.append(self.check(tuple(values)).score)
+        return sum(scores) / len(scores)
+
+    @property
+    def is_many(self) -> bool:
+        """Answers differ by whether each method fails."""
+        return False
+
+    def read(self, given: object) -> Values:
+        """Read a list of numbers, or a table of them by the names of the dials."""
+        if given in ("", [], None, {}):
+            raise NotCheckedError("the answer is empty")
+        names = [dial.name for dial in self.dials]
+        if isinstance(given, dict):
+            if set(given) != set(names):
+                raise NotCheckedError(f"expected {', '.join(names)}, got {', '.join(map(str, given))!a:.60}")
+            given = [given[name] for name in names]
+        entries = given if isinstance(given, list) else [given]
+        if len(entries) != len(names):
+            raise NotCheckedError(f"expected {len(names)} numbers, got {len(entries)}")
+        return tuple(self._read(dial, entry) for dial, entry in zip(self.dials, entries, strict=True))
+
+    def _read(self, dial: Dial, given: object) -> Fraction:
+        number = read_entry(given)
+        is_value = isinstance(number, Fraction) and dial.low <= number <= dial.high
+        if not isinstance(number, Fraction) or not is_value or (number - dial.low) % dial.step:
+            low, high, step = map(number_text, (dial.low, dial.high, dial.step))
+            raise NotCheckedError(
+                f"expected {dial.name} from {low} to {high} in steps of {step}, got {given!r:.40}"
+            )
+        return number
+
+    def check(self, response: Values) -> Verdict:
+        """Run both methods."""
+        scene = self.scene_of(response)
+        weak, robust = self.fails(scene, self.weak), self.fails(scene, self.robust)
+        counts = f"the weak method {_failed(weak)}, the other {_failed(robust)}"
+        return Verdict(float(weak and not robust), counts, {"weak": weak, "robust": robust})
+
+    def is_same(self, one: Values, other: Values) -> bool:
+        """Compare which methods fail."""
+        return one == other or self.check(one).marks == self.check(other).marks
+
+    def is_slip(self, response: Values) -> bool:
+        """No number is a slip of another: what runs decides."""
+        return False
+
+    def text(self, response: Values) -> str:
+        """Return the numbers by name."""
+        return "\n".join(
+            f"{dial.name} = {number_text(value)}" for dial, value in zip(self.dials, response, strict=True)
+        )
+
+    def random(self, draws: Draws) -> Values:
+        """Guess every number."""
+        return tuple(draws.step(dial.low, dial.high, dial.step) for dial in self.dials)
+
+    def extremes(self) -> list[Values]:
+        """Change nothing."""
+        return [self.start]
+
+
+def _failed(fails: bool) -> str:
+    return "fails" if fails else "does not fail"
+
+
+@dataclass(frozen=True)
+class Family:
+    """Methods to choose from, and what each costs."""
+
+    name: str
+    """Of a setting, as ``interpolation``."""
+    methods: tuple[str, ...]
+    costs: tuple[Fraction, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class CheapestAnswer(Answer):
+    """The cheapest methods whose picture stays within a tolerance; all that cost as little are right."""
+
+    families: tuple[Family, ...]
+    limit: Fraction
+    """Largest error."""
+    error_of: Callable[[Settings], Fraction]
+    """Draws with some settings and returns the error against the reference picture."""
+    base: Settings
+    """The methods of all other families."""
+    unit: str = "of 255"
+    """Of the error and its limit, for sentences."""
+
+    kind: ClassVar[str] = "cheapest"
+
+    def __post_init__(self) -> None:
+        count = 1
+        for family in self.families:
+            count *= len(family.methods)
+            if not 2 <= len(family.methods) == len(family.costs):
+                raise ValueError(f"expected two or more methods of {family.name}, each with its cost")
+        if not 2 <= count <= COMBINATION_LIMIT:
+            raise ValueError(f"expected 2 to {COMBINATION_LIMIT} combinations of methods, got {count}")
+        within = [choices for choices in self.combinations if self.error(choices) <= self.limit]
+        if not within:
+            raise ValueError(f"no methods stay within an error of {number_text(self.limit)}")
+        least = min(map(self.cost, within))
+        if least == self.cost(self.dearest) or least == min(map(self.cost, self.combinations)):
+            raise ValueError("expected the cheapest methods within the tolerance to be neither of the ends")
+
+    @cached_property
+    def _errors(self) -> dict[Choices, Fraction]:
+        return {}
+
+    def settings(self, choices: Choices) -> Settings:
+        """Return the settings of some choices."""
+        settings = self.base
+        for family, k in zip(self.families, choices, strict=True):
+            settings = with_method(settings, family.name, family.methods[k])
+        return settings
+
+    def error(self, choices: Choices) -> Fraction:
+        """Return the error of some choices, by running."""
+        if choices not in self._errors:
+            self._errors[choices] = self.error_of(self.settings(choices))
+        return self._errors[choices]
+
+    def cost(self, choices: Choices) -> Fraction:
+        """Return what some choices cost together."""
+        return sum((family.costs[k] for family, k in zip(self.families, choices, strict=True)), Fraction(0))
+
+    @property
+    def combinations(self) -> list[Choices]:
+        """All choices that can be made."""
+        return list(product(*(range(len(family.methods)) for family in self.families)))
+
+    @property
+    def dearest(self) -> Choices:
+        """The choices that cost most."""
+        return max(self.combinations, key=self.cost)
+
+    @property
+    def reference(self) -> Choices:
+        """The first of the cheapest choices within the tolerance."""
+        within = [choices for choices in self.combinations if self.error(choices) <= self.limit]
+        return min(within, key=self.cost)
+
+    @property
+    def credit(self) -> str:
+        """How points are given."""
+        return (
+            f"The cheapest methods whose error is at most {number_text(self.limit)} {self.unit} earn all points; "
+            "dearer ones within it earn what they save of the dearest, in proportion."
+        )
+
+    @property
+    def chance(self) -> float:
+        """Mean score of all choices that can be made."""
+        scores = [self.check(choices).score for choices in self.combinations]
+        return sum(scores) / len(scores)
+
+    @property
+    def is_many(self) -> bool:
+        """Choices are few."""
+        return False
+
+    def read(self, given: object) -> Choices:
+        """Read a table of methods by family, or a list of them."""
+        if given in ("", [], None, {}):
+            raise NotCheckedError("the answer is empty")
+        names = [family.name for family in self.families]
+        if isinstance(given, dict):
+            if set(given) != set(names):
+                raise NotCheckedError(f"expected {', '.join(names)}, got {', '.join(map(str, given))!a:.60}")
+            given = [given[name] for name in names]
+        entries = given if isinstance(given, list) else [given]
+        if len(entries) != len(names):
+            raise NotCheckedError(f"expected a method of each of {', '.join(names)}, got {len(entries)}")
+        chosen = []
+        for family, entry in zip(self.families, entries, strict=True):
+            if entry not in family.methods:
+                raise NotCheckedError(f"expected one of {', '.join(family.methods)}, got {entry!r:.60}")
+            chosen.append(family.methods.index(entry))
+        return tuple(chosen)
+
+    def check(self, response: Choices) -> Verdict:
+        """Draw with the methods, and compare error and cost."""
+        error, cost = self.error(response), self.cost(response)
+        most, least = self.cost(self.dearest), self.cost(self.reference)
+        is_within = error <= self.limit
+        score = float((most - cost) / (most - least)) if is_within else 0.0
+        within = "within" if is_within else "beyond"
+        counts = f"error {number_text(error)} {self.unit}, {within} the tolerance; cost {number_text(cost)}"
+        return Verdict(score, counts, {"error": error, "cost": cost, "is_within": is_within})
+
+    def is_same(self, one: Choices, other: Choices) -> bool:
+        """Compare the choices; all that earn everything are the same."""
+        return one == other or self.check(one).score == self.check(other).score == 1
+
+    def is_slip(self, response: Choices) -> bool:
+        """No choice is a slip of another."""
+        return False
+
+    def text(self, response: Choices) -> str:
+        """Return the methods by family."""
+        return "\n".join(
+            f"{family.name}: {family.methods[k]}" for family, k in zip(self.families, response, strict=True)
+        )
+
+    def random(self, draws: Draws) -> Choices:
+        """Guess every method."""
+        return tuple(draws.whole(0, len(family.methods) - 1) for family in self.families)
+
+    def extremes(self) -> list[Choices]:
+        """Take the dearest of all, or the cheapest."""
+        return [self.dearest, min(self.combinations, key=self.cost)]
