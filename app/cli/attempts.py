@@ -1,17 +1,21 @@
-"""``rasterscope exercise export`` and ``import``: the attempts of users, as files."""
+"""What ``rasterscope exercise`` does with attempts: practice, progress, files to exchange."""
 
 import argparse
 import sys
 from datetime import UTC, datetime
+from itertools import groupby
+from operator import attrgetter
 
 from pydantic import ValidationError
 
 from app.cli.commands import PROGRAM, UsageError
 from app.files.file_writing import write_file
 from app.files.input_files import read_input
-from lessons.attempts.record import attempt_of, attempts_json, read_attempts_json
+from lessons.attempts.practice import Progress, next_question, progress
+from lessons.attempts.record import DEFAULT_USER, attempt_of, attempts_json, read_attempts_json
 from lessons.attempts.store import FILE_NAME, AttemptFile
 from lessons.exercises.answers.answer import Response
+from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import Judgement, Question
 
 SIZE_LIMIT = 1 << 26
@@ -20,6 +24,14 @@ SIZE_LIMIT = 1 << 26
 
 def add_parsers(parsers: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
     """Add the actions."""
+    for name, summary in (
+        ("practice", "choose the next question for a user"),
+        ("progress", "show what a user has reached, and the mistakes"),
+    ):
+        one = parsers.add_parser(name, help=summary, allow_abbrev=False)
+        one.add_argument(
+            "--user", metavar="NAME", default=DEFAULT_USER, help=f"whose attempts ({DEFAULT_USER})"
+        )
     export = parsers.add_parser("export", help="write attempts into a JSON file", allow_abbrev=False)
     export.add_argument("path", metavar="ATTEMPTS.json", help="the file to write")
     export.add_argument("--user", metavar="NAME", help="only the attempts of this user")
@@ -30,6 +42,15 @@ def add_parsers(parsers: "argparse._SubParsersAction[argparse.ArgumentParser]") 
 def run(options: argparse.Namespace) -> int:
     """Do what the action asks."""
     file = attempt_file()
+    if options.action == "practice":
+        choice = next_question(file.attempts(options.user), TEMPLATES, options.user, datetime.now(UTC))
+        assert choice is not None
+        template, seed = choice.question.template, choice.question.seed
+        print(f"{choice.reason}\n\n  rasterscope exercise show {template.name} --seed {seed}")
+        return 0
+    if options.action == "progress":
+        print("\n".join(progress_lines(progress(file.attempts(options.user)))))
+        return 0
     if options.action == "export":
         attempts = file.attempts(options.user)
         write_file(options.path, attempts_json(attempts))
@@ -39,6 +60,21 @@ def run(options: argparse.Namespace) -> int:
     added = file.add_all(attempts)
     print(f"{options.path}: {counted(added)} added, {len(attempts) - added} known before")
     return 0
+
+
+def progress_lines(reached: Progress) -> list[str]:
+    """Return a table: the templates with their best points, then mistakes by stage."""
+    lines = [f"{reached.points:.3g} points"]
+    for name, points in reached.best.items():
+        lines.append(
+            f"  {name:<32}{points:.3g} points, {reached.correct[name]} of {reached.tried[name]} right"
+        )
+    if reached.mistakes:
+        lines.append("mistakes, and the answers in which each could show")
+    for stage, counts in groupby(sorted(reached.mistakes, key=attrgetter("stage")), attrgetter("stage")):
+        lines.append(f"  {stage}")
+        lines += [f"    {count.mistake:<30}{count.made} of {count.asked}" for count in counts]
+    return lines
 
 
 def keep(user: str, question: Question, response: Response, judgement: Judgement) -> None:

@@ -23,7 +23,8 @@ EXAMPLES = """examples:
   rasterscope exercise validate my-exercise.toml
   rasterscope exercise show my-exercise.toml
   rasterscope exercise selftest --seeds 200
-  rasterscope exercise export attempts.json --user me
+  rasterscope exercise practice --user Ada
+  rasterscope exercise export attempts.json --user Ada
 
 An answer is a TOML file with one key. Pixels: answer = text art, top row first, or a list of [column, row].
 Numbers: answer = "1/3", or a list of numbers. Table: a list of rows. Order and choice: a list of names.
@@ -70,7 +71,7 @@ def run(options: argparse.Namespace) -> int:
         for template in TEMPLATES.values():
             print(f"{template.name:<24}{template.stage:<13}{template.title}")
         return 0
-    if options.action in ("export", "import"):
+    if options.action in ("practice", "progress", "export", "import"):
         return attempts.run(options)
     if options.action == "selftest":
         return _selftest(options.seeds)

@@ -52,6 +52,12 @@ def test_attempts_of_a_user_are_kept_exported_and_imported(
     assert run_program(*check, "Zoë").returncode == 0
     assert run_program(*check, "'; DROP TABLE attempts").returncode == 0
     assert "expected a name without control characters" in refused(2, *check, "a\nb")
+    practice = run_program("exercise", "practice", "--user", "Zoë").stdout.splitlines()
+    assert practice[0] == "A new variant of what was just missed."
+    assert "rasterscope exercise show perspective-u --seed " in practice[2]
+    reached = run_program("exercise", "progress", "--user", "Zoë").stdout.splitlines()
+    assert reached[0] == "0 points"
+    assert "    affine-for-perspective        0 of 1" in reached
     out = tmp_path / "class.json"
     assert run_program("exercise", "export", out, "--user", "Zoë").stdout == f"{out}: 1 attempt\n"
     assert run_program("exercise", "export", out).stdout == f"{out}: 2 attempts\n"

@@ -1,0 +1,113 @@
+"""Practice asks what was missed and what is long ago, and progress counts it."""
+
+from collections.abc import Sequence
+from datetime import UTC, datetime, timedelta
+
+import pytest
+
+from lessons.attempts.practice import Choice, next_question, progress, recall
+from lessons.attempts.record import Attempt, attempt_of
+from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.question import Question, Template, ask, judge
+from tests.app.test_start_imports import imported_by
+
+NOW = datetime(2026, 11, 23, 12, tzinfo=UTC)
+PAIR = ("corner-for-center", "all-edges-inclusive")
+SOME = {name: TEMPLATES[name] for name in ("triangle-coverage", "facing", "perspective-u")}
+
+
+def answered(question: Question, mistakes: Sequence[str] | None, ago: timedelta) -> Attempt:
+    """Return an attempt: right, or wrong by mistakes that may be none."""
+    right = question.draft.answer.reference
+    attempt = attempt_of("me", question, right, judge(question, right), 20, NOW - ago)
+    if mistakes is None:
+        return attempt
+    return attempt.model_copy(update={"score": 0.25, "points": 1.0, "mistakes": tuple(mistakes)})
+
+
+def chosen(attempts: Sequence[Attempt], templates=SOME, now: datetime = NOW, user: str = "me") -> Choice:
+    choice = next_question(attempts, templates, user, now)
+    assert choice is not None
+    return choice
+
+
+def test_new_ones_come_in_order_and_the_same_for_the_same_user() -> None:
+    attempts: list[Attempt] = []
+    for name in SOME:
+        choice = chosen(attempts)
+        assert (choice.question.template.name, choice.reason) == (name, "This one is new.")
+        assert chosen(attempts).question.mark == choice.question.mark
+        assert chosen(attempts, user="Ada").question.seed != choice.question.seed
+        attempts.append(answered(choice.question, None, timedelta(minutes=2)))
+    assert chosen(attempts).reason == "Nothing is due yet: this one is due first."
+    later = chosen(attempts, now=NOW + timedelta(minutes=10))
+    assert later.reason == "It was asked some time ago: do you still know it?"
+    assert next_question([], {}, "me", NOW) is None
+
+
+def test_what_is_most_forgotten_comes_first() -> None:
+    first, second, third = (ask(template, 1) for template in SOME.values())
+    attempts = [
+        answered(second, None, timedelta(days=200)),
+        answered(third, None, timedelta(days=190)),
+        answered(third, None, timedelta(days=180)),
+        answered(first, None, timedelta(days=1)),
+    ]
+    known = recall(attempts, NOW)
+    assert known["facing"][0] < known["perspective-u"][0] < known["triangle-coverage"][0]
+    assert chosen(attempts).question.template.name == "facing"
+
+
+def test_a_miss_is_followed_by_a_new_variant_three_times() -> None:
+    attempts: list[Attempt] = []
+    for number in range(3):
+        question = chosen(attempts).question
+        assert question.template.name == "triangle-coverage"
+        attempts.append(answered(question, (), timedelta(minutes=9 - number)))
+    assert len({attempt.seed for attempt in attempts}) == 3
+    assert chosen(attempts[:1]).reason == "A new variant of what was just missed."
+    assert chosen(attempts).reason != "A new variant of what was just missed."
+    right = [*attempts[:2], answered(ask(SOME["triangle-coverage"], 3), None, timedelta(0))]
+    assert chosen(right).question.template.name == "facing"
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_the_next_variant_tells_two_mistakes_apart(seed: int) -> None:
+    missed = answered(ask(SOME["triangle-coverage"], seed), PAIR, timedelta(0))
+    choice = chosen([missed])
+    draft = choice.question.draft
+    assert (
+        choice.reason
+        == f"The last answer can come from {' and '.join(PAIR)}: this question tells them apart."
+    )
+    assert not draft.answer.is_same(*(draft.mistakes[name] for name in PAIR))
+    assert choice.question.seed != seed
+    alike = answered(ask(SOME["perspective-u"], seed), sorted(*SOME["perspective-u"].alike), timedelta(0))
+    assert chosen([alike]).reason == "A new variant of what was just missed."
+
+
+def test_a_template_that_cannot_draw_is_passed_over() -> None:
+    broken = Template("broken", 1, "Broken", "raster", 1, lambda draws: None)
+    assert chosen([], {"broken": broken} | SOME).question.template.name == "triangle-coverage"
+    assert next_question([], {"broken": broken}, "me", NOW) is None
+
+
+def test_points_never_fall_and_mistakes_are_counted() -> None:
+    question = ask(SOME["triangle-coverage"], 1)
+    attempts = [
+        answered(question, PAIR[:1] if number < 3 else None, timedelta(9 - number)) for number in range(9)
+    ]
+    attempts.append(answered(question, (), timedelta(0)))
+    reached = progress(attempts)
+    (count,) = [each for each in reached.mistakes if each.mistake == PAIR[0]]
+    assert (count.stage, count.made, count.asked) == ("raster", 3, 10)
+    assert reached.points == reached.best["triangle-coverage"] == question.template.points
+    assert (reached.correct, reached.tried) == ({"triangle-coverage": 6}, {"triangle-coverage": 10})
+    points = [progress(attempts[:number]).points for number in range(11)]
+    assert points == sorted(points)
+
+
+def test_the_library_is_imported_when_somebody_practises() -> None:
+    imported = imported_by("import app.cli.exercise, app.cli.attempts, lessons.attempts.practice")
+    assert "lessons.attempts.practice" in imported
+    assert not {"fsrs", "PySide6"} & imported
