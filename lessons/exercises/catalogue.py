@@ -4,11 +4,12 @@ from pathlib import Path
 
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Template
-from lessons.exercises.templates import clipping, coverage, fragments, lines
+from lessons.exercises.templates import clipping, coverage, fragments, lines, transforms
 
-TEMPLATES = {
+TEMPLATES: dict[str, Template] = {
     template.name: template
-    for template in (*coverage.TEMPLATES, *lines.TEMPLATES, *clipping.TEMPLATES, *fragments.TEMPLATES)
+    for module in (coverage, lines, clipping, fragments, transforms)
+    for template in module.TEMPLATES
 }
 """By name, stage by stage."""
 

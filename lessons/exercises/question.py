@@ -9,7 +9,7 @@ from core.scene import AnyScene
 from core.settings import DEFAULTS
 from lessons.exercises.answers.answer import Answer, Response, Verdict
 from lessons.exercises.draws import Draws
-from lessons.mistakes.shelf import SHELF
+from lessons.mistakes.shelf import MISTAKES
 
 TRY_LIMIT = 1000
 """Most draws of a question in which each named mistake must show."""
@@ -87,7 +87,7 @@ class Judgement:
         """The mistakes in words; of several that give one answer, all."""
         if self.is_slip:
             return ["A slip: all but one is right."]
-        return [SHELF[name].sentence for name in self.mistakes]
+        return [MISTAKES[name].sentence for name in self.mistakes]
 
 
 def ask(template: Template, seed: int) -> Question:

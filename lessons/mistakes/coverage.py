@@ -49,6 +49,11 @@ def rounded_rows(scene: ClipScene) -> ClipScene:
     return with_places(scene, places)
 
 
+def one_less(scene: ClipScene) -> ClipScene:
+    """Scale NDC to a window that is one pixel narrower and lower."""
+    return with_places(scene, in_window(scene) * (np.array(scene.size) - 1) / np.array(scene.size))
+
+
 def y_down(scene: ClipScene) -> ClipScene:
     """Count y from the top; triangles keep their facing, as in a program that also exchanges it."""
     clip = scene.clip.copy()
@@ -177,6 +182,13 @@ TWINS = (
         Case(FREE),
         Case(triangle_scene([[(1.1, 3), (5.3, 1.3), (5.3, 4.7)]], (6, 6))),
         change_scene=y_down,
+    ),
+    Twin(
+        "window-one-less",
+        "The window was taken for one pixel narrower and lower. NDC from -1 to 1 covers all W pixels, not W - 1.",
+        Case(FREE),
+        Case(triangle_scene([[(0, 0), (0, 0), (0, 0)]], (8, 8))),
+        change_scene=one_less,
     ),
     Twin(
         "rows-and-columns",

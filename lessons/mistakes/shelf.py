@@ -1,14 +1,39 @@
-"""The shelf of faulty twins, by name."""
+"""The shelf of mistakes, by name: faulty runs, and wrong formulas."""
 
-from lessons.mistakes import clipping, coverage, fragments, lines
-from lessons.mistakes.twin import Twin
+from lessons.mistakes import (
+    clipping,
+    coverage,
+    cutting,
+    depths,
+    fills,
+    fragments,
+    lighting,
+    lines,
+    textures,
+    transforms,
+)
+from lessons.mistakes.twin import Twin, WrongRule
 
-SHELF = {twin.name: twin for twin in (*coverage.TWINS, *lines.TWINS, *clipping.TWINS, *fragments.TWINS)}
-"""All twins, stage by stage."""
+SHELF: dict[str, Twin] = {
+    twin.name: twin
+    for module in (coverage, fills, lines, clipping, fragments, textures, depths)
+    for twin in module.TWINS
+}
+"""Runs that make a mistake, stage by stage."""
+
+RULES: dict[str, WrongRule] = {
+    rule.name: rule
+    for module in (transforms, cutting, fills, lighting, textures, depths)
+    for rule in module.RULES
+}
+"""Wrong formulas, stage by stage."""
+
+MISTAKES: dict[str, Twin | WrongRule] = {**SHELF, **RULES}
+"""All of them."""
 
 
 def twin_named(name: str) -> Twin:
-    """Return a twin, or raise ValueError with the names that there are."""
+    """Return a faulty run, or raise ValueError with the names that there are."""
     if name not in SHELF:
         raise ValueError(f"expected a mistake such as {', '.join(SHELF)}, got {name!r:.60}")
     return SHELF[name]

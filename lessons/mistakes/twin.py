@@ -1,7 +1,8 @@
-"""A faulty twin: a run with another function, a changed input, or a changed output."""
+"""A faulty twin: a run with another function, a changed input, or a changed output; or a wrong formula."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -63,6 +64,23 @@ class Twin:
         if case.reading is None:
             return frame_bytes(self.draw(case.scene, case.settings))
         return case.reading(self.change_scene(case.scene), self.change_settings(case.settings))
+
+
+@dataclass(frozen=True)
+class WrongRule:
+    """A mistake in a formula that is worked out by hand: it has numbers, and no run that can be shown."""
+
+    name: str
+    """The spelling of files, as ``factors-reversed``."""
+    sentence: str
+    """What was done, and what is right, in a sentence or two that a learner reads."""
+    right: Callable[..., Any]
+    wrong: Callable[..., Any]
+    """Takes what ``right`` takes, and gives what it gives."""
+    shows: tuple[Any, ...]
+    """Arguments for which the two differ."""
+    hides: tuple[Any, ...]
+    """Arguments for which they are the same."""
 
 
 def right_reading(case: Case) -> object:

@@ -4,10 +4,21 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from lessons.mistakes import clipping, coverage, fragments, lines
+from lessons.mistakes import (
+    clipping,
+    coverage,
+    cutting,
+    depths,
+    fills,
+    fragments,
+    lighting,
+    lines,
+    textures,
+    transforms,
+)
 from lessons.mistakes.clipping import ACROSS, segment
-from lessons.mistakes.shelf import SHELF, twin_named
-from lessons.mistakes.twin import Twin, line_pixels, right_reading
+from lessons.mistakes.shelf import MISTAKES, RULES, SHELF, twin_named
+from lessons.mistakes.twin import Twin, WrongRule, line_pixels, right_reading
 
 
 @pytest.mark.parametrize("twin", SHELF.values(), ids=SHELF)
@@ -17,9 +28,18 @@ def test_a_mistake_shows_in_one_scene_and_hides_in_another(twin: Twin) -> None:
     assert twin.sentence.endswith(".")
 
 
+@pytest.mark.parametrize("rule", RULES.values(), ids=RULES)
+def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule) -> None:
+    assert rule.right(*rule.shows) != rule.wrong(*rule.shows)
+    assert rule.right(*rule.hides) == rule.wrong(*rule.hides)
+    assert rule.sentence.endswith(".")
+
+
 def test_names_are_unique_and_unknown_ones_refused() -> None:
-    modules = (clipping, coverage, fragments, lines)
-    assert len(SHELF) == sum(len(module.TWINS) for module in modules)
+    runs = (clipping, coverage, depths, fills, fragments, lines, textures)
+    formulas = (cutting, depths, fills, lighting, textures, transforms)
+    count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
+    assert len(MISTAKES) == count
     with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):
         twin_named("'; DROP TABLE twins")
 

@@ -1,0 +1,130 @@
+"""What most templates need: numbers by a formula, their mistakes, and numbers as text."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from core import Settings
+from core.scene import AnyScene
+from core.settings import DEFAULTS
+from lessons.exercises.answers.amounts import NumberAnswer, Numbers
+from lessons.exercises.answers.choices import ChoiceAnswer
+from lessons.exercises.answers.tables import Column, Follow, TableAnswer, number_rows
+from lessons.exercises.numbers import Number, number_text
+from lessons.exercises.question import Draft
+from lessons.mistakes.shelf import RULES
+
+TOLERANCE = 0.005
+WITHIN = "Fractions, or decimals within 0.005."
+
+
+def place_text(place: Iterable[Any]) -> str:
+    """Return numbers in brackets."""
+    return f"({', '.join(number_text(as_number(c)) for c in place)})"
+
+
+def as_number(value: Any) -> Number:
+    """Return whole numbers and fractions exactly, and floats unchanged."""
+    return float(value) if isinstance(value, float) else Fraction(value)
+
+
+def as_numbers(values: Iterable[Any]) -> Numbers:
+    """Return numbers of an answer."""
+    return tuple(as_number(value) for value in values)
+
+
+def numbers(
+    text: str,
+    given: str,
+    values: Iterable[Any],
+    hints: tuple[str, ...],
+    wrong: Mapping[str, Iterable[Any]] | None = None,
+    names: Sequence[str] = (),
+    shape: tuple[int, ...] | None = None,
+    scene: AnyScene | None = None,
+    settings: Settings = DEFAULTS,
+    pixel: tuple[int, int] | None = None,
+) -> Draft:
+    """Ask for numbers; ``shape`` is that of a matrix, without it a number or a vector is asked for."""
+    right = as_numbers(values)
+    if shape is None:
+        shape = () if len(right) == 1 else (len(right),)
+    mistakes = {name: as_numbers(response) for name, response in (wrong or {}).items()}
+    is_whole = all(isinstance(v, Fraction) and v.denominator == 1 for v in right)
+    answer = NumberAnswer(right, shape, tuple(names), 0.0 if is_whole else TOLERANCE)
+    asked = text if is_whole else f"{text} {WITHIN}"
+    return Draft(asked, given, answer, hints, mistakes, scene, settings, pixel)
+
+
+def by_rule(
+    text: str,
+    given: str,
+    arguments: tuple[Any, ...],
+    mistakes: Sequence[str],
+    hints: tuple[str, ...],
+    names: Sequence[str] = (),
+    shape: tuple[int, ...] | None = None,
+) -> Draft:
+    """Ask for the numbers that a formula gives; the mistakes are wrong formulas of the same arguments."""
+    wrong = {name: RULES[name].wrong(*arguments) for name in mistakes}
+    return numbers(text, given, RULES[mistakes[0]].right(*arguments), hints, wrong, names, shape)
+
+
+def several(
+    text: str,
+    given: str,
+    options: Sequence[str],
+    right: Iterable[int],
+    hints: tuple[str, ...],
+    wrong: Mapping[str, Iterable[int]] | None = None,
+    scene: AnyScene | None = None,
+    settings: Settings = DEFAULTS,
+) -> Draft | None:
+    """Ask which of several options hold; ``None`` where all do, or none."""
+    chosen = frozenset(right)
+    if not 0 < len(chosen) < len(options):
+        return None
+    mistakes = {name: frozenset(response) for name, response in (wrong or {}).items()}
+    answer = ChoiceAnswer(tuple(options), chosen, is_several=True)
+    return Draft(text, given, answer, hints, mistakes, scene, settings)
+
+
+def one_of(
+    text: str,
+    given: str,
+    options: Sequence[str],
+    right: int,
+    hints: tuple[str, ...],
+    wrong: Mapping[str, int] | None = None,
+    scene: AnyScene | None = None,
+) -> Draft:
+    """Ask which one option holds."""
+    mistakes = {name: frozenset({response}) for name, response in (wrong or {}).items()}
+    return Draft(text, given, ChoiceAnswer(tuple(options), frozenset({right})), hints, mistakes, scene)
+
+
+def table(
+    text: str,
+    given: str,
+    columns: Sequence[str],
+    labels: Sequence[str],
+    rows: Sequence[Sequence[Any]],
+    hints: tuple[str, ...],
+    wrong: Mapping[str, Sequence[Sequence[Any]]] | None = None,
+    follow: Follow | None = None,
+    scene: AnyScene | None = None,
+    settings: Settings = DEFAULTS,
+    pixel: tuple[int, int] | None = None,
+) -> Draft:
+    """Ask for a table of numbers."""
+    mistakes = {name: number_rows(cells) for name, cells in (wrong or {}).items()}
+    is_whole = all(Fraction(cell).denominator == 1 for row in rows for cell in row)
+    answer = TableAnswer(
+        tuple(Column(name) for name in columns),
+        tuple(labels),
+        number_rows(rows),
+        follow,
+        0.0 if is_whole else TOLERANCE,
+    )
+    asked = text if is_whole else f"{text} {WITHIN}"
+    return Draft(asked, given, answer, hints, mistakes, scene, settings, pixel)

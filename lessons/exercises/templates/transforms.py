@@ -1,0 +1,268 @@
+"""Matrices, cameras, projections and the window, by hand."""
+
+from fractions import Fraction
+from typing import Any
+
+from core.geometry.matrices import viewport
+from core.raster.edges.snapping import window_position
+from core.scene import ClipScene
+from lessons.exercises.answers.choices import OrderAnswer
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.drafting import by_rule, numbers, place_text
+from lessons.mistakes.shelf import SHELF
+from lessons.mistakes.transforms import Turn
+from lessons.small_scenes import triangle_scene
+
+TURNS: tuple[Turn, ...] = tuple(
+    (Fraction(c, 5), Fraction(s, 5)) for c, s in ((0, 5), (0, -5), (3, 4), (4, 3), (-3, 4), (3, -4))
+)
+XY, XYZ, XYZW = ("x", "y"), ("x", "y", "z"), ("x", "y", "z", "w")
+
+
+def wholes(draws: Draws, count: int, low: int, high: int) -> tuple[Any, ...]:
+    """Draw whole numbers."""
+    return tuple(Fraction(draws.whole(low, high)) for _ in range(count))
+
+
+def turn_text(turn: Turn) -> str:
+    """Return an angle by its cosine and sine."""
+    c, s = turn
+    return f"cosine {number_text(c)} and sine {number_text(s)}"
+
+
+def draw_order(draws: Draws) -> Draft:
+    """T R p."""
+    turn, shift, point = draws.item(TURNS), wholes(draws, 2, -4, 4), wholes(draws, 2, -4, 4)
+    text = "Where does p' = T R p lie? Vectors are columns, and a positive angle turns counter-clockwise."
+    given = f"R turns by the angle with {turn_text(turn)}.\nT moves by {place_text(shift)}.\np = {place_text(point)}"
+    hints = (
+        "Which factor stands next to p?",
+        "R p = (c x - s y, s x + c y) with the cosine c and the sine s.",
+        "Turn p first, then add the shift.",
+    )
+    return by_rule(text, given, (turn, shift, point), ("factors-reversed", "turned-clockwise"), hints, XY)
+
+
+def draw_pivot(draws: Draws) -> Draft:
+    """A turn about a point."""
+    turn, pivot, point = draws.item(TURNS), wholes(draws, 2, -4, 4), wholes(draws, 2, -4, 4)
+    text = "A point is turned about a pivot, counter-clockwise. Where does it land?"
+    given = f"Angle with {turn_text(turn)}.\nPivot: {place_text(pivot)}\nPoint: {place_text(point)}"
+    hints = ("Three transforms do it.", "Move the pivot to the origin, turn, move back.")
+    return by_rule(text, given, (turn, pivot, point), ("pivot-left-out",), hints, XY)
+
+
+def draw_degrees(draws: Draws) -> Draft:
+    """An angle in degrees."""
+    degrees, point = draws.item((30, 45, 60, 90, 120, 135, 150)), wholes(draws, 2, -4, 4)
+    text = "A point is turned about the origin, counter-clockwise. Where does it land?"
+    given = f"Angle: {degrees} degrees.\nPoint: {place_text(point)}"
+    hints = ("x' = cos x - sin y, y' = sin x + cos y.", "Does your calculator take degrees?")
+    return by_rule(text, given, (degrees, tuple(map(float, point))), ("degrees-for-radians",), hints, XY)
+
+
+def draw_scaling(draws: Draws) -> Draft:
+    """T S as a matrix."""
+    scale, shift = wholes(draws, 2, 2, 5), wholes(draws, 2, -4, 4)
+    text = (
+        "Write T S as a matrix of 3 rows and 3 columns for homogeneous points (x, y, 1) of the plane. S acts first. "
+        "The 9 numbers stand row by row."
+    )
+    given = f"S scales by {place_text(scale)}.\nT moves by {place_text(shift)}."
+    hints = ("What happens to the origin?", "The last column is where the origin goes.")
+    return by_rule(text, given, (scale, shift), ("scaled-after-moving",), hints, shape=(3, 3))
+
+
+def draw_translation(draws: Draws) -> Draft:
+    """T p with four coordinates."""
+    shift, point = wholes(draws, 3, -4, 4), wholes(draws, 3, -4, 4)
+    text = "What is T p for the column vector p = (x, y, z, 1)?"
+    given = f"T moves by {place_text(shift)}.\n(x, y, z) = {place_text(point)}"
+    hints = ("Write T down with its ones.", "The shift stands in the last column: row k gives component k.")
+    return by_rule(text, given, (shift, point), ("matrix-transposed", "ones-missing"), hints, XYZW)
+
+
+def draw_camera(draws: Draws) -> Draft:
+    """C^-1 p."""
+    c, s = draws.item(TURNS)
+    eye, point = wholes(draws, 3, -4, 4), wholes(draws, 3, -4, 4)
+    right, up, backward = (c, Fraction(0), -s), (Fraction(0), Fraction(1), Fraction(0)), (s, Fraction(0), c)
+    distance = 5 * draws.whole(1, 2)
+    target = tuple(e - distance * b for e, b in zip(eye, backward, strict=True))
+    text = "Where is p in camera space, C^-1 p? The camera looks along -z of its own space."
+    given = (
+        f"Eye: {place_text(eye)}, target: {place_text(target)}\nThe camera's axes in the world: right "
+        f"{place_text(right)}, up {place_text(up)}, backward {place_text(backward)}\np = {place_text(point)}"
+    )
+    hints = (
+        "Begin with the vector from the eye to p.",
+        "Each coordinate is its dot product with one axis.",
+        f"p - eye = {place_text(point)} - {place_text(eye)}.",
+    )
+    names = ("eye-not-turned", "target-for-eye", "camera-not-inverted")
+    return by_rule(text, given, ((right, up, backward), eye, target, point), names, hints, XYZ)
+
+
+def draw_projection(draws: Draws) -> Draft:
+    """P p."""
+    half = draws.item((Fraction(1, 2), Fraction(1, 3), Fraction(3, 4)))
+    aspect = draws.item((Fraction(4, 3), Fraction(3, 2), Fraction(2)))
+    near, far = draws.whole(1, 2), draws.item((4, 5, 10))
+    point = (*wholes(draws, 2, 1, 5), -Fraction(draws.whole(2, 8)))
+    text = (
+        "What is the clip position of p under the perspective projection P? w = -z, and z' runs from -w at the near "
+        "plane to w at the far plane: z' = -((f + n) z + 2 f n)/(f - n)."
+    )
+    given = (
+        f"tan(fov/2) = {number_text(half)}, width over height = {number_text(aspect)}, n = {near}, f = {far}\n"
+        f"p in camera space: {place_text(point)}"
+    )
+    hints = (
+        "The camera looks along -z: what is w?",
+        "y' = y / tan(fov/2), and x' is divided by the aspect, too.",
+        "near and far are positive distances.",
+    )
+    names = ("angle-not-halved", "aspect-inverted", "near-far-signs", "w-is-one")
+    return by_rule(text, given, (half, aspect, near, far, point), names, hints, XYZW)
+
+
+def draw_divide(draws: Draws) -> Draft:
+    """The divide by w."""
+    w = Fraction(draws.item((2, 4, 5, 8)))
+    clip = (*(Fraction(draws.whole(-int(w), int(w))) for _ in range(3)), w)
+    text = "What are the normalized device coordinates of this clip position?"
+    hints = ("Which of the four numbers divides the others?", "x/w, y/w and z/w.")
+    names = ("clip-for-ndc", "z-not-divided")
+    return by_rule(text, f"Clip position: {place_text(clip)}", (clip,), names, hints, XYZ)
+
+
+def draw_viewport(draws: Draws) -> Draft:
+    """NDC to pixels."""
+    size = draws.item((8, 16, 32)), draws.item((6, 12, 24))
+    ndc = tuple(Fraction(draws.whole(-7, 7), 8) for _ in range(2))
+    scene = _marked(ndc, size)
+    wrong = {
+        name: [float(c) for c in window_position(SHELF[name].change_scene(scene).clip, size)[0, 0]]
+        for name in ("y-down", "window-one-less")
+    }
+    right = [(c + 1) * s / 2 for c, s in zip(ndc, size, strict=True)]
+    text = "Where in the window, in pixels from its lower left corner, does a vertex with these x and y of NDC lie?"
+    given = f"NDC: {place_text(ndc)}\nWindow of {size[0]} x {size[1]} pixels, y up."
+    hints = ("NDC run from -1 to 1.", "(x + 1) W/2, and the same with y and H.")
+    return numbers(text, given, right, hints, wrong, XY, scene=scene)
+
+
+def _marked(ndc: tuple[Fraction, ...], size: tuple[int, int]) -> ClipScene:
+    """Return a triangle of which vertex 0 is the point."""
+    x, y = (float((c + 1) * s / 2) for c, s in zip(ndc, size, strict=True))
+    return triangle_scene([[(x, y), (size[0], 0), (size[0], size[1])]], size)
+
+
+def draw_matrix(draws: Draws) -> Draft:
+    """D, filled in."""
+    width, height = draws.whole(3, 20) * 2, draws.whole(3, 20) * 2
+    text = (
+        "Fill in the viewport matrix D, 4 rows and 4 columns, for column vectors: x and y of NDC go to pixels, z goes "
+        "from [-1, 1] to [0, 1]. The 16 numbers stand row by row."
+    )
+    right = [Fraction(float(c)) for c in viewport(width, height).ravel()]
+    hints = (
+        "Each of x, y and z is scaled, then moved.",
+        "The lower border -1 goes to 0, the upper border 1 to W, H and 1.",
+    )
+    return numbers(text, f"Window of W = {width} and H = {height} pixels.", right, hints, shape=(4, 4))
+
+
+def draw_map(draws: Draws) -> Draft | None:
+    """A transform from what it does to three points."""
+    origin, first, second = (wholes(draws, 2, -4, 4) for _ in range(3))
+    columns = [[a - o for a, o in zip(end, origin, strict=True)] for end in (first, second)] + [list(origin)]
+    if columns[0][0] * columns[1][1] == columns[0][1] * columns[1][0]:
+        return None
+    text = "Which 2 x 3 matrix maps one triangle to the other? It is multiplied with (x, y, 1); row by row."
+    given = f"(0, 0) -> {place_text(origin)}\n(1, 0) -> {place_text(first)}\n(0, 1) -> {place_text(second)}"
+    hints = (
+        "Where does the origin go?",
+        "The other columns are the images of the axes, less that of the origin.",
+    )
+    right = [columns[column][row] for row in range(2) for column in range(3)]
+    return numbers(text, given, right, hints, shape=(2, 3))
+
+
+def draw_shader(draws: Draws) -> Draft:
+    """The scaling vertex shader of the lecture."""
+    vertex, shift = wholes(draws, 3, -6, 6), wholes(draws, 3, -6, 6)
+    scale = (Fraction(3, 2), Fraction(1, 2), Fraction(2))
+    right = [s * c + m for s, c, m in zip(scale, vertex, shift, strict=True)]
+    wrong = {"scaled-after-moving": [s * (c + m) for s, c, m in zip(scale, vertex, shift, strict=True)]}
+    text = (
+        "A vertex shader computes modelViewMatrix * vec4(position.x * 1.5, position.y * 0.5, position.z * 2.0, 1.0). "
+        "What are its x, y and z?"
+    )
+    given = f"position = {place_text(vertex)}\nmodelViewMatrix moves by {place_text(shift)}."
+    hints = ("What stands inside of vec4 is computed first.", "Scale each coordinate, then add the shift.")
+    return numbers(text, given, right, hints, wrong, XYZ)
+
+
+def draw_skinning(draws: Draws) -> Draft:
+    """Two bones."""
+    places = wholes(draws, 2, 10, 60)
+    weights = tuple(Fraction(draws.whole(2, 9), 10) for _ in range(2))
+    text = "Two bones move a vertex to these places. What is its x? The weights may not sum to 1: divide by their sum."
+    given = "\n".join(
+        f"Bone {k}: weight {number_text(weight)}, x = {place}"
+        for k, (weight, place) in enumerate(zip(weights, places, strict=True))
+    )
+    hints = ("Sum the products of weight and x.", "Divide by the sum of the weights.")
+    return by_rule(text, given, (weights, places), ("weights-not-normalized",), hints)
+
+
+def draw_size(draws: Draws) -> Draft:
+    """Sizes that look alike."""
+    height, near, times = draws.whole(1, 6), draws.whole(1, 5), draws.whole(2, 5)
+    text = "How high must the second pole be to look as high as the first one under perspective?"
+    given = f"First pole: {height} m high, at distance {near} m.\nSecond pole: at distance {near * times} m."
+    hints = ("What is constant along a ray from the eye?", "Size in the picture is height over distance.")
+    return numbers(text, given, [height * times], hints)
+
+
+def ordered(text: str, options: tuple[str, ...], draws: Draws, hints: tuple[str, ...]) -> Draft:
+    """Ask for an order; the question lists the options in another one."""
+    shown = draws.shuffled(options)
+    return Draft(text, ", ".join(shown), OrderAnswer(options, shown), hints)
+
+
+def draw_spaces(draws: Draws) -> Draft:
+    """Spaces of a vertex."""
+    spaces = ("object space", "world space", "camera space", "clip space", "NDC", "window")
+    hints = ("Which space is the model built in?", "The divide by w leads from clip space to NDC.")
+    return ordered("Through which spaces does a vertex go? First to last.", spaces, draws, hints)
+
+
+def draw_factors(draws: Draws) -> Draft:
+    """What acts on a vertex first."""
+    steps = ("M", "C^-1", "P", "divide by w", "D")
+    hints = ("In p' = D P C^-1 M p the factor next to p acts first.", "The divide follows the projection.")
+    return ordered("In which order do these act on a vertex? First to last.", steps, draws, hints)
+
+
+TEMPLATES = (
+    Template("turn-and-move", 1, "T R p", "transform", 2, draw_order),
+    Template("turn-about-pivot", 1, "A turn about a point", "transform", 2, draw_pivot),
+    Template("turn-by-degrees", 1, "A turn by degrees", "transform", 2, draw_degrees),
+    Template("scale-and-move", 1, "T S as a matrix", "transform", 3, draw_scaling),
+    Template("translation-product", 1, "Translation with four coordinates", "transform", 2, draw_translation),
+    Template("matrix-of-images", 1, "The matrix from three images", "transform", 3, draw_map),
+    Template("camera-space", 1, "A point in camera space", "transform", 3, draw_camera),
+    Template("clip-position", 1, "The perspective projection", "transform", 4, draw_projection),
+    Template("divide-by-w", 1, "The divide by w", "transform", 2, draw_divide),
+    Template("window-position", 1, "From NDC to pixels", "transform", 2, draw_viewport),
+    Template("viewport-matrix", 1, "The viewport matrix", "transform", 3, draw_matrix),
+    Template("shader-scaling", 1, "A vertex shader that scales", "transform", 2, draw_shader),
+    Template("skinning", 1, "Two bones and a vertex", "transform", 2, draw_skinning),
+    Template("equal-sizes", 1, "Sizes that look alike", "transform", 1, draw_size),
+    Template("space-order", 1, "Spaces of a vertex", "transform", 2, draw_spaces),
+    Template("factor-order", 1, "What acts first", "transform", 2, draw_factors),
+)

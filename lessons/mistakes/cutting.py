@@ -1,0 +1,171 @@
+"""Mistakes in clipping polygons, in culling and in binning, as wrong formulas."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from core.antialiasing.polygon_cut import Polygon, cut_polygon, polygon_area
+from core.geometry.culling import plane_distances
+from core.raster.binning import block_verdict
+from lessons.mistakes.transforms import Vector, dot
+from lessons.mistakes.twin import WrongRule
+
+Edge = tuple[float, float, float, bool]
+"""a, b and c of an edge function, and whether the edge owns the centres on it."""
+Face = tuple[Vector, Vector]
+"""Outward normal and a point of a face."""
+
+
+def planes_outside(clip: Vector) -> frozenset[int]:
+    """Return the planes of the view volume that a clip position lies outside of."""
+    distances = plane_distances(np.array(clip, float))
+    return frozenset(np.flatnonzero(distances < 0).tolist())
+
+
+def planes_outside_divided(clip: Vector) -> frozenset[int]:
+    """Test x/w, y/w and z/w, whatever the sign of w."""
+    return planes_outside((*(c / clip[3] for c in clip[:3]), 1))
+
+
+def at_crossing(near: Any, far: Any, t: Any) -> Vector:
+    """Return an attribute at t on the way from one end to another."""
+    return (near + t * (far - near),)
+
+
+def copied_at_crossing(near: Any, far: Any, t: Any) -> Vector:
+    """Keep the attribute of the end that was cut off."""
+    return (far,)
+
+
+def triangles_after_clipping(inside: int) -> Vector:
+    """Return how many triangles one plane leaves of a triangle of which so many vertices are inside."""
+    return (Fraction((0, 1, 2, 1)[inside]),)
+
+
+def one_triangle_always(inside: int) -> Vector:
+    """Take the polygon that is left for a triangle."""
+    return (Fraction(min(inside, 1)),)
+
+
+def area_in_window(polygon: Polygon, window: Polygon) -> Vector:
+    """Return the area that Sutherland-Hodgman leaves of a polygon in a convex, counter-clockwise window."""
+    for (x0, y0), (x1, y1) in pairwise([*window, window[0]]):
+        a, b = y0 - y1, x1 - x0
+        polygon = cut_polygon(polygon, a, b, -(a * x0 + b * y0))
+    return (polygon_area(polygon) if polygon else 0.0,)
+
+
+def area_in_turned_window(polygon: Polygon, window: Polygon) -> Vector:
+    """Go round the window the other way."""
+    return area_in_window(polygon, window[::-1])
+
+
+def culled_faces(faces: Sequence[Face], eye: Vector) -> frozenset[int]:
+    """Return the faces that face away from the eye: N . (point - eye) > 0."""
+    rays = [tuple(p - e for p, e in zip(point, eye, strict=True)) for _, point in faces]
+    return frozenset(
+        k for k, ((normal, _), ray) in enumerate(zip(faces, rays, strict=True)) if dot(normal, ray) > 0
+    )
+
+
+def culled_by_view_direction(faces: Sequence[Face], eye: Vector) -> frozenset[int]:
+    """Compare every normal with the one direction (0, 0, -1)."""
+    return frozenset(k for k, (normal, _) in enumerate(faces) if normal[2] < 0)
+
+
+def rejected_blocks(edges: Sequence[Edge], blocks: int, size: int) -> frozenset[tuple[int, int]]:
+    """Return the blocks of size x size pixels, out of blocks x blocks, that one edge has wholly outside."""
+    last = size - 0.5
+    return frozenset(
+        (i, j)
+        for j in range(blocks)
+        for i in range(blocks)
+        if block_verdict(list(edges), i * size + 0.5, j * size + 0.5, i * size + last, j * size + last)
+        == "outside"
+    )
+
+
+def rejected_by_one_corner(edges: Sequence[Edge], blocks: int, size: int) -> frozenset[tuple[int, int]]:
+    """Look at the lower left pixel of each block alone."""
+    return frozenset(
+        (i, j)
+        for j in range(blocks)
+        for i in range(blocks)
+        if any(a * (i * size + 0.5) + b * (j * size + 0.5) + c < 0 for a, b, c, _ in edges)
+    )
+
+
+def doubled_area(width: int, height: int) -> Vector:
+    """Return twice the area of a right triangle in units of 1/256 x 1/256 pixel."""
+    return (Fraction(256 * width * 256 * height),)
+
+
+def doubled_area_in_32_bits(width: int, height: int) -> Vector:
+    """Keep the product in 32 bits with a sign."""
+    return (Fraction(int(np.array(256 * width * 256 * height, np.int64).astype(np.int32))),)
+
+
+SQUARE: Polygon = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
+SLANTED: list[Edge] = [(1.0, 1.0, -8.0, True)]
+
+RULES = (
+    WrongRule(
+        "planes-after-divide",
+        "The planes were tested after the divide. Compare x, y and z with -w and w while w still has its sign.",
+        planes_outside,
+        planes_outside_divided,
+        ((1, 1, Fraction(-14, 3), -2),),
+        ((1, 3, 1, 2),),
+    ),
+    WrongRule(
+        "attribute-copied",
+        "The new vertex has the attribute of the end that was cut off. Interpolate it with t, as the position.",
+        at_crossing,
+        copied_at_crossing,
+        (Fraction(0), Fraction(1), Fraction(1, 2)),
+        (Fraction(1), Fraction(1), Fraction(1, 2)),
+    ),
+    WrongRule(
+        "quad-as-triangle",
+        "Two vertices inside leave a quad, which is two triangles.",
+        triangles_after_clipping,
+        one_triangle_always,
+        (2,),
+        (1,),
+    ),
+    WrongRule(
+        "window-clockwise",
+        "The window was followed clockwise, so its outside was kept. Inside is on the left of counter-clockwise edges.",
+        area_in_window,
+        area_in_turned_window,
+        ([(1.0, 1.0), (3.0, 1.0), (2.0, 3.0)], SQUARE),
+        ([(5.0, 5.0), (7.0, 5.0), (6.0, 7.0)], SQUARE),
+    ),
+    WrongRule(
+        "view-direction-fixed",
+        "Normals were compared with one view direction. With perspective it is that from the eye to the face.",
+        culled_faces,
+        culled_by_view_direction,
+        ([((1, 0, Fraction(-1, 4)), (-9, 0, -10))], (0, 0, 0)),
+        ([((0, 0, 1), (0, 0, -10))], (0, 0, 0)),
+    ),
+    WrongRule(
+        "block-by-one-corner",
+        "Blocks were rejected by their lower left pixel. The pixel where E is largest decides.",
+        rejected_blocks,
+        rejected_by_one_corner,
+        (SLANTED, 3, 4),
+        ([(-1.0, -1.0, 8.0, True)], 3, 4),
+    ),
+    WrongRule(
+        "product-overflows",
+        "The product does not fit into 32 bits with a sign: from 2^31 on it turns over.",
+        doubled_area,
+        doubled_area_in_32_bits,
+        (200, 200),
+        (20, 20),
+    ),
+)

@@ -1,0 +1,264 @@
+"""Mistakes of depth, blending and antialiasing beyond those of ``fragments``."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from core import Settings
+from core.framebuffer.blending import over
+from core.framebuffer.depth import DepthFormat
+from core.methods import table
+from core.records.arrays import Floats, Singles
+from core.scene import ClipScene
+from lessons.mistakes.fragments import CLEAR_RED, OPAQUE, RED_AND_BLUE, WINDOW, with_blend
+from lessons.mistakes.transforms import Vector
+from lessons.mistakes.twin import Case, Twin, WrongRule, frame_colors
+from lessons.small_scenes import triangle_scene
+
+
+def cards(*depths: Sequence[float], alpha: float = 1.0) -> ClipScene:
+    """Return cards over the whole window, red first, then blue, with the depths of their three corners."""
+    colors = [(1, 0, 0, alpha), (0, 0, 1, alpha), (0, 1, 0, alpha)]
+    attributes = [[colors[k % 3]] * 3 for k in range(len(depths))]
+    return triangle_scene([WINDOW] * len(depths), (4, 4), depth=list(depths), attributes=attributes)
+
+
+def cleared_to_near(settings: Settings) -> Settings:
+    """Clear the depth buffer to the nearest depth."""
+    right: DepthFormat = table.get("depth", settings.depth).function()
+    wrong = replace(right, cleared=1.0 - right.cleared)
+    return settings.replaced(depth=lambda: wrong)
+
+
+def drawn_last_on_ties(scene: ClipScene) -> ClipScene:
+    """Move every triangle a hair in front of those before it, so that of equal depths the last one wins."""
+    clip = scene.clip.copy()
+    clip[..., 2] -= 1e-6 * np.arange(len(clip))[:, None] * clip[..., 3]
+    return replace(scene, clip=clip)
+
+
+def squared_alpha(source: Floats, destination: Singles) -> Singles:
+    """Weigh the source's alpha by itself: a a + (1 - a) times what is there."""
+    mixed = over(source, destination)
+    a = source[:, 3]
+    mixed[:, 3] = a * a + (1 - a) * destination[:, 3]
+    return mixed
+
+
+def alpha_kept(source: Floats, destination: Singles) -> Singles:
+    """Keep the alpha that was there."""
+    mixed = over(source, destination)
+    mixed[:, 3] = destination[:, 3]
+    return mixed
+
+
+def not_multiplied(source: Floats, destination: Singles) -> Singles:
+    """Take a straight colour for one that was multiplied by its alpha."""
+    mixed = over(source, destination)
+    mixed[:, :3] = source[:, :3] + (1 - source[:, 3:]) * destination[:, :3]
+    return mixed
+
+
+def window_depth(near: Any, far: Any, distance: Any) -> Vector:
+    """Return the window depth from 0 to 1 of a surface at a distance, with perspective."""
+    return (Fraction(far) * (distance - near) / (Fraction(distance) * (far - near)),)
+
+
+def depth_of_distance(near: Any, far: Any, distance: Any) -> Vector:
+    """Take depth for linear in the distance."""
+    return (Fraction(distance - near) / (far - near),)
+
+
+def depth_of_tiny_near(near: Any, far: Any, distance: Any) -> Vector:
+    """Put the near plane at almost 0, so that all depths are almost 1."""
+    return window_depth(Fraction(near) / 1000, far, distance)
+
+
+def depth_between(t: Any, depths: Vector, distances: Vector) -> Vector:
+    """Return the window depth at t along an edge in the window: it is linear there."""
+    return (depths[0] + t * (depths[1] - depths[0]),)
+
+
+def depth_corrected(t: Any, depths: Vector, distances: Vector) -> Vector:
+    """Correct it for perspective once more."""
+    first, second = (1 - t) / Fraction(distances[0]), t / Fraction(distances[1])
+    return ((first * depths[0] + second * depths[1]) / (first + second),)
+
+
+def distance_between(t: Any, distances: Vector) -> Vector:
+    """Return the distance at t along an edge in the window: 1/w is linear there."""
+    return (1 / ((1 - t) / Fraction(distances[0]) + t / Fraction(distances[1])),)
+
+
+def distance_linear(t: Any, distances: Vector) -> Vector:
+    """Interpolate the distance itself."""
+    return (distances[0] + t * (distances[1] - distances[0]),)
+
+
+def painted_first(depths: Sequence[Vector]) -> Vector:
+    """Return the triangles in the order of their farthest vertices, the farthest first."""
+    return tuple(sorted(range(len(depths)), key=lambda k: -max(depths[k])))
+
+
+def painted_by_mean(depths: Sequence[Vector]) -> Vector:
+    """Sort by the mean depth."""
+    return tuple(sorted(range(len(depths)), key=lambda k: -sum(depths[k])))
+
+
+@dataclass(frozen=True)
+class Layer:
+    """A triangle in one pixel: the samples it covers, its depth and its grey value."""
+
+    samples: frozenset[int]
+    depth: int
+    grey: int
+
+
+def resolved(layers: Sequence[Layer], count: int) -> Vector:
+    """Return the mean of the samples over black, each sample with a depth of its own."""
+    greys = [0] * count
+    nearest = [10**9] * count
+    for layer in layers:
+        for sample in layer.samples:
+            if layer.depth < nearest[sample]:
+                nearest[sample], greys[sample] = layer.depth, layer.grey
+    return (Fraction(sum(greys), count),)
+
+
+def resolved_with_one_depth(layers: Sequence[Layer], count: int) -> Vector:
+    """Let all samples of the pixel share one depth."""
+    greys, nearest = [0] * count, 10**9
+    for layer in layers:
+        if layer.samples and layer.depth < nearest:
+            nearest = layer.depth
+            for sample in layer.samples:
+                greys[sample] = layer.grey
+    return (Fraction(sum(greys), count),)
+
+
+def resolved_from_one(layers: Sequence[Layer], count: int) -> Vector:
+    """Fill the first sample alone, and divide by the number of all."""
+    first = [replace(layer, samples=layer.samples & {0}) for layer in layers]
+    return resolved(first, count)
+
+
+NEAR_AND_FAR = cards([0.25] * 3, [0.75] * 3)
+LEVEL = cards([0.5] * 3, [0.5] * 3)
+GLASS = cards([0.25] * 3, [0.75] * 3, alpha=0.5)
+TWO = (Layer(frozenset({0, 1}), 1, 8), Layer(frozenset({0, 1, 2, 3}), 2, 4))
+ONE = (Layer(frozenset({0, 1}), 1, 8),)
+BLENDED = Settings(blend="over", visibility="last-drawn")
+
+TWINS = (
+    Twin(
+        "cleared-to-near",
+        "The depth buffer was cleared to the nearest depth, so nothing passes. Clear it to the farthest.",
+        Case(NEAR_AND_FAR),
+        Case(NEAR_AND_FAR, Settings(visibility="last-drawn"), frame_colors),
+        change_settings=cleared_to_near,
+    ),
+    Twin(
+        "last-wins-ties",
+        "Of equal depths the last one was kept. Here a tie keeps what is there.",
+        Case(LEVEL, reading=frame_colors),
+        Case(NEAR_AND_FAR, reading=frame_colors),
+        change_scene=drawn_last_on_ties,
+    ),
+    Twin(
+        "painted-by-mean",
+        "Triangles were sorted by their mean depth, and a near one was painted over. A z-buffer compares pixels.",
+        Case(cards([0.1, 0.1, 0.95], [0.4, 0.4, 0.4]), reading=frame_colors),
+        Case(NEAR_AND_FAR, reading=frame_colors),
+        change_settings=lambda settings: replace(settings, visibility="painters"),
+    ),
+    Twin(
+        "glass-writes-depth",
+        "The transparent surface wrote its depth, so what lies behind it is missing. Blend without writing depth.",
+        Case(GLASS, BLENDED, frame_colors),
+        Case(cards([0.75] * 3, [0.25] * 3, alpha=0.5), BLENDED, frame_colors),
+        change_settings=lambda settings: replace(settings, visibility="z-buffer"),
+    ),
+    Twin(
+        "alpha-squared",
+        "The alpha of the result is a a + (1 - a) d. It is a + (1 - a) d.",
+        CLEAR_RED,
+        OPAQUE,
+        change_settings=with_blend(squared_alpha),
+    ),
+    Twin(
+        "alpha-kept",
+        "The alpha that was there was kept. The result has a + (1 - a) times it.",
+        Case(cards([0.5] * 3, alpha=0.5), BLENDED),
+        RED_AND_BLUE,
+        change_settings=with_blend(alpha_kept),
+    ),
+    Twin(
+        "not-multiplied",
+        "The colour was not multiplied by its alpha, and the result is too bright.",
+        CLEAR_RED,
+        OPAQUE,
+        change_settings=with_blend(not_multiplied),
+    ),
+)
+
+RULES = (
+    WrongRule(
+        "depth-linear",
+        "Depth was taken for linear in the distance. With perspective most of its range lies near the eye.",
+        window_depth,
+        depth_of_distance,
+        (1, 10, 2),
+        (1, 10, 10),
+    ),
+    WrongRule(
+        "near-plane-tiny",
+        "The near plane lies almost at the eye, so that every depth is almost 1.",
+        window_depth,
+        depth_of_tiny_near,
+        (1, 10, 2),
+        (1, 10, 10),
+    ),
+    WrongRule(
+        "depth-corrected-twice",
+        "The window depth was corrected for perspective. It was divided by w already, and is linear in the window.",
+        depth_between,
+        depth_corrected,
+        (Fraction(1, 2), (0, 1), (1, 10)),
+        (Fraction(1, 2), (0, 1), (4, 4)),
+    ),
+    WrongRule(
+        "distance-linear",
+        "The distance was interpolated in the window. Its reciprocal 1/w is linear there.",
+        distance_between,
+        distance_linear,
+        (Fraction(1, 2), (1, 10)),
+        (Fraction(1, 2), (3, 3)),
+    ),
+    WrongRule(
+        "sorted-by-mean",
+        "The triangles were sorted by their mean depth. Here the farthest vertex decides.",
+        painted_first,
+        painted_by_mean,
+        (((1, 1, 30), (12, 12, 12)),),
+        (((1, 1, 1), (12, 12, 12)),),
+    ),
+    WrongRule(
+        "one-depth-a-pixel",
+        "The samples shared one depth, so the background shines through. Each sample has a depth of its own.",
+        resolved,
+        resolved_with_one_depth,
+        (TWO, 4),
+        (ONE, 4),
+    ),
+    WrongRule(
+        "one-sample-filled",
+        "Only one sample was filled, but the sum was divided by the number of all.",
+        resolved,
+        resolved_from_one,
+        (ONE, 4),
+        ((Layer(frozenset({0}), 1, 8),), 4),
+    ),
+)

@@ -1,0 +1,141 @@
+"""Mistakes of scanline fills and of the picture's memory."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from itertools import pairwise
+from math import floor
+
+import numpy as np
+
+from core.records.arrays import Flags, Floats
+from core.records.frame import Frame
+from core.scene import ClipScene
+from lessons.mistakes.coverage import FREE, SQUARE, in_window, with_places
+from lessons.mistakes.transforms import Vector
+from lessons.mistakes.twin import Case, Twin, WrongRule
+from lessons.scenes import assembled
+from lessons.small_scenes import triangle_scene
+
+
+def owns_both_sides(a: Floats, b: Floats) -> Flags:
+    """Own left and right edges, and level bottom edges."""
+    return np.asarray((a != 0) | (b > 0))
+
+
+def one_column_more(scene: ClipScene) -> ClipScene:
+    """Widen the window by one column on the right."""
+    wide = replace(scene, size=(scene.size[0] + 1, scene.size[1]))
+    return with_places(wide, in_window(scene))
+
+
+def column_wrapped(frame: Frame, scene: ClipScene) -> Frame:
+    """Store rows of one column too many in memory for the right number: the last column lands in the next row."""
+    columns = scene.size[0]
+    buffers = {}
+    for name in ("color", "depth", "primitive", "attributes", "cover_count"):
+        wide = getattr(frame, name)
+        stored = wide[:, :columns].copy()
+        beyond = frame.cover_count[:-1, columns] > 0
+        stored[1:, 0][beyond] = wide[:-1, columns][beyond]
+        buffers[name] = stored
+    return replace(frame, **buffers)
+
+
+def truncated_to_zero(scene: ClipScene) -> ClipScene:
+    """Find the pixels of points by int(x), which turns -1 < x < 0 into 0."""
+    return with_places(scene, np.trunc(in_window(scene)) + 0.5)
+
+
+def edge_crossing(start: Vector, end: Vector, row: int) -> Vector:
+    """Return x where an edge meets the centres of a row."""
+    (x0, y0), (x1, y1) = start, end
+    return (x0 + (row + Fraction(1, 2) - y0) * (x1 - x0) / Fraction(y1 - y0),)
+
+
+def crossing_from_vertex(start: Vector, end: Vector, row: int) -> Vector:
+    """Count whole rows from the vertex, as if it lay on a row of centres."""
+    (x0, y0), (x1, y1) = start, end
+    return (x0 + (row - floor(y0)) * (x1 - x0) / Fraction(y1 - y0),)
+
+
+def crossing_of_longer_edge(start: Vector, end: Vector, row: int) -> Vector:
+    """Divide by the height of the edge plus 1."""
+    (x0, y0), (x1, y1) = start, end
+    return (x0 + (row + Fraction(1, 2) - y0) * (x1 - x0) / Fraction(y1 - y0 + 1),)
+
+
+def crossing_count(polygon: Sequence[Vector], y: int) -> Vector:
+    """Return how many edges a scan line crosses: an edge has its lower end, but not its upper one."""
+    edges = pairwise([*polygon, polygon[0]])
+    return (Fraction(sum(min(y0, y1) <= y < max(y0, y1) for (_, y0), (_, y1) in edges)),)
+
+
+def closed_crossing_count(polygon: Sequence[Vector], y: int) -> Vector:
+    """Count an edge at both of its ends."""
+    edges = pairwise([*polygon, polygon[0]])
+    return (Fraction(sum(min(y0, y1) <= y <= max(y0, y1) and y0 != y1 for (_, y0), (_, y1) in edges)),)
+
+
+EDGE = ((Fraction(6, 5), Fraction(19, 10)), (Fraction(12, 5), Fraction(87, 10)), 4)
+LEVEL_EDGE = ((Fraction(3), Fraction(1, 2)), (Fraction(3), Fraction(9, 2)), 2)
+HOUSE = ((0, 0), (6, 3), (4, 8), (0, 8))
+
+TWINS = (
+    Twin(
+        "right-end-drawn",
+        "The right end of the span was drawn, too. A centre on a right edge belongs to the neighbour.",
+        Case(SQUARE),
+        Case(FREE),
+        change_settings=lambda settings: settings.replaced(fill_rule=owns_both_sides),
+    ),
+    Twin(
+        "flat-sides-lost",
+        "A flat side was lost: the loop over its half has no rows. Both halves need their own rows.",
+        Case(triangle_scene([[(1, 1), (7, 1), (4, 6)]], (8, 8))),
+        Case(triangle_scene([[(20, 1), (27, 2), (24, 6)]], (8, 8))),
+        change_settings=lambda settings: replace(settings, fill="scanline-lecture"),
+    ),
+    Twin(
+        "column-wrapped",
+        "Column W was written, which is column 0 of the next row. The last column is W - 1.",
+        Case(triangle_scene([[(3, 1), (12, 3), (3, 6)]], (8, 8))),
+        Case(FREE),
+        change_scene=one_column_more,
+        change_frame=column_wrapped,
+    ),
+    Twin(
+        "truncated-to-zero",
+        "int(x) turns -1 < x < 0 into 0. A pixel's column is floor(x).",
+        Case(assembled("points", np.array([-0.5, 3.5]), np.array([2.5, 2.5]), (6, 6))),
+        Case(assembled("points", np.array([0.5, 3.5]), np.array([2.5, 2.5]), (6, 6))),
+        change_scene=truncated_to_zero,
+    ),
+)
+
+RULES = (
+    WrongRule(
+        "crossing-from-vertex",
+        "x was counted from the vertex as if it lay on a row of centres. Begin at the first row's centre.",
+        edge_crossing,
+        crossing_from_vertex,
+        EDGE,
+        LEVEL_EDGE,
+    ),
+    WrongRule(
+        "height-plus-one",
+        "The height was made one larger against division by zero. That turns every edge.",
+        edge_crossing,
+        crossing_of_longer_edge,
+        EDGE,
+        LEVEL_EDGE,
+    ),
+    WrongRule(
+        "both-ends-crossed",
+        "A vertex was counted for both of its edges. An edge has its lower end, not its upper one.",
+        crossing_count,
+        closed_crossing_count,
+        (HOUSE, 3),
+        (HOUSE, 5),
+    ),
+)

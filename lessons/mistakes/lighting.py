@@ -1,0 +1,231 @@
+"""Mistakes with normals and light, as wrong formulas."""
+
+from math import sqrt
+from typing import Any
+
+from lessons.mistakes.transforms import Matrix, Vector, dot, image, shifted
+from lessons.mistakes.twin import WrongRule
+
+
+def unit(vector: Vector) -> Vector:
+    """Return a vector at length 1."""
+    length = sqrt(dot(vector, vector))
+    return tuple(float(c) / length for c in vector)
+
+
+def normal_in_world(scale: Vector, shift: Vector, normal: Vector) -> Vector:
+    """Return the unit normal after scaling by ``scale`` and moving by ``shift``: M^-T N."""
+    return unit(tuple(n / s for n, s in zip(normal, scale, strict=True)))
+
+
+def normal_as_position(scale: Vector, shift: Vector, normal: Vector) -> Vector:
+    """Return M N."""
+    return unit(tuple(n * s for n, s in zip(normal, scale, strict=True)))
+
+
+def normal_unchanged(scale: Vector, shift: Vector, normal: Vector) -> Vector:
+    """Leave the normal in object space."""
+    return unit(normal)
+
+
+def normal_moved(scale: Vector, shift: Vector, normal: Vector) -> Vector:
+    """Move the normal, too, as if its w were 1."""
+    return unit(shifted(shift, tuple(n / s for n, s in zip(normal, scale, strict=True))))
+
+
+def normal_in_camera(model_view: Matrix, focal: Vector, normal: Vector) -> Vector:
+    """Return the normal by the normal matrix of V M, a rotation here."""
+    return unit(image(model_view, normal))
+
+
+def normal_by_projection(model_view: Matrix, focal: Vector, normal: Vector) -> Vector:
+    """Take P V M for V M: x and y are scaled by the projection, so their normals are divided."""
+    return unit(tuple(c / f for c, f in zip(image(model_view, normal), focal, strict=True)))
+
+
+def diffuse(ambient: float, normal: Vector, to_light: Vector) -> Vector:
+    """Return ambient + (1 - ambient) max(0, N . L), with unit vectors."""
+    return (ambient + (1 - ambient) * max(0.0, dot(unit(normal), unit(to_light))),)
+
+
+def diffuse_of_long_normal(ambient: float, normal: Vector, to_light: Vector) -> Vector:
+    """Take the normal as it is."""
+    return (ambient + (1 - ambient) * max(0.0, dot(normal, unit(to_light))),)
+
+
+def diffuse_unclamped(ambient: float, normal: Vector, to_light: Vector) -> Vector:
+    """Let N . L be negative."""
+    return (ambient + (1 - ambient) * dot(unit(normal), unit(to_light)),)
+
+
+def diffuse_from_behind(ambient: float, normal: Vector, to_light: Vector) -> Vector:
+    """Take L from the light to the surface."""
+    return diffuse(ambient, normal, tuple(-c for c in to_light))
+
+
+def between_normals(first: Vector, second: Vector, t: Any, to_light: Vector) -> Vector:
+    """Return N . L with the unit normal between two others."""
+    mixed = tuple((1 - t) * a + t * b for a, b in zip(first, second, strict=True))
+    return (dot(unit(mixed), unit(to_light)),)
+
+
+def between_normals_short(first: Vector, second: Vector, t: Any, to_light: Vector) -> Vector:
+    """Leave the interpolated normal as short as it is."""
+    mixed = tuple((1 - t) * a + t * b for a, b in zip(first, second, strict=True))
+    return (float(dot(mixed, unit(to_light))),)
+
+
+def highlight(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
+    """Return max(0, N . H)^s of Blinn and Phong."""
+    half = unit(shifted(unit(to_light), unit(to_eye)))
+    return (max(0.0, dot(unit(normal), half)) ** shininess,)
+
+
+def highlight_at_light(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
+    """Take L for H."""
+    return (max(0.0, dot(unit(normal), unit(to_light))) ** shininess,)
+
+
+def highlight_at_eye(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
+    """Take V for H."""
+    return (max(0.0, dot(unit(normal), unit(to_eye))) ** shininess,)
+
+
+def highlight_inverted(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
+    """Take 1/s for s."""
+    return (highlight(normal, to_light, to_eye, shininess)[0] ** (1 / shininess**2),)
+
+
+def light_byte(ambient: Any, diffuse_light: Any) -> Vector:
+    """Return the byte of a sum of lights, up to 255."""
+    return (min(255, int(255 * (ambient + diffuse_light) + 0.5)),)
+
+
+def light_byte_overflown(ambient: Any, diffuse_light: Any) -> Vector:
+    """Keep the low eight bits."""
+    return (int(255 * (ambient + diffuse_light) + 0.5) % 256,)
+
+
+def lightings_by_fragment(triangles: int, vertices: int, fragments: int) -> Vector:
+    """Return how often flat, Gouraud and Phong shading evaluate the light."""
+    return triangles, vertices, fragments
+
+
+def lightings_by_vertex(triangles: int, vertices: int, fragments: int) -> Vector:
+    """Light "Phong" at the vertices."""
+    return triangles, vertices, vertices
+
+
+SLOPE = ((2, 1, 1), (0, 0, 0), (1, 1, 0))
+ROUND = ((1, 1, 1), (0, 0, 0), (1, 1, 0))
+TURN = ((0.6, 0.0, -0.8), (0.0, 1.0, 0.0), (0.8, 0.0, 0.6))
+FACING = (0.25, (0, 0, 1), (0, 0, 2))
+SHINE = ((0, 0, 1), (3, 0, 4), (-4, 0, 3), 4)
+STRAIGHT = ((0, 0, 1), (0, 0, 1), (0, 0, 1), 4)
+
+RULES = (
+    WrongRule(
+        "normal-as-position",
+        "The normal was transformed by M. It goes with the transposed inverse of M.",
+        normal_in_world,
+        normal_as_position,
+        SLOPE,
+        ROUND,
+    ),
+    WrongRule(
+        "normal-untransformed",
+        "The normal was left in object space. It turns with the object.",
+        normal_in_world,
+        normal_unchanged,
+        SLOPE,
+        ROUND,
+    ),
+    WrongRule(
+        "normal-moved",
+        "The normal was moved with the object. It is a direction: its w is 0.",
+        normal_in_world,
+        normal_moved,
+        ((1, 1, 1), (5, 0, 0), (1, 1, 0)),
+        ROUND,
+    ),
+    WrongRule(
+        "normal-by-projection",
+        "The normal matrix was made from P V M. Light is computed before the projection: take V M.",
+        normal_in_camera,
+        normal_by_projection,
+        (TURN, (2, 1, 1), (1, 1, 0)),
+        (TURN, (1, 1, 1), (1, 1, 0)),
+    ),
+    WrongRule(
+        "normal-too-long",
+        "The normal is not of length 1. Divide by its length first.",
+        diffuse,
+        diffuse_of_long_normal,
+        (0.25, (0, 0, 2), (0, 3, 4)),
+        (0.25, (0, 0, 1), (0, 3, 4)),
+    ),
+    WrongRule(
+        "light-unclamped",
+        "N . L is negative on the dark side and took away from the ambient light: max(0, N . L).",
+        diffuse,
+        diffuse_unclamped,
+        (0.25, (0, 0, 1), (0, 0, -1)),
+        FACING,
+    ),
+    WrongRule(
+        "light-reversed",
+        "L points from the light to the surface. It points from the surface to the light.",
+        diffuse,
+        diffuse_from_behind,
+        FACING,
+        (0.25, (0, 0, 1), (1, 0, 0)),
+    ),
+    WrongRule(
+        "normal-not-renormalized",
+        "The interpolated normal is shorter than 1. Divide by its length again.",
+        between_normals,
+        between_normals_short,
+        ((1, 0, 0), (0, 1, 0), 0.5, (1, 1, 0)),
+        ((1, 0, 0), (1, 0, 0), 0.5, (1, 1, 0)),
+    ),
+    WrongRule(
+        "highlight-at-light",
+        "N . L was taken: the highlight lies under the light. H is halfway between L and V.",
+        highlight,
+        highlight_at_light,
+        SHINE,
+        STRAIGHT,
+    ),
+    WrongRule(
+        "highlight-at-eye",
+        "N . V was taken: the highlight follows the eye. H is halfway between L and V.",
+        highlight,
+        highlight_at_eye,
+        SHINE,
+        STRAIGHT,
+    ),
+    WrongRule(
+        "shininess-inverted",
+        "The exponent was inverted: a larger s makes a smaller highlight.",
+        highlight,
+        highlight_inverted,
+        SHINE,
+        STRAIGHT,
+    ),
+    WrongRule(
+        "byte-overflows",
+        "The sum was stored without a limit, and 256 became 0. Cut it off at 255.",
+        light_byte,
+        light_byte_overflown,
+        (0.4, 0.8),
+        (0.1, 0.8),
+    ),
+    WrongRule(
+        "phong-at-vertices",
+        "Phong was lit at the vertices. It interpolates normals and lights every fragment.",
+        lightings_by_fragment,
+        lightings_by_vertex,
+        (1, 3, 40),
+        (1, 3, 3),
+    ),
+)
