@@ -1,4 +1,4 @@
-"""What stands beside the main view where a stage has two sides: the space that corners enter, texture, new depths."""
+"""What stands beside the main view where a stage has two sides: the space entered, tables, texture, new depths."""
 
 import numpy as np
 from PySide6.QtWidgets import QWidget
@@ -9,6 +9,7 @@ from app.views.pointed_pixel import shown_triangle
 from app.views.stage_view import StageView, TextureView
 from app.views.texture_footprint import texture_of
 from core.explain.kinds import of_kind
+from core.explain.step_tables import has_tables, step_table
 from core.records.arrays import Floats
 from core.trace import StageTrace
 from core.trace.geometry_progress import SPACES, spaces_reached
@@ -19,6 +20,7 @@ from widgets.grid.marks import StepMark
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.space.diagram import CUBE, Diagram, Spot, Stroke
 from widgets.space.view import SpaceView
+from widgets.tables.step_table_view import StepTableView
 
 NDC = SPACES.index("NDC")
 MOST_TRIANGLES = 400
@@ -61,6 +63,24 @@ class TextureBeside(Companion, TextureView):
         return texture_of(self.session.trace.source, shown_triangle(self.session)) is not None
 
 
+class FillingTable(Companion):
+    """The table that fills as the stage is stepped: planes of the frustum, borders of a clip window."""
+
+    def make_widget(self) -> QWidget:
+        """Return the table."""
+        self._view = StepTableView()
+        self._view.step_requested.connect(self.session.go_to)
+        return self._view
+
+    def is_wanted(self) -> bool:
+        """Return whether some row of the stage stands in a table."""
+        return has_tables(self.session.stage_trace)
+
+    def draw(self) -> None:
+        """Show the table as far as it is filled."""
+        self._view.show_table(step_table(self.session.stage_trace, self.session.cursor.position))
+
+
 class NewDepths(Companion):
     """The depths of the triangle at hand, beside those that the depth buffer holds."""
 
@@ -93,6 +113,7 @@ class NewDepths(Companion):
 
 COMPANIONS: dict[str, type[Companion]] = {
     "transform": EnteredSpace,
+    **dict.fromkeys(("cull", "clip", "raster"), FillingTable),
     "shade": TextureBeside,
     "depth": NewDepths,
 }

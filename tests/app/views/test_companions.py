@@ -10,15 +10,18 @@ from app.session.document import open_document
 from app.session.session import Session
 from app.views.companions import COMPANIONS, entered_diagram, new_depths
 from app.window.main_window import MainWindow
+from core import Settings
 from core.trace.geometry_progress import SPACES, spaces_reached
 from lessons.scenes import make_scene
+from lessons.slides.scenes import LECTURE_SCENES
 from widgets.space.diagram import CUBE, Diagram
 from widgets.space.view import SpaceView
+from widgets.tables.step_table_view import StepTableView
 
 
 @pytest.mark.parametrize(
     ("scene", "beside"),
-    [("cube", {"transform", "depth"}), ("textured-floor", {"transform", "shade", "depth"})],
+    [("cube", {"transform", "cull", "depth"}), ("textured-floor", {"transform", "cull", "shade", "depth"})],
 )
 def test_a_stage_of_two_sides_shows_both(window: MainWindow, scene: str, beside: set[str]) -> None:
     session, area = window.session, window.page.main_area
@@ -95,3 +98,23 @@ def test_the_cube_stays_where_it_is_when_its_caption_is_shorter(qapp: object) ->
     before = view.projection().project(CUBE)
     view.show_diagram(replace(diagram, caption="One line."))
     np.testing.assert_array_equal(view.projection().project(CUBE), before)
+
+
+def test_a_clipper_fills_its_table_beside_the_pixels(window: MainWindow) -> None:
+    scene = LECTURE_SCENES["LMU"][0]
+    window.session.open(open_document(scene.make(), scene.title, settings=Settings(**scene.settings)))
+    session, area = window.session, window.page.main_area
+    view = area.companions["raster"].widget
+    assert isinstance(view, StepTableView)
+    filled = []
+    for position in (0, 3, 9, session.trace.stage("raster").steps.count):
+        session.set_stage("raster", position)
+        assert area.beside.isVisible()
+        table = view.table()
+        assert table is not None
+        filled.append(sum(cell is not None for row in table.cells for cell in row))
+    assert filled[0] == 0
+    assert filled == sorted(set(filled))
+    view.cells.clicked.emit(view.cells.model().index(1, 0))
+    assert session.explanation is not None
+    assert session.explanation.values["border"] == "right"

@@ -1,0 +1,247 @@
+"""The tables of clipping: outcodes; p, q and t; N . D with PE and PL; the planes of the frustum; IN and OUT."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from operator import and_, or_
+
+import numpy as np
+
+from core.explain.step_tables import FilledColumn, filled_table, tabulates
+from core.explain.step_values import StepValues
+from core.explain.subjects.clipping import CASES, PLANE_SIGNS
+from core.explain.subjects.line_clipping import borders_of, code_text
+from core.geometry.culling import PLANES
+from core.methods import table
+from core.records.arrays import Flags, Integers
+from core.records.steps import Level
+from core.records.tables import StepTable, TableCell
+from core.records.words import counted, joined, noun_of
+from core.trace import StageTrace
+
+_DIGITS = "₀₁₂"
+_WAYS = {
+    "clip-enter": ("enters", "PE"),
+    "clip-leave": ("leaves", "PL"),
+    "clip-parallel": ("parallel", "parallel"),
+    "clip-outside": ("parallel, outside", "parallel, outside"),
+}
+"""What an edge does at a border: in words of Liang-Barsky, and of Cyrus-Beck."""
+_BOUNDS = (
+    FilledColumn("tE", "Latest entry so far: at least 0.", lambda step: step.number("t_enter")),
+    FilledColumn("tL", "Earliest exit so far: at most 1.", lambda step: step.number("t_leave")),
+)
+_LIANG_BARSKY = (
+    FilledColumn(
+        "p", "Below 0 the edge enters, above 0 it leaves.", lambda step: step.number("approach"), "room"
+    ),
+    FilledColumn(
+        "q", "Room inside at the first end: below 0 is outside.", lambda step: step.number("room"), "room"
+    ),
+    FilledColumn("case", "What the sign of p says.", lambda step: _WAYS[step.kind][0], "room"),
+    FilledColumn(
+        "t = q/p", "Where the border is crossed.", lambda step: step.number("crossing_t"), "crossing_t"
+    ),
+    *_BOUNDS,
+)
+_CYRUS_BECK = (
+    FilledColumn("N", "Outward normal.", lambda step: tuple(step.vector("normal")), "room"),
+    FilledColumn(
+        "N · D",
+        "Below 0 the edge may enter, above 0 it may leave.",
+        lambda step: step.number("approach"),
+        "room",
+    ),
+    FilledColumn(
+        "N · (P₀ − Pₑ)",
+        "Above 0 the first end is outside.",
+        lambda step: 0.0 - step.number("room"),
+        "room",
+    ),
+    FilledColumn(
+        "PE/PL", "Potentially entering, or potentially leaving.", lambda step: _WAYS[step.kind][1], "room"
+    ),
+    FilledColumn("t", "Where the border is crossed.", lambda step: step.number("crossing_t"), "crossing_t"),
+    *_BOUNDS,
+)
+
+
+def _title(trace: StageTrace, row: int) -> str:
+    """Return the clipper and what it clips."""
+    method = table.get("line_clipping", str(trace.constants["line_clipping"])).title
+    edge, triangle = int(trace.columns["edge"][row]), int(trace.triangle[row])
+    return f"{method}: edge {edge} of triangle {triangle}"
+
+
+@tabulates("raster", (*_WAYS, "clip-kept", "clip-empty"))
+def borders_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
+    """Return p, q and t, or N . D, PE and PL, of every border: rows (R,) of a trace, as far as they are done."""
+    clip = trace.extra["outline_clip"]
+    columns = _LIANG_BARSKY if trace.constants["line_clipping"] == "liang-barsky" else _CYRUS_BECK
+    borders = rows[[trace.kind_of(row) in _WAYS for row in rows.tolist()]]
+    names = clip.lines.window.edge_names
+    return filled_table(
+        trace, borders, position, _title(trace, rows[0]), "Border", names, columns, closing=int(rows[-1])
+    )
+
+
+def _bits(step: StepValues, combine: Callable[[int, int], int]) -> str:
+    return code_text(combine(step.whole("code_start"), step.whole("code_end")))
+
+
+def _does(step: StepValues) -> str:
+    """Return what a pass of Cohen-Sutherland decides."""
+    if step.kind == "outcodes-accept":
+        return "accepted: or = 0"
+    if step.kind == "outcodes-reject":
+        return f"rejected: {borders_of(step.whole('code_start') & step.whole('code_end'))}"
+    return f"end {step.whole('moved_end')} cut at {step.text('border')}"
+
+
+_OUTCODES = (
+    FilledColumn("P₀", "First end now.", lambda step: tuple(step.vector("pass_start")), "code_start"),
+    FilledColumn(
+        "c₀",
+        "Its outcode: top, bottom, right, left.",
+        lambda step: code_text(step.whole("code_start")),
+        "code_start",
+    ),
+    FilledColumn("P₁", "Second end now.", lambda step: tuple(step.vector("pass_end")), "code_start"),
+    FilledColumn(
+        "c₁",
+        "Its outcode: top, bottom, right, left.",
+        lambda step: code_text(step.whole("code_end")),
+        "code_start",
+    ),
+    FilledColumn("or", "0000: both ends are inside.", lambda step: _bits(step, or_), "code_start"),
+    FilledColumn(
+        "and", "Not 0000: both ends are outside one border.", lambda step: _bits(step, and_), "code_start"
+    ),
+    FilledColumn("verdict", "Accepted, rejected, or the end that is cut.", _does),
+)
+
+
+@tabulates("raster", ("outcodes-accept", "outcodes-reject", "outcodes-cut"))
+def outcodes_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
+    """Return the outcodes of every pass, rows (R,) of a trace; a pass appears as it begins."""
+    labels = [str(number) for number in range(1, len(rows) + 1)]
+    return filled_table(trace, rows, position, _title(trace, rows[0]), "Pass", labels, _OUTCODES, grows=True)
+
+
+def _side_bits(step: StepValues) -> list[int]:
+    """Return for every corner whether it is outside the plane of a row, or behind the eye."""
+    if step.kind == "behind":
+        return [int(value <= 0) for value in step.vector("w")]
+    return [int(value < 0) for value in step.vector("distances")]
+
+
+def _distance(corner: int) -> FilledColumn:
+    def value(step: StepValues) -> float:
+        return step.vector("w" if step.kind == "behind" else "distances")[corner]
+
+    meaning = f"Signed distance of corner {corner} from the plane: below 0 is outside."
+    return FilledColumn(f"d{_DIGITS[corner]}", meaning, value, "applies", vertex=corner)
+
+
+def _side(step: StepValues) -> str:
+    bits = _side_bits(step)
+    if all(bits):
+        return "rejected"
+    return "crosses" if any(bits) else "inside"
+
+
+_VERDICT = FilledColumn("verdict", "Inside: no corner is outside. Rejected: all are.", _side, "applies")
+_EQUATIONS = {
+    name: f"{name}: w {'+' if sign > 0 else '−'} {axis}" for name, (axis, sign) in PLANE_SIGNS.items()
+}
+
+
+@tabulates("cull", ("behind", "plane", "kept"), Level.TRIANGLE)
+def frustum_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
+    """Return the distances of all corners from every plane, rows (R,), up to the first plane that rejects them."""
+    corners = trace.corner_count
+    tests = rows[[trace.kind_of(row) != "kept" for row in rows.tolist()]]
+    columns = (*(_distance(corner) for corner in range(corners)), _VERDICT)
+    labels = ["w", *(_EQUATIONS[name] for name in PLANES)]
+    title = f"Frustum, plane by plane: triangle {int(trace.triangle[rows[0]])}"
+    outside = trace.columns["distances"][tests[1:]] < 0
+    planes = tests[1:]
+    made = filled_table(
+        trace,
+        tests,
+        position,
+        title,
+        "Plane",
+        labels,
+        columns,
+        closing=int(rows[-1]),
+        note="" if trace.columns["applies"][tests[-1]] else _not_rejected(outside),
+    )
+    done = int((trace.steps.starts[planes + 1] <= position).sum())
+    codes = [_code(bits) for bits in outside[:done].T]
+    at = trace.steps.position_after(int(planes[done - 1])) if done else -1
+    cells = [TableCell(code, code, at) if done else None for code in codes]
+    return replace(made, rows=(*made.rows, "outcode"), cells=(*made.cells, (*cells, None)))
+
+
+def _code(outside: Flags) -> str:
+    """Write the outcode of bits (n,), the first plane's last; a plane that is not looked at yet is a dot."""
+    return "".join("01"[bit] for bit in outside[::-1].tolist()).rjust(len(PLANES), "·")
+
+
+def _not_rejected(outside: Flags) -> str:
+    """Say what the outcodes of corners, (6, C) bool, decide where no plane has all of them outside."""
+    some = np.any(outside, axis=1)
+    every = np.all(outside, axis=1)
+    joint, shared = _code(some), _code(every)
+    crossed = [PLANES[plane] for plane in np.flatnonzero(some)]
+    if not crossed:
+        return f"Accepted without clipping: the outcodes have no bit (or = {joint})."
+    return (
+        f"Neither accepted (or = {joint}) nor rejected (and = {shared}): it crosses the {joined(crossed)} "
+        f"{noun_of(len(crossed), 'plane')}."
+    )
+
+
+def _ends(step: StepValues) -> str:
+    return step.kind.upper().replace("-", " → ")
+
+
+def _hands_on(step: StepValues) -> str:
+    return {"in-in": "end", "in-out": "new", "out-in": "new, end", "out-out": "nothing"}[step.kind]
+
+
+def _corner(step: StepValues) -> tuple[float, ...] | None:
+    return None if step.kind in ("in-in", "out-out") else tuple(step.vector("corner"))
+
+
+_EDGES = (
+    FilledColumn(
+        "d start",
+        "Distance of its start from the plane.",
+        lambda step: step.number("start_distance"),
+        "start_distance",
+    ),
+    FilledColumn(
+        "d end",
+        "Distance of its end from the plane.",
+        lambda step: step.number("end_distance"),
+        "end_distance",
+    ),
+    FilledColumn("case", "Where its start and its end lie.", _ends, "end_distance"),
+    FilledColumn("t", "Where the edge crosses the plane.", lambda step: step.number("t"), "t"),
+    FilledColumn("new corner", "x, y, z and w where it crosses.", _corner, "corner"),
+    FilledColumn("hands on", "The corners that go on to the next plane.", _hands_on),
+)
+
+
+@tabulates("clip", tuple(CASES))
+def polygon_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
+    """Return the edges of a polygon at one plane, rows (R,): IN and OUT, and the corners that they hand on."""
+    plane = str(trace.columns["plane"][rows[0]])
+    title = f"{_EQUATIONS[plane]}: triangle {int(trace.triangle[rows[0]])}"
+    labels = [f"edge {edge}" for edge in trace.columns["edge"][rows].tolist()]
+    count = sum(CASES[trace.kind_of(row)] for row in rows.tolist())
+    note = (
+        f"{counted(len(rows), 'corner')} in, {count} out." if count else "No corner is left: it is outside."
+    )
+    return filled_table(trace, rows, position, title, "Edge", labels, _EDGES, note=note)

@@ -1,0 +1,46 @@
+"""The widget of a table that fills: cells, what a screen reader hears, copying, and the way to the step of a number."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from pytestqt.qtbot import QtBot
+
+from core.records.tables import StepTable, TableCell, TableColumn
+from widgets.tables.step_table_view import StepTableView
+
+COLUMNS = (TableColumn("p", "Speed."), TableColumn("q", "Room."))
+
+
+def table(*rows: tuple[TableCell | None, TableCell | None], made: tuple[int, int] = (0, 0)) -> StepTable:
+    labels = ("left", "right")[: len(rows)]
+    return StepTable("Borders", "Border", COLUMNS, labels, rows, frozenset({made}), made[0], "Kept.")
+
+
+def test_it_shows_what_is_known_and_leads_to_its_step(qtbot: QtBot) -> None:
+    view = StepTableView()
+    qtbot.addWidget(view)
+    view.show_table(
+        table((TableCell("0.3333", "0.3333333333333333", 4), None), (TableCell("–", "–", -1), None))
+    )
+    view.show()
+    items = view.cells.model()
+    assert [items.index(0, k).data() for k in (0, 1)] == ["0.3333", ""]
+    heard = [items.index(0, k).data(Qt.ItemDataRole.AccessibleTextRole) for k in (0, 1)]
+    assert heard == ["0.3333333333333333, made in this step", "empty"]
+    go, copy = view.cells.actions()
+    assert (go.shortcut().toString(), copy.shortcut().toString()) == ("Return", "Ctrl+C")
+    asked: list[int] = []
+    view.step_requested.connect(asked.append)
+    for place in ((0, 0), (0, 1), (1, 0)):
+        view.cells.setCurrentIndex(items.index(*place))
+        go.trigger()
+    assert asked == [4], "an empty cell and one without a number lead nowhere"
+
+
+def test_it_is_copied_with_all_digits(qtbot: QtBot) -> None:
+    view = StepTableView()
+    qtbot.addWidget(view)
+    view.show_table(table((TableCell("0.3333", "0.3333333333333333", 4), None)))
+    view.cells.actions()[1].trigger()
+    assert QGuiApplication.clipboard().text() == "Borders\nBorder\tp\tq\nleft\t0.3333333333333333\t\nKept.\n"
+    view.show_table(None)
+    assert view.cells.model().rowCount() == 0

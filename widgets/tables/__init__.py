@@ -1,0 +1,1 @@
+"""Tables that fill as a stage is stepped."""

@@ -1,0 +1,194 @@
+"""A table that fills as a stage is stepped: the cells of the step stand out, each leads to the step that made it."""
+
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, Qt, Signal, Slot
+from PySide6.QtGui import (
+    QAction,
+    QColor,
+    QGuiApplication,
+    QKeySequence,
+    QPainter,
+    QPaintEvent,
+    QStandardItem,
+    QStandardItemModel,
+)
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QHeaderView,
+    QStyledItemDelegate,
+    QStyleOptionViewItem,
+    QTableView,
+    QWidget,
+)
+
+from core.records.tables import StepTable, TableCell, TableColumn
+from widgets.basics.controls import LEAST_TARGET, column_layout
+from widgets.basics.drawn_text import paint_empty
+from widgets.basics.key_claim import KeyClaim
+from widgets.basics.labels import text_label
+from widgets.basics.theme import current_theme, text_font, theme_notifier
+from widgets.basics.typed_value import tabular_font
+
+EMPTY = "The numbers of each step appear here."
+_POSITION = int(Qt.ItemDataRole.UserRole)
+_FULL, _MADE, _HERE = _POSITION + 1, _POSITION + 2, _POSITION + 3
+_MARK_WIDTH = 4
+
+
+class _CellDelegate(QStyledItemDelegate):
+    """Draws a bar before each cell that the step has made, and a line below the row of the step."""
+
+    def paint(
+        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
+    ) -> None:
+        super().paint(painter, option, index)
+        accent = QColor(current_theme().accent)
+        if index.data(_MADE):
+            bar = option.rect.adjusted(1, 3, 0, -3)
+            bar.setWidth(_MARK_WIDTH)
+            painter.fillRect(bar, accent)
+        if index.data(_HERE):
+            line = QRect(option.rect.left(), option.rect.bottom() - 1, option.rect.width(), 2)
+            painter.fillRect(line, accent)
+
+
+class _Cells(QTableView):
+    """The cells below their headings."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._items = QStandardItemModel(self)
+        self.setModel(self._items)
+        self.setItemDelegate(_CellDelegate(self))
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
+        self.setWordWrap(False)
+        self.setTabKeyNavigation(False)
+        self.setCornerButtonEnabled(False)
+        self.setHorizontalScrollMode(QAbstractItemView.ScrollMode.ScrollPerPixel)
+        for header in (self.horizontalHeader(), self.verticalHeader()):
+            header.setSectionsClickable(False)
+            header.setHighlightSections(False)
+        self.horizontalHeader().setMinimumSectionSize(28)
+        KeyClaim(self, (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Return))
+
+    def show_cells(self, table: StepTable) -> None:
+        """Show a table; of one of the same shape only the cells that differ are written."""
+        items, shape = self._items, (len(table.rows), len(table.columns))
+        if (items.rowCount(), items.columnCount()) != shape:
+            items.clear()
+            items.setRowCount(shape[0])
+            items.setColumnCount(shape[1])
+        items.setVerticalHeaderLabels(list(table.rows))
+        for place, column in enumerate(table.columns):
+            items.setHorizontalHeaderItem(place, _heading(column))
+        for row, cells in enumerate(table.cells):
+            for place, cell in enumerate(cells):
+                item = items.item(row, place) or QStandardItem()
+                _fill(item, cell, (row, place) in table.made, row == table.row)
+                vertex = table.columns[place].vertex
+                if vertex is not None:
+                    item.setForeground(QColor(current_theme().vertex_text[vertex]))
+                if item.model() is None:
+                    items.setItem(row, place, item)
+        self._fit()
+        if table.row >= 0:
+            self.scrollTo(items.index(table.row, 0))
+
+    def _fit(self) -> None:
+        self.setFont(tabular_font(text_font(current_theme())))
+        height = max(self.fontMetrics().height() + 6, LEAST_TARGET)
+        self.verticalHeader().setDefaultSectionSize(height)
+        self.horizontalHeader().resizeSections(QHeaderView.ResizeMode.ResizeToContents)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the cells, or say what comes here."""
+        super().paintEvent(event)
+        if not self._items.rowCount():
+            with QPainter(self.viewport()) as painter:
+                paint_empty(painter, self.viewport().rect(), EMPTY, current_theme())
+
+
+class StepTableView(QWidget):
+    """Shows a :class:`core.records.tables.StepTable` below its title, and what it decides below it."""
+
+    step_requested = Signal(int)
+    """A position in the trace: the user asks for the step that made a number."""
+    table_copied = Signal(str)
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._table: StepTable | None = None
+        self._title = text_label("", self, role="strong", wraps=True)
+        self._note = text_label("", self, role="sentence", wraps=True, is_selectable=True)
+        self.cells = _Cells(self)
+        for text, key, do in (
+            ("Go to the step that made it", QKeySequence(Qt.Key.Key_Return), self._choose_current),
+            ("Copy the table", QKeySequence(QKeySequence.StandardKey.Copy), self.copy),
+        ):
+            action = QAction(text, self.cells)
+            action.setShortcut(key)
+            action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+            action.triggered.connect(do)
+            self.cells.addAction(action)
+        self.cells.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
+        layout = column_layout(self, 4)
+        layout.addWidget(self._title)
+        layout.addWidget(self.cells, 1)
+        layout.addWidget(self._note)
+        self.cells.clicked.connect(self._choose)
+        theme_notifier().theme_changed.connect(self._follow_theme)
+        self.show_table(None)
+
+    def show_table(self, table: StepTable | None) -> None:
+        """Show a table as it is after a step; ``None``: nothing yet."""
+        self._table = table
+        shown = table or StepTable("", "", (), (), ())
+        self._title.setText(shown.title)
+        self._note.setText(shown.note)
+        self._note.setMinimumHeight(3 * self._note.fontMetrics().lineSpacing())
+        self.cells.setAccessibleName(shown.title or "Table")
+        self.cells.setAccessibleDescription(shown.note)
+        self.cells.show_cells(shown)
+
+    def table(self) -> StepTable | None:
+        """Return what is shown."""
+        return self._table
+
+    @Slot()
+    def copy(self) -> None:
+        """Put the table on the clipboard, with all digits."""
+        if self._table is not None:
+            QGuiApplication.clipboard().setText(self._table.text())
+            self.table_copied.emit(self._table.text())
+
+    @Slot()
+    def _choose_current(self) -> None:
+        self._choose(self.cells.currentIndex())
+
+    @Slot(QModelIndex)
+    def _choose(self, index: QModelIndex) -> None:
+        position = index.data(_POSITION)
+        if position is not None and position >= 0:
+            self.step_requested.emit(position)
+
+    @Slot()
+    def _follow_theme(self) -> None:
+        self.show_table(self._table)
+
+
+def _heading(column: TableColumn) -> QStandardItem:
+    item = QStandardItem(column.symbol)
+    item.setToolTip(column.meaning)
+    return item
+
+
+def _fill(item: QStandardItem, cell: TableCell | None, is_made: bool, is_here: bool) -> None:
+    item.setText("" if cell is None else cell.text)
+    item.setToolTip("" if cell is None else cell.full)
+    is_word = cell is not None and cell.text[:1].isalpha()
+    side = Qt.AlignmentFlag.AlignLeft if is_word else Qt.AlignmentFlag.AlignRight
+    item.setTextAlignment(side | Qt.AlignmentFlag.AlignVCenter)
+    item.setData(-1 if cell is None else cell.position, _POSITION)
+    item.setData(is_made, _MADE)
+    item.setData(is_here, _HERE)
+    empty = "empty" if cell is None else cell.full
+    item.setAccessibleText(f"{empty}, made in this step" if is_made else empty)
