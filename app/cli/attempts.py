@@ -9,13 +9,13 @@ from operator import attrgetter
 from pydantic import ValidationError
 
 from app.cli.commands import PROGRAM, UsageError
+from app.cli.exercise_folders import known_templates
 from app.files.file_writing import write_file
 from app.files.input_files import read_input
 from lessons.attempts.practice import Progress, next_question, progress
 from lessons.attempts.record import DEFAULT_USER, attempt_of, attempts_json, read_attempts_json
 from lessons.attempts.store import FILE_NAME, AttemptFile
 from lessons.exercises.answers.answer import Response
-from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import Judgement, Question
 
 SIZE_LIMIT = 1 << 26
@@ -43,7 +43,9 @@ def run(options: argparse.Namespace) -> int:
     """Do what the action asks."""
     file = attempt_file()
     if options.action == "practice":
-        choice = next_question(file.attempts(options.user), TEMPLATES, options.user, datetime.now(UTC))
+        choice = next_question(
+            file.attempts(options.user), known_templates(), options.user, datetime.now(UTC)
+        )
         assert choice is not None
         template, seed = choice.question.template, choice.question.seed
         print(f"{choice.reason}\n\n  rasterscope exercise show {template.name} --seed {seed}")

@@ -5,8 +5,9 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict
 
-from app.cli import attempts
+from app.cli import attempts, exercise_folders
 from app.cli.commands import UsageError
+from app.cli.exercise_folders import known_templates
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.draws import SEED_LIMIT
@@ -23,6 +24,7 @@ EXAMPLES = """examples:
   rasterscope exercise validate my-exercise.toml
   rasterscope exercise show my-exercise.toml
   rasterscope exercise selftest --seeds 200
+  rasterscope exercise folders --add my-exercises
   rasterscope exercise practice --user Ada
   rasterscope exercise export attempts.json --user Ada
 
@@ -55,6 +57,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     validate.add_argument("path", metavar="PATH", help="a .toml file")
     selftest = parsers.add_parser("selftest", help="check all exercises", allow_abbrev=False)
     selftest.add_argument("--seeds", metavar="K", type=seed_of_text, default=10, help="seeds of each (10)")
+    exercise_folders.add_parser(parsers)
     attempts.add_parsers(parsers)
 
 
@@ -68,9 +71,11 @@ def seed_of_text(text: str) -> int:
 def run(options: argparse.Namespace) -> int:
     """Do what the action asks."""
     if options.action == "list":
-        for template in TEMPLATES.values():
-            print(f"{template.name:<24}{template.stage:<13}{template.title}")
+        for template in known_templates().values():
+            print(f"{template.name:<23} {template.stage:<13}{template.title}")
         return 0
+    if options.action == "folders":
+        return exercise_folders.run(options)
     if options.action in ("practice", "progress", "export", "import"):
         return attempts.run(options)
     if options.action == "selftest":
@@ -82,7 +87,9 @@ def run(options: argparse.Namespace) -> int:
             f"{options.path}: valid: {template.title}; {question.draft.answer.kind}, {points_text(template.points)}"
         )
         return 0
-    question = ask(template_named(options.name), options.seed)
+    name = options.name
+    is_known = name in TEMPLATES or name.endswith(".toml")
+    question = ask(template_named(name, TEMPLATES if is_known else known_templates()), options.seed)
     if options.action == "show":
         print("\n".join(shown_question(question, options.hints)))
         return 0

@@ -1,5 +1,6 @@
 """All templates that ship with the program, and how one is found."""
 
+from collections.abc import Mapping
 from pathlib import Path
 
 from lessons.exercises.exercise_file import read_exercise
@@ -14,10 +15,10 @@ TEMPLATES: dict[str, Template] = {
 """By name, stage by stage."""
 
 
-def template_named(name: str) -> Template:
+def template_named(name: str, templates: Mapping[str, Template] = TEMPLATES) -> Template:
     """Return a template by its name, or that of a TOML file by its path; ValueError where there is none."""
     if name.endswith(".toml"):
         return read_exercise(Path(name))
-    if name not in TEMPLATES:
-        raise ValueError(f"expected a .toml file or one of {', '.join(TEMPLATES)}, got {name!r:.60}")
-    return TEMPLATES[name]
+    if name not in templates:
+        raise ValueError(f"expected a .toml file or one of {', '.join(templates)}, got {name!r:.60}")
+    return templates[name]

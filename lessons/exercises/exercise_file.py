@@ -23,6 +23,9 @@ from lessons.mistakes.shelf import SHELF
 from lessons.scenes import make_scene
 from lessons.small_scenes import segment_scene, triangle_scene
 
+NAME_LIMIT = 100
+"""Longest name of a file, without its ending."""
+
 
 def read_exercise(path: Path) -> Template:
     """Return the exercise of a file.
@@ -35,6 +38,8 @@ def read_exercise(path: Path) -> Template:
     OSError
         If the file cannot be read.
     """
+    if not path.stem.isprintable() or path.stem != path.stem.strip() or len(path.stem) > NAME_LIMIT:
+        raise ValueError(f"{str(path)!a}: expected a name of up to {NAME_LIMIT} printable characters")
     file = TomlFile(path)
     exercise = file.checked(Exercise)
     if exercise.mistakes and not (isinstance(exercise.answer, PixelPart) and exercise.answer.art is None):
