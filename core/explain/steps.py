@@ -19,7 +19,7 @@ from core.trace.stage_trace import KEPT_EXPLANATIONS
 
 SUBJECTS = (
     *("transform", "culling", "clipping", "number_formats", "edges", "binning", "spans", "fills"),
-    *("line_clipping", "lines", "smooth_lines", "interpolation", "textures", "shading"),
+    *("line_clipping", "lines", "smooth_lines", "interpolation", "barycentric", "textures", "shading"),
     *("depth", "packed_keys", "rays", "blending", "areas", "resolve", "clip_tables"),
 )
 """Modules of ``core.explain.subjects``; the variables of a stage stand in their order."""

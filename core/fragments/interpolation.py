@@ -18,6 +18,7 @@ import numpy as np
 from core.fragments.mixing import BLOCK, LocalNumbers, Mixer
 from core.methods import method, table
 from core.records.arrays import Floats, Integers
+from core.records.cached import cached_property
 from core.records.operation import Operation
 from core.records.primitives import CornerValues, own_corners
 
@@ -51,6 +52,17 @@ class Planes:
     """(P,) float64, of the (x, y, w) matrix."""
     w: Floats
     """(P, 3) float64, w of the corners."""
+    homogeneous: Floats
+    """(Q, 3, 3) float64, x, y and w of the corners of these and other primitives."""
+    number: Integers | None = None
+    """(P,) int64, which of ``homogeneous`` these are; ``None``: all."""
+
+    @cached_property
+    def window(self) -> Floats:
+        """(3, 2, P) float64 pixels, places of the corners in the window; not finite where w is 0."""
+        corners = self.homogeneous if self.number is None else self.homogeneous.take(self.number, axis=0)
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            return (corners[..., :2] / corners[..., 2:]).transpose(1, 2, 0)
 
 
 def set_up_planes(homogeneous: Floats) -> Planes:
@@ -76,7 +88,7 @@ def set_up_planes(homogeneous: Floats) -> Planes:
     if len(edge_on):
         a[edge_on], b[edge_on], c[edge_on] = 0, 0, _mean_of_corners(w[edge_on])
         determinant[edge_on] = 1
-    return Planes(a, b, c, determinant, w)
+    return Planes(a, b, c, determinant, w, homogeneous)
 
 
 def _mean_of_corners(w: Floats) -> Floats:
@@ -290,7 +302,7 @@ class Interpolator:
         values = varyings if isinstance(varyings, CornerValues) else _each_its_own(varyings)
         self.value_count = values.rows.shape[1]
         self._plane_rows = [np.ascontiguousarray(part.T) for part in (planes.a, planes.b, planes.c, planes.w)]
-        self._determinant = planes.determinant
+        self._planes = planes
         self._mixer = Mixer(values)
         count = values.index.shape[1]
         self._numbers = LocalNumbers(count)
@@ -344,8 +356,8 @@ class Interpolator:
     def _tables_of(self, primitives: Integers) -> tuple[Planes, Floats]:
         """Return the planes and values of primitives (U,), copied together."""
         a, b, c, w = [rows.take(primitives, axis=1).T for rows in self._plane_rows]
-        planes = Planes(a, b, c, self._determinant.take(primitives), w)
-        return planes, self._mixer.tables(primitives)
+        determinant, homogeneous = self._planes.determinant.take(primitives), self._planes.homogeneous
+        return Planes(a, b, c, determinant, w, homogeneous, primitives), self._mixer.tables(primitives)
 
 
 def _each_its_own(varyings: Floats) -> CornerValues:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from core.fragments.barycentric import WAYS, numbers_at
 from core.fragments.corrected_affine import place_anchors
 from core.fragments.interpolation import numerators, perspective
 from core.methods import table
@@ -52,10 +53,11 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
     )
     of_layout = {name: source.interpolated[1][:, part] for name, part in geometry.primitives.layout.items()}
     triangle = source.triangle_of_fragment
-    kinds = (mode, f"line-{_along(mode)}") if along_lines else (mode,)
     method = table.get("interpolation", mode)
+    kinds = (mode, f"line-{_along(mode)}") if along_lines else tuple(method.operations)
     operations = {**method.operations, **{kind: done for kind, (_, done) in ALONG_LINES.items()}}
-    listings = {mode: method.listing, **{kind: made for kind, (made, _) in ALONG_LINES.items()}}
+    listings = dict.fromkeys(method.operations, method.listing)
+    listings |= {kind: made for kind, (made, _) in ALONG_LINES.items()}
     steps = Steps(
         kinds=kinds,
         kind=rows.kind,
@@ -91,6 +93,7 @@ def _rows(source: TraceSource) -> StageRows:
     weights, values = source.interpolated
     along_lines = _is_along_lines(source)
     x, y = source.centers
+    kind = np.full(len(fragments), int(along_lines))
     varyings = geometry.primitives.varyings[fragments.primitive]
     columns: dict[str, np.ndarray] = {
         "column": fragments.column,
@@ -109,6 +112,10 @@ def _rows(source: TraceSource) -> StageRows:
     }
     if along_lines:
         columns |= _along_lines(source)
+    elif source.settings.interpolation in WAYS:
+        columns["corner_window"] = geometry.planes.window.take(fragments.primitive, axis=2).transpose(2, 0, 1)
+        columns |= numbers_at(source.settings.interpolation, geometry.planes, fragments.primitive, x, y)
+        kind = (~columns["has_area"]).astype(np.int64)
     else:
         is_corrected = (
             "correction_interval" in table.get("interpolation", source.settings.interpolation).takes
@@ -116,7 +123,7 @@ def _rows(source: TraceSource) -> StageRows:
         columns |= _between_anchors(source) if is_corrected else _over_areas(source)
     return StageRows(
         columns,
-        np.full(len(fragments), int(along_lines)),
+        kind,
         is_last_of(fragments.primitive, fragments.row),
         np.stack([fragments.column, fragments.row], axis=1),
         {"covered": np.ones(len(fragments), bool), "nan": np.any(~np.isfinite(values), axis=1)},

@@ -10,6 +10,7 @@ from core.framebuffer.depth import depth_test
 from core.framebuffer.resolve import weighted_mean
 from core.geometry.line_clipping.cyrus_beck import cyrus_beck_listing
 from core.geometry.line_clipping.records import ParameterRows, rectangle_window
+from core.methods import table
 from core.raster.number_formats.inverse import inverse_coefficients
 from lessons.printed.clipping import WINDOW
 from lessons.printed.records import slide_number
@@ -28,16 +29,11 @@ def weights_of(x: float, y: float) -> tuple[float, ...]:
     return rounded(np.array([a * x + b * y + c for a, b, c in zip(*inverse, strict=True)]))
 
 
-def doubled_area(a: tuple[float, float], b: tuple[float, float], c: tuple[float, float]) -> float:
-    """Return twice the signed area of a triangle: the determinant of its corners (x, y, 1)."""
-    return inverse_coefficients([[*corner, 1.0] for corner in (a, b, c)])[1]
-
-
-def weights_by_areas(x: float, y: float) -> tuple[float, ...]:
-    """Return A_a / A, A_b / A and A_c / A."""
-    p, whole = (x, y), doubled_area(A, B, C)
-    parts = (doubled_area(p, B, C), doubled_area(A, p, C), doubled_area(A, B, p))
-    return tuple(part / whole for part in parts)
+def weights_by(way: str, x: float, y: float) -> tuple[float, ...]:
+    """Return the same by the listing of a method of interpolation."""
+    listing = table.get("interpolation", way).listing
+    assert listing is not None
+    return tuple(listing((A, B, C), x, y, (0.0, 0.0, 0.0))[0])
 
 
 def drawn_color(column: int, row: int) -> tuple[float, ...]:
@@ -107,19 +103,20 @@ NUMBERS = (
         "Barycentric Interpolation (1/4)",
         "alpha + beta + gamma at (2, 1)",
         1.0,
-        lambda: sum(weights_of(2.0, 1.0)),
+        lambda: sum(weights_by("affine-equations", 2.0, 1.0)),
     ),
     _number(
         "Barycentric Interpolation (2/4)",
         "beta at (2, 1) = f_ac(2, 1) / f_ac(8, 0)",
         2.0 / 8.0,
-        lambda: weights_of(2.0, 1.0)[1],
+        lambda: weights_by("affine-distances", 2.0, 1.0)[1],
     ),
     _number(
         "Barycentric Interpolation (4/4)",
         "A_a/A, A_b/A, A_c/A at (2, 1)",
         (0.5, 0.25, 0.25),
-        weights_by_areas,
+        weights_by,
+        "affine-areas",
         2.0,
         1.0,
     ),

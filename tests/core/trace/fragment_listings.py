@@ -1,8 +1,11 @@
 """The listings of interpolation, textures and shading, executed on the rows."""
 
+from itertools import chain
+
 import numpy as np
 
 from core import Scene
+from core.fragments.barycentric import NO_AREA, WAYS
 from core.fragments.corrected_affine import interpolate_corrected_at
 from core.fragments.interpolation import interpolate_affine_at, interpolate_at, take_provoking_value
 from core.fragments.level_of_detail import level_of_detail, mipmap_color, nearest_mipmap_color
@@ -11,6 +14,7 @@ from core.fragments.mipmaps import mipmap_levels
 from core.fragments.shading import shaded_color
 from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
 from core.fragments.uv_slopes import slopes_at, slopes_of_one_value
+from core.methods import table
 from core.raster.lines.slopes import affine_line_slopes_at, line_slopes_at
 from core.stages.vertex_light import viewpoint
 from core.trace import StageTrace, Trace
@@ -21,7 +25,11 @@ from tests.core.trace.executed_rows import check_marks, equal, lines_that_run, r
 def check_interpolate(traced: Trace) -> None:
     found = traced.stage("interpolate")
     c, planes, settings = found.columns, traced.source.geometry.planes, traced.source.settings
-    for row in rows_of_kind(found, settings.interpolation):
+    is_way = settings.interpolation in WAYS
+    way = table.get("interpolation", settings.interpolation).listing
+    kinds = (settings.interpolation, NO_AREA) if is_way else (settings.interpolation,)
+    kinds = [kind for kind in kinds if kind in found.steps.kinds]
+    for row in chain.from_iterable(rows_of_kind(found, kind) for kind in kinds):
         p = c["primitive"][row]
         plane = planes.a[p], planes.b[p], planes.c[p]
         for k in range(c["values"].shape[1]):
@@ -30,6 +38,8 @@ def check_interpolate(traced: Trace) -> None:
                 if settings.interpolation == "flat":
                     provoking = 0 if settings.provoking == "first" else 2
                     weights, value = take_provoking_value(provoking, corners)
+                elif is_way:
+                    weights, value = way(c["corner_window"][row], c["x"][row], c["y"][row], corners)
                 elif settings.interpolation == "affine":
                     w = planes.w[p]
                     weights, total, value = interpolate_affine_at(
