@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar
 
+from core.scene import ClipScene
 from lessons.exercises.answers.amounts import read_entry
 from lessons.exercises.answers.answer import CANDIDATES, Answer, NotCheckedError, Verdict, spread
 from lessons.exercises.draws import Draws
@@ -33,6 +34,8 @@ class PlaceAnswer(Answer):
     """Runs the pipeline with the points; ``None``: the places themselves decide."""
     rule: str = ""
     """What ``is_right`` asks for, as the question states it."""
+    scene_of: Callable[[Places], ClipScene] | None = None
+    """What is drawn with the points, to be shown while they move; ``None``: the points alone."""
 
     kind: ClassVar[str] = "places"
 

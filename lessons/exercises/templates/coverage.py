@@ -8,8 +8,8 @@ from core import Settings, render
 from core.scene import ClipScene
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.pixels import PixelAnswer
+from lessons.exercises.drawn_scene import seen_pixels
 from lessons.exercises.draws import Draws
-from lessons.exercises.exercise_file import seen_pixels
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.mistakes.shelf import SHELF

@@ -39,6 +39,33 @@ question = "What comes out?"
 """
 ART = "type = \"pixels\"\nart = '''\n..?\n.##\n'''\n"
 TABLE = 'type = "table"\ncolumns = ["x", "y"]\nlabels = ["a", "b"]\ncells = [[1, 0.5], ["1/3", inf]]\n'
+SCENE = """[scene]
+size = [8, 6]
+triangles = [[["1/2", "1/2"], ["13/2", "1/2"], [3, 5]]]
+"""
+STEPS = """type = "steps"
+steps = [
+    {ask = "D", number = -2},
+    {ask = "the next pixel", pixel = [3, 1]},
+    {ask = "the corner", place = ["1/2", 2]},
+    {ask = "inside", options = ["yes", "no"], right = "no"},
+]
+"""
+BREAK = """type = "break"
+corner = [0, 2]
+weak = {fill_rule = "inclusive"}
+robust = {fill = "spans"}
+"""
+COSTS = """type = "cheapest"
+tolerance = 20
+[answer.costs.interpolation]
+flat = 0
+affine = 5
+affine-n = 6
+perspective = 11
+[scene]
+builtin = "near-plane"
+"""
 
 
 def written(folder: Path, text: str) -> Path:
@@ -69,6 +96,16 @@ def test_a_drawn_exercise_is_the_same_for_a_seed_and_shows_its_mistakes(tmp_path
         ('type = "order"\nitems = ["cull", "clip", "raster"]\n', ["cull", "clip", "raster"]),
         ('type = "choice"\noptions = ["yes", "no"]\nright = ["no"]\n', "no"),
         ('type = "choice"\noptions = ["a", "b", "c"]\nright = ["b", "c"]\nseveral = true\n', ["c", "b"]),
+        ('type = "places"\nnames = ["entry"]\nplaces = [["11/9", 0]]\ntolerance = 0.1\n', "1.2, 0"),
+        ('type = "places"\ncorner = [0, 2]\n' + SCENE, "3, 5.1"),
+        ('type = "line"\nlisting = """\nx = x0\ny = y0\nD = dx"""\nwrong = 3\n', 3),
+        (
+            'type = "spot"\nmistake = "y-down"\nothers = ["rows-and-columns"]\n' + SCENE,
+            {"pixels": [[2, 0]], "option": "y down"},
+        ),
+        (STEPS, ["-2", [3, 1], "1/2, 2", "no"]),
+        (BREAK + SCENE.replace('"1/2"', '"1/4"'), ["7/2", "7/2"]),
+        (COSTS, {"interpolation": "affine-n"}),
     ],
 )
 def test_every_type_of_answer_can_be_written(part: str, right: object, tmp_path: Path) -> None:
@@ -130,6 +167,29 @@ def changed(old: str, new: str) -> str:
         ),
         (HEAD + f'type = "numbers"\nvalues = [{"9" * 5000}]\n', "number or a list too long to read"),
         (HEAD + f"type = {'[' * 5000}{']' * 5000}\n", "number or a list too long to read"),
+        (
+            HEAD + 'type = "places"\nnames = ["a"]\nplaces = [[1, 2]]\ncorner = [0, 1]\n',
+            "expected either places or corner",
+        ),
+        (
+            HEAD + 'type = "places"\nnames = ["a"]\nplaces = [[1, 2]]\nstep = 0\n',
+            "expected a step above 0, got 0",
+        ),
+        (HEAD + 'type = "places"\ncorner = [0, 1]\n', "line 6: answer: expected a scene to draw"),
+        (
+            HEAD + 'type = "places"\ncorner = [0, 3]\n' + SCENE,
+            r"expected a corner of the triangles .* got \[0, 3\]",
+        ),
+        (HEAD + 'type = "line"\nlisting = "a"\nwrong = 2\n', "expected a line from 1 to 1, got 2"),
+        (HEAD + 'type = "spot"\nmistake = "ties-step"\n' + SCENE, "ties-step does not show in some pixels"),
+        (HEAD + 'type = "spot"\nmistake = "magic"\n', "expected a mistake such as"),
+        (HEAD + 'type = "steps"\nsteps = [{ask = "D"}]\n', "expected one of number, pixel, place or options"),
+        (HEAD + 'type = "steps"\nsteps = [{ask = "D", options = ["a", "b"]}]\n', "right to be one of them"),
+        (HEAD + BREAK.replace("[0, 2]", "[7, 2]") + SCENE, r"expected a corner of the triangles"),
+        (HEAD + BREAK + SCENE, "the weak method alone fails from the start"),
+        (HEAD + BREAK.replace('"inclusive"', '"magic"') + SCENE, "answer.weak: fill_rule must be one of"),
+        (HEAD + COSTS.replace("affine = 5", "magic = 5"), "interpolation must be one of"),
+        (HEAD + COSTS.replace("tolerance = 20", "tolerance = 0"), "to be neither of the ends"),
         (HEAD + "#" * 70000, "expected a file of up to 64 KiB"),
         (b"title = '\xff'\n", "line 1: expected text in UTF-8"),
     ],

@@ -1,0 +1,219 @@
+"""The answer of an exercise file: what it says, or what the pipeline draws of its scene."""
+
+from collections.abc import Callable
+from fractions import Fraction
+from functools import partial
+
+from core import Settings, render
+from core.scene import AnyScene, ClipScene
+from core.settings import settings_from_texts
+from core.study.planner.trials import difference, shown
+from lessons.exercises.answer_parts import (
+    AnswerPart,
+    BreakPart,
+    CheapestPart,
+    LinePart,
+    NumberPart,
+    OrderPart,
+    PixelPart,
+    PlacePart,
+    SpotPart,
+    StepPart,
+    StepsPart,
+    TablePart,
+)
+from lessons.exercises.answers.amounts import NumberAnswer
+from lessons.exercises.answers.answer import Answer
+from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
+from lessons.exercises.answers.listings import LineAnswer
+from lessons.exercises.answers.pixels import PixelAnswer, read_art
+from lessons.exercises.answers.places import PlaceAnswer, Places
+from lessons.exercises.answers.spots import SpotAnswer
+from lessons.exercises.answers.steps import Step, StepsAnswer
+from lessons.exercises.answers.tables import Column, TableAnswer
+from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Dial, Family, Values
+from lessons.exercises.drawn_scene import DrawnScene, different_pixels, frame_art, seen_pixels
+from lessons.exercises.draws import Draws
+from lessons.mistakes.shelf import SHELF
+
+SEARCH_LIMIT = 400
+"""Most places that are tried to find one that breaks a method."""
+FAILS = {"differs": "the picture differs from the right one", "twice": "a pixel is drawn twice"}
+
+
+class NoQuestionError(ValueError):
+    """No question comes of one draw; another may make one."""
+
+
+def answer_of(
+    part: AnswerPart, drawn: DrawnScene | None, settings: Settings, draws: Draws
+) -> tuple[Answer, str]:
+    """Return the answer and what the question shows of the scene.
+
+    Raises
+    ------
+    ValueError
+        If the file does not say what is needed, `NoQuestionError` if only this draw does not give it.
+    """
+    given = "" if drawn is None else drawn.text()
+    if isinstance(part, NumberPart):
+        count = len(part.values)
+        shape = (part.rows, count // part.rows) if part.rows > 1 else (count,) if count > 1 else ()
+        return NumberAnswer(tuple(part.values), shape, tuple(part.names), part.tolerance), given
+    if isinstance(part, TablePart):
+        cells = tuple(tuple(("", number) for number in row) for row in part.cells)
+        heads = tuple(map(Column, part.columns))
+        return TableAnswer(heads, tuple(part.labels), cells, tolerance=part.tolerance), given
+    if isinstance(part, OrderPart):
+        return OrderAnswer(tuple(part.items), draws.shuffled(part.items)), given
+    if isinstance(part, LinePart):
+        lines, also = part.listing.strip("\n").split("\n"), frozenset(line - 1 for line in part.also)
+        answer = LineAnswer(tuple(lines), part.wrong - 1, also)
+        return answer, "\n".join(filter(None, (given, answer.listing)))
+    if isinstance(part, StepsPart):
+        size = (1, 1) if drawn is None else drawn.scene.size
+        return StepsAnswer(tuple(map(_step, part.steps)), size), given
+    if isinstance(part, PixelPart):
+        return pixel_answer(part, drawn, settings), given
+    if isinstance(part, PlacePart) and part.places:
+        places: Places = tuple((x, y) for x, y in part.places)
+        columns, rows = part.size if drawn is None else drawn.scene.size
+        return PlaceAnswer((columns, rows), tuple(part.names), places, (), part.step, part.tolerance), given
+    if not isinstance(part, PlacePart | SpotPart | BreakPart | CheapestPart):
+        right = frozenset(part.options.index(option) for option in part.right)
+        return ChoiceAnswer(tuple(part.options), right, part.several), given
+    if drawn is None:
+        raise ValueError("expected a scene to draw")
+    if isinstance(part, PlacePart):
+        return _corner_answer(part, drawn, settings)
+    if isinstance(part, SpotPart):
+        return _spot_answer(part, drawn, settings, draws)
+    if isinstance(part, BreakPart):
+        return _break_answer(part, drawn, settings), given
+    return _cheapest_answer(part, drawn.scene, settings), given
+
+
+def pixel_answer(part: PixelPart, drawn: DrawnScene | None, settings: Settings) -> PixelAnswer:
+    """Return pixels from text art, or by drawing the scene."""
+    if part.art is None:
+        if drawn is None:
+            raise ValueError("expected art, or a scene to draw")
+        return PixelAnswer(drawn.scene.size, seen_pixels(render(drawn.scene, settings), part.triangle))
+    marks = read_art(part.art)
+    columns, rows = (1 + max(place) for place in zip(*marks, strict=True))
+    of = {mark: frozenset(pixel for pixel, its in marks.items() if its == mark) for mark in "#?"}
+    return PixelAnswer((columns, rows), of["#"], of["?"], part.noun)
+
+
+def _step(part: StepPart) -> Step:
+    if part.number is not None:
+        return Step(part.ask, "number", part.number, tolerance=part.tolerance)
+    if part.pixel:
+        return Step(part.ask, "pixel", tuple(part.pixel))
+    if part.place:
+        return Step(part.ask, "place", tuple(part.place), tolerance=part.tolerance)
+    assert part.right is not None
+    return Step(part.ask, "choice", part.options.index(part.right), tuple(part.options))
+
+
+def _corner_answer(part: PlacePart, drawn: DrawnScene, settings: Settings) -> tuple[PlaceAnswer, str]:
+    """Hide a corner and ask for a place from which the triangles cover the same."""
+    place = drawn.corner(part.corner)
+    frame = render(drawn.with_corner(part.corner, place), settings)
+    right = seen_pixels(frame)
+    columns, rows = drawn.scene.size
+    if not (right and 0 <= place[0] <= columns and 0 <= place[1] <= rows):
+        raise NoQuestionError("expected a corner in the window, of a triangle that covers pixels")
+
+    def scene_of(places: Places) -> ClipScene:
+        x, y = places[0]
+        return drawn.with_corner(part.corner, (Fraction(x), Fraction(y)))
+
+    def covers_the_same(places: Places) -> bool:
+        return seen_pixels(render(scene_of(places), settings)) == right
+
+    answer = PlaceAnswer(
+        drawn.scene.size,
+        ("corner",),
+        (place,),
+        step=part.step,
+        is_right=covers_the_same,
+        rule="the same pixels are covered",
+        scene_of=scene_of,
+    )
+    return answer, f"{drawn.text(part.corner)}\n{frame_art(frame)}"
+
+
+def _spot_answer(
+    part: SpotPart, drawn: DrawnScene, settings: Settings, draws: Draws
+) -> tuple[SpotAnswer, str]:
+    """Show what a mistake makes of the scene."""
+    scene = drawn.scene
+    if not isinstance(scene, ClipScene):
+        raise ValueError("expected triangles or segments in the window, got a mesh")
+    right = render(scene, settings)
+    frames = {name: SHELF[name].draw(scene, settings) for name in (part.mistake, *part.others)}
+    differs = {name: different_pixels(right, frame) for name, frame in frames.items()}
+    wrong = differs[part.mistake]
+    if not 0 < len(wrong) < right.primitive.size:
+        raise NoQuestionError(f"{part.mistake} does not show in some pixels and hide in others")
+    for name in part.others:
+        if not different_pixels(frames[name], frames[part.mistake]):
+            raise NoQuestionError(f"{name} and {part.mistake} make the same picture")
+    names = draws.shuffled(tuple(frames)) if part.others else ()
+    options = tuple(name.replace("-", " ") for name in names)
+    shown_frame = frames[part.mistake]
+    right_option = names.index(part.mistake) if names else 0
+    answer = SpotAnswer(scene.size, shown_frame, wrong, options, right_option)
+    return answer, f"{drawn.text()}\n{frame_art(shown_frame)}"
+
+
+def _is_drawn_twice(scene: ClipScene, settings: Settings) -> bool:
+    return bool((render(scene, settings).cover_count > 1).any())
+
+
+def _differs(reference: Settings, scene: ClipScene, settings: Settings) -> bool:
+    return bool(different_pixels(render(scene, settings), render(scene, reference)))
+
+
+def _break_answer(part: BreakPart, drawn: DrawnScene, settings: Settings) -> BreakAnswer:
+    """Search for a place of the corner at which the weak method alone fails."""
+    start = drawn.corner(part.corner)
+    columns, rows = drawn.scene.size
+    dials = tuple(
+        Dial(name, Fraction(0), Fraction(side), part.step, (part.corner[0], part.corner[1], axis))
+        for axis, (name, side) in enumerate(zip("xy", (columns, rows), strict=True))
+    )
+    weak, robust = (settings_from_texts(texts, settings) for texts in (part.weak, part.robust))
+    fails: Callable[[ClipScene, Settings], bool] = (
+        _is_drawn_twice if part.fails == "twice" else partial(_differs, settings)
+    )
+
+    def scene_of(values: Values) -> ClipScene:
+        return drawn.with_corner(part.corner, (values[0], values[1]))
+
+    def breaks(values: Values) -> bool:
+        scene = scene_of(values)
+        return fails(scene, weak) and not fails(scene, robust)
+
+    if breaks(start):
+        raise NoQuestionError("the weak method alone fails from the start")
+    x, y = dials
+    places = [(x.value(i), y.value(j)) for i in range(x.count) for j in range(y.count)]
+    for place in Draws(0).shuffled(places)[:SEARCH_LIMIT]:
+        if breaks(place):
+            return BreakAnswer(dials, start, place, scene_of, weak, robust, fails, FAILS[part.fails])
+    raise NoQuestionError(f"no place of {SEARCH_LIMIT} makes the weak method alone fail")
+
+
+def _cheapest_answer(part: CheapestPart, scene: AnyScene, settings: Settings) -> CheapestAnswer:
+    """Compare pictures with that of the settings, in bytes."""
+    families = tuple(
+        Family(family, tuple(costs), tuple(costs.values())) for family, costs in part.costs.items()
+    )
+    return CheapestAnswer(families, part.tolerance, partial(byte_error, scene, settings), settings)
+
+
+def byte_error(scene: AnyScene, reference: Settings, settings: Settings) -> Fraction:
+    """Return the largest difference of a colour channel, of 255, from the picture of ``reference``."""
+    return Fraction(int(difference(shown(scene, settings), shown(scene, reference)).max(initial=0)))
