@@ -83,7 +83,8 @@ def plan(
     -----
     Each cheaper method, together with all choices before it, is compared with the reference settings: errors are
     measured, not added. Small pictures are tried whole, so their predictions are what `measure_plan`
-    measures; of larger ones only bands of rows, see ``trials``.
+    measures; of larger ones only bands of rows, see ``trials``. Methods whose errors are single pixels, which bands
+    miss, are not chosen there: without clipping, 23 of 60 pictures of random triangles around the eye changed.
     """
     tolerance = tolerance or Tolerance()
     everything = reference_settings(scene, base)
@@ -150,14 +151,16 @@ def _choose(
         return Choice(family, CHEAPER[family][0], dearest)
     rejected: list[tuple[str, Trial]] = []
     slower: list[str] = []
-    lossy: list[str] = []
+    unseen: list[str] = []
     for name in CHEAPER[family]:
         if name == dearest:
             break
         tried(name)
         settings = with_method(before, family, name)
-        if family == "depth" and not trials.is_whole and loses_fragments(scene, settings, seen.far[name]):
-            lossy.append(name)
+        if not trials.is_whole and (
+            family == "clipping" or (family == "depth" and loses_fragments(scene, settings, seen.far[name]))
+        ):
+            unseen.append(name)
             continue
         trial = trials.compare(settings, everything)
         if not trial.is_within:
@@ -166,8 +169,8 @@ def _choose(
             slower.append(name)
         else:
             step = trials.compare(settings, before)
-            return Choice(family, name, dearest, step, tuple(rejected), tuple(slower), tuple(lossy))
-    return Choice(family, dearest, dearest, None, tuple(rejected), tuple(slower), tuple(lossy))
+            return Choice(family, name, dearest, step, tuple(rejected), tuple(slower), tuple(unseen))
+    return Choice(family, dearest, dearest, None, tuple(rejected), tuple(slower), tuple(unseen))
 
 
 def has_no_effect(family: str, settings: Settings, seen: Seen) -> bool:
@@ -192,7 +195,7 @@ def _decision(choices: dict[str, Choice], family: str, tolerance: Tolerance, see
         float(error),
         pixels,
         is_needed=choice.chosen == choice.dearest
-        and bool(choice.rejected or choice.lossy)
+        and bool(choice.rejected or choice.unseen)
         and not choice.slower,
         rests_on=tuple(
             other for other in order[: order.index(family)] if choices[other].chosen != choices[other].dearest

@@ -26,21 +26,26 @@ def reason(choice: Choice, tolerance: Tolerance, seen: Seen, is_compared: bool) 
             f"{capitalized(phrase(choice.family, name))}: {many} by more than {tolerance.bytes}/255, "
             f"by up to {in_bytes(trial.largest)}."
         )
-    if choice.lossy and seen.depth is not None:
-        lossy = capitalized(joined([phrase(choice.family, name) for name in choice.lossy]))
-        parts.append(
-            f"{lossy} may store z = {seen.depth[1]:.8g}, the farthest depth, as the cleared value: such pixels "
-            "would be lost between the rows that were tried."
-        )
+    if choice.unseen:
+        unseen = capitalized(joined([phrase(choice.family, name) for name in choice.unseen]))
+        parts.append(f"{unseen} may {_unseen_change(choice, seen)} between the rows that were tried.")
     if choice.slower:
         slower = capitalized(joined([phrase(choice.family, name) for name in choice.slower]))
         parts.append(f"{slower} would do, but {'take' if len(choice.slower) > 1 else 'takes'} longer here.")
     chosen = capitalized(phrase(choice.family, choice.chosen))
     if choice.trial is not None:
         parts.append(f"{chosen}: {change_text(choice.trial)}.")
-    elif choice.rejected or choice.slower or choice.lossy:
+    elif choice.rejected or choice.slower or choice.unseen:
         parts.append(f"{chosen}: kept.")
     return " ".join(part for part in parts if part)
+
+
+def _unseen_change(choice: Choice, seen: Seen) -> str:
+    """Return what methods that were not tried may do to single pixels."""
+    if choice.family == "clipping":
+        return "change a pixel on a cut edge"
+    assert seen.depth is not None
+    return f"store z = {seen.depth[1]:.8g}, the farthest depth, as the cleared value, and lose such pixels"
 
 
 def change_text(trial: Trial) -> str:

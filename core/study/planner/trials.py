@@ -65,8 +65,8 @@ class Choice:
     """Cheaper methods that are too far from the reference settings, and how far."""
     slower: tuple[str, ...] = ()
     """Cheaper methods that would do but take longer."""
-    lossy: tuple[str, ...] = ()
-    """Depth methods that lose fragments, or may, where nothing is tried."""
+    unseen: tuple[str, ...] = ()
+    """Cheaper methods that change, or may, single pixels where nothing is tried."""
 
 
 class Trials:

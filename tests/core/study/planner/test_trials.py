@@ -5,7 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from core.study import Tolerance, reference_settings
+from core.scene import ClipScene
+from core.study import Tolerance, plan, reference_settings
 from core.study.accuracy.workloads import sphere_scene
 from core.study.planner.trials import PIXELS, Trials, bands, difference, shown
 
@@ -38,3 +39,11 @@ def test_what_is_tried_are_pixels_of_the_whole_picture() -> None:
     same = trials.compare(everything, everything)
     assert (same.largest, same.error, same.pixels) == (0, 1, 0)
     assert Trials(scene, Tolerance.exact()).compare(everything, everything).error == 0
+
+
+def test_cut_edges_keep_their_clipping_where_rows_are_left_out() -> None:
+    clip = np.random.default_rng(4).normal(size=(20, 3, 4))
+    scene = ClipScene(clip, np.full((20, 3, 4), 0.5), (200, 150))
+    decision = next(each for each in plan(scene).decisions if each.setting == "clipping")
+    assert (decision.chosen, decision.is_needed) == ("sutherland-hodgman", True)
+    assert "may change a pixel on a cut edge between the rows that were tried" in decision.reason
