@@ -3,7 +3,7 @@
 from collections import defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import datetime, timedelta
 from hashlib import sha256
 from itertools import combinations, count, islice
 
@@ -15,6 +15,10 @@ VARIANTS_IN_TURN = 3
 """Most variants of a template one after the other, while they are missed."""
 TRY_LIMIT = 8
 """Most seeds that are tried until two mistakes give different answers, or until a question can be drawn."""
+
+
+CORRECTION = timedelta(minutes=10)
+"""An answer to the same question within this time after another one corrects it, with the marks in sight."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,13 +52,14 @@ def next_question(
     apart. Then comes what is due by FSRS, the most forgotten first, then what is new, then what is due next.
     """
     known = [attempt for attempt in attempts if attempt.template in templates]
-    again = _missed_last(known, templates)
+    tries = first_tries(known)
+    again = _missed_last(tries, templates)
     if again is not None:
         told = _telling_apart(known, templates, again, user) if len(again.mistakes) > 1 else None
         if told is not None:
             names = " and ".join(again.mistakes)
             return Choice(told, f"The last answer can come from {names}: this question tells them apart.")
-    for template, reason in _in_turn(known, templates, again, now):
+    for template, reason in _in_turn(tries, templates, again, now):
         for seed in _fresh_seeds(known, template, user):
             try:
                 return Choice(ask(template, seed), reason)
@@ -82,18 +87,35 @@ def _in_turn(
     if again is not None:
         yield templates[again.template], "A new variant of what was just missed."
     known = recall(attempts, now)
-    for name in sorted((name for name in known if known[name][1] <= now), key=known.__getitem__):
-        yield templates[name], "It was asked some time ago: do you still know it?"
-    seen = {attempt.template for attempt in attempts}
+    last = {attempt.template: attempt.at for attempt in attempts}
+    later = {name: day for name, (_, day) in known.items() if day > now}
     for name, template in templates.items():
-        if name not in seen:
+        # The same question again at once would be a correction.
+        if template.is_fixed and name in known and now < last[name] + CORRECTION:
+            later[name] = last[name] + CORRECTION
+    for name in sorted((name for name in known if name not in later), key=known.__getitem__):
+        yield templates[name], "It was asked some time ago: do you still know it?"
+    for name, template in templates.items():
+        if name not in known:
             yield template, "This one is new."
-    for name in sorted((name for name in known if known[name][1] > now), key=lambda name: known[name][1]):
+    for name in sorted(later, key=later.__getitem__):
         yield templates[name], "Nothing is due yet: this one is due first."
 
 
+def first_tries(attempts: Sequence[Attempt]) -> list[Attempt]:
+    """Return attempts (in the order of time) without those that correct an answer just given to the same question."""
+    last: dict[tuple[str, int, int], datetime] = {}
+    firsts = []
+    for attempt in attempts:
+        question = (attempt.template, attempt.version, attempt.seed)
+        if question not in last or attempt.at - last[question] >= CORRECTION:
+            firsts.append(attempt)
+        last[question] = attempt.at
+    return firsts
+
+
 def recall(attempts: Sequence[Attempt], now: datetime) -> dict[str, tuple[float, datetime]]:
-    """Return by template how likely it is still known, 0 to 1, and when it is due.
+    """Return by template how likely it is still known, 0 to 1, and when it is due, from first tries.
 
     References
     ----------
@@ -174,13 +196,13 @@ class Progress:
 
 
 def progress(attempts: Sequence[Attempt]) -> Progress:
-    """Return what a user has reached, from the attempts of this user."""
+    """Return what a user has reached, from the attempts of this user; corrections do not count."""
     made: dict[tuple[str, str], int] = defaultdict(int)
     asked: dict[tuple[str, str], int] = defaultdict(int)
     best: dict[str, float] = {}
     correct: dict[str, int] = defaultdict(int)
     tried: dict[str, int] = defaultdict(int)
-    for attempt in attempts:
+    for attempt in first_tries(attempts):
         for mistake in attempt.asked:
             asked[attempt.stage, mistake] += 1
             made[attempt.stage, mistake] += mistake in attempt.mistakes

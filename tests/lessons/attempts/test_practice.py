@@ -1,6 +1,7 @@
 """Practice asks what was missed and what is long ago, and progress counts it."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
 import pytest
@@ -90,6 +91,23 @@ def test_a_template_that_cannot_draw_is_passed_over() -> None:
     broken = Template("broken", 1, "Broken", "raster", 1, lambda draws: None)
     assert chosen([], {"broken": broken} | SOME).question.template.name == "triangle-coverage"
     assert next_question([], {"broken": broken}, "me", NOW) is None
+
+
+def test_a_correction_with_the_marks_in_sight_does_not_count() -> None:
+    question = ask(SOME["triangle-coverage"], 1)
+    attempts = [answered(question, (), timedelta(minutes=5)), answered(question, None, timedelta(minutes=4))]
+    assert chosen(attempts).reason == "A new variant of what was just missed."
+    assert (progress(attempts).points, progress(attempts).tried) == (1.0, {"triangle-coverage": 1})
+    later = answered(question, None, -timedelta(minutes=7))
+    assert progress([*attempts, later]).points == question.template.points
+
+
+def test_a_fixed_question_does_not_come_again_at_once() -> None:
+    fixed = replace(SOME["facing"], is_fixed=True)
+    templates = {"facing": fixed, "perspective-u": SOME["perspective-u"]}
+    missed = answered(ask(SOME["facing"], 1), (), timedelta(minutes=2))
+    assert chosen([missed], templates).question.template.name == "perspective-u"
+    assert chosen([missed], templates, NOW + timedelta(minutes=10)).question.template.name == "facing"
 
 
 def test_points_never_fall_and_mistakes_are_counted() -> None:
