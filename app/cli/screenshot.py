@@ -32,7 +32,7 @@ EXAMPLES = """examples:
 The other pages first measure or run their content, in fewer rounds than in the window. A saved study or atlas is shown
 unchanged.
 """
-PAGES = ("start", "step", "compare", "stability", "plan")
+PAGES = ("start", "step", "compare", "stability", "plan", "exercises")
 ONLY_OF = {
     "stage": ("step",),
     "step": ("step",),

@@ -18,6 +18,7 @@ from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
     from app.window.preferences import Preferences
+    from core.scene import AnyScene
     from core.study.accuracy.record import (
         Opening,
     )  # At run time all studies would come along: not before they are wanted.
@@ -36,6 +37,8 @@ class StepRequest:
     """Settings of B, for A | B; ``None``: only A is shown."""
     triangle: int | None = None
     """The triangle to be stepped, where there are too many to step all; ``None``: the one that is seen at the pixel."""
+    other_scene: "AnyScene | None" = None
+    """What B draws, of the same size; ``None``: what A does."""
 
 
 @dataclass(frozen=True)

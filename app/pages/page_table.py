@@ -38,6 +38,12 @@ def _make_plan(session: Session, parent: QWidget) -> Page:
     return PlanPage(session, parent)
 
 
+def _make_exercises(session: Session, parent: QWidget) -> Page:
+    from app.pages.exercises.page import ExercisesPage  # All exercises come along, as above.
+
+    return ExercisesPage(session, parent)
+
+
 PAGE_KINDS = (
     PageKind("start", "Start", "What this is, recent files and scenes (Alt+0)", _make_start),
     PageKind("step", "Step", "Step through the pipeline, pixel by pixel (Alt+1)", _make_step),
@@ -58,6 +64,7 @@ PAGE_KINDS = (
         b'"rasterscope stress"',
     ),
     PageKind("plan", "Plan", "Find the cheapest methods that this scene needs (Alt+4)", _make_plan),
+    PageKind("exercises", "Exercises", "Answer on the picture, learn from it (Alt+5)", _make_exercises),
 )
 HEAD = 256
 """Bytes at the beginning of a file that name the program it is of."""

@@ -50,6 +50,7 @@ EXPERIMENTS = "Experiments"
 MAPS = "Maps"
 CHARTS = "Charts"
 PLANNING = "Planning"
+ANSWERING = "Answering"
 
 WAYS = (("left", "to the left"), ("right", "to the right"), ("up", "up"), ("down", "down"))
 
@@ -132,6 +133,7 @@ ACTIONS: tuple[KeyAction, ...] = (
     KeyAction("page_compare", ("Alt+2",), "Compare page", PAGES, "View", is_checkable=True),
     KeyAction("page_stability", ("Alt+3",), "Stability page", PAGES, "View", is_checkable=True),
     KeyAction("page_plan", ("Alt+4",), "Plan page", PAGES, "View", is_checkable=True),
+    KeyAction("page_exercises", ("Alt+5",), "Exercises page", PAGES, "View", is_checkable=True),
     KeyAction("next_pane", ("F6",), "Next pane", PAGES, "View"),
     KeyAction("previous_pane", ("Shift+F6",), "Previous pane", PAGES, "View"),
     KeyAction("next_page", ("Ctrl+Tab",), "Next page", PAGES),
@@ -222,6 +224,23 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("plan_chart", ("Ctrl+M",), "Show the plan on the scene’s chart", PLANNING, "Plan"),
         KeyAction("plan_findings", ("I",), "Show or hide the findings", PLANNING, "Plan"),
     ),
+    *_on(
+        "exercises",
+        KeyAction("check_answer", ("Ctrl+Return", "F5"), "Check the answer", ANSWERING, "Exercises"),
+        KeyAction("next_hint", ("Ctrl+H",), "Show the next hint", ANSWERING, "Exercises"),
+        KeyAction("new_variant", ("Ctrl+N",), "New variant of this question", ANSWERING, "Exercises"),
+        KeyAction("start_again", ("Ctrl+R",), "Start this question again", ANSWERING, "Exercises"),
+        KeyAction(
+            "step_mistake", ("Ctrl+D",), "Step the right run beside that mistake", ANSWERING, "Exercises"
+        ),
+        KeyAction("model_answer", ("Ctrl+M",), "Model answer", ANSWERING, "Exercises"),
+        KeyAction(
+            "answer_rows", ("Ctrl+L",), "Answer row by row instead of on the picture", ANSWERING, "Exercises"
+        ),
+        KeyAction("try_next", ("Ctrl+Shift+N",), "Exercise to try next", ANSWERING, "Exercises"),
+        KeyAction("next_exercise", ("Ctrl+PgDown",), "Next exercise", ANSWERING, "Exercises"),
+        KeyAction("previous_exercise", ("Ctrl+PgUp",), "Previous exercise", ANSWERING, "Exercises"),
+    ),
     KeyAction("open_file", ("Ctrl+O",), "Open mesh or state…", FILES, "File"),
     KeyAction("save_state", ("Ctrl+S",), "Save state…", FILES, "File"),
     KeyAction("export_view", ("Ctrl+E",), "Export view…", FILES, "File"),
@@ -300,6 +319,23 @@ LOCAL_KEYS = (
             "In a chart: select a second point, as Ctrl+click does",
             CHARTS,
         ),
+    ),
+    *_on(
+        "exercises",
+        KeyAction(
+            "mark_go",
+            ("Left", "Right", "Up", "Down"),
+            "On the picture: go to the neighbouring pixel",
+            ANSWERING,
+        ),
+        KeyAction("mark_pixel", ("Space",), "On the picture: mark the pixel, or clear it", ANSWERING),
+        KeyAction(
+            "mark_paint",
+            ("Shift+Left", "Shift+Right", "Shift+Up", "Shift+Down"),
+            "On the picture: take the mark of this pixel along",
+            ANSWERING,
+        ),
+        KeyAction("move_item", ("Alt+Up", "Alt+Down"), "In an order: move the chosen item", ANSWERING),
     ),
     *_on(
         "stability",

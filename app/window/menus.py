@@ -19,7 +19,19 @@ from lessons.scenes import CATALOGUE, BuiltInScene
 from lessons.slides.scenes import LECTURE_SCENES
 from widgets.basics.theme import current_theme
 
-MENUS = ("File", "Edit", "Step", "Stage", "Raster", "Compare", "Stability", "Plan", "View", "Help")
+MENUS = (
+    "File",
+    "Edit",
+    "Step",
+    "Stage",
+    "Raster",
+    "Compare",
+    "Stability",
+    "Plan",
+    "Exercises",
+    "View",
+    "Help",
+)
 BEFORE_SEPARATORS = (
     "save_state",
     "export_caption",
@@ -28,7 +40,7 @@ BEFORE_SEPARATORS = (
     "compare",
     "pane_run",
     "predict",
-    "page_plan",
+    "page_exercises",
     "previous_pane",
     "previous_family",
     "fit_charts",

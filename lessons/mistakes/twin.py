@@ -55,6 +55,11 @@ class Twin:
     change_frame: Callable[[Frame, ClipScene], Frame] = _same_frame
     """Changes what was drawn, of the scene as it was given: this can be shown, not stepped."""
 
+    @property
+    def is_run(self) -> bool:
+        """Whether it is a run that can be stepped; else only its picture can be shown."""
+        return self.change_frame is _same_frame
+
     def draw(self, scene: ClipScene, settings: Settings) -> Frame:
         """Draw a scene with this mistake."""
         return self.change_frame(render(self.change_scene(scene), self.change_settings(settings)), scene)

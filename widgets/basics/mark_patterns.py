@@ -69,6 +69,7 @@ def mark_color(mark: Mark, theme: Theme) -> str:
         Mark.RIGHT: "#3ccb9c",
         Mark.MISSING: theme.tie,
         Mark.EXTRA: theme.rejected,
+        Mark.DOUBLE: theme.rejected,
     }
     return colors[mark]
 

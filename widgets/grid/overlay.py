@@ -39,6 +39,8 @@ class Mark(Enum):
     """A hollow square."""
     EXTRA = "extra"
     """A large cross."""
+    DOUBLE = "double"
+    """Two bars."""
 
 
 EDGE_MARKS = (Mark.EDGE_0, Mark.EDGE_1, Mark.EDGE_2)

@@ -36,6 +36,7 @@ _FORMS = {
     Mark.RIGHT: "A tick",
     Mark.MISSING: "A hollow square",
     Mark.EXTRA: "A large cross",
+    Mark.DOUBLE: "Two bars",
 }
 
 

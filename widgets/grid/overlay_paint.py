@@ -31,6 +31,7 @@ _STROKES = {
     Mark.RIGHT: (((-1, 0.1), (-0.3, 0.8), (1, -0.8)),),
     Mark.MISSING: (((-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)),),
     Mark.EXTRA: (((-1, -1), (1, 1)), ((-1, 1), (1, -1))),
+    Mark.DOUBLE: (((-0.45, -1), (-0.45, 1)), ((0.45, -1), (0.45, 1))),
 }
 """Glyphs drawn as lines: the corners of each, x to the right and y down, 1 is the glyph's reach."""
 _COUNT_CELL = 18.0

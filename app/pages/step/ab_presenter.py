@@ -1,7 +1,7 @@
 """A | B | difference: the page's run and the same one under other settings, stepped together."""
 
 from collections.abc import Callable, Mapping
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -19,6 +19,7 @@ from app.session.session import Cursor, Session
 from app.session.tracing import QUICK_SECONDS
 from core import STAGES, Settings, Trace
 from core.records.steps import Level
+from core.scene import AnyScene
 from core.settings import WHOLE_NUMBERS
 from widgets.grid.compare_view import CompareView, Comparison, Side
 from widgets.grid.geometry import GridGeometry
@@ -27,6 +28,18 @@ if TYPE_CHECKING:
     from core.study.accuracy.divergence import Divergence  # Looked for long after the window is open.
 
 PREDICTING = "Prediction hides the pictures of A and B. P ends it."
+FAULTY = "B is a run with a mistake: the page cannot take it over."
+
+
+@dataclass(frozen=True, eq=False)
+class OtherRun:
+    """A run that B is beside one scene: that of a mistake, which may draw something else."""
+
+    of: AnyScene
+    """What A draws; beside another scene B is a run of the page again."""
+    scene: AnyScene
+    """What B draws."""
+    title: str
 
 
 class ComparePresenter(QObject):
@@ -54,6 +67,10 @@ class ComparePresenter(QObject):
         self._stage = ""
         self._meeting: tuple[int, int] | None = None
         """The pixel to which both runs go when B is drawn."""
+        self._run: OtherRun | None = None
+        """The run with a mistake that B is; ``None``: it is one that the settings can name."""
+        self._seeks = False
+        """Whether both runs go to their first divergence when B is drawn."""
         self._steps: LockStep | None = None
         self._job, self._search = Job(self), Job(self)
         self._job.succeeded.connect(self._take)
@@ -88,8 +105,12 @@ class ComparePresenter(QObject):
 
     @property
     def differences(self) -> Mapping[str, str | int]:
-        """What B does otherwise than A, family and value; empty: it follows the stage."""
-        return self._differences if self._is_chosen else {}
+        """What B does otherwise than A, family and value; empty: it follows the stage, or is a run with a mistake."""
+        return self._differences if self._is_chosen and self._faulty() is None else {}
+
+    def _faulty(self) -> OtherRun | None:
+        """Return the run with a mistake that B is beside the scene that is open."""
+        return self._run if self._run is not None and self._run.of is self._session.document.scene else None
 
     @property
     def buffer(self) -> str:
@@ -108,11 +129,15 @@ class ComparePresenter(QObject):
         if is_active and self._differences:
             self._view.show_family(next(iter(self._differences)))
 
-    def set_differences(self, differences: Mapping[str, str | int]) -> None:
-        """Choose what B does otherwise than the page; nothing: something that shows in the stage at hand."""
+    def set_differences(self, differences: Mapping[str, str | int], run: OtherRun | None = None) -> None:
+        """Choose what B does otherwise than the page; nothing: something that shows in the stage at hand.
+
+        With the ``run`` of a mistake, both go to the first step in which they differ.
+        """
+        self._run, self._seeks = run, run is not None
         mine = self._session.document.settings
         self._differences = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
-        self._is_chosen = bool(differences)
+        self._is_chosen = bool(differences) or run is not None
         self.refresh()
         self.look_changed.emit()
 
@@ -130,7 +155,7 @@ class ComparePresenter(QObject):
 
     @Slot()
     def _reset(self) -> None:
-        self._differences, self._is_chosen = {}, True
+        self._differences, self._is_chosen, self._run = {}, True, None
         self.refresh()
         self.look_changed.emit()
 
@@ -147,6 +172,9 @@ class ComparePresenter(QObject):
 
     def _edit(self, differences: dict[str, str | int]) -> bool:
         """Give the page the settings of B, and B other differences; return whether the page could take them."""
+        if self._faulty() is not None:
+            self.message_sent.emit(FAULTY)
+            return False
         other, before = self.other, (self._differences, self._is_chosen)
         self._differences, self._is_chosen = differences, True
         try:
@@ -175,19 +203,20 @@ class ComparePresenter(QObject):
             return
         if not self._is_chosen:
             self._differences = first_difference(document, session.trace, self._stage)
-        other = replace(document, settings=self.other)
+        run = self._faulty()
+        other = replace(document, settings=self.other, scene=document.scene if run is None else run.scene)
         self._view.show_settings(settings_records(other), frozenset(self._differences))
         if not self._is_chosen and self._differences:
             self._view.show_family(next(iter(self._differences)))
         self._view.set_pixel_center(document.settings.pixel_center)
-        run = partial(_trace, other.make_trace, self._second or session.trace, self._stage)
+        work = partial(_trace, other.make_trace, self._second or session.trace, self._stage)
         if other.estimated_seconds > QUICK_SECONDS:
             self._second, self._refusal = None, "Drawing B …"
             self._show()
-            self._job.start(run)
+            self._job.start(work)
             return
         try:
-            self._take(run())
+            self._take(work())
         except ValueError as error:
             self._refuse(error)
 
@@ -198,6 +227,9 @@ class ComparePresenter(QObject):
         self._steps = LockStep(mine, theirs, session.cursor.position, session.cursor.level)
         self._show()
         self._meet(second)
+        if self._seeks:
+            self._seeks = False
+            self.go_to_divergence()
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
@@ -314,7 +346,9 @@ class ComparePresenter(QObject):
         first = side_of(
             "A", "current settings", mine, self._outlines(mine), buffers[0].get(chosen), names[chosen]
         )
+        run = self._faulty()
         title = settings_difference(session.document.settings, self.other) or "the same settings"
+        title = title if run is None else run.title
         if theirs is None:
             blank = Side("B", f"B: {title}", reason=self._refusal)
             comparison = Comparison(first, blank, None, self._refusal)

@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job, Progress
 from app.pages.page_bar import StepRequest
+from app.pages.step.ab_presenter import OtherRun
 from app.pages.step.opening_document import document_at
 from app.pages.step.page import StepPage
 from app.session.document import Document
@@ -68,7 +69,9 @@ class StepOpening(QObject):
             if pixel is not None:
                 self._page.stepping.step_into(opening.stage, *pixel)
         else:
-            self._page.comparing.set_differences(opening.settings.differences(other))
+            scene = ready.request.other_scene
+            run = None if scene is None else OtherRun(opening.scene, scene, ready.request.title)
+            self._page.comparing.set_differences(opening.settings.differences(other), run)
             self._page.show_view("compare")
             if pixel is not None:
                 self._page.comparing.meet_at(pixel)

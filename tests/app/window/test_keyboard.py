@@ -11,7 +11,7 @@ from app.window.main_window import MainWindow
 from widgets.basics.focus_order import ArrowGroup, tab_stops
 from widgets.space.scene_view import SceneView
 
-PAGES = ("start", "step", "compare", "stability", "plan")
+PAGES = ("start", "step", "compare", "stability", "plan", "exercises")
 
 
 def name_of(widget: QWidget) -> str:

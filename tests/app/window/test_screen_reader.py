@@ -12,7 +12,7 @@ from pytestqt.qtbot import QtBot
 from app.window.main_window import MainWindow
 from widgets.basics.message_bar import MessageKind
 
-PAGES = ("start", "step", "compare", "stability", "plan")
+PAGES = ("start", "step", "compare", "stability", "plan", "exercises")
 Heard = list[tuple[str, str]]
 
 

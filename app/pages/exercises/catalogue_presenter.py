@@ -1,0 +1,176 @@
+"""Fills the catalogue: the exercises of every stage, how far the learner is, and what to try next."""
+
+from collections.abc import Callable
+from datetime import UTC, datetime
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.background.workers import Job, Progress
+from app.cli.attempts import attempt_file
+from app.pages.exercises.unfinished import UnfinishedFile
+from core import STAGES
+from core.records.words import counted
+from core.stages.declared import stage_of
+from lessons.attempts.practice import Choice, next_question
+from lessons.attempts.record import DEFAULT_USER, Attempt
+from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.question import Question, Template
+from widgets.exercises.catalogue import Catalogue
+from widgets.exercises.records import ExerciseEntry, ExerciseGroup, Standing
+
+Attempts = tuple[Attempt, ...]
+
+
+class CataloguePresenter(QObject):
+    """Knows all exercises and the attempts of the learner."""
+
+    question_chosen = Signal(object, object)
+    """A `Template`, and the seed of its question or ``None``."""
+    refused = Signal(str)
+
+    def __init__(self, view: Catalogue, unfinished: UnfinishedFile, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._view, self._unfinished = view, unfinished
+        self.user = DEFAULT_USER
+        self.templates: dict[str, Template] = dict(TEMPLATES)
+        """By name, stage by stage."""
+        self._attempts: Attempts = ()
+        self._choice: Choice | None = None
+        self._current = ""
+        self._reading, self._choosing = Job(self), Job(self)
+        self._reading.succeeded.connect(self._take_attempts)
+        self._reading.failed.connect(self._refuse)
+        self._choosing.succeeded.connect(self._take_choice)
+        self._choosing.failed.connect(self._refuse)
+        view.exercise_chosen.connect(self._open)
+        view.next_requested.connect(self.open_next)
+        view.line_entered.connect(self.open_line)
+
+    @property
+    def is_working(self) -> bool:
+        """Whether attempts are being read, or the next question is being chosen."""
+        return self._reading.is_running or self._choosing.is_running
+
+    def begin(self) -> None:
+        """Read what the learner has answered so far."""
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> tuple[Attempts, str]:
+            file = attempt_file()
+            trouble = file.check()
+            return file.attempts(user), trouble
+
+        user = self.user
+        self._reading.start(work)
+        self.refresh()
+
+    def stop(self) -> None:
+        """End all work."""
+        self._reading.shut_down()
+        self._choosing.shut_down()
+
+    @Slot(object)
+    def _take_attempts(self, found: tuple[Attempts, str]) -> None:
+        self._attempts, trouble = found
+        if trouble:
+            self.refused.emit(trouble)
+        self._choose()
+
+    @Slot(object)
+    def take_attempt(self, attempt: Attempt) -> None:
+        """Take one more attempt, which is kept already."""
+        self._attempts = (*self._attempts, attempt)
+        self._choose()
+
+    def _choose(self) -> None:
+        """Choose what to try next."""
+        attempts, templates, user = self._attempts, self.templates, self.user
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Choice | None:
+            return next_question(attempts, templates, user, datetime.now(UTC))
+
+        self._choosing.start(work)
+        self.refresh()
+
+    @Slot(object)
+    def _take_choice(self, choice: Choice | None) -> None:
+        self._choice = choice
+        self.refresh()
+
+    @Slot(object)
+    def _refuse(self, error: Exception) -> None:
+        if not isinstance(error, OSError | ValueError):
+            raise error
+        self.refused.emit(f"{error}.")
+
+    # What is chosen.
+
+    @Slot(str)
+    def _open(self, name: str) -> None:
+        if name != self._current:
+            self.question_chosen.emit(self.templates[name], None)
+
+    @Slot()
+    def open_next(self) -> None:
+        """Open what suits the learner now."""
+        if self._choice is not None:
+            question = self._choice.question
+            self.question_chosen.emit(question.template, question.seed)
+
+    def open_neighbour(self, direction: int) -> None:
+        """Open the next exercise (1) or the previous one (-1)."""
+        names = list(self.templates)
+        place = names.index(self._current) + direction if self._current in names else 0
+        self._open(names[place % len(names)])
+
+    @Slot(str)
+    def open_line(self, line: str) -> None:
+        """Open the question of a line such as ``triangle-coverage 1, seed 7``."""
+        head, _, seed = line.strip().rpartition(", seed ")
+        name, _, version = head.rpartition(" ")
+        template = self.templates.get(name)
+        if template is None or not seed.isascii() or not seed.isdecimal() or len(seed) > 10:
+            self.refused.emit(
+                f"Expected a line such as triangle-coverage 1, seed 7; got {line.strip()[:60]!r}."
+            )
+        elif version != str(template.version):
+            self.refused.emit(
+                f"The line is of version {version} of {name}, this program has version {template.version}: "
+                "the seed gives another question."
+            )
+        else:
+            self.question_chosen.emit(template, int(seed))
+
+    @Slot(object)
+    def show_question(self, question: Question) -> None:
+        """Show which exercise is asked."""
+        self._current = question.template.name
+        self.refresh()
+
+    # What is shown.
+
+    @Slot()
+    def refresh(self) -> None:
+        """Show all exercises and how far the learner is."""
+        solved = {attempt.template for attempt in self._attempts if attempt.score == 1}
+        tried = {attempt.template for attempt in self._attempts}
+        begun = self._unfinished.answers.answers
+
+        def standing(name: str) -> Standing:
+            if name in solved:
+                return Standing.SOLVED
+            if name in tried:
+                return Standing.MISSED
+            return Standing.BEGUN if name in begun and begun[name].given else Standing.NEW
+
+        groups = []
+        for stage in STAGES:
+            entries = tuple(
+                ExerciseEntry(each.name, each.title, counted(each.points, "point"), standing(each.name))
+                for each in self.templates.values()
+                if each.stage == stage
+            )
+            if entries:
+                groups.append(ExerciseGroup(stage, stage_of(stage).short_title, entries))
+        choice = self._choice
+        to_try = "" if choice is None else f"{choice.question.template.title}. {choice.reason}"
+        self._view.show_exercises(groups, self._current, to_try)

@@ -1,0 +1,127 @@
+"""The Exercises page: the catalogue, a question with its picture, the check, and the runs behind an answer."""
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
+from PySide6.QtWidgets import QSplitter, QWidget
+
+from app.pages.exercises.catalogue_presenter import CataloguePresenter
+from app.pages.exercises.question_presenter import QuestionPresenter
+from app.pages.exercises.unfinished import UnfinishedFile
+from app.pages.page_bar import Caption, Handlers, Page
+from app.pages.side_columns import SideColumns
+from app.session.session import Session
+from lessons.exercises.question import Template
+from widgets.basics.controls import column_layout
+from widgets.basics.pane_splitter import PaneSplitter
+from widgets.exercises.catalogue import Catalogue
+from widgets.exercises.mark_grid import MarkGrid
+from widgets.exercises.pixel_answer import PixelAnswerView
+from widgets.exercises.question_view import QuestionView
+
+if TYPE_CHECKING:
+    from lessons.exercises.question import Question
+
+
+class ExercisesPage(Page):
+    """All panes of the Exercises page and their presenters."""
+
+    def __init__(self, session: Session, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.grid = MarkGrid(self)
+        self.catalogue, self.question_view = Catalogue(self), QuestionView(self.grid, self)
+        self.unfinished = UnfinishedFile(self)
+        self.questions = QuestionPresenter(self.question_view, self.grid, self.unfinished, self)
+        self.exercises = CataloguePresenter(self.catalogue, self.unfinished, self)
+        self.questions.user = self.exercises.user
+        self.panes = PaneSplitter(Qt.Orientation.Horizontal, self)
+        for pane, stretch in ((self.question_view, 2), (self.grid, 3)):
+            self.panes.addWidget(pane)
+            self.panes.setStretchFactor(self.panes.count() - 1, stretch)
+        self.panes.setSizes([400, 600])
+        self.columns = SideColumns(self.catalogue, self.panes, self)
+        layout = column_layout(self, margins=(8, 4, 8, 8))
+        layout.addWidget(self.columns)
+        self.exercises.question_chosen.connect(self._open)
+        self.questions.asked.connect(self.exercises.show_question)
+        self.questions.checked.connect(self.exercises.take_attempt)
+        self.questions.message_sent.connect(self.message_sent)
+        self.questions.step_requested.connect(self.step_requested)
+        for source in (self.questions.refused, self.exercises.refused, self.unfinished.failed):
+            source.connect(self.edit_refused)
+        self._begin()
+
+    def _begin(self) -> None:
+        """Show the exercise that was open last, or else the first."""
+        trouble = self.unfinished.read()
+        if trouble:
+            self.edit_refused.emit(trouble)
+        self.exercises.begin()
+        templates = self.exercises.templates
+        last = self.unfinished.answers.current
+        self.questions.open(templates.get(last) or next(iter(templates.values())))
+
+    @Slot(object, object)
+    def _open(self, template: Template, seed: int | None) -> None:
+        self.questions.open(template, seed)
+
+    @property
+    def question(self) -> "Question | None":
+        """The question that is shown."""
+        return self.questions.question
+
+    # As a page of the window.
+
+    def handlers(self) -> Handlers:
+        """Return what the keys of this page do."""
+        return {
+            "check_answer": self.questions.check,
+            "next_hint": self.questions.show_hint,
+            "new_variant": self.questions.ask_variant,
+            "start_again": self.questions.ask_again,
+            "step_mistake": self.questions.show_twin,
+            "model_answer": self.questions.show_model,
+            "answer_rows": self._toggle_rows,
+            "next_exercise": lambda: self.exercises.open_neighbour(1),
+            "previous_exercise": lambda: self.exercises.open_neighbour(-1),
+            "try_next": self.exercises.open_next,
+        }
+
+    def _toggle_rows(self) -> None:
+        answer = self.question_view.answer
+        if isinstance(answer, PixelAnswerView):
+            answer.toggle_rows()
+        else:
+            self.message_sent.emit("This answer is given in fields already.")
+
+    def main_view(self) -> QWidget:
+        """Return what is exported and copied: the question with its picture."""
+        return self.panes
+
+    def focus_panes(self) -> list[QWidget]:
+        """Return what F6 goes through after the question: the picture and the catalogue."""
+        return [self.catalogue, self]
+
+    def caption(self) -> Caption:
+        """Return the question."""
+        return Caption("" if self.question is None else self.question.draft.text)
+
+    def settle(self) -> None:
+        """Wait until the question is there."""
+        while self.questions.is_working or self.exercises.is_working:
+            QCoreApplication.processEvents()
+            QThread.msleep(5)
+
+    def splitters(self) -> dict[str, QSplitter]:
+        """Return what divides the panes."""
+        return {"exercise columns": self.columns, "exercise panes": self.panes}
+
+    def leave(self) -> None:
+        """Keep the answer now: the program may end while another page is shown."""
+        self.unfinished.finish()
+
+    def stop(self) -> None:
+        """End all work, and keep the answer."""
+        self.questions.stop()
+        self.exercises.stop()
+        self.unfinished.finish()

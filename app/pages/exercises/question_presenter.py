@@ -1,0 +1,273 @@
+"""Asks one question: takes the answer, checks it, shows hints, marks, the mistake, and the runs behind them."""
+
+from random import SystemRandom
+from time import monotonic
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QMenu
+
+from app.background.workers import JobGroup
+from app.pages.exercises.answer_kinds import KINDS
+from app.pages.exercises.runs import faulty_run, is_stepped, right_run
+from app.pages.exercises.unfinished import Unfinished, UnfinishedFile
+from app.pages.exercises.work import Asked, Checked, asking, checking
+from core.records.words import counted
+from lessons.exercises.answers.answer import NotCheckedError
+from lessons.exercises.question import Question, Template
+from lessons.mistakes.shelf import SHELF
+from widgets.exercises.mark_grid import MarkGrid
+from widgets.exercises.question_view import QuestionView
+from widgets.exercises.records import Feedback, QuestionRecord
+
+VARIANTS = 10_000
+"""Seeds that new variants are drawn from: short ones, to be read out."""
+SURE = "The model answer ends this question without points. Choose Model answer again to show it."
+SHOWN = "The model answer was shown before, so this earns nothing."
+
+
+def new_seed() -> int:
+    """Return the seed of a new variant."""
+    return SystemRandom().randrange(VARIANTS)
+
+
+class QuestionPresenter(QObject):
+    """Knows the question that is asked, and what has been done about it."""
+
+    asked = Signal(object)
+    """A `Question`: it is shown now."""
+    checked = Signal(object)
+    """An `Attempt` that was kept."""
+    message_sent = Signal(str)
+    refused = Signal(str)
+    step_requested = Signal(object)
+
+    def __init__(
+        self, view: QuestionView, grid: MarkGrid, unfinished: UnfinishedFile, parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._view, self._grid, self._unfinished = view, grid, unfinished
+        self.user = ""
+        self.question: Question | None = None
+        self._checked: Checked | None = None
+        """What the last check found; ``None``: nothing was checked since the question was asked."""
+        self._hints = 0
+        self._is_shown = self._is_sure = False
+        self._begun = monotonic()
+        self._jobs = JobGroup(self)
+        self._asking, self._checking = self._jobs.add_job(), self._jobs.add_job()
+        self._asking.succeeded.connect(self._show)
+        self._asking.failed.connect(self._refuse)
+        self._checking.succeeded.connect(self._show_checked)
+        self._checking.failed.connect(self._refuse)
+        view.check_requested.connect(self.check)
+        view.hint_requested.connect(self.show_hint)
+        view.variant_requested.connect(self.ask_variant)
+        view.again_requested.connect(self.ask_again)
+        view.twin_requested.connect(self.show_twin)
+        view.model_requested.connect(self.show_model)
+        view.copy_requested.connect(self.copy_line)
+
+    @property
+    def is_working(self) -> bool:
+        """Whether a question is being drawn or an answer checked."""
+        return self._asking.is_running or self._checking.is_running
+
+    def stop(self) -> None:
+        """End all work."""
+        self._jobs.shut_down()
+
+    # Asking.
+
+    def open(self, template: Template, seed: int | None = None) -> None:
+        """Ask a question of a template: of a seed, or the one that was begun, or else a new one."""
+        if seed is None:
+            kept = self._unfinished.answers.answers.get(template.name)
+            is_kept = kept is not None and kept.version == template.version
+            seed = kept.seed if kept is not None and is_kept else new_seed()
+        self._checking.cancel()
+        self._asking.start(asking(template, seed))
+
+    @Slot()
+    def ask_variant(self) -> None:
+        """Ask the same with other numbers."""
+        if self.question is not None:
+            self.open(self.question.template, new_seed())
+
+    @Slot()
+    def ask_again(self) -> None:
+        """Ask the same question with an empty answer."""
+        if self.question is not None:
+            self._keep(given=None)
+            self.open(self.question.template, self.question.seed)
+
+    @Slot(object)
+    def _show(self, asked: Asked) -> None:
+        """Show a question, with what was answered before."""
+        self.question = question = asked.question
+        template, draft = question.template, question.draft
+        kept = self._unfinished.answers.answers.get(template.name)
+        if kept is None or (kept.version, kept.seed) != (template.version, question.seed):
+            kept = Unfinished(version=template.version, seed=question.seed)
+        self._checked, self._is_sure = None, False
+        self._hints, self._is_shown = min(kept.hints, len(draft.hints)), kept.is_shown
+        self._begun = monotonic()
+        size = getattr(draft.answer, "size", None) or (draft.scene.size if draft.scene else None)
+        self._grid.setVisible(size is not None)
+        if size is not None:
+            self._grid.show_raster(size, asked.outline, draft.pixel)
+        credit = f"{counted(template.points, 'point')}. {draft.answer.credit}"
+        record = QuestionRecord(template.title, question.mark, draft.text, draft.given, credit)
+        answer = self._view.show_question(record, KINDS[draft.answer.kind].form(draft.answer))
+        answer.answer_changed.connect(self._change)
+        if kept.given is not None:
+            try:
+                answer.show_given(kept.given)
+            except (TypeError, ValueError, LookupError):
+                self.refused.emit("The answer that was kept is of another form. It is empty now.")
+                answer.show_given(None)
+        self._show_state()
+        self._keep()
+        self.asked.emit(question)
+
+    @Slot(object)
+    def _refuse(self, error: Exception) -> None:
+        if not isinstance(error, ValueError | MemoryError):
+            raise error
+        self.refused.emit(f"{error}. The page is unchanged.")
+
+    @Slot()
+    def copy_line(self) -> None:
+        """Copy the line that gives this question to anybody."""
+        if self.question is not None:
+            QGuiApplication.clipboard().setText(self.question.mark)
+            self.message_sent.emit(f"Copied: {self.question.mark}")
+
+    # Answering.
+
+    @Slot()
+    def _change(self) -> None:
+        """Keep the answer at once; what was found of an earlier one holds no longer."""
+        if self._checked is not None:
+            assert self._view.answer is not None
+            self._view.answer.show_marks(None)
+            self._view.show_feedback(self._feedback(self._checked), is_stale=True)
+        self._keep()
+
+    def _keep(self, **changed: Any) -> None:
+        """Keep how far the learner is."""
+        if self.question is not None and self._view.answer is not None:
+            template = self.question.template
+            now: dict[str, Any] = {
+                "version": template.version,
+                "seed": self.question.seed,
+                "given": self._view.answer.given(),
+                "hints": self._hints,
+                "is_shown": self._is_shown,
+            }
+            self._unfinished.keep(template.name, Unfinished(**{**now, **changed}))
+
+    @Slot()
+    def check(self) -> None:
+        """Check the answer; what means nothing yet is not checked and costs nothing."""
+        question, view = self.question, self._view.answer
+        if question is None or view is None or self._checking.is_running:
+            return
+        answer = question.draft.answer
+        try:
+            response = answer.read(KINDS[answer.kind].read(answer, view.given()))
+        except NotCheckedError as problem:
+            self._view.show_note(f"Not checked yet: {problem}.")
+            return
+        self._view.show_note("")
+        seconds = monotonic() - self._begun
+        self._checking.start(checking(question, response, self.user, seconds, is_kept=not self._is_shown))
+
+    @Slot(object)
+    def _show_checked(self, checked: Checked) -> None:
+        """Show marks, points and the mistake."""
+        assert self._view.answer is not None
+        self._checked = checked
+        self._view.answer.show_marks(checked.marks)
+        self._view.show_feedback(self._feedback(checked))
+        self._show_state()
+        if checked.trouble:
+            self.refused.emit(checked.trouble)
+        if checked.attempt is not None:
+            self.checked.emit(checked.attempt)
+
+    def _feedback(self, checked: Checked) -> Feedback:
+        assert self.question is not None
+        judgement, most = checked.judgement, self.question.template.points
+        heading = f"{judgement.points:.3g} of {counted(most, 'point')}"
+        sentences = (*judgement.sentences, *((SHOWN,) if self._is_shown else ()))
+        return Feedback(heading, judgement.verdict.counts, sentences, judgement.verdict.score == 1)
+
+    # Help.
+
+    @Slot()
+    def show_hint(self) -> None:
+        """Show the next hint."""
+        if self.question is not None and self._hints < len(self.question.draft.hints):
+            self._hints += 1
+            self._show_state()
+            self._keep()
+
+    def _show_state(self) -> None:
+        """Show the hints so far, and what can be done next."""
+        assert self.question is not None
+        hints = self.question.draft.hints
+        self._view.show_hints(hints[: self._hints], len(hints))
+        mistakes = self._checked.judgement.mistakes if self._checked else ()
+        stepped = [name for name in mistakes if is_stepped(self.question, name)]
+        has_run = self.question.draft.scene is not None
+        self._view.show_choices(
+            twin="" if not stepped else "Show that run" if len(stepped) == 1 else "Show those runs",
+            model="Model answer" if not self._is_shown else "Step the right run" if has_run else "",
+        )
+
+    @Slot()
+    def show_twin(self) -> None:
+        """Step the right run beside the one with the mistake; of several mistakes, ask which."""
+        if self.question is None or self._checked is None:
+            return
+        names = [name for name in self._checked.judgement.mistakes if is_stepped(self.question, name)]
+        if len(names) == 1:
+            self._step_twin(names[0])
+        elif names:
+            menu = QMenu(self._view)
+            for name in names:
+                menu.addAction(SHELF[name].sentence).setData(name)
+            chosen = menu.exec(self._view.twin_button.mapToGlobal(self._view.twin_button.rect().bottomLeft()))
+            if chosen is not None:
+                self._step_twin(chosen.data())
+
+    def _step_twin(self, name: str) -> None:
+        assert self.question is not None
+        self.step_requested.emit(faulty_run(self.question, name))
+
+    @Slot()
+    def show_model(self) -> None:
+        """Show the right answer, after asking once more while it would end the question; then step the right run."""
+        question, view = self.question, self._view.answer
+        if question is None or view is None:
+            return
+        answer = question.draft.answer
+        if self._is_shown:
+            request = right_run(question)
+            if request is not None:
+                self.step_requested.emit(request)
+        elif self._checked is None and not self._is_sure:
+            self._is_sure = True
+            self._view.show_note(SURE)
+        else:
+            self._is_shown = True
+            view.show_marks(None)
+            view.show_given(KINDS[answer.kind].given(answer, answer.reference))
+            view.set_open(False)
+            self._view.show_note(
+                "This is the model answer. Start again empties it; a new variant earns points."
+            )
+            self._show_state()
+            self._keep(given=None)

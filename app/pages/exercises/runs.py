@@ -1,0 +1,37 @@
+"""The runs behind a question, for the Step page: the right one, and beside it the one with a mistake."""
+
+from app.pages.exercises.scene_outline import document_of
+from app.pages.page_bar import StepRequest
+from core.scene import ClipScene
+from core.study.accuracy.record import Opening
+from lessons.exercises.question import Question
+from lessons.mistakes.shelf import SHELF
+
+
+def right_run(question: Question) -> StepRequest | None:
+    """Return what steps the right run; ``None``: the question draws nothing."""
+    draft = question.draft
+    if draft.scene is None:
+        return None
+    document = document_of(draft, question.template.title)
+    opening = Opening(draft.scene, document.settings, question.template.stage, draft.pixel)
+    return StepRequest(opening, question.template.title)
+
+
+def is_stepped(question: Question, mistake: str) -> bool:
+    """Return whether the run with a mistake can be stepped beside the right one."""
+    return isinstance(question.draft.scene, ClipScene) and SHELF[mistake].is_run
+
+
+def faulty_run(question: Question, mistake: str) -> StepRequest | None:
+    """Return what steps the right run beside that with a mistake, from their first difference on."""
+    request, scene = right_run(question), question.draft.scene
+    if request is None or not isinstance(scene, ClipScene):
+        return None
+    twin = SHELF[mistake]
+    return StepRequest(
+        request.opening,
+        f"{request.title}: {mistake}",
+        twin.change_settings(request.opening.settings),
+        other_scene=twin.change_scene(scene),
+    )

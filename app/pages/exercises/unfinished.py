@@ -1,0 +1,138 @@
+"""Answers in progress: kept in a file soon after every change, so that leaving or the end of the program loses none."""
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from PySide6.QtCore import QObject, QTimer, Signal, Slot
+
+from app.background.workers import Job, Progress
+from app.files.data_folder import data_folder
+from app.files.file_writing import make_folder, write_file
+from app.files.input_files import read_input
+from lessons.exercises.draws import SEED_LIMIT
+
+FILE_NAME = "answers.json"
+PAUSE = 200
+"""Milliseconds after the last change."""
+SIZE_LIMIT = 1 << 22
+"""Most bytes of the file."""
+
+
+class Unfinished(BaseModel):
+    """How far the learner is with one exercise."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    version: int
+    """Of the template: of another one the answer is to another question."""
+    seed: Annotated[int, Field(ge=0, le=SEED_LIMIT)]
+    given: Any = None
+    """What is in the form; ``None``: nothing yet."""
+    hints: Annotated[int, Field(ge=0, le=20)] = 0
+    """How many are shown."""
+    is_shown: bool = False
+    """The model answer has been shown, so the question is asked no more."""
+
+
+class UnfinishedAnswers(BaseModel):
+    """The file."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    program: Literal["rasterscope answers"] = "rasterscope answers"
+    version: Literal[1] = 1
+    current: str = ""
+    """Name of the exercise that was open last."""
+    answers: dict[str, Unfinished] = {}
+    """By the name of the exercise."""
+
+
+class UnfinishedFile(QObject):
+    """Holds the answers in progress and writes them off the GUI thread."""
+
+    failed = Signal(str)
+    """Why they cannot be kept, as a sentence."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.answers = UnfinishedAnswers()
+        self._has_failed = self._is_dirty = False
+        self._job = Job(self)
+        self._job.succeeded.connect(self._succeed)
+        self._job.failed.connect(self._fail)
+        self._timer = QTimer(self)
+        self._timer.setSingleShot(True)
+        self._timer.setInterval(PAUSE)
+        self._timer.timeout.connect(self._save)
+
+    def read(self) -> str:
+        """Read what was kept; return what to tell the user, empty if all is well."""
+        try:
+            content = read_input(_path(), SIZE_LIMIT)
+            self.answers = UnfinishedAnswers.model_validate_json(content)
+        except FileNotFoundError:
+            pass
+        except OSError as problem:
+            return f"Answers in progress cannot be read: {problem.strerror or problem}."
+        except ValidationError:
+            broken = _path().with_suffix(".broken")
+            try:
+                _path().replace(broken)
+            except OSError as problem:
+                return f"Answers in progress were broken and cannot be set aside: {problem.strerror}."
+            return f"Answers in progress were broken. They are kept as {broken.name}, and none is open."
+        return ""
+
+    def keep(self, name: str, unfinished: Unfinished) -> None:
+        """Keep the answer to an exercise, and that it is the one that is open."""
+        answers = {**self.answers.answers, name: unfinished}
+        changed = self.answers.model_copy(update={"current": name, "answers": answers})
+        if changed != self.answers:
+            self.answers, self._is_dirty = changed, True
+            self._timer.start()
+
+    @Slot()
+    def _save(self) -> None:
+        if self._job.is_running:
+            self._timer.start()
+            return
+        answers, self._is_dirty = self.answers, False
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> None:
+            _write(answers)
+
+        self._job.start(work)
+
+    @Slot()
+    def _succeed(self) -> None:
+        self._has_failed = False
+
+    @Slot(object)
+    def _fail(self, error: Exception) -> None:
+        if not isinstance(error, OSError):
+            raise error
+        self._is_dirty = True
+        if not self._has_failed:
+            self._has_failed = True
+            self.failed.emit(f"The answer is not kept for the next start: {error}.")
+
+    def finish(self) -> None:
+        """Write what is not written yet; a failure has been told before, or is told by this sentence."""
+        self._timer.stop()
+        self._job.shut_down()
+        if self._is_dirty:
+            try:
+                _write(self.answers)
+            except OSError as error:
+                self._fail(error)
+
+
+def _path() -> Path:
+    return data_folder() / FILE_NAME
+
+
+def _write(answers: UnfinishedAnswers) -> None:
+    make_folder(data_folder())
+    write_file(_path(), answers.model_dump_json().encode() + b"\n")

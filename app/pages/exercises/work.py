@@ -1,0 +1,66 @@
+"""What the Exercises page does off the GUI thread: draws a question, checks an answer, keeps the attempt."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import UTC, datetime
+
+from app.background.workers import Progress
+from app.cli.attempts import attempt_file
+from app.pages.exercises.answer_kinds import KINDS
+from app.pages.exercises.scene_outline import outline_of
+from lessons.attempts.record import Attempt, attempt_of
+from lessons.exercises.answers.answer import Response
+from lessons.exercises.question import Judgement, Question, Template, ask, judge
+from widgets.exercises.records import AnswerMarks
+from widgets.grid.geometry import GridGeometry
+
+
+@dataclass(frozen=True, eq=False)
+class Asked:
+    """A question that is drawn."""
+
+    question: Question
+    outline: GridGeometry | None
+
+
+@dataclass(frozen=True, eq=False)
+class Checked:
+    """An answer that is checked."""
+
+    response: Response
+    judgement: Judgement
+    marks: AnswerMarks
+    attempt: Attempt | None
+    """As it is kept; ``None``: it is not, for the model answer was shown before."""
+    trouble: str
+    """What to tell of keeping it, in sentences; empty: all is well."""
+
+
+def asking(template: Template, seed: int) -> Callable[[Progress, Callable[[], bool]], Asked]:
+    """Return the work that draws a question; it raises ValueError where none can be drawn."""
+
+    def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Asked:
+        question = ask(template, seed)
+        return Asked(question, outline_of(question.draft, template.stage))
+
+    return work
+
+
+def checking(
+    question: Question, response: Response, user: str, seconds: float, *, is_kept: bool
+) -> Callable[[Progress, Callable[[], bool]], Checked]:
+    """Return the work that checks an answer that was read, and keeps the attempt before anybody sees the verdict."""
+
+    def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Checked:
+        judgement = judge(question, response)
+        marks = KINDS[question.draft.answer.kind].marks(question, response, judgement.verdict)
+        if not is_kept:
+            return Checked(response, judgement, marks, None, "")
+        attempt = attempt_of(user, question, response, judgement, seconds, datetime.now(UTC))
+        try:
+            trouble = attempt_file().add(attempt)
+        except OSError as problem:
+            trouble = f"The attempt is not saved: {problem}."
+        return Checked(response, judgement, marks, attempt, trouble)
+
+    return work

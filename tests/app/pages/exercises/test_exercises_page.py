@@ -1,0 +1,197 @@
+"""The Exercises page, as a learner uses it: on the picture, in fields, by mouse and by keyboard alone."""
+
+from collections.abc import Callable
+
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.cli.attempts import attempt_file
+from app.pages.exercises.page import ExercisesPage
+from app.window.main_window import MainWindow
+from lessons.exercises.catalogue import TEMPLATES
+from widgets.exercises.choice_answer import ChoiceAnswerView
+from widgets.exercises.field_answer import FieldAnswerView
+from widgets.exercises.order_answer import OrderAnswerView
+from widgets.exercises.pixel_answer import PixelAnswerView
+from widgets.grid.overlay import Mark, MaskOverlay
+
+Page = Callable[..., ExercisesPage]
+LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def page(window: MainWindow) -> Page:
+    """Return what shows the page with the question of a template and seed."""
+
+    def show(name: str, seed: int = 7) -> ExercisesPage:
+        window.run_action("page_exercises")
+        shown = window.pages.current
+        assert isinstance(shown, ExercisesPage)
+        shown.settle()
+        shown.questions.open(TEMPLATES[name], seed)
+        shown.settle()
+        return shown
+
+    return show
+
+
+def check(page: ExercisesPage) -> str:
+    """Check the answer; return what is found."""
+    QTest.mouseClick(page.question_view.check_button, LEFT)
+    page.settle()
+    return page.question_view.verdict.text()
+
+
+def at(page: ExercisesPage, pixel: tuple[int, int]) -> QPoint:
+    """Return where a pixel is on the picture."""
+    return page.grid.placement().cells_rect(*pixel).center().toPoint()
+
+
+def paint(page: ExercisesPage, pixels: frozenset[tuple[int, int]]) -> None:
+    """Drag over the pixels of every row."""
+    for row in sorted({row for _, row in pixels}):
+        columns = sorted(column for column, its in pixels if its == row)
+        QTest.mousePress(page.grid, LEFT, pos=at(page, (columns[0], row)))
+        QTest.mouseMove(page.grid, at(page, (columns[-1], row)))
+        QTest.mouseRelease(page.grid, LEFT, pos=at(page, (columns[-1], row)))
+
+
+def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
+    page: Page, window: MainWindow, qtbot: QtBot
+) -> None:
+    """The answer of a twin is named; both runs open at their first divergence; the attempt is on the disk."""
+    shown = page("triangle-coverage")
+    assert shown.question is not None
+    draft = shown.question.draft
+    wrong = draft.mistakes["corner-for-center"]
+    paint(shown, wrong)
+    assert shown.grid.marked() == wrong
+    said = check(shown)
+    assert "centre (i + 1/2, j + 1/2) decides" in said
+    marks = {each.mark: each.mask for each in shown.grid.overlays() if isinstance(each, MaskOverlay)}
+    assert marks[Mark.MISSING].sum() == len(draft.answer.reference - wrong)
+    assert marks[Mark.EXTRA].sum() == len(wrong - draft.answer.reference)
+    (attempt,) = attempt_file().attempts()
+    assert attempt.mistakes == ("corner-for-center",)
+    with qtbot.waitSignal(window.opening.opened):
+        QTest.mouseClick(shown.question_view.twin_button, LEFT)
+    comparing = window.page.comparing
+    qtbot.waitUntil(lambda: not comparing.is_searching)
+    assert window.pages.current_name == "step"
+    assert window.page.current_view() == "compare"
+    assert comparing.other.pixel_center == "integer"
+    assert window.session.cursor.position > 0 or comparing.second_position
+
+
+def test_pixels_are_marked_by_keyboard_alone(page: Page) -> None:
+    """Arrows go, Space marks, Shift paints; the rows say the same."""
+    shown = page("shared-edge")
+    assert shown.question is not None
+    shown.grid.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(shown.grid, Qt.Key.Key_Left)
+    for _ in range(8):
+        QTest.keyClick(shown.grid, Qt.Key.Key_Down)
+    QTest.keyClick(shown.grid, Qt.Key.Key_Space)
+    assert shown.grid.marked() == {(0, 0)}
+    for _ in range(4):
+        QTest.keyClick(shown.grid, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
+    assert shown.grid.marked() == {(column, 0) for column in range(5)}
+    answer = shown.question_view.answer
+    assert isinstance(answer, PixelAnswerView)
+    answer.toggle_rows()
+    assert answer.rows.text(8, 0) == "0-4"
+    field = answer.rows.field(8, 0)
+    field.setFocus()
+    field.selectAll()
+    QTest.keyClicks(field, "2-3, 5")
+    assert shown.grid.marked() == {(2, 0), (3, 0), (5, 0)}
+    assert shown.grid.spoken_description() == "Pixel 4, 0: not marked. 3 marked."
+
+
+def test_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page: Page) -> None:
+    """Return goes down; what is typed is said to be understood; a slip costs one cell."""
+    shown = page("bresenham-table")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    assert isinstance(answer, FieldAnswerView)
+    right = [[str(cell[1])] for (cell,) in shown.question.draft.answer.reference]
+    answer.fields.field(0, 0).setFocus()
+    for (text,) in right:
+        focused = QApplication.focusWidget()
+        assert focused is not None
+        QTest.keyClicks(focused, text)
+        assert "understood as" in shown.question_view.note.text()
+        QTest.keyClick(focused, Qt.Key.Key_Return)
+    assert answer.given() == right
+    last = answer.fields.field(len(right) - 1, 0)
+    last.setFocus()
+    QTest.keyClicks(last, "1")
+    assert f"{len(right) - 1} of {len(right)} cells right" in check(shown)
+    assert last.accessibleDescription() == "wrong"
+    assert answer.fields.field(0, 0).accessibleDescription() == "right"
+
+
+def test_an_answer_that_means_nothing_costs_nothing(page: Page) -> None:
+    shown = page("barycentric-weights")
+    check(shown)
+    assert shown.question_view.note.text() == "Not checked yet: the answer is empty."
+    assert attempt_file().attempts() == ()
+
+
+def test_an_order_is_moved_by_keys(page: Page) -> None:
+    shown = page("stage-order")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    assert isinstance(answer, OrderAnswerView)
+    for place, item in enumerate(shown.question.draft.answer.options):
+        answer.list.setCurrentRow(answer.given().index(item))
+        while answer.given().index(item) > place:
+            QTest.keyClick(answer.list, Qt.Key.Key_Up, Qt.KeyboardModifier.AltModifier)
+    assert check(shown).startswith("2 of 2 points")
+
+
+def test_options_are_chosen_by_space_and_marked(page: Page) -> None:
+    shown = page("facing")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    assert isinstance(answer, ChoiceAnswerView)
+    right = shown.question.draft.answer.reference
+    for place in right:
+        answer.buttons[place].setFocus()
+        QTest.keyClick(answer.buttons[place], Qt.Key.Key_Space)
+    assert check(shown).startswith("2 of 2 points")
+    assert answer.buttons[min(right)].accessibleDescription() == "right"
+
+
+def test_hints_come_in_order_and_the_model_answer_asks_first(page: Page) -> None:
+    shown = page("triangle-coverage")
+    view = shown.question_view
+    QTest.mouseClick(view.hint_button, LEFT)
+    assert view.hints.text().startswith("Hint 1 of 3: Look at one row")
+    assert view.hint_button.text() == "Hint 2 of 3"
+    QTest.mouseClick(view.model_button, LEFT)
+    assert shown.grid.marked() == frozenset()
+    QTest.mouseClick(view.model_button, LEFT)
+    assert shown.question is not None
+    assert shown.grid.marked() == shown.question.draft.answer.reference
+    QTest.mouseClick(shown.grid, LEFT, pos=at(shown, (0, 0)))
+    assert (0, 0) not in shown.grid.marked()
+
+
+def test_work_survives_leaving_and_the_program(page: Page, qtbot: QtBot) -> None:
+    """Another page of the program finds question, marks and hints again."""
+    shown = page("shared-edge", 11)
+    paint(shown, frozenset({(2, 2), (3, 2)}))
+    QTest.mouseClick(shown.question_view.hint_button, LEFT)
+    shown.leave()
+    other = ExercisesPage(shown.exercises)  # type: ignore[arg-type]
+    qtbot.addWidget(other)
+    other.settle()
+    assert other.question is not None
+    assert other.question.mark == "shared-edge 1, seed 11"
+    assert other.grid.marked() == {(2, 2), (3, 2)}
+    assert other.question_view.hints.text().startswith("Hint 1")
+    other.stop()

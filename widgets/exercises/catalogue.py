@@ -1,0 +1,142 @@
+"""The catalogue: what to try next, the stages with how much of each is solved, and the exercises of the open one."""
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import QSize, Qt, Signal, Slot
+from PySide6.QtGui import QIcon
+from PySide6.QtWidgets import QAbstractItemView, QLineEdit, QTreeWidget, QTreeWidgetItem, QWidget
+
+from widgets.basics.controls import button_with_tip, column_layout
+from widgets.basics.labels import text_label
+from widgets.basics.marks import Mark, mark_pixmap
+from widgets.basics.theme import current_theme, theme_notifier
+from widgets.exercises.records import ExerciseGroup, Standing
+
+ROW_ROOM = 11
+"""Pixels of a row above and below its text together."""
+_NAME = int(Qt.ItemDataRole.UserRole)
+_MARKS = {
+    Standing.BEGUN: Mark.BOOKMARK,
+    Standing.MISSED: Mark.WRONG,
+    Standing.SOLVED: Mark.RIGHT,
+}
+
+
+class Catalogue(QWidget):
+    """Stages that open one at a time."""
+
+    exercise_chosen = Signal(str)
+    """Name of an exercise."""
+    next_requested = Signal()
+    """What to try next is wanted."""
+    line_entered = Signal(str)
+    """A line that gives a question, as it is handed out."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._groups: tuple[ExerciseGroup, ...] = ()
+        self._parents: list[QTreeWidgetItem] = []
+        self._items: dict[str, QTreeWidgetItem] = {}
+        self.setAccessibleName("Exercises by stage")
+        self.next_button = button_with_tip("Try next", "Open the exercise that suits you now", self)
+        self.next_button.clicked.connect(self.next_requested)
+        self.next_label = text_label("", self, role="muted", wraps=True)
+        self.tree = QTreeWidget(self)
+        self.tree.setAccessibleName("Exercises")
+        self.tree.setColumnCount(2)
+        self.tree.setHeaderHidden(True)
+        self.tree.setExpandsOnDoubleClick(False)
+        self.tree.setAnimated(False)
+        self.tree.setRootIsDecorated(True)
+        self.tree.setIndentation(12)
+        self.tree.setUniformRowHeights(True)
+        self.tree.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.tree.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
+        self.tree.header().setStretchLastSection(False)
+        self.tree.header().setSectionResizeMode(0, self.tree.header().ResizeMode.Stretch)
+        self.tree.header().setSectionResizeMode(1, self.tree.header().ResizeMode.ResizeToContents)
+        self.tree.itemClicked.connect(self._open)
+        self.tree.itemActivated.connect(self._open)
+        self.tree.itemExpanded.connect(self._fold_others)
+        self.line = QLineEdit(self)
+        self.line.setPlaceholderText("triangle-coverage 1, seed 7")
+        self.line.setAccessibleName("Line of a question")
+        self.line.setToolTip("Type or paste a line that was handed out, then press Return")
+        self.line.returnPressed.connect(self._enter)
+        layout = column_layout(self, 8, margins=(0, 4, 8, 8))
+        layout.addWidget(self.next_button)
+        layout.addWidget(self.next_label)
+        layout.addWidget(self.tree, 1)
+        layout.addWidget(text_label("Open a question by its line", self, role="muted"))
+        layout.addWidget(self.line)
+        theme_notifier().theme_changed.connect(self._refresh)
+
+    def show_exercises(self, groups: Sequence[ExerciseGroup], current: str, to_try: str) -> None:
+        """Show all exercises, the one that is asked, and the title of what to try next."""
+        groups = tuple(groups)
+        self.next_label.setText(to_try)
+        self.next_label.setVisible(bool(to_try))
+        if [_names(group) for group in groups] != [_names(group) for group in self._groups]:
+            self._groups = groups
+            self._make()
+        self._groups = groups
+        self._refresh()
+        item = self._items.get(current)
+        if item is not None:
+            self.tree.blockSignals(True)
+            for group in self._parents:
+                group.setExpanded(group is item.parent())
+            self.tree.setCurrentItem(item)
+            self.tree.blockSignals(False)
+
+    def _make(self) -> None:
+        self.tree.clear()
+        self._items, self._parents = {}, []
+        for group in self._groups:
+            parent = QTreeWidgetItem(self.tree)
+            self._parents.append(parent)
+            for entry in group.entries:
+                item = QTreeWidgetItem(parent)
+                item.setData(0, _NAME, entry.name)
+                self._items[entry.name] = item
+
+    @Slot()
+    def _refresh(self) -> None:
+        side = current_theme().text_px
+        self.tree.setIconSize(QSize(side, side))
+        for parent, group in zip(self._parents, self._groups, strict=True):
+            parent.setText(0, group.title)
+            parent.setText(1, f"{group.solved} of {len(group.entries)}")
+            parent.setSizeHint(0, QSize(0, side + ROW_ROOM))
+            said = f"{group.title}: {group.solved} of {len(group.entries)} solved"
+            parent.setData(0, Qt.ItemDataRole.AccessibleTextRole, said)
+            parent.setToolTip(0, said)
+            for entry in group.entries:
+                item = self._items[entry.name]
+                mark = _MARKS.get(entry.standing)
+                item.setIcon(0, QIcon(mark_pixmap(mark, side, self.devicePixelRatioF())) if mark else QIcon())
+                item.setText(0, entry.title)
+                item.setToolTip(0, f"{entry.title}: {entry.points}, {entry.standing.value}")
+                item.setData(0, Qt.ItemDataRole.AccessibleTextRole, f"{entry.title}, {entry.standing.value}")
+
+    @Slot(QTreeWidgetItem)
+    def _open(self, item: QTreeWidgetItem) -> None:
+        name = item.data(0, _NAME)
+        if name is None:
+            item.setExpanded(not item.isExpanded())
+        else:
+            self.exercise_chosen.emit(name)
+
+    @Slot(QTreeWidgetItem)
+    def _fold_others(self, opened: QTreeWidgetItem) -> None:
+        for item in self._parents:
+            if item is not opened:
+                item.setExpanded(False)
+
+    @Slot()
+    def _enter(self) -> None:
+        self.line_entered.emit(self.line.text())
+
+
+def _names(group: ExerciseGroup) -> tuple[str, ...]:
+    return (group.name, *(entry.name for entry in group.entries))

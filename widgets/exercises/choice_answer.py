@@ -1,0 +1,64 @@
+"""One of several options, or several of them."""
+
+from typing import Any
+
+from PySide6.QtCore import Slot
+from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QCheckBox, QLabel, QRadioButton, QWidget
+
+from widgets.basics.controls import column_layout, row_layout
+from widgets.basics.labels import text_label
+from widgets.exercises.answer_view import AnswerView, show_mark
+from widgets.exercises.mark_grid import MarkGrid
+from widgets.exercises.records import AnswerMarks, ChoiceForm, ItemMarks
+
+
+class ChoiceAnswerView(AnswerView):
+    """A button for every option."""
+
+    def __init__(self, form: ChoiceForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
+        super().__init__(form, grid, parent)
+        self._form = form
+        make = QCheckBox if form.is_several else QRadioButton
+        self.buttons: list[QAbstractButton] = [make(option, self) for option in form.options]
+        self._marks = [QLabel(self) for _ in form.options]
+        self._group = QButtonGroup(self)
+        self._group.setExclusive(not form.is_several)
+        layout = column_layout(self, 4)
+        how = "Choose all that are right." if form.is_several else "Choose one."
+        layout.addWidget(text_label(how, self, role="muted"))
+        for button, mark in zip(self.buttons, self._marks, strict=True):
+            self._group.addButton(button)
+            button.clicked.connect(self._chosen)
+            row = row_layout(spacing=8)
+            row.addWidget(button)
+            row.addWidget(mark)
+            row.addStretch(1)
+            layout.addLayout(row)
+
+    def given(self) -> list[str]:
+        """Return the options chosen."""
+        options = zip(self._form.options, self.buttons, strict=True)
+        return [option for option, button in options if button.isChecked()]
+
+    def show_given(self, given: Any) -> None:
+        """Choose options."""
+        # Qt lets no button of an exclusive group go otherwise.
+        self._group.setExclusive(False)
+        for option, button in zip(self._form.options, self.buttons, strict=True):
+            button.setChecked(option in (given or ()))
+        self._group.setExclusive(not self._form.is_several)
+
+    def show_marks(self, marks: AnswerMarks | None) -> None:
+        """Mark the options that are chosen rightly or wrongly, and those that are missing."""
+        assert marks is None or isinstance(marks, ItemMarks)
+        for place, (label, button) in enumerate(zip(self._marks, self.buttons, strict=True)):
+            words = {"right": "right", "wrong": "wrong", "missing": "missing: it is right too"}
+            kinds = [name for name in words if marks is not None and place in getattr(marks, name)]
+            show_mark(label, {"right": True, "wrong": False}.get(kinds[0]) if kinds else None)
+            if kinds == ["missing"]:
+                label.setText(words["missing"])
+            button.setAccessibleDescription(words[kinds[0]] if kinds else "")
+
+    @Slot()
+    def _chosen(self) -> None:
+        self.answer_changed.emit()

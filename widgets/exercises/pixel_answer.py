@@ -1,0 +1,143 @@
+"""Pixels marked on the picture; the same as a list of rows, with the same marks."""
+
+from typing import Any
+
+from PySide6.QtCore import Slot
+from PySide6.QtWidgets import QWidget
+
+from widgets.basics.controls import button_with_tip, column_layout, row_layout
+from widgets.basics.labels import text_label
+from widgets.exercises.answer_view import AnswerView
+from widgets.exercises.entry_grid import EntryGrid
+from widgets.exercises.mark_grid import NOTHING, MarkGrid
+from widgets.exercises.records import AnswerMarks, PixelForm, PixelMarks, Pixels
+
+HOW = "Click or drag on the picture. By keyboard: arrows go, Space marks, Shift and an arrow take the mark along."
+
+
+class PixelAnswerView(AnswerView):
+    """How many are marked, and the rows as text on request."""
+
+    uses_grid = True
+
+    def __init__(self, form: PixelForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
+        super().__init__(form, grid, parent)
+        self._form, self._grid = form, grid
+        self._marks: PixelMarks | None = None
+        self.how = text_label(HOW, self, role="muted", wraps=True)
+        self.count = text_label("", self)
+        self.clear_button = button_with_tip("Clear", f"Mark no {form.noun}", self)
+        self.clear_button.clicked.connect(self._clear)
+        self.rows_button = button_with_tip("Rows", "Show and type the marks row by row (Ctrl+L)", self)
+        self.rows_button.setCheckable(True)
+        self.rows_button.toggled.connect(self._show_rows)
+        labels = tuple(str(row) for row in reversed(range(form.size[1])))
+        self.rows = EntryGrid(("marked columns", "found"), labels, self, read_only=(1,))
+        self.rows.setAccessibleName(f"Marked {form.noun}, row by row")
+        self.rows.hide()
+        self.rows.field_edited.connect(self._type)
+        layout = column_layout(self, 8)
+        layout.addWidget(self.how)
+        row = row_layout(spacing=8)
+        for widget in (self.count, self.clear_button, self.rows_button):
+            row.addWidget(widget)
+        row.insertStretch(1)
+        layout.addLayout(row)
+        layout.addWidget(self.rows)
+        grid.pixels_painted.connect(self._painted)
+        grid.set_paintable(True)
+        self._show()
+
+    def given(self) -> list[list[int]]:
+        """Return the marked pixels as [column, row]."""
+        return [list(pixel) for pixel in sorted(self._grid.marked())]
+
+    def show_given(self, given: Any) -> None:
+        """Mark pixels."""
+        self._grid.show_marked(frozenset((column, row) for column, row in given or ()))
+        self._show()
+
+    def show_marks(self, marks: AnswerMarks | None) -> None:
+        """Mark what is right on the picture and in the rows."""
+        assert marks is None or isinstance(marks, PixelMarks)
+        self._marks = marks
+        self._grid.show_marks(marks)
+        self._show()
+
+    def set_open(self, is_open: bool) -> None:
+        """Take marks, or only show them."""
+        self._grid.set_paintable(is_open)
+        self.clear_button.setEnabled(is_open)
+        self.rows.set_open(is_open)
+
+    def release(self) -> None:
+        """Leave the picture to the next form."""
+        self._grid.pixels_painted.disconnect(self._painted)
+        self._grid.set_paintable(False)
+
+    def toggle_rows(self) -> None:
+        """Show the rows, or fold them away."""
+        self.rows_button.toggle()
+
+    @Slot(object, bool)
+    def _painted(self) -> None:
+        self._show()
+        self.answer_changed.emit()
+
+    @Slot()
+    def _clear(self) -> None:
+        if self._grid.marked():
+            self._grid.show_marked(NOTHING)
+            self._painted()
+
+    @Slot(bool)
+    def _show_rows(self, is_shown: bool) -> None:
+        self.rows.setVisible(is_shown)
+        self._show()
+
+    @Slot(int, int)
+    def _type(self, number: int, column: int) -> None:
+        """Mark the columns that are typed for a row."""
+        row = self._form.size[1] - 1 - number
+        try:
+            columns = self._form.read_columns(self.rows.text(number, column))
+        except ValueError as problem:
+            self.note_changed.emit(f"Row {row}: {problem}")
+            return
+        self.note_changed.emit("")
+        others = frozenset(pixel for pixel in self._grid.marked() if pixel[1] != row)
+        self._grid.show_marked(others | frozenset((place, row) for place in columns))
+        self._show(typed=number)
+        self.answer_changed.emit()
+
+    def _show(self, typed: int = -1) -> None:
+        """Show the count and the rows; the one that is being ``typed`` is left alone."""
+        marked, noun = self._grid.marked(), self._form.noun
+        self.count.setText(f"{len(marked)} {noun[:-1] if len(marked) == 1 else noun} marked")
+        if self.rows.isHidden():
+            return
+        for number in range(self._form.size[1]):
+            row = self._form.size[1] - 1 - number
+            if number != typed:
+                self.rows.show_text(number, 0, columns_text(marked, row))
+            self.rows.show_text(number, 1, "" if self._marks is None else found_text(self._marks, row))
+
+
+def columns_text(pixels: Pixels, row: int) -> str:
+    """Return the columns of the pixels in a row, as ``3-7, 9``."""
+    columns = sorted(column for column, its in pixels if its == row)
+    runs: list[list[int]] = []
+    for column in columns:
+        if runs and column == runs[-1][1] + 1:
+            runs[-1][1] = column
+        else:
+            runs.append([column, column])
+    return ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)
+
+
+def found_text(marks: PixelMarks, row: int) -> str:
+    """Return what a check found in a row, as ``right 3-7; missing 8``."""
+    found = (
+        (name, columns_text(getattr(marks, name), row)) for name in ("right", "missing", "extra", "double")
+    )
+    return "; ".join(f"{name} {columns}" for name, columns in found if columns)
