@@ -5,11 +5,33 @@ from pathlib import Path
 
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Template
-from lessons.exercises.templates import clipping, coverage, fragments, lines, transforms
+from lessons.exercises.templates import (
+    clipping,
+    coverage,
+    edges,
+    faces,
+    filling,
+    fragments,
+    line_methods,
+    lines,
+    polygons,
+    transforms,
+)
 
 TEMPLATES: dict[str, Template] = {
     template.name: template
-    for module in (coverage, lines, clipping, fragments, transforms)
+    for module in (
+        transforms,
+        faces,
+        polygons,
+        edges,
+        coverage,
+        filling,
+        lines,
+        line_methods,
+        clipping,
+        fragments,
+    )
     for template in module.TEMPLATES
 }
 """By name, stage by stage."""

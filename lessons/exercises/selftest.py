@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass
 from hashlib import sha256
+from math import sqrt
 
 from lessons.exercises.answers.answer import Response
 from lessons.exercises.draws import Draws
@@ -11,7 +12,7 @@ from lessons.exercises.question import Question, Template, ask, judge
 GUESSES = 100
 """Random answers to a question."""
 GUESS_LIMIT = 0.05
-"""Most that random answers earn on average above the stated score of chance."""
+"""Most that random answers earn on average above the stated score of chance, and three times its spread."""
 NAMED_LIMIT = 0.01
 """Largest share of wrong random answers that are called by the name of a mistake, where the answers are many."""
 
@@ -58,7 +59,8 @@ def check_template(template: Template, seeds: range) -> Findings:
         digest.update(question_text(question).encode())
     count = len(seeds)
     guessed, chance, named = guessed / count, chance / count, named / count
-    if guessed > chance + GUESS_LIMIT:
+    spread = sqrt(chance * (1 - chance) / (count * GUESSES))
+    if guessed > chance + GUESS_LIMIT + 3 * spread:
         problems.append(f"random answers earn {guessed:.1%}, stated {chance:.1%}")
     if is_many and named > NAMED_LIMIT:
         problems.append(f"{named:.1%} of random answers are called a mistake")

@@ -18,8 +18,8 @@ LECTURE = Settings(line="bresenham-lecture")
 def faulty_listing(fault: str, x0: int, y0: int, x1: int, y1: int) -> Listed:
     """List the pixels of the lecture's Bresenham between two pixels with one fault, and the D that chose each."""
     if fault == "from-other-end":
-        # Seen from the second end, x and y run the other way, and so do the ties.
-        turned = faulty_listing("ends-not-ordered", -x1, -y1, -x0, -y0)
+        # Seen from the other end, x and y run the other way, and so do the ties.
+        turned = faulty_listing("", -x0, -y0, -x1, -y1)
         return [(-x, -y, decision) for x, y, decision in turned[::-1]]
     is_steep = not abs(y1 - y0) < abs(x1 - x0) and fault != "one-octant"
     if is_steep:

@@ -46,7 +46,7 @@ def d_table(ends: Ends) -> TableAnswer:
     return TableAnswer((Column("D"),), labels, d_values(ends, LECTURE), follow)
 
 
-def _ends(draws: Draws) -> Ends:
+def gentle_ends(draws: Draws) -> Ends:
     """Draw a gentle line that rises from left to right."""
     dx = draws.whole(6, 10)
     dy = draws.whole(1, min(dx - 1, 6))
@@ -62,7 +62,7 @@ def _lengths(ends: Ends) -> str:
 
 def draw_pixels(draws: Draws) -> Draft:
     """Pixels of a line."""
-    ends = _ends(draws)
+    ends = gentle_ends(draws)
     scene = pixel_segments([ends], SIZE)
     names = (
         "ties-step",
@@ -85,7 +85,7 @@ def draw_pixels(draws: Draws) -> Draft:
 
 def draw_table(draws: Draws) -> Draft:
     """D before each move."""
-    ends = _ends(draws)
+    ends = gentle_ends(draws)
     names = ("ties-step", "not-corrected", "start-not-doubled")
     wrong = {name: d_values(ends, SHELF[name].change_settings(LECTURE)) for name in names}
     hints = (

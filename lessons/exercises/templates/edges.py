@@ -1,0 +1,323 @@
+"""Edge functions, who owns an edge, and the part of the raster that a triangle may touch."""
+
+from fractions import Fraction
+from math import ceil, floor
+from typing import Any
+
+import numpy as np
+
+from core import Settings, render
+from core.raster.edges.fill_rule import shared_edge
+from core.raster.edges.snapping import snap_one
+from lessons.exercises.answers.pixels import PixelAnswer
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
+from lessons.exercises.templates.drafting import by_rule, numbers, one_of, place_text, several, table
+from lessons.exercises.templates.transforms import wholes
+from lessons.mistakes.coverage import owns_level, owns_slanted
+from lessons.mistakes.shelf import RULES
+from lessons.small_scenes import triangle_scene
+
+Coefficients = tuple[Any, Any, Any]
+NAMES = ("from 0 to 1", "from 1 to 2", "from 2 to 0")
+SIZE = (12, 9)
+INWARD = "E(x, y) = a x + b y + c is positive on the left of an edge that runs from one vertex to the next."
+
+
+def coefficients(start: Any, end: Any) -> Coefficients:
+    """Return a, b and c of the edge function that is positive on the left."""
+    a, b = start[1] - end[1], end[0] - start[0]
+    return a, b, -(a * start[0] + b * start[1])
+
+
+def edges_of(corners: list[Corner]) -> list[Coefficients]:
+    """Return the three edge functions of a counter-clockwise triangle."""
+    return [coefficients(corners[k], corners[(k + 1) % 3]) for k in range(3)]
+
+
+def triangle(draws: Draws, size: tuple[int, int] = SIZE, least: int = 16) -> list[Corner] | None:
+    """Draw a counter-clockwise triangle with whole corners; ``None`` where it is small."""
+    corners = [(Fraction(draws.whole(0, size[0])), Fraction(draws.whole(0, size[1]))) for _ in range(3)]
+    area = twice_area(corners)
+    return None if abs(area) < least else corners if area > 0 else corners[::-1]
+
+
+def draw_coefficients(draws: Draws) -> Draft | None:
+    """a, b and c of an edge."""
+    start, end = wholes(draws, 2, 0, 9), wholes(draws, 2, 0, 9)
+    if start == end:
+        return None
+    text = f"What are a, b and c of this edge function? {INWARD} Take whole numbers with a = y0 - y1."
+    hints = (
+        "It is zero at both ends.",
+        "a = y0 - y1 and b = x1 - x0.",
+        "c follows from E = 0 at the first end.",
+    )
+    given = f"Edge from {place_text(start)} to {place_text(end)}."
+    return numbers(text, given, coefficients(start, end), hints, names=("a", "b", "c"))
+
+
+def draw_values(draws: Draws) -> Draft | None:
+    """The three edge functions at a pixel."""
+    corners = triangle(draws)
+    if corners is None:
+        return None
+    pixel = draws.whole(1, 9), draws.whole(1, 7)
+
+    def values(shift: Fraction) -> list[list[Any]]:
+        x, y = (c + shift for c in pixel)
+        return [[a * x + b * y + c] for a, b, c in edges_of(corners)]
+
+    scene = triangle_scene(np.array([corners], float), SIZE)
+    text = f"What are the three edge functions at the centre (i + 1/2, j + 1/2) of pixel {pixel}? {INWARD}"
+    hints = (
+        "Where is the centre?",
+        "E = (y0 - y1)(x - x0) + (x1 - x0)(y - y0).",
+        "The signs tell on which side of each edge it lies.",
+    )
+    wrong = {"corner-for-center": values(Fraction(0))}
+    right = values(Fraction(1, 2))
+    given = f"Vertices 0, 1, 2: {corner_text(corners)}"
+    return table(text, given, ("E",), NAMES, right, hints, wrong, scene=scene, pixel=pixel)
+
+
+def draw_stepped(draws: Draws) -> Draft | None:
+    """An edge function along a row, by adding a."""
+    start, end = wholes(draws, 2, 0, 9), wholes(draws, 2, 0, 9)
+    if start[1] == end[1]:
+        return None
+    a, b, c = coefficients(start, end)
+    first, row = draws.whole(0, 4), draws.whole(0, 6)
+    columns = range(first, first + 6)
+    right = [[a * (x + Fraction(1, 2)) + b * (row + Fraction(1, 2)) + c] for x in columns]
+    text = f"Fill in E at the centres (i + 1/2, j + 1/2) of these pixels of row {row}. {INWARD} {WITHIN_ROW}"
+    hints = ("Compute the first one.", "From one column to the next, E grows by a.", "a = y0 - y1.")
+
+    def follow(own: Any, number: int, mine: Any) -> Any:
+        return ("", own[-1][0][1] + a) if number else ("", right[0][0])
+
+    given = f"Edge from {place_text(start)} to {place_text(end)}."
+    return table(text, given, ("E",), [f"column {x}" for x in columns], right, hints, follow=follow)
+
+
+WITHIN_ROW = "Each cell is computed from the one before."
+
+
+def draw_inverse(draws: Draws) -> Draft | None:
+    """The matrix of all coefficients, by inversion."""
+    rows = [(*wholes(draws, 2, -2, 3), Fraction(draws.whole(1, 2))) for _ in range(3)]
+    (x0, y0, w0), (x1, y1, w1), (x2, y2, w2) = rows
+    adjugate = [
+        [y1 * w2 - w1 * y2, w0 * y2 - y0 * w2, y0 * w1 - w0 * y1],
+        [w1 * x2 - x1 * w2, x0 * w2 - w0 * x2, w0 * x1 - x0 * w1],
+        [x1 * y2 - y1 * x2, y0 * x2 - x0 * y2, x0 * y1 - y0 * x1],
+    ]
+    determinant = x0 * adjugate[0][0] + y0 * adjugate[1][0] + w0 * adjugate[2][0]
+    if abs(determinant) not in (1, 2, 3, 4):
+        return None
+    text = (
+        "Which matrix holds the coefficients of the edge functions alpha, beta, gamma? Its columns are theirs, its "
+        "rows are a, b and c: it is the inverse of the matrix whose rows are (x, y, w) of the vertices. Row by row."
+    )
+    given = "\n".join(f"Vertex {k}: (x, y, w) = {place_text(row)}" for k, row in enumerate(rows))
+    hints = (
+        "alpha is 1 at vertex 0 and 0 at the other two.",
+        "The inverse is the adjugate over the determinant.",
+        "Multiply back: the product with the vertices is the unit matrix.",
+    )
+    right = [cell / determinant for row in adjugate for cell in row]
+    return numbers(text, given, right, hints, shape=(3, 3))
+
+
+def draw_owned(draws: Draws) -> Draft | None:
+    """Edges that own the centres on them."""
+    corners = triangle(draws)
+    if corners is None:
+        return None
+    if draws.fraction() < 0.5:
+        level = min(corners[0][1], corners[1][1])
+        corners = [(corners[0][0], level), (corners[1][0], level), corners[2]]
+        if twice_area(corners) < 16:
+            return None
+    a, b, _ = np.array(edges_of(corners), float).T
+    rules = {"level-edges-never": owns_slanted, "level-edges-always": owns_level}
+    right = np.flatnonzero(shared_edge(a, b)).tolist()
+    wrong = {name: np.flatnonzero(rule(a, b)).tolist() for name, rule in rules.items()}
+    text = (
+        "Which edges of this triangle own the pixel centres that lie exactly on them? A centre on an edge belongs to "
+        "the triangle that contains the point moved a tiny step right, then up."
+    )
+    hints = (
+        "Move a point on each edge a little to the right: is it inside?",
+        "On a level edge only the step up decides.",
+        "With E = a x + b y + c: a > 0, or a = 0 and b > 0.",
+    )
+    given = f"Vertices 0, 1, 2: {corner_text(corners)}"
+    shown = {"all-edges-inclusive": [0, 1, 2]} | {name: r for name, r in wrong.items() if r and r != right}
+    return several(text, given, NAMES, right, hints, shown)
+
+
+def draw_snapped(draws: Draws) -> Draft:
+    """A vertex on the grid of 1/256 pixel."""
+    x = Fraction(draws.whole(100, 900), 100)
+    text = (
+        "Vertices are snapped to the nearest multiple of 1/256 pixel before coverage is decided. How many 256ths is "
+        "this x?"
+    )
+    right = Fraction(snap_one(float(x))) * 256
+    hints = ("Multiply by 256.", "Round to the nearest whole number.")
+    wrong = {"vertices-rounded": [256 * floor(x + Fraction(1, 2))]}
+    return numbers(text, f"x = {float(x)} pixels", [right], hints, wrong)
+
+
+def draw_bits(draws: Draws) -> Draft:
+    """A product that does not fit."""
+    width, height = draws.whole(190, 250), draws.whole(190, 250)
+    text = (
+        "A right triangle has legs along x and y. What is twice its area in units of 1/256 x 1/256 pixel? The number "
+        "is kept in 64 bits, so nothing is lost."
+    )
+    given = f"Legs of {width} and {height} pixels; each pixel has 256 units."
+    hints = ("Put both lengths into units first.", "Twice the area is the product of the legs.")
+    return by_rule(text, given, (width, height), ("product-overflows",), hints)
+
+
+def draw_box(draws: Draws) -> Draft | None:
+    """Columns and rows of the pixels whose centres lie in the bounding box."""
+    corners = [(Fraction(draws.whole(-20, 150), 10), Fraction(draws.whole(-20, 110), 10)) for _ in range(3)]
+    if abs(twice_area(corners)) < 16:
+        return None
+    right, short = [], []
+    for axis in range(2):
+        low, high = (pick(corner[axis] for corner in corners) for pick in (min, max))
+        first, last = ceil(low - Fraction(1, 2)), floor(high - Fraction(1, 2))
+        right += [max(first, 0), min(last, SIZE[axis] - 1)]
+        short += [max(floor(low), 0), min(floor(high), SIZE[axis]) - 1]
+    if right[0] >= right[1] or right[2] >= right[3]:
+        return None
+    beyond = [right[0], right[1] + (right[1] == SIZE[0] - 1), right[2], right[3]]
+    wrong = {"box-truncated": short} | ({"column-wrapped": beyond} if beyond != right else {})
+    text = (
+        "Which columns and rows does the bounding box of this triangle have: first and last column, first and last "
+        "row? A pixel belongs to it where its centre (i + 1/2, j + 1/2) does; the box is limited to the window."
+    )
+    hints = (
+        "Least and greatest x and y of the vertices.",
+        "The first centre at or after x is ceil(x - 1/2), the last one before it floor(x - 1/2).",
+        "The last column of the window is W - 1.",
+    )
+    given = f"Window of {SIZE[0]} x {SIZE[1]} pixels.\nTriangle: {corner_text(corners)}"
+    names = ("first column", "last column", "first row", "last row")
+    scene = triangle_scene(np.array([corners], float), SIZE)
+    return numbers(text, given, right, hints, wrong, names, scene=scene)
+
+
+CASES = (
+    "project it and take its bounding box",
+    "do not draw it: it lies behind the eye",
+    "do not project it; test all pixels of the image",
+)
+
+
+def draw_case(draws: Draws) -> Draft:
+    """The three cases of binning."""
+    wanted = draws.whole(0, 2)
+    signs = ((1, 1, 1), (-1, -1, -1), draws.item(((1, 1, -1), (1, -1, -1), (-1, 1, 1), (-1, 1, -1))))[wanted]
+    corners = [(*wholes(draws, 2, -9, 9), Fraction(sign * draws.whole(1, 9))) for sign in signs]
+    text = "Which case of binning is this triangle? w > 0 is in front of the eye."
+    given = "\n".join(f"Vertex {k}: (x, y, w) = {place_text(corner)}" for k, corner in enumerate(corners))
+    hints = ("Look at w alone.", "Where signs differ, the projected vertices do not bound the triangle.")
+    return one_of(text, given, CASES, wanted, hints)
+
+
+BLOCK, BLOCKS = 4, 8
+LEAST = 20
+"""Blocks that must be marked, and that must not: with fewer, guesses earn too much."""
+
+
+def draw_blocks(draws: Draws) -> Draft | None:
+    """Blocks that are discarded."""
+    side = BLOCK * BLOCKS
+    corners = triangle(draws, (side, side), 150)
+    if corners is None:
+        return None
+    scene = triangle_scene(np.array([corners], float), (side, side))
+    edges = [(float(a), float(b), float(c), a > 0 or (a == 0 and b > 0)) for a, b, c in edges_of(corners)]
+    rule = RULES["block-by-one-corner"]
+    text = (
+        f"The window is divided into blocks of {BLOCK} x {BLOCK} pixels. Mark the blocks that are discarded because "
+        "all their pixel centres lie outside of one edge. A centre on an edge that owns it is not outside."
+    )
+    right = rule.right(edges, BLOCKS, BLOCK)
+    if not LEAST <= len(right) <= BLOCKS * BLOCKS - LEAST:
+        return None
+    answer = PixelAnswer((BLOCKS, BLOCKS), right, noun="blocks")
+    hints = (
+        "Take one edge at a time.",
+        "Only one pixel of a block has to be tested: the one where E is largest.",
+        "It is on the right where a > 0, and at the top where b > 0.",
+    )
+    given = f"Window of {side} x {side} pixels.\nTriangle: {corner_text(corners)}"
+    wrong = {rule.name: rule.wrong(edges, BLOCKS, BLOCK)}
+    return Draft(text, given, answer, hints, wrong, scene, Settings(fill="blocks", block_size=BLOCK))
+
+
+CORNERS = ("lower left", "lower right", "upper left", "upper right")
+
+
+def draw_corner(draws: Draws) -> Draft | None:
+    """The pixel of a block that decides."""
+    a, b, c = draws.whole(-9, 9), draws.whole(-9, 9), draws.whole(-40, 40)
+    if not a or not b:
+        return None
+    right = 2 * (b > 0) + (a > 0)
+    text = (
+        "Which pixel of a block decides whether the whole block is outside of this edge? Outside is where "
+        "E = a x + b y + c is negative."
+    )
+    hints = ("Which pixel is the last one to be outside?", "Where is E largest?")
+    wrong = {"block-by-one-corner": 0} if right else {}
+    given = (
+        f"E(x, y) = {number_text(Fraction(a))} x + {number_text(Fraction(b))} y + {number_text(Fraction(c))}"
+    )
+    return one_of(text, given.replace("+ -", "- "), CORNERS, right, hints, wrong)
+
+
+def draw_tests(draws: Draws) -> Draft | None:
+    """Pixels that are tested."""
+    corners = triangle(draws)
+    if corners is None:
+        return None
+    scene = triangle_scene(np.array([corners], float), SIZE)
+    right = [
+        render(scene, Settings(fill=fill)).statistics["bin"].outgoing
+        for fill in ("brute-force", "bounding-box")
+    ]
+    text = (
+        "How many pixels are tested for this triangle by brute force, and with its bounding box? A pixel belongs to "
+        "the box where its centre (i + 1/2, j + 1/2) does."
+    )
+    hints = ("Brute force asks every pixel of the window.", "The box has columns times rows.")
+    given = f"Window of {SIZE[0]} x {SIZE[1]} pixels.\nTriangle: {corner_text(corners)}"
+    names = ("brute force", "bounding box")
+    return numbers(
+        text, given, right, hints, names=names, scene=scene, settings=Settings(fill="bounding-box")
+    )
+
+
+TEMPLATES = (
+    Template("edge-coefficients", 1, "Coefficients of an edge", "edges", 2, draw_coefficients),
+    Template("edge-values", 1, "Edge functions at a pixel", "edges", 3, draw_values),
+    Template("edge-stepping", 1, "An edge function along a row", "edges", 3, draw_stepped),
+    Template("edge-matrix", 1, "Edge functions by a matrix", "edges", 4, draw_inverse),
+    Template("owned-edges", 1, "Edges that own their centres", "edges", 2, draw_owned),
+    Template("snapped-vertex", 1, "A vertex in 256ths", "edges", 1, draw_snapped),
+    Template("area-in-bits", 1, "An area in 64 bits", "edges", 2, draw_bits),
+    Template("box-of-pixels", 1, "Pixels of a bounding box", "bin", 3, draw_box),
+    Template("binning-case", 1, "The three cases of binning", "bin", 1, draw_case),
+    Template("blocks-discarded", 1, "Blocks that are discarded", "bin", 4, draw_blocks),
+    Template("deciding-corner", 1, "The corner that decides", "bin", 1, draw_corner),
+    Template("pixels-tested", 1, "Pixels that are tested", "bin", 2, draw_tests),
+)

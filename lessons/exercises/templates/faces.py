@@ -1,0 +1,130 @@
+"""Culling: by the eye, by the view volume, by the order of the vertices; boxes around triangles."""
+
+from fractions import Fraction
+from itertools import permutations
+
+import numpy as np
+
+from core import Settings
+from core.geometry.culling import plane_distances
+from lessons.exercises.draws import Draws
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.coverage import FACES, corner_text, culled, twice_area
+from lessons.exercises.templates.drafting import numbers, place_text, several
+from lessons.exercises.templates.transforms import wholes
+from lessons.mistakes.coverage import dropped_at_border
+from lessons.mistakes.shelf import RULES, SHELF
+from lessons.small_scenes import triangle_scene
+
+
+def draw_order(draws: Draws) -> Draft | None:
+    """Vertex orders that face the camera."""
+    corners = [(Fraction(draws.whole(0, 5)), Fraction(draws.whole(0, 5))) for _ in range(3)]
+    if abs(twice_area(corners)) < 5:
+        return None
+    orders = list(permutations(range(3)))
+    placed = [[(corners[k][0] + 6 * n, corners[k][1]) for k in order] for n, order in enumerate(orders)]
+    scene, settings = triangle_scene(np.array(placed, float), (36, 6)), Settings(cull="back")
+    back = culled(settings, scene)
+    wrong = culled(SHELF["facing-exchanged"].change_settings(settings), scene)
+    text = (
+        "A face lists the three vertices in some order. For which orders is it culled as a back face? The camera looks "
+        "at the page, x to the right, y up; counter-clockwise is the front."
+    )
+    given = "\n".join(f"Vertex {k}: {place_text(corner)}" for k, corner in enumerate(corners))
+    hints = (
+        "Sketch the vertices and go round in one of the orders.",
+        "Turning the list by one changes nothing; exchanging two of it changes the facing.",
+    )
+    options = [", ".join(map(str, order)) for order in orders]
+    return several(text, given, options, back, hints, {"facing-exchanged": wrong})
+
+
+def draw_eye(draws: Draws) -> Draft | None:
+    """N . V for faces seen in perspective."""
+    eye = wholes(draws, 3, -2, 2)
+    faces = [
+        (wholes(draws, 3, -3, 3), (*wholes(draws, 2, -9, 9), Fraction(-draws.whole(3, 9)))) for _ in FACES
+    ]
+    rays = [[p - e for p, e in zip(point, eye, strict=True)] for _, point in faces]
+    cosines = [
+        sum(n * r for n, r in zip(face[0], ray, strict=True)) for face, ray in zip(faces, rays, strict=True)
+    ]
+    if not all(cosines) or not all(normal[2] for normal, _ in faces):
+        return None
+    text = (
+        "Which faces are culled? N points outward, V from the eye to a point of the face: a face is culled where "
+        "N . V > 0."
+    )
+    given = f"Eye: {place_text(eye)}\n" + "\n".join(
+        f"{name}: N = {place_text(normal)}, point {place_text(point)}"
+        for name, (normal, point) in zip(FACES, faces, strict=True)
+    )
+    hints = ("V is another one for each face.", "V = point - eye.", "Only the sign of N . V counts.")
+    rule = RULES["view-direction-fixed"]
+    wrong = {rule.name: rule.wrong(faces, eye)}
+    return several(text, given, FACES, rule.right(faces, eye), hints, wrong)
+
+
+WINDOW = (8, 6)
+
+
+def draw_outside(draws: Draws) -> Draft | None:
+    """Triangles outside of one border."""
+    triangles = [
+        [(Fraction(draws.whole(-4, 12)), Fraction(draws.whole(-4, 10))) for _ in range(3)] for _ in FACES
+    ]
+    if min(abs(twice_area(corners)) for corners in triangles) < 5:
+        return None
+    scene = triangle_scene(np.array(triangles, float), WINDOW)
+    outside = np.asarray(plane_distances(scene.clip) < 0)
+    dropped = np.flatnonzero(np.any(np.all(outside, axis=1), axis=1)).tolist()
+    collapsed = (dropped_at_border(scene).clip != scene.clip).any(axis=(1, 2))
+    text = (
+        "Which triangles are dropped because all three vertices lie outside of one border of the window? All have the "
+        "same depth."
+    )
+    given = f"Window 0..{WINDOW[0]} x 0..{WINDOW[1]}.\n" + "\n".join(
+        f"{name}: {corner_text(corners)}" for name, corners in zip(FACES, triangles, strict=True)
+    )
+    hints = (
+        "Test one border at a time.",
+        "A triangle with vertices outside of two borders may still reach into the window.",
+    )
+    wrong = {"dropped-at-border": np.flatnonzero(collapsed).tolist()}
+    return several(text, given, FACES, dropped, hints, wrong, scene)
+
+
+def draw_box(draws: Draws) -> Draft:
+    """An axis-aligned bounding box."""
+    corners = [wholes(draws, 3, -9, 9) for _ in range(3)]
+    text = "What is the axis-aligned bounding box of this triangle: the least x, y and z, then the greatest?"
+    right = [pick(corner[axis] for corner in corners) for pick in (min, max) for axis in range(3)]
+    hints = ("Look at one coordinate at a time.", "Least and greatest of the three vertices.")
+    names = [f"{kind} {axis}" for kind in ("least", "greatest") for axis in "xyz"]
+    return numbers(text, "\n".join(map(place_text, corners)), right, hints, names=names)
+
+
+def draw_determinant(draws: Draws) -> Draft | None:
+    """The determinant of (x, y, w)."""
+    rows = [(*wholes(draws, 2, -4, 4), Fraction(draws.item((1, 2, 3, -1)))) for _ in range(3)]
+    (a, b, c), (d, e, f), (g, h, i) = rows
+    determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
+    if not determinant:
+        return None
+    text = (
+        "What is the determinant of the matrix whose rows are (x, y, w) of the vertices? It is negative for a back "
+        "face, whatever the signs of w, and 0 where there is nothing to draw."
+    )
+    given = "\n".join(f"Vertex {k}: {place_text(row)}" for k, row in enumerate(rows))
+    hints = ("Nothing is divided by w.", "Expand along one row: three products with 2 x 2 determinants.")
+    return numbers(text, given, [determinant], hints)
+
+
+TEMPLATES = (
+    Template("face-order", 1, "Vertex orders that face away", "cull", 2, draw_order),
+    Template("faces-from-eye", 1, "N . V with perspective", "cull", 3, draw_eye),
+    Template("outside-one-border", 1, "Triangles outside of one border", "cull", 3, draw_outside),
+    Template("bounding-box", 1, "An axis-aligned bounding box", "cull", 1, draw_box),
+    Template("homogeneous-determinant", 1, "The determinant of (x, y, w)", "cull", 3, draw_determinant),
+)

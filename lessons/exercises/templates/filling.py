@@ -1,0 +1,268 @@
+"""Filling triangles: rows of a scanline fill, flat sides, borders of the window, how often a pixel is drawn."""
+
+from fractions import Fraction
+from math import atan2, ceil, floor
+
+import numpy as np
+
+from core import Settings, render
+from core.records.frame import Frame
+from core.scene import ClipScene
+from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer
+from lessons.exercises.drawn_scene import seen_pixels
+from lessons.exercises.draws import Draws
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, twice_area
+from lessons.exercises.templates.drafting import numbers, one_of, place_text, table
+from lessons.exercises.templates.transforms import wholes
+from lessons.mistakes.shelf import RULES, SHELF
+from lessons.scenes import assembled
+from lessons.small_scenes import triangle_scene
+
+HALF = Fraction(1, 2)
+WINDOW = f"Window of {SIZE[0]} x {SIZE[1]} pixels, row 0 at the bottom."
+SORTED_EDGES = ((0, 1), (1, 2), (0, 2))
+"""Of vertices sorted by y: the two short edges, and the long one."""
+
+
+def marked(
+    text: str, given: str, scene: ClipScene, names: tuple[str, ...], hints: tuple[str, ...]
+) -> Draft | None:
+    """Ask for the pixels of a scene; ``None`` where there are none, or where it covers all."""
+    settings = Settings()
+    try:
+        answer = PixelAnswer(SIZE, seen_pixels(render(scene, settings)))
+    except NothingToMarkError:
+        return None
+    wrong = {name: seen_pixels(SHELF[name].draw(scene, settings)) for name in names}
+    return Draft(text, given, answer, hints, wrong, scene, settings)
+
+
+def of_triangle(
+    corners: list[Corner], text: str, names: tuple[str, ...], hints: tuple[str, ...]
+) -> Draft | None:
+    """Ask for the pixels of one triangle."""
+    if abs(twice_area(corners)) < 8:
+        return None
+    scene = triangle_scene(np.array([corners], float), SIZE)
+    return marked(f"{text} {RULE}", f"{WINDOW}\nTriangle: {corner_text(corners)}", scene, names, hints)
+
+
+def tenths(draws: Draws, low: int, high: int) -> Fraction:
+    """Draw a coordinate in tenths of a pixel."""
+    return Fraction(draws.whole(10 * low, 10 * high), 10)
+
+
+def draw_flat(draws: Draws) -> Draft | None:
+    """A triangle with a level side."""
+    level, other = draws.shuffled((draws.whole(1, 3), draws.whole(5, 8)))
+    left, right = draws.whole(0, 4) + HALF, draws.whole(7, 11) + HALF
+    corners = [(left, level + HALF), (right, level + HALF), (draws.whole(0, 11) + HALF, other + HALF)]
+    hints = (
+        "Is the level side at the bottom or at the top?",
+        "A level bottom edge owns its centres, a level top edge does not.",
+        "In a row, the left end is drawn, the right end is not.",
+    )
+    names = ("flat-sides-lost", "right-end-drawn")
+    return of_triangle(corners, "Which pixels does this triangle with a level side cover?", names, hints)
+
+
+def draw_thin(draws: Draws) -> Draft | None:
+    """A thin triangle."""
+    x = tenths(draws, 2, 8)
+    corners = [
+        (x, tenths(draws, 0, 2)),
+        (x + Fraction(draws.whole(8, 20), 10), tenths(draws, 0, 2)),
+        (x + Fraction(draws.whole(-30, 30), 10), tenths(draws, 7, 9)),
+    ]
+    hints = (
+        "Look at one row of centres at a time.",
+        "The vertices keep their fractions.",
+        "A thin triangle may miss all centres of a row.",
+    )
+    names = ("vertices-rounded", "rows-rounded")
+    return of_triangle(corners, "Which pixels does this thin triangle cover?", names, hints)
+
+
+def draw_border(draws: Draws) -> Draft | None:
+    """A triangle across the right border."""
+    corners = [
+        (tenths(draws, 5, 9), tenths(draws, 0, 3)),
+        (tenths(draws, 13, 18), tenths(draws, 1, 7)),
+        (tenths(draws, 5, 10), tenths(draws, 6, 9)),
+    ]
+    hints = ("The window ends before column W.", "Only the part inside of the window is drawn.")
+    text = "A triangle reaches beyond the right border. Which pixels of the window does it cover?"
+    return of_triangle(corners, text, ("column-wrapped", "corner-for-center"), hints)
+
+
+def draw_box(draws: Draws) -> Draft | None:
+    """A triangle with its right angle at the far end of its box."""
+    right, top = tenths(draws, 7, 11), tenths(draws, 5, 8)
+    corners = [(tenths(draws, 0, 3), tenths(draws, 0, 2)), (right, tenths(draws, 0, 2)), (right, top)]
+    hints = (
+        "Find the last column whose centre is left of the right side.",
+        "Fractions of a vertex decide whether its column belongs to the triangle.",
+    )
+    return of_triangle(corners, "Which pixels does this triangle cover?", ("box-truncated",), hints)
+
+
+def draw_points(draws: Draws) -> Draft | None:
+    """Points, some of them left of the window."""
+    places = [(Fraction(draws.whole(-9, 115), 10), tenths(draws, 0, 9)) for _ in range(6)]
+    places.append((-Fraction(draws.whole(1, 9), 10), tenths(draws, 1, 8)))
+    if any(c.denominator == 1 for place in places for c in place):
+        return None
+    x, y = np.array(places, float).T
+    scene = assembled("points", x, y, SIZE)
+    text = "Which pixels do these points light? Pixel (i, j) reaches from i to i + 1 and from j to j + 1."
+    hints = ("The column of a point is floor(x).", "What is floor(x) for x between -1 and 0?")
+    given = f"{WINDOW}\n" + ", ".join(map(place_text, places))
+    return marked(text, given, scene, ("truncated-to-zero",), hints)
+
+
+def draw_ends(draws: Draws) -> Draft | None:
+    """First and last pixel of a row."""
+    corners = [(draws.whole(0, 11) + HALF, draws.whole(0, 8) + HALF) for _ in range(3)]
+    row = draws.whole(2, 6)
+    if abs(twice_area(corners)) < 16:
+        return None
+    scene = triangle_scene(np.array([corners], float), SIZE)
+
+    def ends(frame: Frame) -> list[int] | None:
+        columns = np.flatnonzero(frame.primitive[row] >= 0).tolist()
+        return [columns[0], columns[-1]] if columns else None
+
+    right = ends(render(scene))
+    names = ("right-end-drawn", "all-edges-exclusive", "corner-for-center")
+    wrong = {name: ends(SHELF[name].draw(scene, Settings())) for name in names}
+    if right is None or right[0] == right[1]:
+        return None
+    shown = {name: response for name, response in wrong.items() if response not in (None, right)}
+    if not shown:
+        return None
+    text = f"Which are the first and the last column that this triangle covers in row {row}? {RULE}"
+    hints = (
+        f"The centres of the row lie at y = {row} + 1/2.",
+        "Where do the edges cross this line?",
+        "A crossing on a centre belongs to the triangle on its right.",
+    )
+    given = f"{WINDOW}\nTriangle: {corner_text(corners)}"
+    return numbers(text, given, right, hints, shown, ("first", "last"), scene=scene)
+
+
+def draw_rows(draws: Draws) -> Draft | None:
+    """Left and right x of rows."""
+    corners = sorted(((tenths(draws, 0, 11), tenths(draws, 0, 9)) for _ in range(3)), key=lambda c: c[1])
+    heights = [corners[b][1] - corners[a][1] for a, b in SORTED_EDGES]
+    if min(heights) < 1 or abs(twice_area(corners)) < 20:
+        return None
+    rows = range(ceil(corners[0][1] - HALF), floor(corners[2][1] - HALF) + 1)[:5]
+
+    def crossings(rule: str, is_right: bool = False) -> list[list[Fraction]]:
+        cross = RULES[rule].right if is_right else RULES[rule].wrong
+        found = []
+        for row in rows:
+            spanned = [
+                (corners[a], corners[b])
+                for a, b in SORTED_EDGES
+                if corners[a][1] <= row + HALF < corners[b][1]
+            ]
+            found.append(sorted(cross(*edge, row)[0] for edge in spanned))
+        return found
+
+    names = ("crossing-from-vertex", "height-plus-one")
+    right = crossings(names[0], is_right=True)
+    if any(len(row) != 2 for row in right):
+        return None
+    text = "Where do the edges cross the centres of these rows, y = j + 1/2: left x and right x?"
+    hints = (
+        "Which two edges does each row cross?",
+        "x = x0 + (y - y0)(x1 - x0)/(y1 - y0).",
+        "From one row to the next, x grows by the inverse slope.",
+    )
+    scene = triangle_scene(np.array([corners], float), SIZE)
+    labels = [f"row {row}" for row in rows]
+    wrong = {name: crossings(name) for name in names}
+    given = f"Triangle: {corner_text(corners)}"
+    settings = Settings(fill="scanline")
+    return table(text, given, ("left", "right"), labels, right, hints, wrong, scene=scene, settings=settings)
+
+
+def draw_crossings(draws: Draws) -> Draft | None:
+    """Crossings of a polygon with a line through its vertices."""
+    places = {(draws.whole(0, 9), draws.whole(0, 6)) for _ in range(6)}
+    polygon = sorted(places, key=lambda p: (atan2(p[1] - 3, p[0] - 4), p))
+    y = draws.item(polygon)[1]
+    rule = RULES["both-ends-crossed"]
+    right, wrong = (int(count(polygon, y)[0]) for count in (rule.right, rule.wrong))
+    options = ("0", "1", "2", "3", "4", "5", "6")
+    if len(polygon) < 5 or right >= len(options) or not right < wrong < len(options):
+        return None
+    text = (
+        f"How many crossings does a scanline fill count on the line y = {y}? An edge counts where the line is at or "
+        "above its lower end and below its upper end; level edges do not count."
+    )
+    hints = (
+        "Go round the polygon, one edge at a time.",
+        "A vertex on the line is the lower end of one edge and the upper end of another.",
+        "The number is even, or a span would have one end.",
+    )
+    given = f"Polygon: {', '.join(map(str, polygon))}"
+    return one_of(text, given, options, right, hints, {rule.name: wrong})
+
+
+def draw_fourth(draws: Draws) -> Draft | None:
+    """The point on the long edge that splits a triangle."""
+    corners = [wholes(draws, 2, 0, 12) for _ in range(3)]
+    v1, v2, v3 = sorted(corners, key=lambda c: -c[1])
+    if len({v[1] for v in corners}) < 3:
+        return None
+    text = (
+        "A scanline fill splits a triangle at the height of its middle vertex. Where on the long edge, x and y, does "
+        "the new vertex v4 lie?"
+    )
+    x = v1[0] + (v2[1] - v1[1]) / (v3[1] - v1[1]) * (v3[0] - v1[0])
+    hints = ("Sort the vertices by y.", "v4 has the y of the middle vertex, and lies between the other two.")
+    return numbers(text, f"Triangle: {corner_text(corners)}", [x, v2[1]], hints, names=("x", "y"))
+
+
+def draw_fan(draws: Draws) -> Draft | None:
+    """How often triangles around a pixel centre draw it."""
+    center = (draws.whole(3, 8) + HALF, draws.whole(3, 5) + HALF)
+    around = sorted(
+        ((tenths(draws, 0, 12), tenths(draws, 0, 9)) for _ in range(draws.whole(4, 6))),
+        key=lambda p: atan2(p[1] - center[1], p[0] - center[0]),
+    )
+    triangles = [[center, a, b] for a, b in zip(around, [*around[1:], around[0]], strict=True)]
+    if min(twice_area(corners) for corners in triangles) < 1:
+        return None
+    scene = triangle_scene(np.array(triangles, float), SIZE)
+    counts = [
+        int(render(scene, Settings(fill_rule=rule)).cover_count[int(center[1]), int(center[0])])
+        for rule in ("shared-edge", "inclusive", "exclusive")
+    ]
+    text = (
+        "Triangles meet in a pixel centre. How often is this pixel drawn with the rule of shared edges (right, then "
+        "up), with E >= 0 on all edges, and with E > 0 on all edges?"
+    )
+    hints = (
+        "For how many of the triangles is E = 0 on two edges there?",
+        "The rule of shared edges moves the centre into exactly one of them.",
+    )
+    given = f"Centre {place_text(center)}; around it, counter-clockwise, lie {', '.join(map(place_text, around))}."
+    return numbers(text, given, counts, hints, names=("shared edges", ">=", ">"), scene=scene)
+
+
+TEMPLATES = (
+    Template("flat-side", 1, "A triangle with a level side", "raster", 4, draw_flat),
+    Template("thin-triangle", 1, "A thin triangle", "raster", 4, draw_thin),
+    Template("right-border", 1, "Beyond the right border", "raster", 3, draw_border),
+    Template("last-column", 1, "The last column of a triangle", "raster", 3, draw_box),
+    Template("point-pixels", 1, "Pixels of points", "raster", 3, draw_points),
+    Template("row-ends", 1, "First and last pixel of a row", "raster", 2, draw_ends),
+    Template("row-crossings", 1, "Where edges cross rows", "raster", 4, draw_rows),
+    Template("crossing-count", 1, "Crossings at vertices", "raster", 2, draw_crossings),
+    Template("fourth-vertex", 1, "The vertex that splits a triangle", "raster", 2, draw_fourth),
+    Template("fan-count", 1, "How often a centre is drawn", "raster", 2, draw_fan),
+)

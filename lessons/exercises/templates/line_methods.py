@@ -1,0 +1,196 @@
+"""Lines beyond the first octant: DDA, the error e, ties, listings as printed, Wu, values along a line."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from math import floor
+
+from core import Settings
+from lessons.exercises.answers.pixels import PixelAnswer
+from lessons.exercises.answers.tables import Cell, Row
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.drafting import numbers, table
+from lessons.exercises.templates.lines import RULE, SIZE, Ends, gentle_ends
+from lessons.mistakes.lines import LECTURE
+from lessons.mistakes.shelf import SHELF
+from lessons.mistakes.twin import line_pixels
+from lessons.printed.catalogue import printed_listing
+from lessons.small_scenes import pixel_segments
+
+HALF = Fraction(1, 2)
+WINDOW = f"Window of {SIZE[0]} x {SIZE[1]} pixels, row 0 at the bottom."
+
+
+def slope(ends: Ends) -> Fraction:
+    """Return dy/dx."""
+    (x0, y0), (x1, y1) = ends
+    return Fraction(y1 - y0, x1 - x0)
+
+
+def of_segments(text: str, segments: list[Ends], names: tuple[str, ...], hints: tuple[str, ...]) -> Draft:
+    """Ask for the pixels of segments by the lecture's Bresenham."""
+    scene = pixel_segments(segments, SIZE)
+    wrong = {name: line_pixels(scene, SHELF[name].change_settings(LECTURE)) for name in names}
+    answer = PixelAnswer(SIZE, line_pixels(scene, LECTURE))
+    given = f"{WINDOW}\n" + "\n".join(f"From pixel {start} to pixel {end}." for start, end in segments)
+    return Draft(text, given, answer, hints, wrong, scene, LECTURE)
+
+
+def draw_octants(draws: Draws) -> Draft:
+    """A steep line, and one that falls from right to left."""
+    steep: Ends = ((draws.whole(0, 3), 0), (draws.whole(4, 6), draws.whole(7, 8)))
+    x0 = draws.whole(12, 13)
+    falling: Ends = ((x0, draws.whole(0, 3)), (draws.whole(4, 6), draws.whole(5, 8)))
+    text = (
+        "Which pixels do the two lines draw? Where |dy| is not below |dx|, x and y exchange their parts; lines are "
+        f"drawn from left to right (steep ones upwards), and with a negative slope y steps by -1. {RULE}"
+    )
+    hints = (
+        "Which of the lines is steep?",
+        "A steep line has one pixel in every row.",
+        "Exchange the ends of the other one: it falls from left to right.",
+    )
+    return of_segments(text, [steep, falling], ("one-octant", "ends-not-ordered", "slope-always-up"), hints)
+
+
+def draw_direction(draws: Draws) -> Draft:
+    """A line with ties, given from right to left."""
+    start, end = gentle_ends(draws)
+    text = f"Which pixels does the line draw? Lines are drawn from left to right, whichever end comes first. {RULE}"
+    hints = (
+        "Exchange the ends.",
+        "Is D zero somewhere?",
+        "Where D = 0, y does not step.",
+    )
+    return of_segments(text, [(end, start)], ("from-other-end", "last-pixel-lost"), hints)
+
+
+def draw_dda(draws: Draws) -> Draft:
+    """The y and the row in every column."""
+    ends = gentle_ends(draws)
+    m, (x0, y0) = slope(ends), ends[0]
+    exact = [y0 + m * k for k in range(ends[1][0] - x0 + 1)]
+
+    def follow(own: Sequence[Row], number: int, mine: Row) -> Cell:
+        if not mine:
+            before = own[-1][0] if number else None
+            return "", (before[1] or 0) + m if before else Fraction(y0)
+        y = mine[0][1] if mine[0] else None
+        return None if y is None else ("", Fraction(floor(y + HALF)))
+
+    text = (
+        "Fill in y and the row of each pixel of this line by a DDA: y grows by m = dy/dx in every column, and the row "
+        "is floor(y + 1/2)."
+    )
+    right = [[y, floor(y + HALF)] for y in exact]
+    wrong = {"row-truncated": [[y, floor(y)] for y in exact]}
+    hints = ("What is m?", "Add m once for every column.", "Round y to the nearest row; a half goes up.")
+    labels = [f"x = {x0 + k}" for k in range(len(exact))]
+    given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
+    return table(text, given, ("y", "row"), labels, right, hints, wrong, follow, scene, Settings(line="dda"))
+
+
+def draw_error(draws: Draws) -> Draft:
+    """The error e before each move."""
+    ends = gentle_ends(draws)
+    m = slope(ends)
+
+    def after(e: Fraction) -> Fraction:
+        return e + m - 1 if e + m > HALF else e + m
+
+    right = [[Fraction(0)]]
+    while len(right) < ends[1][0] - ends[0][0]:
+        right.append([after(right[-1][0])])
+
+    def follow(own: Sequence[Row], number: int, mine: Row) -> Cell:
+        before = own[-1][0][1] if number and own[-1][0] else None
+        return "", Fraction(0) if before is None else after(Fraction(before))
+
+    text = (
+        "What is the error e before each move? It begins at 0. Where e + m > 1/2, y steps up and e grows by m - 1; "
+        "else e grows by m. m = dy/dx."
+    )
+    hints = ("What is m?", "Compare e + m with 1/2.", "e is where the line runs above the pixel's centre.")
+    labels = [f"at x = {ends[0][0] + k}" for k in range(len(right))]
+    given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
+    return table(text, given, ("e",), labels, right, hints, None, follow, scene, LECTURE)
+
+
+def draw_printed(draws: Draws) -> Draft | None:
+    """A listing that slips."""
+    printed = printed_listing(draws.item(("pellacini-dda", "pellacini-bresenham")))
+    ends = gentle_ends(draws)
+    (x0, y0), (x1, y1) = ends
+    listing, meant = next(iter(printed.readings.values())), printed_listing("pellacini-midpoint").readings
+    drawn, right = (
+        frozenset(pixel[:2] for pixel in rule(x0, y0, x1, y1, True))
+        for rule in (listing, next(iter(meant.values())))
+    )
+    if drawn == right or not all(0 <= y < SIZE[1] for _, y in drawn):
+        return None
+    text = (
+        f"This listing is printed on a slide ({printed.lecture}, {printed.slide}). It slips: which pixels does it "
+        "draw, executed as printed? Pixel centres are whole numbers, and write(x, y) lights pixel (x, y)."
+    )
+    given = f"{printed.text}\n\n{WINDOW} From ({x0}, {y0}) to ({x1}, {y1})."
+    hints = (
+        "Execute it line by line, and do not mend it.",
+        "When does the loop end?",
+        "Is the variable that is tested already that of the next column?",
+    )
+    return Draft(text, given, PixelAnswer(SIZE, drawn), hints)
+
+
+def draw_wu(draws: Draws) -> Draft | None:
+    """Two intensities of a column."""
+    ends = gentle_ends(draws)
+    (x0, y0), (x1, _) = ends
+    x = draws.whole(x0 + 1, x1 - 1)
+    y = y0 + slope(ends) * (x - x0)
+    share = y - floor(y)
+    if not share:
+        return None
+    text = (
+        f"Wu's line lights two pixels of column {x}, on both sides of the line's y there. What are the intensities of "
+        "the lower one and of the upper one? Pixel centres are whole numbers; the two sum to 1."
+    )
+    hints = (
+        "What is y in this column?",
+        "The nearer pixel is the brighter one.",
+        "The upper one has y - floor(y).",
+    )
+    scene = pixel_segments([ends], SIZE)
+    given = f"From pixel {ends[0]} to pixel {ends[1]}."
+    settings = Settings(line="wu")
+    return numbers(text, given, [1 - share, share], hints, None, ("lower", "upper"), None, scene, settings)
+
+
+def draw_value(draws: Draws) -> Draft:
+    """A parameter along a line."""
+    ends = gentle_ends(draws)
+    (x0, _), (x1, _) = ends
+    x, q = draws.whole(x0 + 1, x1 - 1), [Fraction(draws.whole(0, 20)) for _ in range(2)]
+    s = Fraction(x - x0, x1 - x0)
+    text = f"A parameter q is interpolated linearly along this line. What is it at the pixel of column {x}?"
+    given = f"From pixel {ends[0]}, q = {number_text(q[0])}, to pixel {ends[1]}, q = {number_text(q[1])}."
+    hints = ("Which share s of the way lies behind this column?", "q = q0 (1 - s) + q1 s.")
+    return numbers(text, given, [q[0] * (1 - s) + q[1] * s], hints, scene=pixel_segments([ends], SIZE))
+
+
+TEMPLATES = (
+    Template("line-octants", 1, "Lines in other octants", "raster", 4, draw_octants),
+    Template(
+        "line-from-right",
+        1,
+        "A line given from the right",
+        "raster",
+        3,
+        draw_direction,
+    ),
+    Template("dda-table", 1, "y and rows of a DDA", "raster", 4, draw_dda),
+    Template("error-table", 1, "The error of Bresenham's line", "raster", 3, draw_error),
+    Template("printed-line", 1, "A listing with a slip", "raster", 4, draw_printed),
+    Template("wu-column", 1, "Two intensities of a column", "raster", 2, draw_wu),
+    Template("line-value", 1, "A value along a line", "interpolate", 1, draw_value),
+)

@@ -1,0 +1,189 @@
+"""Clipping triangles and segments: planes of the view volume, new corners, what is left."""
+
+from fractions import Fraction
+
+import numpy as np
+
+from core import Settings, clip_lines
+from core.geometry.culling import PLANES
+from lessons.exercises.draws import Draws
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.clipping import SIZE, Ends, code_of, crossing
+from lessons.exercises.templates.coverage import corner_text
+from lessons.exercises.templates.drafting import by_rule, numbers, one_of, place_text, several
+from lessons.exercises.templates.transforms import wholes
+from lessons.mistakes.shelf import RULES, SHELF
+from lessons.mistakes.twin import clipped_ends
+from lessons.small_scenes import segment_scene
+
+WINDOW = f"Window 0..{SIZE[0]} x 0..{SIZE[1]}"
+
+
+def draw_planes(draws: Draws) -> Draft | None:
+    """Planes that a clip position lies outside of."""
+    clip = (*wholes(draws, 3, -6, 6), Fraction(draws.item((1, 2, 3, 4, -1, -2))))
+    rule = RULES["planes-after-divide"]
+    right = rule.right(clip)
+    text = (
+        "Outside of which planes of the view volume does this clip position lie? Inside is -w <= x, y, z <= w, "
+        "compared before the divide."
+    )
+    hints = (
+        "Do not divide.",
+        "near: w + z, far: w - z, left: w + x, right: w - x, bottom: w + y, top: w - y.",
+        "Outside is where such a sum is negative.",
+    )
+    # With w > 0 both tests agree: the divide is harmless there.
+    wrong = {rule.name: rule.wrong(clip)} if clip[3] < 0 else {}
+    return several(text, f"Clip position: {place_text(clip)}", PLANES, right, hints, wrong)
+
+
+def draw_near(draws: Draws) -> Draft | None:
+    """Where an edge crosses the near plane."""
+    inside, outside = draws.whole(1, 8), -draws.whole(1, 8)
+    u = [Fraction(draws.whole(10, 99)) for _ in range(2)]
+    t = Fraction(inside, inside - outside)
+    if u[0] == u[1]:
+        return None
+    text = "An edge crosses the near plane. What is the attribute u of the new vertex?"
+    given = (
+        f"End A inside: w + z = {inside}, u = {u[0]}\nEnd B outside: w + z = {outside}, u = {u[1]}\n"
+        "t runs from 0 at A to 1 at B."
+    )
+    hints = (
+        "Where is the distance w + z zero?",
+        "t = a / (a - b) with the distances a and b of the ends.",
+        f"t = {inside} / ({inside} - ({outside})).",
+    )
+    return by_rule(text, given, (u[0], u[1], t), ("attribute-copied",), hints)
+
+
+def draw_count(draws: Draws) -> Draft | None:
+    """Triangles that one plane leaves."""
+    distances = wholes(draws, 3, -6, 6)
+    inside = sum(d > 0 for d in distances)
+    if not all(distances) or inside in (0, 3):
+        return None
+    text = "How many triangles are drawn after this one is clipped against the near plane?"
+    given = f"w + z at the three vertices: {place_text(distances)}. Inside is where it is positive."
+    hints = ("How many vertices does the polygon have that is left?", "n vertices make n - 2 triangles.")
+    rule = RULES["quad-as-triangle"]
+    right, wrong = int(rule.right(inside)[0]), int(rule.wrong(inside)[0])
+    return one_of(
+        text, given, ("none", "1", "2", "3"), right, hints, {} if wrong == right else {rule.name: wrong}
+    )
+
+
+def draw_area(draws: Draws) -> Draft | None:
+    """What a window leaves of a triangle."""
+    left, bottom = draws.whole(1, 4), draws.whole(1, 3)
+    wide, high = draws.whole(4, 8), draws.whole(4, 6)
+    corners = [(left, bottom), (left + wide, bottom), (left, bottom + high)]
+    window = [(0, 0), (draws.whole(4, 6), 0)]
+    window = [*window, (window[1][0], 9), (0, 9)]
+    rule = RULES["window-clockwise"]
+    polygons = [[(float(x), float(y)) for x, y in places] for places in (corners, window)]
+    if not 0 < rule.right(*polygons)[0] < wide * high / 2:
+        return None
+    text = "What is the area that is left of the triangle after it is clipped to the window?"
+    given = (
+        f"Triangle: {corner_text([(Fraction(x), Fraction(y)) for x, y in corners])}\nWindow, counter-clockwise: "
+        f"{corner_text([(Fraction(x), Fraction(y)) for x, y in window])}"
+    )
+    hints = (
+        "Which border does it cross?",
+        "Find the new corners, then the area of the polygon, or of what is cut off.",
+    )
+    return by_rule(text, given, tuple(polygons), (rule.name,), hints)
+
+
+def draw_ends(draws: Draws) -> Draft | None:
+    """The ends that are left of a segment."""
+    ends: Ends = ((draws.whole(-6, 2), draws.whole(-5, 2)), (draws.whole(6, 14), draws.whole(4, 11)))
+    scene, settings = segment_scene([ends], SIZE), Settings(line_clipping="liang-barsky")
+    clipped = clip_lines([ends], (0, 0, *SIZE))
+    if not clipped.is_kept[0] or (clipped.cut_by < 0).any():
+        return None
+    right = [c for edge in clipped.cut_by[0].tolist() for c in crossing(ends, edge) or ()]
+    wrong = {
+        name: np.ravel(clipped_ends(scene, SHELF[name].change_settings(settings))).tolist()
+        for name in ("ends-clamped", "crossings-rounded", "cut-once")
+    }
+    text = "What is left of the segment in the window? Both ends, x before y, in its direction."
+    hints = (
+        "Which borders does it cross inside of the window?",
+        "Find t at each border; the last entry and the first exit count.",
+        "A new end lies on the given line.",
+    )
+    given = f"{WINDOW}, segment from {ends[0]} to {ends[1]}."
+    return numbers(text, given, right, hints, wrong, ("x0", "y0", "x1", "y1"), None, scene, settings)
+
+
+VERDICTS = (
+    "kept whole",
+    "shortened",
+    "rejected: t_E > t_L",
+    "rejected: parallel to an edge and outside of it",
+)
+
+
+def draw_verdict(draws: Draws) -> Draft | None:
+    """What Cyrus-Beck does with a segment; each verdict is asked for equally often."""
+    wanted = draws.whole(0, 3)
+    start, end = ((draws.whole(-6, 14), draws.whole(-5, 11)) for _ in range(2))
+    if wanted == 3:
+        end = (end[0], start[1])
+    outside = [not 0 <= c <= s for c, s in zip(start, SIZE, strict=True)]
+    along = [b - a for a, b in zip(start, end, strict=True)]
+    if start == end:
+        return None
+    is_parallel_outside = any(d == 0 and o for d, o in zip(along, outside, strict=True))
+    clipped = clip_lines([(start, end)], (0, 0, *SIZE))
+    is_cut = bool((clipped.cut_by >= 0).any())
+    verdict = 3 if is_parallel_outside else 2 if not clipped.is_kept[0] else 1 if is_cut else 0
+    if verdict != wanted:
+        return None
+    text = (
+        "What does Cyrus-Beck do with this segment? t_E is the largest t of the entries and 0, t_L the smallest t of "
+        "the exits and 1; a segment parallel to an edge and outside of it is rejected."
+    )
+    scene, settings = segment_scene([(start, end)], SIZE), Settings(line_clipping="liang-barsky")
+    kept = clipped_ends(scene, SHELF["parallel-kept"].change_settings(settings))
+    wrong = {}
+    if verdict == 3 and kept:
+        wrong["parallel-kept"] = 0 if np.array_equal(kept[0], [start, end]) else 1
+    given = f"{WINDOW}, segment from {start} to {end}."
+    hints = (
+        "Is N . D zero at some edge?",
+        "N . D < 0 enters, N . D > 0 leaves.",
+        "Compare the last entry with the first exit.",
+    )
+    return one_of(text, given, VERDICTS, verdict, hints, wrong, scene)
+
+
+def draw_rejected(draws: Draws) -> Draft | None:
+    """Segments that outcodes reject at once."""
+    segments = [tuple((draws.whole(-6, 14), draws.whole(-5, 11)) for _ in range(2)) for _ in range(5)]
+    codes = [[code_of(place) for place in ends] for ends in segments]
+    right = [k for k, (a, b) in enumerate(codes) if any(x == y == "1" for x, y in zip(a, b, strict=True))]
+    text = (
+        "Which segments does Cohen-Sutherland reject at once? An outcode has a bit for each border that an end lies "
+        "outside of; a segment is rejected where both ends share a bit."
+    )
+    names = "ABCDE"
+    given = f"{WINDOW}.\n" + "\n".join(
+        f"{name}: {ends[0]} to {ends[1]}" for name, ends in zip(names, segments, strict=True)
+    )
+    hints = ("Write the outcodes of all ends.", "Two ends outside of different borders share no bit.")
+    return several(text, given, tuple(names), right, hints)
+
+
+TEMPLATES = (
+    Template("planes-outside", 1, "Planes of the view volume", "clip", 3, draw_planes),
+    Template("near-crossing", 1, "A new vertex at the near plane", "clip", 2, draw_near),
+    Template("triangles-after-clipping", 1, "Triangles after clipping", "clip", 1, draw_count),
+    Template("clipped-area", 1, "What a window leaves of a triangle", "clip", 4, draw_area),
+    Template("clipped-ends", 1, "What a window leaves of a segment", "raster", 4, draw_ends),
+    Template("cyrus-beck-verdict", 1, "Cyrus-Beck's verdicts", "raster", 2, draw_verdict),
+    Template("rejected-at-once", 1, "Segments rejected at once", "raster", 3, draw_rejected),
+)
