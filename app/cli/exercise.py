@@ -30,6 +30,8 @@ EXAMPLES = """examples:
 
 An answer is a TOML file with one key. Pixels: answer = text art, top row first, or a list of [column, row].
 Numbers: answer = "1/3", or a list of numbers. Table: a list of rows. Order and choice: a list of names.
+Places: a list of [x, y]. Line: its number. Picture: {pixels = [[column, row]], option = "name"}. Steps: a list with one
+entry, or a list of tries, for each. Break: a list of numbers. Cheapest: {family = "method"}.
 """
 
 

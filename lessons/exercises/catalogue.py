@@ -14,7 +14,11 @@ from lessons.exercises.templates import (
     fragments,
     line_methods,
     lines,
+    placing,
     polygons,
+    reading,
+    running,
+    stepping,
     transforms,
 )
 
@@ -31,6 +35,10 @@ TEMPLATES: dict[str, Template] = {
         line_methods,
         clipping,
         fragments,
+        placing,
+        reading,
+        stepping,
+        running,
     )
     for template in module.TEMPLATES
 }

@@ -1,6 +1,6 @@
 """The answer of an exercise file: what it says, or what the pipeline draws of its scene."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from functools import partial
 
@@ -85,9 +85,9 @@ def answer_of(
     if drawn is None:
         raise ValueError("expected a scene to draw")
     if isinstance(part, PlacePart):
-        return _corner_answer(part, drawn, settings)
+        return corner_answer(drawn, part.corner, settings, part.step)
     if isinstance(part, SpotPart):
-        return _spot_answer(part, drawn, settings, draws)
+        return spot_answer((part.mistake, *part.others), drawn, settings, draws)
     if isinstance(part, BreakPart):
         return _break_answer(part, drawn, settings), given
     return _cheapest_answer(part, drawn.scene, settings), given
@@ -116,10 +116,12 @@ def _step(part: StepPart) -> Step:
     return Step(part.ask, "choice", part.options.index(part.right), tuple(part.options))
 
 
-def _corner_answer(part: PlacePart, drawn: DrawnScene, settings: Settings) -> tuple[PlaceAnswer, str]:
+def corner_answer(
+    drawn: DrawnScene, at: Sequence[int], settings: Settings, step: Fraction
+) -> tuple[PlaceAnswer, str]:
     """Hide a corner and ask for a place from which the triangles cover the same."""
-    place = drawn.corner(part.corner)
-    frame = render(drawn.with_corner(part.corner, place), settings)
+    place = drawn.corner(at)
+    frame = render(drawn.with_corner(at, place), settings)
     right = seen_pixels(frame)
     columns, rows = drawn.scene.size
     if not (right and 0 <= place[0] <= columns and 0 <= place[1] <= rows):
@@ -127,7 +129,7 @@ def _corner_answer(part: PlacePart, drawn: DrawnScene, settings: Settings) -> tu
 
     def scene_of(places: Places) -> ClipScene:
         x, y = places[0]
-        return drawn.with_corner(part.corner, (Fraction(x), Fraction(y)))
+        return drawn.with_corner(at, (Fraction(x), Fraction(y)))
 
     def covers_the_same(places: Places) -> bool:
         return seen_pixels(render(scene_of(places), settings)) == right
@@ -136,39 +138,38 @@ def _corner_answer(part: PlacePart, drawn: DrawnScene, settings: Settings) -> tu
         drawn.scene.size,
         ("corner",),
         (place,),
-        step=part.step,
+        step=step,
         is_right=covers_the_same,
         rule="the same pixels are covered",
         scene_of=scene_of,
     )
-    return answer, f"{drawn.text(part.corner)}\n{frame_art(frame)}"
+    return answer, f"{drawn.text(at)}\n{frame_art(frame)}"
 
 
-def _spot_answer(
-    part: SpotPart, drawn: DrawnScene, settings: Settings, draws: Draws
+def spot_answer(
+    names: Sequence[str], drawn: DrawnScene, settings: Settings, draws: Draws
 ) -> tuple[SpotAnswer, str]:
-    """Show what a mistake makes of the scene."""
-    scene = drawn.scene
+    """Show what the first of some mistakes makes of the scene; all are there to choose from."""
+    scene, mistake = drawn.scene, names[0]
     if not isinstance(scene, ClipScene):
         raise ValueError("expected triangles or segments in the window, got a mesh")
     right = render(scene, settings)
-    frames = {name: SHELF[name].draw(scene, settings) for name in (part.mistake, *part.others)}
-    differs = {name: different_pixels(right, frame) for name, frame in frames.items()}
-    wrong = differs[part.mistake]
+    frames = {name: SHELF[name].draw(scene, settings) for name in names}
+    wrong = different_pixels(right, frames[mistake])
     if not 0 < len(wrong) < right.primitive.size:
-        raise NoQuestionError(f"{part.mistake} does not show in some pixels and hide in others")
-    for name in part.others:
-        if not different_pixels(frames[name], frames[part.mistake]):
-            raise NoQuestionError(f"{name} and {part.mistake} make the same picture")
-    names = draws.shuffled(tuple(frames)) if part.others else ()
-    options = tuple(name.replace("-", " ") for name in names)
-    shown_frame = frames[part.mistake]
-    right_option = names.index(part.mistake) if names else 0
-    answer = SpotAnswer(scene.size, shown_frame, wrong, options, right_option)
-    return answer, f"{drawn.text()}\n{frame_art(shown_frame)}"
+        raise NoQuestionError(f"{mistake} does not show in some pixels and hide in others")
+    for name in names[1:]:
+        if not different_pixels(frames[name], frames[mistake]):
+            raise NoQuestionError(f"{name} and {mistake} make the same picture")
+    mixed = draws.shuffled(names) if len(names) > 1 else ()
+    options = tuple(name.replace("-", " ") for name in mixed)
+    number = mixed.index(mistake) if mixed else 0
+    answer = SpotAnswer(scene.size, frames[mistake], wrong, options, number)
+    return answer, f"{drawn.text()}\n{frame_art(frames[mistake])}"
 
 
-def _is_drawn_twice(scene: ClipScene, settings: Settings) -> bool:
+def is_drawn_twice(scene: ClipScene, settings: Settings) -> bool:
+    """Return whether a pixel is drawn by two triangles."""
     return bool((render(scene, settings).cover_count > 1).any())
 
 
@@ -186,7 +187,7 @@ def _break_answer(part: BreakPart, drawn: DrawnScene, settings: Settings) -> Bre
     )
     weak, robust = (settings_from_texts(texts, settings) for texts in (part.weak, part.robust))
     fails: Callable[[ClipScene, Settings], bool] = (
-        _is_drawn_twice if part.fails == "twice" else partial(_differs, settings)
+        is_drawn_twice if part.fails == "twice" else partial(_differs, settings)
     )
 
     def scene_of(values: Values) -> ClipScene:

@@ -146,3 +146,14 @@ def judge(question: Question, response: Response) -> Judgement:
         return Judgement(verdict, points, (), False)
     names = tuple(name for name, wrong in draft.mistakes.items() if draft.answer.is_same(response, wrong))
     return Judgement(verdict, points, names, not names and draft.answer.is_slip(response))
+
+
+def hints_after(question: Question, response: Response | None = None) -> list[str]:
+    """Return the hints in order; after a wrong answer those of its mistakes first, and last where it goes wrong."""
+    hints = list(question.draft.hints)
+    if response is None:
+        return hints
+    judgement = judge(question, response)
+    named = [] if judgement.is_slip else judgement.sentences
+    first_wrong = question.draft.answer.first_wrong(response)
+    return [*named, *hints, *([first_wrong] if first_wrong else [])]

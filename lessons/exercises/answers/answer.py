@@ -11,7 +11,7 @@ Response = Any
 """An answer that was read: its type of answer knows its shape, and two that are the same compare equal."""
 
 
-CANDIDATES = 100
+CANDIDATES = 64
 """Most answers of which a run is asked, where what chance gives is found by running."""
 
 

@@ -1,8 +1,9 @@
 """Be the rasterizer: one step at a time, each judged at once; a wrong one is tried again or put right."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
+from math import prod
 from typing import Any, ClassVar, Literal
 
 from lessons.exercises.answers.amounts import random_number, read_entry
@@ -120,8 +121,8 @@ class StepsAnswer(Answer):
 
     @property
     def is_many(self) -> bool:
-        """Whether first wrong steps are many: by them runs are compared."""
-        return sum(map(self._count, self.steps)) > 1000
+        """Whether there are more than a thousand runs."""
+        return prod(map(self._count, self.steps)) > 1000
 
     def open_step(self, run: Run) -> int | None:
         """Return the number of the step that is asked now; ``None``: all are done."""
@@ -165,7 +166,7 @@ class StepsAnswer(Answer):
         """Count the steps whose first try is right."""
         marks: dict[str, list[int]] = {"right": [], "wrong": [], "fixed": []}
         for number, (step, tries) in enumerate(zip(self.steps, response, strict=False)):
-            marks["right" if tries and step.is_right(tries[0]) else "wrong"].append(number)
+            marks["right" if step.is_right(tries[0]) else "wrong"].append(number)
             if FIXED in tries:
                 marks["fixed"].append(number)
         right, count = len(marks["right"]), len(self.steps)
@@ -173,24 +174,18 @@ class StepsAnswer(Answer):
         counts = f"{right} of {count} steps right, {wrong} wrong, {left} not done"
         return Verdict(right / count, counts, marks)
 
-    def _first_wrong(self, run: Run) -> tuple[int, Value] | None:
+    def _first_wrong(self, run: Sequence[Tries]) -> int | None:
         for number, (step, tries) in enumerate(zip(self.steps, run, strict=False)):
-            if not tries or not step.is_right(tries[0]):
-                return number, tries[0] if tries else FIXED
+            if not step.is_right(tries[0]):
+                return number
         return None
 
     def is_same(self, one: Run, other: Run) -> bool:
-        """Compare the first wrong step: what follows begins again from the right state."""
-        first, second = self._first_wrong(one), self._first_wrong(other)
-        if first is None or second is None:
-            return first is second and len(one) == len(other)
-        number, mine = first
-        if number != second[0]:
+        """Compare the first tries; a run that is not finished says the same if it is wrong somewhere."""
+        pairs = list(zip(self.steps, one, other, strict=False))
+        if not all(_is_same_try(step, mine[0], its[0]) for step, mine, its in pairs):
             return False
-        step, its = self.steps[number], second[1]
-        if mine is FIXED or its is FIXED:
-            return mine is its
-        return Step(step.prompt, step.kind, its, step.options, step.tolerance).is_right(mine)
+        return len(one) == len(other) or self._first_wrong([mine for _, mine, _ in pairs]) is not None
 
     def is_slip(self, response: Run) -> bool:
         """All steps are done, and one alone went wrong."""
@@ -207,7 +202,7 @@ class StepsAnswer(Answer):
     def first_wrong(self, response: Run) -> str:
         """Name the first wrong step."""
         found = self._first_wrong(response)
-        return "" if found is None else f"The first wrong step: {self.steps[found[0]].prompt}."
+        return "" if found is None else f"The first wrong step: {self.steps[found].prompt}."
 
     def random(self, draws: Draws) -> Run:
         """Guess every step."""
@@ -226,6 +221,12 @@ class StepsAnswer(Answer):
     def extremes(self) -> list[Run]:
         """Have every step put right, or do none."""
         return [((FIXED,),) * len(self.steps), ()]
+
+
+def _is_same_try(step: Step, one: Value, other: Value) -> bool:
+    if one is FIXED or other is FIXED:
+        return one is other
+    return replace(step, right=other).is_right(one)
 
 
 def _is_pair(given: object) -> bool:

@@ -14,7 +14,7 @@ from core import clip_lines, trace
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.draws import Draws
-from lessons.exercises.question import Draft, Template, ask, judge
+from lessons.exercises.question import Draft, Template, ask, hints_after, judge
 from lessons.exercises.selftest import check_template, question_problems, question_text
 from lessons.exercises.templates import clipping, fragments, lines
 from lessons.exercises.templates.clipping import outcode_table, parameter_table
@@ -28,8 +28,7 @@ SEGMENT = ((-1, -2), (9, 7))
 
 @pytest.mark.parametrize("template", TEMPLATES.values(), ids=TEMPLATES)
 def test_a_template_asks_fairly(template: Template) -> None:
-    found = check_template(template, range(1))
-    assert found.problems == ()
+    assert question_problems(ask(template, 0)) == []
 
 
 @pytest.mark.parametrize("template", TEMPLATES.values(), ids=TEMPLATES)
@@ -189,6 +188,16 @@ def test_a_twin_wins_over_a_slip_and_equal_twins_are_both_named() -> None:
     perspective = ask(TEMPLATES["perspective-u"], 1)
     both = judge(perspective, perspective.draft.mistakes["w-overwritten"])
     assert both.mistakes == ("affine-for-perspective", "w-overwritten")
+
+
+def test_hints_begin_with_the_mistake_and_end_with_where_it_goes_wrong() -> None:
+    question = ask(TEMPLATES["bresenham-table"], 1)
+    draft = question.draft
+    assert hints_after(question) == hints_after(question, draft.answer.reference) == list(draft.hints)
+    wrong = hints_after(question, draft.mistakes["start-not-doubled"])
+    assert wrong[0] == SHELF["start-not-doubled"].sentence
+    assert wrong[1:-1] == list(draft.hints)
+    assert wrong[-1] == f"The first wrong cell: D, {draft.answer.labels[0]}."
 
 
 def test_a_template_that_cannot_draw_its_question_says_so() -> None:

@@ -1,0 +1,143 @@
+"""Listings with one wrong line, and pictures that a mistake made."""
+
+from fractions import Fraction
+
+import numpy as np
+
+from core import Settings
+from lessons.exercises.answers.listings import LineAnswer
+from lessons.exercises.answers.pixels import PixelAnswer, Pixels
+from lessons.exercises.drawn_scene import DrawnScene
+from lessons.exercises.draws import Draws
+from lessons.exercises.file_answers import NoQuestionError, spot_answer
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.coverage import RULE, twice_area
+from lessons.mistakes.lines import LECTURE, faulty_listing
+from lessons.mistakes.twin import line_pixels
+from lessons.printed.catalogue import printed_listing
+from lessons.small_scenes import pixel_segments, triangle_scene
+
+LISTING = (
+    "dx = x1 - x0",
+    "dy = y1 - y0",
+    "yi = 1",
+    "if dy < 0:",
+    "    yi = -1",
+    "    dy = -dy",
+    "D = 2*dy - dx",
+    "y = y0",
+    "for x = x0 to x1:",
+    "    draw(x, y)",
+    "    if D > 0:",
+    "        y = y + yi",
+    "        D = D - 2*dx",
+    "    D = D + 2*dy",
+)
+"""Bresenham's line for x0 < x1 and slopes from -1 to 1, the last pixel drawn."""
+FAULTS = {
+    "ties-step": (10, "    if D >= 0:"),
+    "start-not-doubled": (6, "D = dy - dx"),
+    "slope-always-up": (11, "        y = y + 1"),
+    "last-pixel-lost": (8, "for x = x0 to x1 - 1:"),
+}
+"""By the name of a twin, the number of its line from 0, and that line."""
+SIZE = (14, 9)
+
+
+def listed_pixels(fault: str, ends: tuple[tuple[int, int], tuple[int, int]]) -> Pixels:
+    """Return the pixels that the listing with a fault draws in the window."""
+    columns, rows = SIZE
+    pixels = ((x, y) for x, y, _ in faulty_listing(fault, *ends[0], *ends[1]))
+    return frozenset((x, y) for x, y in pixels if 0 <= x < columns and 0 <= y < rows)
+
+
+def draw_line(draws: Draws) -> Draft | None:
+    """Bresenham's listing with the line of a twin."""
+    fault = draws.item(tuple(FAULTS))
+    dx = draws.whole(6, 10)
+    dy = draws.whole(1, min(dx - 1, 5))
+    x0, low = draws.whole(0, 3), draws.whole(0, 2)
+    ends = (
+        ((x0, low + dy), (x0 + dx, low)) if fault == "slope-always-up" else ((x0, low), (x0 + dx, low + dy))
+    )
+    right = line_pixels(pixel_segments([ends], SIZE), LECTURE)
+    drawn = listed_pixels(fault, ends)
+    if drawn == right:
+        return None
+    number, wrong = FAULTS[fault]
+    answer = LineAnswer((*LISTING[:number], wrong, *LISTING[number + 1 :]), number)
+    text = (
+        "This listing should draw Bresenham's line: D begins at 2 dy - dx, a tie (D = 0) stays in the row, and the "
+        "last pixel is drawn. One line is wrong. Which?"
+    )
+    art = PixelAnswer(SIZE, right).text(drawn)
+    given = f"{answer.listing}\n\nFrom pixel {ends[0]} to pixel {ends[1]} it draws:\n{art}"
+    hints = (
+        "Where does the drawn line first leave the right one?",
+        "Follow D by hand for the first pixels, and compare with the listing.",
+        "D takes 2 dy with every pixel and loses 2 dx with every step of y.",
+    )
+    return Draft(text, given, answer, hints, {}, pixel_segments([ends], SIZE), LECTURE)
+
+
+SLIPS = (
+    ("lmu-common-steps", "v += 1", "the pixel (x, y) is to be drawn next"),
+    ("lmu-with-d", "D=2*dy-x", "D is the part of 2 e dx + 2 dy - dx that stays the same"),
+    ("lmu-final", "D = 2*dx", "a step of y lowers D by 2 dx"),
+    ("lmu-falling", "D=2*dy-dx", "dy is below 0, and D begins at 2 |dy| - dx"),
+    ("jubair-cyrus-beck", "if Ni . D != 0 then", "a segment along an edge and outside of it is rejected"),
+)
+"""Printed listings, what their wrong line holds, and what must hold instead."""
+
+
+def draw_slip(draws: Draws) -> Draft:
+    """A listing as a lecture prints it."""
+    name, slip, rule = draws.item(SLIPS)
+    printed = printed_listing(name)
+    lines = tuple(printed.text.split("\n"))
+    answer = LineAnswer(lines, next(k for k, line in enumerate(lines) if slip in line))
+    text = f"{printed.title}, as a lecture prints it. One line is a slip: {rule}. Which line?"
+    hints = (
+        "Ask of every line what it changes, and whether that is declared.",
+        f"Which line has to care that {rule}?",
+    )
+    return Draft(text, answer.listing, answer, hints)
+
+
+PICTURES = (
+    "corner-for-center",
+    "all-edges-inclusive",
+    "all-edges-exclusive",
+    "vertices-rounded",
+    "y-down",
+    "rows-and-columns",
+    "box-truncated",
+)
+
+
+def draw_picture(draws: Draws) -> Draft | None:
+    """The picture of a triangle with one of several mistakes."""
+    half = Fraction(1, 2)
+    corners = [(draws.step(half, Fraction(11), half), draws.step(half, Fraction(8), half)) for _ in range(3)]
+    names = draws.shuffled(PICTURES)[:4]
+    if twice_area(corners) < 16:
+        return None
+    drawn = DrawnScene(triangle_scene(np.array([corners], float), (12, 9)), (tuple(corners),))
+    try:
+        answer, given = spot_answer(names, drawn, Settings(), draws)
+    except NoQuestionError:
+        return None
+    text = f"What is wrong with this picture? Click where, and say which mistake made it. {RULE}"
+    hints = (
+        "Find a row in which the edges of the triangle do not fit to the pixels.",
+        "Look at the lowest and the highest row, and at centres that lie on edges.",
+        "Is the shape moved, turned over, too large or too small?",
+    )
+    return Draft(text, given, answer, hints, {}, drawn.scene)
+
+
+TEMPLATES = (
+    Template("wrong-line", 1, "The wrong line of Bresenham", "raster", 2, draw_line),
+    Template("lecture-slip", 1, "A slip in a lecture's listing", "raster", 2, draw_slip),
+    Template("wrong-picture", 1, "What is wrong with this picture", "raster", 4, draw_picture),
+)

@@ -1,0 +1,186 @@
+"""Break a weak method, and choose no more than needed: judged by running."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from functools import partial
+
+import numpy as np
+
+from core import Settings, render
+from core.scene import ClipScene
+from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Dial, Family, Values
+from lessons.exercises.drawn_scene import Corner
+from lessons.exercises.draws import Draws
+from lessons.exercises.file_answers import FAILS, byte_error, is_drawn_twice
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.coverage import SIZE, corner_text
+from lessons.scenes import make_scene
+from lessons.small_scenes import triangle_scene
+
+SEARCH_LIMIT = 200
+"""Most values of the dials that are tried to find some that break the weak method."""
+Fails = Callable[[ClipScene, Settings], bool]
+
+
+def breaking(
+    draws: Draws,
+    dials: tuple[Dial, ...],
+    start: Values,
+    scene_of: Callable[[Values], ClipScene],
+    weak: Settings,
+    robust: Settings,
+    fails: Fails,
+    rule: str,
+) -> BreakAnswer | None:
+    """Return the answer; ``None`` where the weak method fails from the start, or nothing that is tried breaks it."""
+
+    def breaks(values: Values) -> bool:
+        scene = scene_of(values)
+        return fails(scene, weak) and not fails(scene, robust)
+
+    if breaks(start):
+        return None
+    for _ in range(SEARCH_LIMIT):
+        values = tuple(draws.step(dial.low, dial.high, dial.step) for dial in dials)
+        if breaks(values):
+            return BreakAnswer(dials, start, values, scene_of, weak, robust, fails, rule)
+    return None
+
+
+def draw_shared_corner(draws: Draws) -> Draft | None:
+    """The common corner of two triangles."""
+    quarter, half = Fraction(1, 4), Fraction(1, 2)
+    left = (quarter, draws.whole(2, 5) + quarter)
+    right = (Fraction(47, 4), draws.whole(2, 5) + quarter)
+    top = (draws.whole(4, 7) + half, Fraction(35, 4))
+    start = (draws.whole(3, 8) + quarter, Fraction(1) + quarter)
+    dials = (
+        Dial("x", Fraction(3), Fraction(9), quarter, (0, 1, 0)),
+        Dial("y", Fraction(0), Fraction(2), quarter, (0, 1, 1)),
+    )
+
+    def corners_of(values: Values) -> list[list[Corner]]:
+        moved = (values[0], values[1])
+        return [[left, moved, top], [moved, right, top]]
+
+    def scene_of(values: Values) -> ClipScene:
+        return triangle_scene(np.array(corners_of(values), float), SIZE)
+
+    weak, robust = Settings(fill_rule="inclusive"), Settings()
+    answer = breaking(draws, dials, start, scene_of, weak, robust, is_drawn_twice, FAILS["twice"])
+    if answer is None:
+        return None
+    first, second = corners_of(start)
+    text = (
+        "Two triangles share an edge. Move its lower corner so that the rule E >= 0 on all edges draws a pixel twice, "
+        "and the rule that gives each centre to one triangle does not."
+    )
+    given = (
+        f"Window of {SIZE[0]} x {SIZE[1]} pixels. Triangle A: {corner_text(first)}. Triangle B: {corner_text(second)}. "
+        "The corner moves in steps of 1/4, x from 3 to 9 and y from 0 to 2."
+    )
+    hints = (
+        "Only centres that lie exactly on the common edge are in both triangles.",
+        "Where must both ends of an edge lie so that it runs through centres?",
+        f"The upper end is {corner_text([top])}. Which edges from there meet a centre (i + 1/2, j + 1/2)?",
+    )
+    return Draft(text, given, answer, hints, {}, scene_of(start), robust)
+
+
+PLACES = ((0.5, 0.5), (11.5, 0.5), (0.5, 8.5))
+
+
+def attribute_error(scene: ClipScene, settings: Settings) -> float:
+    """Return how far an attribute is from perspective, at the pixel where it is farthest."""
+    right, frame = (render(scene, one) for one in (Settings(), settings))
+    return float(np.abs(frame.attributes - right.attributes).max(initial=0))
+
+
+def is_farther(limit: Fraction, scene: ClipScene, settings: Settings) -> bool:
+    """Return whether an attribute is off by more than ``limit``."""
+    return attribute_error(scene, settings) > limit
+
+
+def draw_affine(draws: Draws) -> Draft | None:
+    """The w of a vertex."""
+    span = draws.item((8, 16, 32))
+    limit = Fraction(draws.whole(3, 5) * span, 64)
+    dials = (Dial("w of vertex 1", Fraction(1), Fraction(8), Fraction(1, 4)),)
+
+    def scene_of(values: Values) -> ClipScene:
+        w = np.array([[1, float(values[0]), 1]])
+        return triangle_scene([PLACES], SIZE, w=w, attributes=np.array([[[0.0], [span], [0.0]]]))
+
+    weak = Settings(interpolation="affine")
+    robust = Settings(interpolation="affine-n", correction_interval=8)
+    rule = f"u is wrong by more than {number_text(limit)} at a pixel"
+    answer = breaking(draws, dials, (Fraction(1),), scene_of, weak, robust, partial(is_farther, limit), rule)
+    if answer is None:
+        return None
+    text = (
+        "Choose w of vertex 1 so that affine interpolation fails and affine interpolation that is corrected every 8 "
+        "pixels does not. Both are compared with perspective."
+    )
+    given = (
+        f"u is {span} at vertex 1 and 0 at the others, whose w is 1. {dials[0].name}: 1 to 8 in steps of 1/4."
+    )
+    hints = (
+        "With equal w nothing is wrong.",
+        "The farther the values of w are apart, the larger is the error of both.",
+        "Corrected every 8 pixels, the error is that of a short part: find a w between too small and too large.",
+    )
+    return Draft(text, given, answer, hints, {}, scene_of((Fraction(1),)), robust)
+
+
+OPERATIONS = {"flat": 0, "affine": 5, "affine-n": 6, "perspective": 12}
+"""Arithmetic operations at a pixel: three products and two sums; for perspective twice, a division, a reciprocal."""
+BYTES = {"z-16": 2, "z-24": 3, "z-float32": 4}
+"""Of the depth at a pixel."""
+
+
+def draw_cheapest(draws: Draws) -> Draft | None:
+    """Interpolation and the number format of depth."""
+    columns = draws.whole(12, 24)
+    scene = replace(make_scene("near-plane"), size=(columns, columns * 3 // 4))
+    limit = Fraction(draws.whole(2, 20) * 5)
+    families = tuple(
+        Family(name, tuple(costs), tuple(map(Fraction, costs.values())))
+        for name, costs in (("interpolation", OPERATIONS), ("depth", BYTES))
+    )
+    base = Settings()
+    try:
+        answer = CheapestAnswer(families, limit, partial(byte_error, scene, base), base)
+    except ValueError:
+        return None
+    text = (
+        "Choose the cheapest methods with which no colour channel of any pixel is off by more than "
+        f"{number_text(limit)} of 255 from the reference picture (perspective, float32 depth)."
+    )
+    costs = [
+        f"{family.name}: "
+        + ", ".join(
+            f"{method} {number_text(cost)}" for method, cost in zip(family.methods, family.costs, strict=True)
+        )
+        for family in families
+    ]
+    given = "\n".join(
+        [
+            f"Scene near-plane, {columns} x {scene.size[1]} pixels. Costs at a pixel (operations; bytes of depth):",
+            *costs,
+        ]
+    )
+    hints = (
+        "What does each family change in this scene: colours, or what is seen?",
+        "Begin with the cheapest of all, and make dearer what the error comes from.",
+        "Only one surface is seen at each pixel here: how fine must its depth be?",
+    )
+    return Draft(text, given, answer, hints, {}, scene, base)
+
+
+TEMPLATES = (
+    Template("break-inclusive", 1, "Break the rule E >= 0", "raster", 3, draw_shared_corner),
+    Template("break-affine", 1, "Break affine interpolation", "interpolate", 3, draw_affine),
+    Template("cheapest-methods", 1, "No more than needed", "interpolate", 4, draw_cheapest),
+)
