@@ -3,44 +3,58 @@
 from collections.abc import Mapping
 from pathlib import Path
 
+from core import STAGES
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Template
 from lessons.exercises.templates import (
     clipping,
     coverage,
+    depths,
     edges,
     faces,
     filling,
     fragments,
+    interpolation,
+    lighting,
     line_methods,
     lines,
+    mixing,
     placing,
     polygons,
     reading,
     running,
     stepping,
+    textures,
     transforms,
+)
+
+_MODULES = (
+    transforms,
+    faces,
+    polygons,
+    edges,
+    coverage,
+    filling,
+    lines,
+    line_methods,
+    clipping,
+    interpolation,
+    textures,
+    lighting,
+    fragments,
+    depths,
+    mixing,
+    placing,
+    reading,
+    stepping,
+    running,
 )
 
 TEMPLATES: dict[str, Template] = {
     template.name: template
-    for module in (
-        transforms,
-        faces,
-        polygons,
-        edges,
-        coverage,
-        filling,
-        lines,
-        line_methods,
-        clipping,
-        fragments,
-        placing,
-        reading,
-        stepping,
-        running,
+    for template in sorted(
+        (each for module in _MODULES for each in module.TEMPLATES), key=lambda each: STAGES.index(each.stage)
     )
-    for template in module.TEMPLATES
 }
 """By name, stage by stage."""
 

@@ -1,0 +1,176 @@
+"""Depth and visibility: what a buffer stores, which surface is seen."""
+
+from collections.abc import Callable, Sequence
+from fractions import Fraction
+
+from core import Settings, render
+from core.framebuffer.depth_formats import unsigned_depth
+from core.scene import ClipScene
+from lessons.exercises.answers.choices import OrderAnswer
+from lessons.exercises.answers.tables import Cell, Follow, Row
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.drafting import by_rule, numbers, one_of, place_text, several, table
+from lessons.mistakes.depths import cards
+from lessons.mistakes.shelf import RULES, SHELF
+
+NAMES = tuple("ABCD")
+
+
+def draw_window_depth(draws: Draws) -> Draft:
+    """Window depth at a distance."""
+    near, far = draws.whole(1, 2), draws.item((5, 9, 10, 20))
+    distance = draws.whole(near + 1, far - 1)
+    text = (
+        "What is the window depth, from 0 at the near plane to 1 at the far plane, of a surface at this distance? "
+        "Perspective: z = f (d - n) / (d (f - n))."
+    )
+    given = f"n = {near}, f = {far}, d = {distance}"
+    hints = ("Is depth linear in the distance?", "It is linear in 1/d: 0 at n, 1 at f.")
+    return by_rule(text, given, (near, far, distance), ("depth-linear", "near-plane-tiny"), hints)
+
+
+def draw_steps(draws: Draws) -> Draft:
+    """Whole steps of a 16-bit buffer between two surfaces."""
+    near, far = 1, draws.item((100, 1000))
+    distance = draws.whole(10, 90)
+    depths = [RULES["depth-linear"].right(near, far, d)[0] for d in (distance, distance + 1)]
+    right = [Fraction(unsigned_depth(float(z), 2**16 - 1)) for z in depths]
+    linear = [RULES["depth-linear"].wrong(near, far, d)[0] for d in (distance, distance + 1)]
+    wrong = [Fraction(unsigned_depth(float(z), 2**16 - 1)) for z in linear]
+    text = (
+        "A depth buffer of 16 bits stores round(65535 z) of the window depth z = f (d - n) / (d (f - n)). Which two "
+        "whole numbers does it store for surfaces at these distances?"
+    )
+    given = f"n = {near}, f = {far}\nDistances: {distance} and {distance + 1}"
+    hints = ("Find z of both.", "Multiply by 65535 and round.", "Equal numbers would fight.")
+    return numbers(text, given, right, hints, {"depth-linear": wrong}, ("first", "second"))
+
+
+def draw_fighting(draws: Draws) -> Draft | None:
+    """Pairs of surfaces that a 16-bit buffer cannot tell apart."""
+    near, far = 1, 1000
+    gap = Fraction(draws.item((1, 2, 5)), 10)
+    distances = sorted({draws.whole(2, 60) for _ in range(4)} | {draws.whole(300, 900)})[-4:]
+    if len(distances) < 4:
+        return None
+    depth = RULES["depth-linear"].right
+    stored = [
+        [unsigned_depth(float(depth(near, far, d + shift)[0]), 2**16 - 1) for shift in (0, gap)]
+        for d in distances
+    ]
+    right = [k for k, (first, second) in enumerate(stored) if first == second]
+    text = (
+        "Which pairs of surfaces does a depth buffer of 16 bits store as equal? It stores round(65535 z) of the window "
+        "depth z = f (d - n) / (d (f - n))."
+    )
+    pairs = [f"{d} and {number_text(d + gap)}" for d in distances]
+    hints = (
+        "Where are the steps of depth widest?",
+        "z changes by about f n gap / (d d (f - n)).",
+    )
+    return several(text, f"n = {near}, f = {far}", pairs, right, hints)
+
+
+def follow_nearest(values: Sequence[tuple[int, Fraction]]) -> Follow:
+    """Return the follow-through of a buffer that keeps the larger value."""
+
+    def follow(own: Sequence[Row], row: int, mine: Row) -> Cell:
+        pixel, value = values[row]
+        before = [
+            cells[0][1] for cells, (its, _) in zip(own, values, strict=False) if its == pixel and cells[0]
+        ]
+        if not before or before[-1] is None:
+            return "", value
+        return "", max(before[-1], value)
+
+    return follow
+
+
+def draw_inverse(draws: Draws) -> Draft | None:
+    """A buffer of 1/w, fragment by fragment."""
+    fragments = [(draws.whole(0, 1), Fraction(1, draws.whole(2, 20))) for _ in range(6)]
+    if len(set(fragments)) < len(fragments):
+        return None
+
+    def stored(pick: Callable[[Fraction, Fraction], Fraction]) -> list[list[Fraction]]:
+        rows: list[list[Fraction]] = []
+        held: dict[int, Fraction] = {}
+        for pixel, value in fragments:
+            held[pixel] = pick(held[pixel], value) if pixel in held else value
+            rows.append([held[pixel]])
+        return rows
+
+    text = (
+        "These fragments are drawn in order. What does the buffer hold at the pixel of each right after it was tested? "
+        "It stores 1/w, begins at 0, and keeps the larger value."
+    )
+    given = "\n".join(
+        f"Fragment {k}: pixel {pixel}, w = {1 / value}" for k, (pixel, value) in enumerate(fragments)
+    )
+    hints = ("Is a surface with a larger 1/w nearer or farther?", "Follow one pixel at a time.")
+    labels = [f"pixel {pixel}, w = {1 / value}" for pixel, value in fragments]
+    wrong = {"farther-wins": stored(min), "no-depth-test": [[value] for _, value in fragments]}
+    follow = follow_nearest(fragments)
+    settings = Settings(depth="inverse-w")
+    return table(text, given, ("1/w",), labels, stored(max), hints, wrong, follow, settings=settings)
+
+
+def draw_painter(draws: Draws) -> Draft | None:
+    """An order by the farthest vertex."""
+    depths = [tuple(draws.whole(1, 30) for _ in range(3)) for _ in NAMES]
+    if len({max(d) for d in depths}) < 4 or len({sum(d) for d in depths}) < 4:
+        return None
+    rule = RULES["sorted-by-mean"]
+    order = rule.right(depths)
+    options = tuple(NAMES[k] for k in order)
+    text = (
+        "In which order does a painter's algorithm paint these triangles, first to last, if it sorts by the farthest "
+        "vertex?"
+    )
+    given = "\n".join(f"{name}: depths {place_text(d)}" for name, d in zip(NAMES, depths, strict=True))
+    hints = ("What is painted first is painted over.", "Only the largest depth of each counts here.")
+    wrong = {rule.name: tuple(order.index(k) for k in rule.wrong(depths))}
+    return Draft(text, given, OrderAnswer(options, draws.shuffled(NAMES)), hints, wrong)
+
+
+def card_seen(scene: ClipScene, settings: Settings) -> int:
+    """Return which card is seen, the number of cards where none is."""
+    seen = int(render(scene, settings).primitive[0, 0])
+    return seen if seen >= 0 else len(scene.clip)
+
+
+CARDS = ("red", "blue", "green", "the background")
+
+
+def draw_ties(draws: Draws) -> Draft:
+    """Cards at equal depths."""
+    first, second = Fraction(draws.whole(1, 4), 8), Fraction(draws.whole(5, 7), 8)
+    depths = draws.shuffled((first, first, second))
+    scene = cards(*([float(d)] * 3 for d in depths))
+    names = ("last-wins-ties", "farther-wins", "cleared-to-near")
+    right, settings = card_seen(scene, Settings()), Settings()
+    wrong = {}
+    for name in names:
+        twin = SHELF[name]
+        seen = card_seen(twin.change_scene(scene), twin.change_settings(settings))
+        if seen != right:
+            wrong[name] = seen
+    text = (
+        "Three cards cover the window, drawn in this order. Which one is seen? The smaller depth is nearer, a tie "
+        "keeps what is there."
+    )
+    given = "\n".join(f"{name}: z = {number_text(z)}" for name, z in zip(CARDS, depths, strict=False))
+    hints = ("Which depth is the smallest?", "Of two equal ones, which is tested against the other?")
+    return one_of(text, given, CARDS, right, hints, wrong, scene)
+
+
+TEMPLATES = (
+    Template("window-depth", 1, "Window depth at a distance", "depth", 2, draw_window_depth),
+    Template("depth-steps", 1, "A depth buffer of 16 bits", "depth", 2, draw_steps),
+    Template("fighting-pairs", 1, "Surfaces that fight", "depth", 3, draw_fighting),
+    Template("inverse-w-table", 1, "A buffer of 1/w", "depth", 4, draw_inverse),
+    Template("painter-order", 1, "A painter's order", "depth", 2, draw_painter),
+    Template("equal-depths", 1, "Cards at equal depths", "depth", 1, draw_ties),
+)

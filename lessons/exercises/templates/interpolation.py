@@ -1,0 +1,232 @@
+"""Weights, colours, depth and distance between the vertices of a triangle or the ends of an edge."""
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Any
+
+import numpy as np
+
+from core import Settings, render
+from lessons.exercises.answers.amounts import Numbers
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
+from lessons.exercises.templates.drafting import by_rule, numbers, place_text, table
+from lessons.exercises.templates.edges import coefficients
+from lessons.exercises.templates.fragments import NAMES, attributes_at
+from lessons.mistakes.shelf import SHELF
+from lessons.small_scenes import triangle_scene
+
+RGB = ("red", "green", "blue")
+SIZE = (11, 9)
+
+
+def weights_at(corners: Sequence[Corner], point: Corner) -> list[Fraction]:
+    """Return alpha, beta and gamma: areas over the area of the triangle."""
+    whole = twice_area(list(corners))
+    return [twice_area([point, corners[(k + 1) % 3], corners[(k + 2) % 3]]) / whole for k in range(3)]
+
+
+def triangle_and_pixel(draws: Draws) -> tuple[list[Corner], tuple[int, int], list[Fraction]] | None:
+    """Draw a triangle and a pixel inside; ``None``: it is not."""
+    corners = [(Fraction(draws.whole(0, 10)), Fraction(draws.whole(0, 8))) for _ in range(3)]
+    pixel = draws.whole(2, 8), draws.whole(2, 6)
+    if twice_area(corners) < 20:
+        return None
+    half = Fraction(1, 2)
+    weights = weights_at(corners, (pixel[0] + half, pixel[1] + half))
+    return None if min(weights) < Fraction(1, 20) else (corners, pixel, weights)
+
+
+def draw_two_points(draws: Draws) -> Draft | None:
+    """A point inside, and one outside."""
+    corners = [(Fraction(draws.whole(0, 9)), Fraction(draws.whole(0, 9))) for _ in range(3)]
+    points = [(Fraction(draws.whole(0, 9)), Fraction(draws.whole(0, 9))) for _ in range(2)]
+    if twice_area(corners) < 10:
+        return None
+    rows = [weights_at(corners, point) for point in points]
+    if min(rows[0]) <= 0 or min(rows[1]) >= 0:
+        return None
+    turned = [[row[2], row[0], row[1]] for row in rows]
+    text = "What are alpha, beta and gamma of P and of Q? One lies inside of the triangle, the other one outside."
+    given = (
+        f"Vertices 0, 1, 2: {corner_text(corners)}\nP = {place_text(points[0])}, Q = {place_text(points[1])}"
+    )
+    hints = (
+        "Each weight is an area with a sign over the area of the triangle.",
+        "alpha is the area of the point with vertices 1 and 2.",
+        "Inside, all three are positive; the sum is 1 for every point.",
+    )
+    return table(text, given, NAMES, ("P", "Q"), rows, hints, {"weights-permuted": turned})
+
+
+def draw_color(draws: Draws) -> Draft | None:
+    """A colour between three vertices."""
+    drawn = triangle_and_pixel(draws)
+    if drawn is None:
+        return None
+    corners, pixel, weights = drawn
+    colors = [[Fraction(draws.whole(0, 4), 4) for _ in RGB] for _ in range(3)]
+    right = [sum((w * c[k] for w, c in zip(weights, colors, strict=True)), Fraction(0)) for k in range(3)]
+    scene = triangle_scene(np.array([corners], float), SIZE, attributes=np.array([colors], float))
+    wrong = {"weights-permuted": attributes_at(SHELF["weights-permuted"].draw(scene, Settings()), pixel)}
+    text = f"What are red, green and blue at the centre (i + 1/2, j + 1/2) of pixel {pixel}? All w are 1."
+    given = "\n".join(
+        f"Vertex {k}: {place_text(corner)}, colour {place_text(color)}"
+        for k, (corner, color) in enumerate(zip(corners, colors, strict=True))
+    )
+    hints = ("Find the three weights first.", "c = alpha c0 + beta c1 + gamma c2, channel by channel.")
+    return numbers(text, given, right, hints, wrong, RGB, scene=scene, pixel=pixel)
+
+
+def draw_sorted(draws: Draws) -> Draft | None:
+    """A value after the vertices were sorted."""
+    drawn = triangle_and_pixel(draws)
+    if drawn is None:
+        return None
+    corners, pixel, weights = drawn
+    q = [Fraction(draws.whole(0, 20)) for _ in range(3)]
+    scene = triangle_scene(np.array([corners], float), SIZE, attributes=np.array(q, float).reshape(1, 3, 1))
+    wrong = {
+        "attributes-not-sorted": attributes_at(SHELF["attributes-not-sorted"].draw(scene, Settings()), pixel)
+    }
+    text = (
+        f"A scanline fill sorts the vertices by y. What is the attribute q at the centre (i + 1/2, j + 1/2) of pixel "
+        f"{pixel}? All w are 1."
+    )
+    given = "\n".join(
+        f"Vertex {k}: {place_text(corner)}, q = {value}"
+        for k, (corner, value) in enumerate(zip(corners, q, strict=True))
+    )
+    hints = ("Which q belongs to the lowest vertex?", "Sort the vertices together with what they carry.")
+    right = [sum((w * v for w, v in zip(weights, q, strict=True)), Fraction(0))]
+    return numbers(text, given, right, hints, wrong, scene=scene, pixel=pixel)
+
+
+def draw_flat(draws: Draws) -> Draft | None:
+    """The provoking vertex."""
+    drawn = triangle_and_pixel(draws)
+    if drawn is None:
+        return None
+    corners, pixel, _ = drawn
+    q = [Fraction(value) for value in draws.shuffled(range(10, 60))[:3]]
+    provoking = draws.item(("first", "last"))
+    settings = Settings(interpolation="flat", provoking=provoking)
+    scene = triangle_scene(np.array([corners], float), SIZE, attributes=np.array(q, float).reshape(1, 3, 1))
+    right: Numbers = attributes_at(render(scene, settings), pixel)
+    text = (
+        f"The attribute q is not interpolated (flat): the whole triangle has that of its {provoking} vertex. What is q "
+        f"at pixel {pixel}?"
+    )
+    given = "\n".join(
+        f"Vertex {k}: {place_text(corner)}, q = {value}"
+        for k, (corner, value) in enumerate(zip(corners, q, strict=True))
+    )
+    hints = ("Does the place in the triangle matter?",)
+    whole = [Fraction(int(value)) for value in right]
+    return numbers(text, given, whole, hints, scene=scene, settings=settings, pixel=pixel)
+
+
+def draw_edge_middle(draws: Draws) -> Draft:
+    """Which point of an edge is at its middle in the window."""
+    near, far = Fraction(draws.whole(1, 4)), Fraction(draws.whole(5, 12))
+    right = near / (near + far)
+    text = (
+        "An edge runs away from the eye. Which share of its length in space, from the near end, lies before the point "
+        "that is at the middle of its picture?"
+    )
+    given = f"w = {near} at the near end, w = {far} at the far end."
+    hints = (
+        "Give the near end u = 0 and the far end u = 1, and interpolate u with perspective.",
+        "u = ((u0/w0 + u1/w1)/2) / ((1/w0 + 1/w1)/2).",
+    )
+    wrong = {
+        "affine-for-perspective": [Fraction(1, 2)],
+        "not-divided-back": [1 / far / 2],
+        "multiplied-by-w": [far / (near + far)],
+    }
+    return numbers(text, given, [right], hints, wrong)
+
+
+def draw_reciprocal(draws: Draws) -> Draft:
+    """1/w between two ends."""
+    w = [Fraction(draws.item((1, 2, 4, 5, 8, 10))) for _ in range(2)]
+    t = Fraction(draws.whole(1, 7), 8)
+    text = "What is 1/w at this point of an edge? t is its share of the way in the window."
+    given = f"w = {w[0]} at t = 0, w = {w[1]} at t = 1.\nThe point: t = {number_text(t)}"
+    hints = ("Which of w and 1/w is linear in the window?", "1/w = (1 - t)/w0 + t/w1.")
+    return numbers(text, given, [(1 - t) / w[0] + t / w[1]], hints)
+
+
+def draw_plane(draws: Draws) -> Draft | None:
+    """Coefficients of u/w over the window."""
+    corners = [(Fraction(draws.whole(0, 6)), Fraction(draws.whole(0, 6))) for _ in range(3)]
+    area = twice_area(corners)
+    if area not in (4, 5, 8, 10, 16, 20):
+        return None
+    w, u = ([Fraction(draws.item(items)) for _ in range(3)] for items in ((1, 2, 4), (0, 2, 4, 8)))
+    if len(set(u)) == 1:
+        return None
+    edges = [coefficients(corners[(k + 1) % 3], corners[(k + 2) % 3]) for k in range(3)]
+    right = [
+        sum((edge[k] / area * a / b for edge, a, b in zip(edges, u, w, strict=True)), Fraction(0))
+        for k in range(3)
+    ]
+    text = (
+        "u/w is linear over the window: u/w = a X + b Y + c with the pixel coordinates X and Y. What are a, b and c? "
+        "It has the right values at the three vertices."
+    )
+    given = "\n".join(
+        f"Vertex {k}: (X, Y) = {place_text(corner)}, w = {w[k]}, u = {u[k]}"
+        for k, corner in enumerate(corners)
+    )
+    hints = (
+        "What is u/w at each vertex?",
+        "Three equations, three unknowns; subtract one from the other two.",
+        "Or sum the edge functions, each over the area and times the value at its vertex.",
+    )
+    return numbers(text, given, right, hints, names=("a", "b", "c"))
+
+
+def edge_shares(draws: Draws) -> tuple[Fraction, tuple[Any, ...]]:
+    """Draw a place along an edge in the window, and the distances of its ends."""
+    return Fraction(draws.whole(1, 7), 8), (Fraction(draws.whole(1, 3)), Fraction(draws.whole(5, 12)))
+
+
+def draw_depth(draws: Draws) -> Draft:
+    """Window depth along an edge."""
+    t, distances = edge_shares(draws)
+    depths = (Fraction(draws.whole(0, 4), 10), Fraction(draws.whole(6, 10), 10))
+    text = "What is the window depth z at this point of an edge? t is its share of the way in the window."
+    given = "\n".join(
+        [
+            f"End {k}: z = {number_text(z)}, w = {w}"
+            for k, (z, w) in enumerate(zip(depths, distances, strict=True))
+        ]
+        + [f"The point: t = {number_text(t)}"]
+    )
+    hints = ("Was z divided by w already?", "Window depth is linear in the window.")
+    return by_rule(text, given, (t, depths, distances), ("depth-corrected-twice",), hints)
+
+
+def draw_distance(draws: Draws) -> Draft:
+    """The distance along an edge."""
+    t, distances = edge_shares(draws)
+    text = "How far from the eye, along the view, is this point of an edge? t is its share of the way in the window."
+    given = f"Distance {distances[0]} at t = 0, {distances[1]} at t = 1.\nThe point: t = {number_text(t)}"
+    hints = ("Is the distance linear in the window?", "Its reciprocal is.")
+    return by_rule(text, given, (t, distances), ("distance-linear",), hints)
+
+
+TEMPLATES = (
+    Template("weights-of-two-points", 1, "Weights inside and outside", "interpolate", 3, draw_two_points),
+    Template("color-at-pixel", 1, "A colour between three vertices", "interpolate", 3, draw_color),
+    Template("sorted-attributes", 1, "Values of sorted vertices", "interpolate", 3, draw_sorted),
+    Template("flat-value", 1, "The provoking vertex", "interpolate", 1, draw_flat),
+    Template("edge-middle", 1, "The middle of an edge", "interpolate", 2, draw_edge_middle),
+    Template("reciprocal-w", 1, "1/w along an edge", "interpolate", 1, draw_reciprocal),
+    Template("attribute-plane", 1, "u/w over the window", "interpolate", 4, draw_plane),
+    Template("depth-along-edge", 1, "Window depth along an edge", "interpolate", 2, draw_depth),
+    Template("distance-along-edge", 1, "Distance along an edge", "interpolate", 2, draw_distance),
+)

@@ -1,0 +1,181 @@
+"""Light: how bright a point is, its normal, and where light is evaluated."""
+
+from fractions import Fraction
+from typing import Any
+
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.drafting import by_rule, one_of, place_text
+from lessons.exercises.templates.transforms import wholes
+
+VECTORS: tuple[tuple[Any, ...], ...] = (
+    (0, 0, 1),
+    (0, 3, 4),
+    (3, 0, 4),
+    (0, -3, 4),
+    (4, 0, 3),
+    (2, 1, 2),
+    (1, 2, 2),
+    (-2, 2, 1),
+)
+LIGHT_RULE = "The light is a + (1 - a) max(0, N . L), with N and L of length 1; L points to the light."
+
+
+def draw_lambert(draws: Draws) -> Draft:
+    """Diffuse light on the bright side."""
+    ambient, normal = Fraction(draws.whole(1, 2), 4), draws.item(VECTORS)
+    long = tuple(2 * c for c in normal)
+    to_light = draws.item(VECTORS)
+    hints = ("Make both vectors of length 1.", "N . L is the cosine between them.")
+    given = f"a = {number_text(ambient)}\nNormal: {place_text(long)}\nTo the light: {place_text(to_light)}"
+    names = ("normal-too-long", "light-reversed")
+    return by_rule(
+        f"How bright is this point? {LIGHT_RULE}", given, (float(ambient), long, to_light), names, hints
+    )
+
+
+def draw_dark(draws: Draws) -> Draft:
+    """Diffuse light on the dark side."""
+    ambient, normal = Fraction(draws.whole(1, 3), 4), draws.item(VECTORS)
+    to_light = tuple(-c for c in draws.item(VECTORS))
+    hints = ("Which sign does N . L have?", "Light from behind adds nothing, and takes nothing away.")
+    given = f"a = {number_text(ambient)}\nNormal: {place_text(normal)}\nTo the light: {place_text(to_light)}"
+    names = ("light-unclamped", "light-reversed")
+    return by_rule(
+        f"How bright is this point? {LIGHT_RULE}", given, (float(ambient), normal, to_light), names, hints
+    )
+
+
+def draw_between(draws: Draws) -> Draft:
+    """An interpolated normal."""
+    normals = [draws.item(VECTORS), draws.item(VECTORS)]
+    units = [
+        tuple(Fraction(c, 5 if 0 in n and sum(x * x for x in n) == 25 else 3 if 0 not in n else 1) for c in n)
+        for n in normals
+    ]
+    to_light = draws.item(VECTORS)
+    t = Fraction(draws.whole(1, 3), 4)
+    text = (
+        "What is N . L at this point of an edge? N is interpolated between the normals of the ends, L the same "
+        "everywhere; both are made to length 1."
+    )
+    given = (
+        f"Normals: {place_text(units[0])} at t = 0, {place_text(units[1])} at t = 1; the point: t = {number_text(t)}\n"
+        f"To the light: {place_text(to_light)}"
+    )
+    hints = (
+        "(1 - t) N0 + t N1 is shorter than 1.",
+        "Divide by its length, then take the dot product with L.",
+    )
+    return by_rule(text, given, (*units, t, to_light), ("normal-not-renormalized",), hints)
+
+
+def draw_highlight(draws: Draws) -> Draft:
+    """Blinn and Phong."""
+    normal, to_light, to_eye = (draws.item(VECTORS) for _ in range(3))
+    shininess = draws.item((2, 4, 8))
+    text = (
+        "What is the highlight max(0, N . H)^s of Blinn and Phong? H is halfway between L and V; all vectors are "
+        "made to length 1."
+    )
+    given = (
+        f"Normal: {place_text(normal)}\nTo the light: {place_text(to_light)}\nTo the eye: {place_text(to_eye)}\n"
+        f"s = {shininess}"
+    )
+    hints = (
+        "Make L and V of length 1 before you add them.",
+        "H = (L + V) / |L + V|.",
+        "Raise the cosine to the power s.",
+    )
+    names = ("highlight-at-light", "highlight-at-eye", "shininess-inverted")
+    return by_rule(text, given, (normal, to_light, to_eye, shininess), names, hints)
+
+
+def draw_normal(draws: Draws) -> Draft:
+    """A normal under scaling."""
+    scale, shift = wholes(draws, 3, 1, 4), wholes(draws, 3, -3, 3)
+    normal = draws.item(VECTORS)
+    text = (
+        "An object is scaled, then moved. What is the unit normal afterwards? Normals go with the transposed "
+        "inverse of the matrix."
+    )
+    given = f"Scale: {place_text(scale)}, shift: {place_text(shift)}\nNormal before: {place_text(normal)}"
+    hints = (
+        "Does the shift matter for a direction?",
+        "The transposed inverse of a scaling divides by its factors.",
+        "Make the result of length 1.",
+    )
+    names = ("normal-as-position", "normal-untransformed", "normal-moved")
+    return by_rule(text, given, (scale, shift, normal), names, hints, ("x", "y", "z"))
+
+
+def draw_camera_normal(draws: Draws) -> Draft:
+    """The matrix of normals."""
+    c, s = draws.item(((Fraction(3, 5), Fraction(4, 5)), (Fraction(4, 5), Fraction(-3, 5))))
+    model_view = ((c, Fraction(0), -s), (Fraction(0), Fraction(1), Fraction(0)), (s, Fraction(0), c))
+    focal = (Fraction(draws.item((2, 3))), Fraction(draws.item((1, 2))), Fraction(1))
+    normal = draws.item(VECTORS)
+    text = "Light is computed in camera space. What is the unit normal there? V M is a rotation here, given row by row."
+    given = (
+        f"Rows of V M: {', '.join(map(place_text, model_view))}\nP scales x and y by {place_text(focal[:2])}.\n"
+        f"Normal in object space: {place_text(normal)}"
+    )
+    hints = ("Which matrices lead to camera space?", "A rotation is its own transposed inverse.")
+    return by_rule(
+        text, given, (model_view, focal, normal), ("normal-by-projection",), hints, ("x", "y", "z")
+    )
+
+
+def draw_byte(draws: Draws) -> Draft:
+    """A sum of lights."""
+    ambient, diffuse = Fraction(draws.whole(30, 60), 100), Fraction(draws.whole(72, 98), 100)
+    text = "Ambient and diffuse light are added and stored as a byte, 255 for 1, rounded. Which byte is it?"
+    given = f"Ambient: {number_text(ambient)}, diffuse: {number_text(diffuse)}"
+    hints = ("Is the sum above 1?", "A byte ends at 255.")
+    return by_rule(text, given, (float(ambient), float(diffuse)), ("byte-overflows",), hints)
+
+
+def draw_evaluations(draws: Draws) -> Draft:
+    """Where light is evaluated."""
+    triangles, fragments = draws.whole(10, 60), draws.whole(300, 900)
+    vertices = triangles // 2 + draws.whole(2, 5)
+    text = (
+        "How often is the light evaluated by flat shading (once a triangle), by Gouraud shading and by Phong shading? "
+        "Every vertex is shared and used once."
+    )
+    given = f"{triangles} triangles, {vertices} vertices, {fragments} fragments."
+    hints = (
+        "Gouraud interpolates colours, Phong normals.",
+        "Where are the vectors known that the light needs?",
+    )
+    names = ("flat", "Gouraud", "Phong")
+    return by_rule(text, given, (triangles, vertices, fragments), ("phong-at-vertices",), hints, names)
+
+
+def draw_shading(draws: Draws) -> Draft:
+    """What a highlight inside a triangle needs."""
+    methods = ("flat", "Gouraud", "Phong")
+    seen = draws.item(
+        (
+            ("inside of one large triangle, away from its vertices", 2),
+            ("that is the same in each whole facet", 0),
+        )
+    )
+    text = f"Which shading shows light {seen[0]}?"
+    hints = ("Where is the light evaluated?", "What is interpolated: nothing, colours, or normals?")
+    wrong = {"phong-at-vertices": 1} if seen[1] == 2 else {}
+    return one_of(text, "", methods, seen[1], hints, wrong)
+
+
+TEMPLATES = (
+    Template("lambert", 1, "Diffuse light", "shade", 2, draw_lambert),
+    Template("dark-side", 1, "The dark side", "shade", 1, draw_dark),
+    Template("normal-between", 1, "An interpolated normal", "shade", 3, draw_between),
+    Template("highlight", 1, "The highlight", "shade", 3, draw_highlight),
+    Template("scaled-normal", 1, "A normal under scaling", "shade", 3, draw_normal),
+    Template("camera-normal", 1, "The matrix of normals", "shade", 2, draw_camera_normal),
+    Template("light-byte", 1, "A sum of lights as a byte", "shade", 1, draw_byte),
+    Template("light-evaluations", 1, "Where light is evaluated", "shade", 2, draw_evaluations),
+    Template("shading-of-highlight", 1, "Which shading shows it", "shade", 1, draw_shading),
+)

@@ -1,0 +1,186 @@
+"""Blending, and several samples a pixel."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+
+from core import Settings
+from core.framebuffer.display import srgb_byte
+from core.framebuffer.resolve import tent
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.drafting import by_rule, numbers
+from lessons.mistakes.depths import Layer, cards
+from lessons.mistakes.shelf import SHELF
+from lessons.small_scenes import triangle_scene
+
+BLENDED = Settings(blend="over", visibility="last-drawn")
+
+
+def draw_alpha(draws: Draws) -> Draft:
+    """The alpha of the result."""
+    alphas = [Fraction(draws.whole(1, 4), 5) for _ in range(2)]
+    everywhere = [(-20, -20), (40, -20), (-20, 40)]
+    layers = [[(1, 1, 1, float(alpha))] * 3 for alpha in alphas]
+    scene = triangle_scene([everywhere] * 2, (2, 2), attributes=layers)
+    twins = ("alpha-of-source", "alpha-squared", "alpha-kept")
+    wrong = {twin: [float(SHELF[twin].draw(scene, BLENDED).color[0, 0, 3])] for twin in twins}
+    text = (
+        "Two layers are blended with over on a clear background (alpha 0). What is the alpha of the result?"
+    )
+    given = f"Layer 0: alpha = {number_text(alphas[0])}\nLayer 1: alpha = {number_text(alphas[1])}"
+    hints = ("How much of the background is still seen?", "a + (1 - a) times the alpha that is there.")
+    right = 1 - (1 - alphas[0]) * (1 - alphas[1])
+    return numbers(text, given, [right], hints, wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
+
+
+def draw_straight(draws: Draws) -> Draft:
+    """A straight colour over another."""
+    alpha, color, there = (Fraction(draws.whole(1, 9), 10) for _ in range(3))
+    everywhere = [(-20, -20), (40, -20), (-20, 40)]
+    scene = triangle_scene([everywhere], (2, 2), attributes=[[(*[float(color)] * 3, float(alpha))] * 3])
+    scene = replace(scene, background=np.array([*[float(there)] * 3, 1.0]))
+    twins = ("multiplied-twice", "not-multiplied", "factors-exchanged")
+    wrong = {twin: [float(SHELF[twin].draw(scene, BLENDED).color[0, 0, 0])] for twin in twins}
+    text = (
+        "A grey layer lies over an opaque grey background. What is the grey value of the result, linear? The "
+        "colour is straight: not yet multiplied by alpha."
+    )
+    given = f"Layer: {number_text(color)}, alpha = {number_text(alpha)}\nBackground: {number_text(there)}"
+    hints = ("How much does each of them count?", "alpha times the new one, 1 - alpha times what is there.")
+    right = alpha * color + (1 - alpha) * there
+    return numbers(text, given, [right], hints, wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
+
+
+def draw_glass(draws: Draws) -> Draft | None:
+    """Glass in front of a wall that is drawn later."""
+    alpha, red, blue = (Fraction(draws.whole(1, 3), 4) for _ in range(3))
+    scene = cards([0.25] * 3, [0.75] * 3)
+    colors = [[(float(red), 0, 0, float(alpha))] * 3, [(0, 0, float(blue), 1)] * 3]
+    scene = replace(scene, attributes=np.array(colors, float)[::-1], clip=scene.clip[::-1])
+    text = (
+        "A wall is drawn first, then glass in front of it, blended with over. What are red and blue of the "
+        "result, linear?"
+    )
+    given = f"Wall: blue {number_text(blue)}, opaque.\nGlass: red {number_text(red)}, alpha = {number_text(alpha)}"
+    twin = SHELF["order-reversed"]
+    wrong = [float(twin.draw(scene, BLENDED).color[0, 0, k]) for k in (0, 2)]
+    hints = ("What lies on top?", "The glass lets 1 - alpha of the wall through.")
+    right = [alpha * red, (1 - alpha) * blue]
+    return numbers(
+        text, given, right, hints, {twin.name: wrong}, ("red", "blue"), scene=scene, settings=BLENDED
+    )
+
+
+def draw_additive(draws: Draws) -> Draft:
+    """Lights that add up."""
+    values = [(Fraction(draws.whole(1, 9), 10), Fraction(draws.whole(1, 4), 4)) for _ in range(2)]
+    text = "Two layers are blended additively over black: each adds alpha times its colour. What is the sum, linear?"
+    given = "\n".join(
+        f"Layer {k}: {number_text(c)}, alpha = {number_text(a)}" for k, (c, a) in enumerate(values)
+    )
+    hints = ("Does the order matter?", "Does the upper layer hide anything?")
+    right = sum((c * a for c, a in values), Fraction(0))
+    wrong = {"not-multiplied": [sum((c for c, _ in values), Fraction(0))]}
+    return numbers(text, given, [right], hints, wrong if wrong["not-multiplied"] != [right] else {})
+
+
+SAMPLES = 4
+
+
+def layers_text(layers: Sequence[Layer]) -> str:
+    """Return layers as text, in drawing order."""
+    return "\n".join(
+        f"Triangle {k}: depth {layer.depth}, grey {layer.grey}, covers samples "
+        f"{', '.join(map(str, sorted(layer.samples)))}"
+        for k, layer in enumerate(layers)
+    )
+
+
+def draw_samples(draws: Draws) -> Draft:
+    """Two triangles in one pixel."""
+    near = frozenset(draws.shuffled(range(SAMPLES))[: draws.whole(1, 3)])
+    layers = (
+        Layer(near, draws.whole(1, 4), draws.whole(10, 60) * 4),
+        Layer(frozenset(range(SAMPLES)), draws.whole(5, 9), draws.whole(10, 60) * 4),
+    )
+    text = (
+        "Two triangles are drawn in this order into a pixel with 4 samples, black before. Which grey value does the "
+        "mean of the samples give? Each sample has a depth of its own, the smaller one is nearer."
+    )
+    hints = ("What does each sample show?", "The second triangle fills the samples that the first one left.")
+    names = ("one-depth-a-pixel", "one-sample-filled") if 0 in near else ("one-depth-a-pixel",)
+    return by_rule(text, layers_text(layers), (layers, SAMPLES), names, hints)
+
+
+def draw_coverage(draws: Draws) -> Draft:
+    """A pixel half covered."""
+    side = draws.whole(2, 4)
+    covered = draws.whole(2, side * side - 1)
+    grey = draws.whole(3, 15) * side * side
+    layer = (Layer(frozenset(range(covered)), 1, grey),)
+    text = f"A pixel has {side} x {side} samples, black before. Which grey value does the box filter leave?"
+    given = f"A triangle of grey {grey} covers {covered} of the samples."
+    hints = ("The box filter takes the mean.", "Samples that are not covered stay black.")
+    return by_rule(text, given, (layer, side * side), ("one-sample-filled",), hints)
+
+
+def draw_tent(draws: Draws) -> Draft:
+    """The tent filter."""
+    side = 4
+    place = Fraction(2 * draws.whole(0, side - 1) + 1, 2 * side)
+    distance = abs(place - Fraction(1, 2))
+    text = (
+        "The tent filter weighs a sample by 1 - d in each direction, d its distance from the pixel's centre in "
+        "pixels. Which weight, before all are made to sum to 1, has this sample?"
+    )
+    other = Fraction(2 * draws.whole(0, side - 1) + 1, 2 * side)
+    right = [Fraction(float(tent(np.array([float(distance)]))[0])) * (1 - abs(other - Fraction(1, 2)))]
+    given = f"Sample at ({number_text(place)}, {number_text(other)}) of the pixel."
+    hints = ("How far is it from the centre, in x and in y?", "Multiply the weights of both directions.")
+    return numbers(text, given, right, hints)
+
+
+def draw_mean(draws: Draws) -> Draft:
+    """The mean of two bytes."""
+    black, white = draws.shuffled((0, draws.whole(180, 255)))
+    encoded = max(black, white) / 255
+    linear = ((encoded + 0.055) / 1.055) ** 2.4
+    right = srgb_byte(linear / 2)
+    text = (
+        "Half of a pixel shows one grey, half the other; both are sRGB bytes. Which byte shows as much light? Decode "
+        "with ((c + 0.055)/1.055)^2.4, take the mean, encode with 1.055 x^(1/2.4) - 0.055; c and x run to 1."
+    )
+    hints = ("Is half the byte half the light?", "The mean is taken of linear values.")
+    wrong = {"blended-in-srgb": [int((black + white) / 2 + 0.5)]}
+    return numbers(text, f"Bytes: {black} and {white}", [right], hints, wrong)
+
+
+def draw_cost(draws: Draws) -> Draft:
+    """What multisampling costs."""
+    count, inside, edge = draws.item((2, 4, 8)), draws.whole(100, 400), draws.whole(20, 90)
+    text = (
+        "A triangle is drawn with MSAA. How often does the fragment shader run, and how many depths are compared? Each "
+        "touched pixel is shaded once; depth is tested at every covered sample."
+    )
+    half = count // 2
+    given = f"{count} samples a pixel.\n{inside} pixels are covered whole, {edge} by half of their samples."
+    hints = ("What is done once a pixel?", "Depth and colour are stored for each sample.")
+    right = [inside + edge, count * inside + half * edge]
+    return numbers(text, given, right, hints, names=("shader runs", "depth tests"))
+
+
+TEMPLATES = (
+    Template("result-alpha", 1, "The alpha of the result", "blend", 2, draw_alpha),
+    Template("straight-color", 1, "A straight colour", "blend", 2, draw_straight),
+    Template("glass-and-wall", 1, "Glass in front of a wall", "blend", 2, draw_glass),
+    Template("additive-layers", 1, "Lights that add up", "blend", 1, draw_additive),
+    Template("samples-of-two", 1, "Two triangles in a pixel", "resolve", 3, draw_samples),
+    Template("box-filter", 1, "The box filter", "resolve", 1, draw_coverage),
+    Template("tent-filter", 1, "The tent filter", "resolve", 1, draw_tent),
+    Template("mean-of-bytes", 1, "The mean of two bytes", "resolve", 2, draw_mean),
+    Template("multisampling-cost", 1, "What multisampling costs", "resolve", 2, draw_cost),
+)

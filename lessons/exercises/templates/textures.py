@@ -1,0 +1,180 @@
+"""Textures: which texels are read, with which weights, and which level."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from math import floor
+
+from core import Settings
+from core.fragments.textures import sample_texture, wrapped_index
+from core.scene import ClipScene, Texture
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.drafting import numbers, place_text, table
+from lessons.mistakes.shelf import RULES, SHELF
+from lessons.mistakes.textures import repeat_mirrored, strip
+
+LEVELS = 8
+"""Grey values of texels are eighths."""
+
+
+def looked_up(scene: ClipScene, u: float, settings: Settings, v: float = 0.5) -> float:
+    """Return the grey value at (u, v)."""
+    assert scene.texture is not None
+    found = sample_texture(scene.texture, [[u, v]], settings.texture_filter, settings.wrap)  # type: ignore[arg-type]
+    return float(found.color[0, 0])
+
+
+def of_strip(
+    text: str,
+    texels: Sequence[Fraction],
+    u: Fraction,
+    settings: Settings,
+    names: Sequence[str],
+    hints: tuple[str, ...],
+) -> Draft:
+    """Ask for a look-up in one row of texels."""
+    scene = strip([float(texel) for texel in texels])
+    right = Fraction(looked_up(scene, float(u), settings)).limit_denominator(1000)
+    wrong = {name: [looked_up(scene, float(u), SHELF[name].change_settings(settings))] for name in names}
+    given = (
+        f"Texture of {len(texels)} x 1 texels, from u = 0 to u = 1: {', '.join(map(number_text, texels))}\n"
+        f"u = {number_text(u)}"
+    )
+    return numbers(text, given, [right], hints, wrong, scene=scene, settings=settings)
+
+
+def drawn_texels(draws: Draws, count: int) -> list[Fraction]:
+    """Draw grey values that all differ."""
+    return [Fraction(value, LEVELS) for value in draws.shuffled(range(1, LEVELS))[:count]]
+
+
+def draw_nearest(draws: Draws) -> Draft:
+    """The texel that contains u."""
+    count = draws.whole(4, 6)
+    u = Fraction(2 * draws.whole(0, 4 * count - 1) + 1, 8 * count)
+    text = "Which value does the nearest texel give? Texel i reaches from i to i + 1 in units of texels."
+    hints = ("Multiply u by the number of texels.", "The texel is floor(u w), with w texels.")
+    settings = Settings(texture_filter="nearest", wrap="clamp")
+    names = ("texels-of-one-less", "texel-rounded")
+    return of_strip(text, drawn_texels(draws, count), u, settings, names, hints)
+
+
+def draw_bilinear(draws: Draws) -> Draft:
+    """Between two texel centres."""
+    count = draws.whole(4, 6)
+    u = Fraction(draws.whole(5, 4 * count - 5), 4 * count)
+    text = (
+        "Which value does the linear filter give? The centre of texel i lies at i + 1/2 in units of texels."
+    )
+    hints = (
+        "Multiply u by the number of texels.",
+        "Subtract 1/2: the whole part is the left texel, the rest the weight of the right one.",
+        "c = c0 (1 - w_u) + c1 w_u.",
+    )
+    settings = Settings(texture_filter="bilinear", wrap="clamp")
+    return of_strip(
+        text, drawn_texels(draws, count), u, settings, ("half-texel-missing", "half-texel-added"), hints
+    )
+
+
+def draw_border(draws: Draws) -> Draft:
+    """The filter at the border."""
+    count = draws.whole(3, 5)
+    u = Fraction(draws.item((1, 3, 8 * count - 1, 8 * count - 3)), 8 * count)
+    text = (
+        "Which value does the linear filter give with the wrap mode clamp, which repeats the border texel? The centre "
+        "of texel i lies at i + 1/2 in units of texels."
+    )
+    hints = ("Which two texels lie beside u?", "Beyond the border there is the border texel again.")
+    settings = Settings(texture_filter="bilinear", wrap="clamp")
+    return of_strip(text, drawn_texels(draws, count), u, settings, ("border-repeated",), hints)
+
+
+def draw_wrap(draws: Draws) -> Draft:
+    """Texels beyond the border."""
+    size = draws.whole(4, 7)
+    indices = [draws.whole(-2 * size + 1, -1), draws.whole(0, size - 1), draws.whole(size, 2 * size - 1)]
+    modes = ("repeat", "clamp", "mirror")
+    right = [[wrapped_index(index, size, mode) for mode in modes] for index in indices]
+    below = int(repeat_mirrored(indices[0], size))  # type: ignore[arg-type]
+    wrong = [[below, *right[0][1:]], *right[1:]]
+    text = (
+        "Which texel is read for each index, with the wrap modes repeat (start again), clamp (repeat the border texel) "
+        "and mirror (every second repetition runs backwards)?"
+    )
+    given = f"Texels 0 to {size - 1}."
+    hints = (
+        "An index inside is itself.",
+        "repeat: the remainder, never negative. clamp: the nearest border.",
+        "mirror: the texels run 0, 1, ... to the end and back again.",
+    )
+    labels = [f"index {index}" for index in indices]
+    return table(
+        text, given, modes, labels, right, hints, {"negative-repeat": wrong} if wrong != right else {}
+    )
+
+
+def draw_upside(draws: Draws) -> Draft | None:
+    """Column and row of a texel."""
+    size = draws.whole(4, 8), draws.whole(4, 8)
+    uv = tuple(Fraction(draws.whole(0, 15) * 2 + 1, 32) for _ in range(2))
+    right = [floor(c * s) for c, s in zip(uv, size, strict=True)]
+    one_less = [floor(c * (s - 1)) for c, s in zip(uv, size, strict=True)]
+    flipped = [right[0], floor((1 - uv[1]) * size[1])]
+    if right in (one_less, flipped):
+        return None
+    text = (
+        "Which texel, column and row, does the nearest filter read? (0, 0) is the bottom left corner; row 0 is "
+        "the lowest."
+    )
+    given = f"Texture of {size[0]} x {size[1]} texels.\n(u, v) = {place_text(uv)}"
+    hints = ("In which direction does v grow?", "floor(u w) and floor(v h).")
+    wrong = {"texture-upside-down": flipped, "texels-of-one-less": one_less}
+    return numbers(text, given, right, hints, wrong, ("column", "row"))
+
+
+def draw_square(draws: Draws) -> Draft:
+    """Four texels."""
+    c = [Fraction(draws.whole(0, 8), 8) for _ in range(4)]
+    w_u, w_v = (Fraction(draws.whole(1, 3), 4) for _ in range(2))
+    low, high = (c[k] * (1 - w_u) + c[k + 1] * w_u for k in (0, 2))
+    texels = [[[float(c[0])], [float(c[1])]], [[float(c[2])], [float(c[3])]]]
+    scene = replace(strip([0.0]), texture=Texture(texels))  # type: ignore[arg-type]
+    text = "What is the colour c of the bilinear filter between these four texels?"
+    given = (
+        f"tex(u0, v0) = {number_text(c[0])}, tex(u1, v0) = {number_text(c[1])}\n"
+        f"tex(u0, v1) = {number_text(c[2])}, tex(u1, v1) = {number_text(c[3])}\n"
+        f"w_u = {number_text(w_u)}, w_v = {number_text(w_v)}"
+    )
+    hints = ("First between the columns, in both rows.", "c = c_b (1 - w_v) + c_t w_v.")
+    return numbers(text, given, [low * (1 - w_v) + high * w_v], hints, scene=scene)
+
+
+def draw_level(draws: Draws) -> Draft:
+    """The mipmap level."""
+    texels, level = 2 ** draws.whole(5, 9), draws.whole(1, 4)
+    step = Fraction(2**level, texels)
+    text = (
+        "How many texels does a pixel step over, and which mipmap level is read? From one pixel to the next, u "
+        "grows by the given step; v stays. Level 0 is the full texture."
+    )
+    given = f"Texture of {texels} x {texels} texels, step in u: {number_text(step)}"
+    hints = ("Multiply the step by the size of the texture.", "The level is log2 of the texels per pixel.")
+    wrong = {
+        "level-without-size": [step, *RULES["level-without-size"].wrong(texels, float(step))],
+        "level-of-area": [2**level, *RULES["level-of-area"].wrong(texels, float(step))],
+    }
+    return numbers(text, given, [2**level, level], hints, wrong, ("texels", "level"))
+
+
+TEMPLATES = (
+    Template("texel-nearest", 1, "The nearest texel", "shade", 2, draw_nearest),
+    Template("texel-place", 1, "Column and row of a texel", "shade", 2, draw_upside),
+    Template("texels-linear", 1, "Between two texels", "shade", 3, draw_bilinear),
+    Template("texels-bilinear", 1, "Between four texels", "shade", 3, draw_square),
+    Template("texel-border", 1, "The filter at the border", "shade", 3, draw_border),
+    Template("texel-wrap", 1, "Texels beyond the border", "shade", 3, draw_wrap),
+    Template("mip-level", 1, "The mipmap level", "shade", 2, draw_level),
+)
