@@ -67,6 +67,8 @@ class Scene3dPresenter(QObject):
         self._size_name = OWN_SIZE
         self._rate = FrameRate()
         self._has_new_figures = False
+        self._is_picture_due = False
+        """Whether a picture is to be asked for as soon as the view is seen and has its size."""
         self._drags = 0
         self._entered: int | None = None
         """A triangle that was clicked to go into it, until it is in focus."""
@@ -76,6 +78,9 @@ class Scene3dPresenter(QObject):
         self._worker.failed.connect(self.refused)
         self._picker.done.connect(self._take_picked)
         self._picker.failed.connect(self.refused)
+        self._settled = QTimer(self)
+        self._settled.setSingleShot(True)
+        self._settled.timeout.connect(self._ask_for_picture)
         self._figures_timer = QTimer(self)
         self._figures_timer.setSingleShot(True)
         self._figures_timer.setInterval(FIGURES_MS)
@@ -141,8 +146,9 @@ class Scene3dPresenter(QObject):
 
     def appear(self) -> None:
         """Draw at the size that the view has now that it comes in sight."""
-        if self._drawn is not None and self._drawn.shot.size != self._view.picture_size():
-            self._draw()
+        is_other_size = self._drawn is not None and self._drawn.shot.size != self._view.picture_size()
+        if self._is_picture_due or is_other_size:
+            self._resized()
 
     @Slot(str)
     def choose_size(self, name: str) -> None:
@@ -157,6 +163,7 @@ class Scene3dPresenter(QObject):
 
     def stop(self) -> None:
         """End drawing, and the worker processes."""
+        self._settled.stop()
         self._figures_timer.stop()
         self._worker.forget()
         self._band_workers.close()  # first: a picture may be waiting for a process that has stopped
@@ -176,7 +183,7 @@ class Scene3dPresenter(QObject):
     @property
     def is_drawing(self) -> bool:
         """Whether a newer picture is still to come."""
-        return self._worker.is_busy
+        return self._settled.isActive() or self._worker.is_busy
 
     @property
     def focus(self) -> int | None:
@@ -199,11 +206,19 @@ class Scene3dPresenter(QObject):
         self._go_home()
 
     def _draw(self) -> None:
-        """Ask for a picture of what is to be seen now."""
-        if self._space is None:
-            return
-        thickness = self._view.pixels_per_point() * current_theme().text_px / 13
+        """Have a picture drawn of what is to be seen, once the view is in sight and everything is laid out."""
         self._drawn_state = self._state()
+        self._is_picture_due = True
+        if self._view.isVisible():
+            self._settled.start(0)
+
+    @Slot()
+    def _ask_for_picture(self) -> None:
+        """Ask for a picture of what is to be seen now."""
+        if self._space is None or not self._view.isVisible():
+            return
+        self._is_picture_due = False
+        thickness = self._view.pixels_per_point() * current_theme().text_px / 13
         scene, numbers = self._scene_left()
         shot = SceneShot(
             self._space,

@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QScrollArea
 from pytestqt.qtbot import QtBot
 
+from app.files.open_any import open_any
 from app.session.document import focus_on, open_document
 from app.session.scene_edits import clip_of_window
 from app.window.main_window import MainWindow
@@ -17,6 +18,8 @@ from lessons.scenes import built_in_scene, scene_names
 from tests.covering import in_turn
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, PRESENTER
+from widgets.space.orbit import fitted
+from widgets.space.scene_view import SceneView
 
 SIZE = (24, 16)
 
@@ -168,3 +171,26 @@ def test_every_method_fits_into_the_left_column(window: MainWindow, qtbot: QtBot
     area = window.page.side_panes.currentWidget()
     assert isinstance(area, QScrollArea)
     assert area.horizontalScrollBar().maximum() == 0
+
+
+def test_the_first_picture_in_space_fits_its_view(qtbot: QtBot) -> None:
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    apply_theme(application, LIGHT)
+    opened = open_any("cube")
+    cube = MainWindow(opened.document)
+    qtbot.addWidget(cube)
+    cube.files.show_opened(opened)  # in space, before the view has a size
+    cube.resize(1280, 800)
+    cube.show()
+    cube.page.settle()
+    presenter, view = cube.page.views.scene_presenter, cube.page.main_view()
+    assert isinstance(view, SceneView)
+    assert presenter.drawn is not None
+    assert presenter.space is not None
+    assert presenter.drawn.shot.size == view.picture_size()
+    assert view.chosen_orbit() is None
+    width, height = view.picture_size()
+    assert presenter.drawn.shot.orbit.extent == fitted(
+        presenter.space.home, presenter.space.center, presenter.space.radius, width / height
+    ).extent
