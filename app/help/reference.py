@@ -39,7 +39,7 @@ NEEDS = {
     "rectangle": "a rectangle for each line",
 }
 """What a method needs, in words."""
-NO_LISTING = "It copies what is known: there is no algorithm to list."
+NO_LISTING = "It has no listing."
 
 
 def methods_page() -> HelpPage:

@@ -30,6 +30,9 @@ MOST_TRIANGLES = 400
 class Companion(StageView):
     """A view beside the main one."""
 
+    is_alike = False
+    """Whether it is a picture like the main one: then both have titles, and may lie one above the other."""
+
     def is_wanted(self) -> bool:
         """Return whether it has something to show at the stage of the cursor."""
         return True
@@ -47,7 +50,7 @@ class EnteredSpace(Companion):
     def make_widget(self) -> QWidget:
         """Return the drawing in space."""
         self._space = SpaceView()
-        self._space.setAccessibleName("The space that corners enter: normalized device coordinates")
+        self._space.setAccessibleName("The space that vertices enter: normalized device coordinates")
         return self._space
 
     def draw(self) -> None:
@@ -85,17 +88,16 @@ class NewDepths(Companion):
     """The depths of the triangle at hand, beside those that the depth buffer holds."""
 
     name = "new-depths"
+    is_alike = True
 
     def make_widget(self) -> QWidget:
-        """Return the grid below its title, and above what stands beside it."""
+        """Return the grid below its title."""
         pane = QWidget()
         self.grid = PixelGrid(pane)
         self._title = text_label("", pane, role="muted")
         layout = column_layout(pane, 4)
         layout.addWidget(self._title)
         layout.addWidget(self.grid, 1)
-        # One line above and one below: both grids have the same height.
-        layout.addWidget(text_label("Left: the depth buffer", pane, role="muted"))
         return pane
 
     def draw(self) -> None:
@@ -149,7 +151,7 @@ def entered_diagram(session: Session) -> Diagram:
         if number == current or not there.all():
             # Of whole triangles the outline is enough: hundreds of dots take long to paint.
             spots += [Spot(corners[number, k], f"vertex {k}", radius=3.0) for k in np.flatnonzero(there)]
-    said = of_kind("Corners appear here when they are divided by w.", is_there.shape[1])
+    said = of_kind("Vertices appear here when they are divided by w.", is_there.shape[1])
     if row >= 0:
         k = int(stage.columns["corner"][row])
         space = SPACES[int(spaces_reached(trace, "transform", position)[current, k])]

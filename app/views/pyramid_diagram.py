@@ -248,6 +248,9 @@ def _ray(
         Stroke(np.stack([np.zeros(3), on_raster]), "text", 2.0),
     ]
     spots = [Spot(on_raster, "text", "disc", 3.0)]
+    if source.scene.corner_count < 3:
+        sentence = f"The ray of the {pixel.name} meets only the raster: a triangle has no area."
+        return Diagram((), tuple(strokes), tuple(spots)), sentence
     point, weights, inverse_w = hit_point(homogeneous, x, y)
     if not np.isfinite(point).all():
         strokes.append(Stroke(np.stack([on_raster, on_raster * 3]), "text", 1.4, "dot"))

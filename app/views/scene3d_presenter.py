@@ -315,7 +315,7 @@ class Scene3dPresenter(QObject):
         else:
             parts.append("Given in clip space: the box is the view volume, its near face in front.")
         if self.focus is not None:
-            parts.append("Drag a corner to move it.")
+            parts.append("Drag a vertex to move it.")
         elif count <= LARGEST_WITH_CAMERA:
             parts.append("Click a triangle to choose it.")
         if count > MOST_TRIANGLES:

@@ -102,8 +102,8 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     elif kind in ("facing", "kept", "degenerate") and source.scene.corner_count == 3:
         marks.append(_arrow(space, triangle, facing, "accent", f"{name}: {side}"))
     else:
-        what = "behind the eye?" if kind == "behind" else f"outside the {trace.columns['plane'][row]} plane?"
-        what = "kept" if kind == "kept" else what
+        place = "behind the eye" if kind == "behind" else f"outside the {trace.columns['plane'][row]} plane"
+        what = "kept" if kind == "kept" else f"not {place}"
         label = f"{name}: {what}"
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label))
     return marks

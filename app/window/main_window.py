@@ -363,6 +363,7 @@ class MainWindow(QMainWindow):
         document = self.session.document
         self.setWindowTitle(f"{document.title} – Rasterscope" if document.title else "Rasterscope")
         shared = isinstance(document.scene, ClipScene) and document.scene.shared is not None
+        self.menus.show_kind(document.scene.corner_count)
         self.menus.show_checked("toggle_shared", shared or not isinstance(document.scene, ClipScene))
         self.menus.show_checked("toggle_cleared", document.before == "cleared")
         self._show_pointed()

@@ -15,6 +15,7 @@ from app.window.appearance import DESK_THEMES, TEXT_SIZES
 from app.window.key_choices import KeyChoices
 from app.window.keys import ACTIONS, KeyAction, key_text
 from app.window.preferences import preferences_folder
+from core.explain.kinds import of_kind
 from lessons.scenes import CATALOGUE, BuiltInScene
 from lessons.slides.scenes import LECTURE_SCENES
 from widgets.basics.theme import current_theme
@@ -173,6 +174,12 @@ class Menus(QObject):
     def show_enabled(self, name: str, is_enabled: bool) -> None:
         """Show whether an action can be done now."""
         self.actions_by_name[name].setEnabled(is_enabled)
+
+    def show_kind(self, corner_count: int) -> None:
+        """Name triangles, segments or points: primitives of so many corners."""
+        for entry in ACTIONS:
+            if "triangle" in entry.title.lower():
+                self.actions_by_name[entry.name].setText(of_kind(entry.title, corner_count))
 
     def show_keys(self, choices: KeyChoices) -> None:
         """Let the actions have other keys."""

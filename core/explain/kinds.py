@@ -23,7 +23,7 @@ _WORDS = {
         (r"vertices 1 and 2 are", "end 1 is"),
         (r"\ba corner", "an end"),
         (r"vertices", "ends"),
-        (r"vertex", "end"),
+        (r"vertex(?! \d+ of)", "end"),
         (r"edge 2 of triangle|triangle", "segment"),
         (r"(the )?edge 2\b", "the segment"),
         (r"edge", "segment"),
@@ -40,8 +40,14 @@ _WORDS = {
         ),
         (r"(all )?three (vertices|corners) are|all vertices are|all of its corners (is|are)", "it is"),
         (r"vertices", "positions"),
-        (r"vertex", "position"),
-        (r"corner 0 of triangle|edge 2 of triangle|triangle", "point"),
+        (r"vertex(?! \d+ of)", "position"),
+        (r"which pixels a line has", "which pixel contains a point"),
+        (
+            r"edge 2 of triangle (\d+) begins and ends in (.*), so it has no length on the raster",
+            r"point \1 lies in \2",
+        ),
+        (r"its centre lies at the first end of edge 2", "it contains the point"),
+        (r"edge 2 of triangle|triangle", "point"),
         (r"(the )?edge 2\b", "the point"),
         (r"edge", "point"),
         (r"corner", "position"),
@@ -50,12 +56,18 @@ _WORDS = {
 """By the corners of a primitive, what is replaced by what."""
 
 
+def _as_begun(found: re.Match[str], noun: str) -> str:
+    """Return what replaces a match, with a capital where the match begins with one."""
+    said = found.expand(noun)
+    return said[:1].upper() + said[1:] if found[0][0].isupper() else said
+
+
 def of_kind(text: str, corner_count: int) -> str:
     """Return a sentence about triangles as one about primitives of so many corners."""
     for pattern, noun in _WORDS.get(corner_count, ()):
         text = re.sub(
             pattern,
-            lambda found, noun=noun: noun.capitalize() if found[0][0].isupper() else noun,  # type: ignore[misc]
+            lambda found, noun=noun: _as_begun(found, noun),  # type: ignore[misc]
             text,
             flags=re.IGNORECASE,
         )

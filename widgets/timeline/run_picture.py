@@ -94,7 +94,8 @@ class RunView:
         painter.fillRect(self.lanes, QColor(theme.canvas))
         if not self.run.count:
             painter.setPen(QColor(theme.muted_text))
-            painter.drawText(self.lanes, Qt.AlignmentFlag.AlignCenter, "The steps of this stage appear here.")
+            said = "The steps of this stage appear here." if self.run.is_open else "This stage has no steps."
+            painter.drawText(self.lanes, Qt.AlignmentFlag.AlignCenter, said)
             return
         side = lane_height()
         for number, mark in enumerate(self.run.lanes()):

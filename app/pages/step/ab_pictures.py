@@ -112,12 +112,13 @@ def compare(first: Side, second: Side) -> Comparison:
         largest = np.abs(np.nan_to_num(amount)).argmax(axis=2)
         amount = np.take_along_axis(amount, largest[..., None], axis=2)[..., 0]
     ours, theirs = _known(a), _known(b)
-    differs = (ours != theirs) | (changed & ours & theirs)
+    is_choice = a.kind in ("ids", "bool")
+    in_a, in_b = (_has(buffer) for buffer in (a, b)) if is_choice else (ours, theirs)
+    # A pixel that one run has found outside, and the other has not reached, is in neither.
+    differs = (in_a != in_b) | (changed & in_a & in_b)
     count = int(np.count_nonzero(differs))
     summary = f"{count:,} of {differs.size:,} pixels differ"
-    is_choice = a.kind in ("ids", "bool")
     if is_choice:
-        in_a, in_b = (_has(buffer) for buffer in (a, b))
         if (in_a != in_b).any():
             only = np.count_nonzero(in_a & ~in_b), np.count_nonzero(in_b & ~in_a)
             summary += f"; {only[0]:,} only in A, {only[1]:,} only in B"

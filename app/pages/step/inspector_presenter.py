@@ -25,7 +25,7 @@ from widgets.inspector.variables import VariablesView
 from widgets.timeline.stage_card import StageCardView
 
 HIDDEN_HISTORY = "Turn prediction off (P) to see the pixel's history."
-NO_LISTING = "This step copies what is known; it has no algorithm to list."
+NO_FORMULA, NO_LISTING = "This step has no formula.", "This step has no listing."
 
 
 class InspectorPresenter(QObject):
@@ -97,7 +97,7 @@ class InspectorPresenter(QObject):
             self._show_listing(first.listing if first else None)
             self._listing.show_line(None)
             return
-        self._formula.show_hint("This step copies what is known; it has no formula.")
+        self._formula.show_hint(NO_FORMULA)
         self._formula.show_formula(formula(explanation))
         self._variables.show_variables(variables(explanation))
         self._listing.show_hint(NO_LISTING)

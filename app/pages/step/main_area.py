@@ -4,10 +4,10 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QSizePolicy, QStackedWidget, QTabBar, QToolButton, QWidget
+from PySide6.QtWidgets import QBoxLayout, QSizePolicy, QStackedWidget, QTabBar, QToolButton, QWidget
 
 from app.session.session import Session
-from app.views.companions import COMPANIONS, NewDepths
+from app.views.companions import COMPANIONS, Companion, NewDepths
 from app.views.stage_views import StageViews
 from core.stages.declared import stage_of
 from widgets.basics.accessible import announce
@@ -23,8 +23,12 @@ from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.range_button import RangeButton
 from widgets.grid.range_control import RangeControl
 
-LEAST_WIDTH_OF_BOTH = 34
+LEAST_ROOM_OF_BOTH = 34
 """Heights of the text below which the area shows one side of a stage only."""
+STACKED_GAIN = 1.05
+"""How much larger two pictures alike must be one above the other to lie so."""
+CHOICES_WIDTH = 24
+"""Heights of the text that the choice of a buffer and its range take at most."""
 
 
 class MainArea(QWidget):
@@ -71,6 +75,7 @@ class MainArea(QWidget):
         for change in (session.cursor_changed, session.document_changed, session.predicting_changed):
             change.connect(self.refresh_beside)
         theme_notifier().theme_changed.connect(self.refresh_beside)
+        theme_notifier().theme_changed.connect(self._arrange_row)
         new_depths = self.companions["depth"]
         assert isinstance(new_depths, NewDepths)
         self.grid.view_changed.connect(new_depths.grid.set_view)
@@ -78,29 +83,36 @@ class MainArea(QWidget):
 
     def _lay_out(self) -> None:
         self._row = QWidget(self)
-        row = row_layout(self._row, spacing=4)
-        row.addWidget(self.view_bar, 1)
+        self._row_layout = row_layout(self._row, spacing=4)
+        self._row_layout.addWidget(self.view_bar, 1)
         self._choices = QWidget(self)
         choices = row_layout(self._choices, spacing=4)
+        choices.addStretch(1)
         for widget in (self.range_button, self.buffer_choice, self.thumbnails_button):
             choices.addWidget(widget)
-        row.addWidget(self._choices)
+        self._row_layout.addWidget(self._choices)
+        main_side = QWidget(self)
+        titled = column_layout(main_side, 4)
+        self._main_title = text_label("", main_side, role="muted")
+        self._main_title.hide()
+        titled.addWidget(self._main_title)
+        titled.addWidget(self.view_stack, 1)
         self.rows = PaneSplitter(Qt.Orientation.Vertical, self)
         self.both_sides = QWidget(self)
-        beside = row_layout(self.both_sides, 4)
-        for side in (self.view_stack, self.beside):
+        self._sides = row_layout(self.both_sides, 4)
+        for side in (main_side, self.beside):
             # Halves, whatever is written in them: a longer title must not move the pictures.
-            side.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
-            beside.addWidget(side, 1)
+            side.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Ignored)
+            self._sides.addWidget(side, 1)
         self.beside.hide()
         self.rows.addWidget(self.both_sides)
         self.rows.addWidget(self.strip)
         self.rows.setStretchFactor(0, 1)
         self.rows.setChildrenCollapsible(False)
         self.rows.setSizes([430, 150])
-        layout = column_layout(self, 4)
-        layout.addWidget(self._row)
-        layout.addWidget(self.rows, 1)
+        self._layout = column_layout(self, 4)
+        self._layout.addWidget(self._row)
+        self._layout.addWidget(self.rows, 1)
         self.setMinimumWidth(160)
         self.strip.hide()
         # Over the view, not beside it: what is opened must not move the pixel under the pointer.
@@ -130,9 +142,23 @@ class MainArea(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the control of the range inside."""
         super().resizeEvent(event)
+        self._arrange_row()
         self._place_ranges()
-        if self._has_two_sides() == self.beside.isHidden():
-            self.refresh_beside()
+        self.refresh_beside()
+
+    @Slot()
+    def _arrange_row(self) -> None:
+        """Put the choice of a buffer below the names of the views where they have no room beside each other.
+
+        The room for it is always the same: what a step writes there must not move the picture.
+        """
+        needed = self.view_bar.sizeHint().width() + CHOICES_WIDTH * current_theme().text_px
+        directions = QBoxLayout.Direction.LeftToRight, QBoxLayout.Direction.TopToBottom
+        direction = directions[needed > self.width()]
+        if direction != self._row_layout.direction():
+            self._row_layout.setDirection(direction)
+            self._row.updateGeometry()
+            self._layout.activate()
 
     def _place_ranges(self) -> None:
         size = self.ranges.sizeHint()
@@ -144,6 +170,7 @@ class MainArea(QWidget):
         """Offer the buffers of the stage at hand, the ``main`` one chosen; what is ``drawn`` may hide parts of it."""
         self.buffer_choice.show_buffers(buffers, main.name)
         self.range_button.show_buffer(main)
+        self._main_title.setText(f"Buffer: {main.label}")
         self.grid.show_buffer(drawn)
         self.show_thumbnails(self.thumbnails_button.isChecked())
 
@@ -159,16 +186,30 @@ class MainArea(QWidget):
         stage = self._session.cursor.stage
         companion = self.companions.get(stage)
         is_own = self.current_view() == stage_of(stage).view
-        is_wide = self.width() >= LEAST_WIDTH_OF_BOTH * current_theme().text_px
-        return companion is not None and is_own and is_wide and companion.is_wanted()
+        if companion is None or not is_own or not companion.is_wanted():
+            return False
+        room = max(self.width(), self.height()) if self._are_stacked(companion) else self.width()
+        return room >= LEAST_ROOM_OF_BOTH * current_theme().text_px
+
+    def _are_stacked(self, companion: Companion) -> bool:
+        """Return whether both sides are larger one above the other."""
+        raster = self._session.document.raster
+        width, height = self.rows.width() / raster.columns, self.rows.height() / raster.rows
+        return companion.is_alike and min(width, height / 2) > STACKED_GAIN * min(width / 2, height)
 
     @Slot()
     def refresh_beside(self) -> None:
         """Show the other side of a stage beside its own view: the space entered, the texture, the new depths."""
         if not self._has_two_sides():
             self.beside.hide()
+            self._main_title.hide()
             return
         companion = self.companions[self._session.cursor.stage]
+        is_stacked = self._are_stacked(companion)
+        self._sides.setDirection(
+            QBoxLayout.Direction.TopToBottom if is_stacked else QBoxLayout.Direction.LeftToRight
+        )
+        self._main_title.setVisible(companion.is_alike)
         if self._session.is_predicting:
             # It keeps its place, so that the main view keeps its own.
             self.beside.setCurrentWidget(self._veil)

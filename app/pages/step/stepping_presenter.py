@@ -249,17 +249,23 @@ class SteppingPresenter(QObject):
         if pin is None:
             self.tell("Pin a pixel first: click it.")
             return
+        if self._is_hidden(direction):
+            return
         reached = next_at_pixel(self._session.stage_trace, self._session.cursor.position, *pin, direction)
         self._go_on(reached, direction, f"at pixel ({pin[0]}, {pin[1]})")
 
     def run_to_event(self, direction: int) -> None:
         """Go to the next or last event of the chosen kind."""
+        if self._is_hidden(direction):
+            return
         trace, position = self._session.stage_trace, self._session.cursor.position
         reached = next_marked(trace, position, self.event_kind, direction)
         self._go_on(reached, direction, f"of the kind “{EVENT_TITLES[self.event_kind]}”")
 
     def run_to_breakpoint(self, direction: int) -> None:
         """Go to the next or last breakpoint, or else to the end."""
+        if self._is_hidden(direction):
+            return
         trace, position = self._session.stage_trace, self._session.cursor.position
         reached = nearest(self._break_positions(trace), position, direction)
         if reached is not None:
@@ -275,6 +281,13 @@ class SteppingPresenter(QObject):
             self._session.set_stage(stage, trace.steps.position_after(int(rows[0])))
         else:
             self.tell(f"{stage_of(stage).short_title} does nothing at pixel ({column}, {row}).")
+
+    def _is_hidden(self, direction: int) -> bool:
+        """Say, while the user predicts, that a search ahead would tell what comes; return whether it would."""
+        would_tell = direction > 0 and self._session.is_predicting
+        if would_tell:
+            self.tell("A search ahead would tell what comes. P ends predicting.")
+        return would_tell
 
     def _go_on(self, reached: int | None, direction: int, what: str) -> None:
         """Go to a position that a run has reached, or tell that there is none."""
@@ -318,6 +331,8 @@ class SteppingPresenter(QObject):
 
     def run_to_line(self, function: str, line: int) -> None:
         """Go to the next step of a line of a listing."""
+        if self._is_hidden(1):
+            return
         positions = self._line_positions(self._session.stage_trace, function, line)
         self._go_on(nearest(positions, self._session.cursor.position, 1), 1, f"at line {line}")
 

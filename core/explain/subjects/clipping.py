@@ -136,8 +136,8 @@ def corner_in_order(step: StepValues) -> Said:
 
 @explains("clip.untouched.keep")
 def untouched(step: StepValues) -> Said:
-    """A triangle that crosses no plane."""
-    return f"Triangle {step.triangle} is unchanged: it crosses none of the planes that are clipped against."
+    """A triangle that crosses no plane, or is not clipped."""
+    return f"Triangle {step.triangle} is unchanged: no plane clips it."
 
 
 @explains("clip.divided|mirrored.divide")

@@ -39,10 +39,10 @@ def plane(step: StepValues) -> Said:
     inside = sum(not value < 0 for value in distances)
     number = "all" if inside == len(distances) else ("no", "one", "two")[inside]
     corners = f"{number} of its corners {'are' if inside > 1 else 'is'} inside"
-    verdict = f"is kept: {corners}"
+    verdict = f"is not outside the {name} plane: {corners}"
     if step.flag("applies"):
-        verdict = "is dropped: all its corners are outside"
-    text = f"Triangle {step.triangle} {verdict} the {name} plane (distances {_listed(distances)})."
+        verdict = f"is dropped: all its corners are outside the {name} plane"
+    text = f"Triangle {step.triangle} {verdict} (distances {_listed(distances)})."
     return text, all_of(compared, *_dropped(step))
 
 

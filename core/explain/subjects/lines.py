@@ -69,13 +69,15 @@ def octant(step: StepValues) -> Said:
     first, second = vector_text(step.vector("window_start")), vector_text(step.vector("window_end"))
     if traits.takes_pixels:
         first, second = (f"pixel {vector_text(step.vector(name))}" for name in ("first_end", "second_end"))
-    text = f"Edge {step.whole('edge')} of triangle {step.triangle} runs from {first} to {second}"
+    name = f"Edge {step.whole('edge')} of triangle {step.triangle}"
+    text = f"{name} runs from {first} to {second}"
     steps = "row by row" if is_steep else "column by column"
     level = "as long in x as in y" if run == rise else f"longer in {major}"
     swapped = "x and y are swapped and " if is_swapped(step) else ""
     end = f": it is {level}, so {swapped}it is drawn {steps}."
     if run == 0:
         end = ", so it has no length on the raster."
+        text = f"{name} begins and ends in {first}" if traits.takes_pixels else text
     wanted = r"\ge" if traits.is_diagonal_steep else ">"
     in_x, in_y = (rise, run) if is_steep else (run, rise)
     return text + end, equation(

@@ -62,7 +62,7 @@ def normal(step: StepValues) -> Said:
         f"{step.pixel_name}: made unit length, the normal N is {vector_text(n)} and the direction to the eye V is "
         f"{vector_text(v)}."
     )
-    return text, equation(*beside([("N", vector_latex(n)), "=", r"\frac{n}{|n|}"], [("V", vector_latex(v))]))
+    return text, equation(*beside([(r"N = \frac{n}{|n|}", vector_latex(n))], [("V", vector_latex(v))]))
 
 
 def _dot(other: str, value: float, first: Sequence[float], second: Sequence[float]) -> list[Part]:

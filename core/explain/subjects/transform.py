@@ -1,4 +1,4 @@
-"""Transforming corners: a row of a matrix, the division by w, and the viewport."""
+"""Transforming vertices: a row of a matrix, the division by w, and the viewport."""
 
 from functools import partial
 
@@ -21,8 +21,8 @@ BEYOND = {("x", -1): "left", ("x", 1): "right", ("y", -1): "bottom", ("y", 1): "
 }
 
 
-def _corner(step: StepValues) -> str:
-    return f"Corner {step.whole('corner')} of triangle {step.triangle}"
+def _vertex(step: StepValues) -> str:
+    return f"Vertex {step.whole('vertex')} of triangle {step.triangle}"
 
 
 def _symbol(step: StepValues, axis: str, space: str) -> str:
@@ -33,7 +33,7 @@ def position(step: StepValues) -> Asked | None:
     """Ask for x after the step."""
     after = step.vector("after")
     done = step.kind.replace("-", " ")
-    text = f"What is x of vertex {step.whole('corner')} after the step “{done}”?"
+    text = f"What is x of vertex {step.whole('vertex')} after the step “{done}”?"
     return number(text, after[0], f"({', '.join(map(spoken, after))}).")
 
 
@@ -43,7 +43,7 @@ def transformed(step: StepValues) -> Said:
     before, after = step.kind.split("-to-")
     axis, value = step.operation, step.number(f"after_{step.operation}")
     text = (
-        f"{_corner(step)}: its {after} {axis} is {spoken(value)}, "
+        f"{_vertex(step)}: its {after} {axis} is {spoken(value)}, "
         f"the {ORDINALS[axis]} row of {MATRICES[step.kind]} times its {before} position"
     )
     if after == "clip" and axis == "w" and step.rows("matrix")[3] != [0.0, 0.0, 0.0, 1.0]:
@@ -59,7 +59,7 @@ def divided(step: StepValues) -> Said:
     """One component divided by w."""
     axis = step.operation
     before, after, w = (step.number(name) for name in (f"before_{axis}", f"after_{axis}", "before_w"))
-    text = f"{_corner(step)}: its NDC {axis} is {spoken(after)}"
+    text = f"{_vertex(step)}: its NDC {axis} is {spoken(after)}"
     text += f", clip {axis} = {spoken(before)} divided by w = {spoken(w)}"
     if w == 0:
         text += "; with w = 0 it has no position in the window"
@@ -90,7 +90,7 @@ def placed(step: StepValues) -> Said:
             f"NDC {axis} is {spoken(before)}, and −1 to 1 becomes 0 to {size}"
         )
     moved = (rf"({_symbol(step, axis, 'ndc')} + 1)", f"({number_latex(before)} + 1)")
-    return f"{_corner(step)}: {text}.", equation(
+    return f"{_vertex(step)}: {text}.", equation(
         (_symbol(step, axis, "window"), after), "=", moved, r"\cdot", half
     )
 

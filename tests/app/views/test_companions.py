@@ -39,6 +39,28 @@ def test_a_stage_of_two_sides_shows_both(window: MainWindow, scene: str, beside:
     assert set(COMPANIONS) >= beside
 
 
+def test_both_depths_are_alike_and_lie_where_they_are_largest(window: MainWindow) -> None:
+    area, page = window.page.main_area, window.page
+    window.session.open(open_document(make_scene("cube"), "cube"))
+    window.session.set_stage("depth", 40)
+    new_depths = area.companions["depth"].grid  # type: ignore[attr-defined]
+    for panes in (["run"], ["run", "scene"], ["run", "thumbnails"]):
+        page.show_panes(["inspector", *panes])
+        page.settle()
+        main = page.grid.mapTo(area, page.grid.rect().topLeft())
+        other = new_depths.mapTo(area, new_depths.rect().topLeft())
+        assert (main.x() == other.x()) is ("scene" in panes), "below each other in a narrow area"
+        assert page.grid.placement().cell == new_depths.placement().cell, panes
+
+
+def test_no_tab_of_a_view_is_hidden_beside_a_pane(window: MainWindow) -> None:
+    bar = window.page.main_area.view_bar
+    window.page.show_panes(["inspector", "scene"])
+    window.page.settle()
+    assert bar.width() >= bar.sizeHint().width()
+    assert window.page.main_area.buffer_choice.isVisible()
+
+
 def test_corners_enter_the_cube_as_they_are_divided(qapp: object) -> None:
     session = Session(open_document(make_scene("cube"), "cube"))
     session.set_stage("transform", 0)

@@ -56,6 +56,12 @@ def test_the_raster_stands_on_the_plane_w_1(qapp):
     assert np.allclose(np.abs(border.points[:, 0]), 64 / 48)
 
 
+def test_a_segment_has_no_weights_in_its_plane(qapp):
+    caption = pyramid_diagram(source_of("segment"), 0, PointedPixel(5, 3, "pin")).caption
+    assert "a segment has no area" in caption
+    assert "weights" not in caption
+
+
 def test_what_is_covered_of_the_raster_is_drawn_exactly(qapp):
     source = source_of("near-plane")
     diagram = pyramid_diagram(source, 0, None)

@@ -191,6 +191,7 @@ def test_the_first_picture_in_space_fits_its_view(qtbot: QtBot) -> None:
     assert presenter.drawn.shot.size == view.picture_size()
     assert view.chosen_orbit() is None
     width, height = view.picture_size()
-    assert presenter.drawn.shot.orbit.extent == fitted(
-        presenter.space.home, presenter.space.center, presenter.space.radius, width / height
-    ).extent
+    assert (
+        presenter.drawn.shot.orbit.extent
+        == fitted(presenter.space.home, presenter.space.center, presenter.space.radius, width / height).extent
+    )

@@ -148,7 +148,7 @@ def test_the_colours_follow_the_theme(qtbot, view) -> None:
 
 def test_the_hint_of_an_empty_view_has_room(qtbot, view) -> None:
     view.show_formula(None)
-    view.show_hint("This step copies what is known; it has no formula.")
+    view.show_hint("This step has no formula.")
     assert view.heightForWidth(1000) >= view.fontMetrics().height()
     assert view.heightForWidth(120) >= 3 * view.fontMetrics().height()
 

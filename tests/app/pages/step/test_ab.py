@@ -3,12 +3,14 @@
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.pages.step.ab_pictures import compare
 from app.pages.step.ab_settings import first_difference, settings_difference
 from app.session.document import open_document
 from app.window.main_window import MainWindow
@@ -16,11 +18,21 @@ from core import STAGES, Settings
 from core.scene import Scene
 from core.study.accuracy.divergence import diverge, is_same_schedule, stage_divergence
 from lessons.scenes import make_scene
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.compare_view import Side
 
 
 def test_the_difference_in_words() -> None:
     assert settings_difference(Settings(), Settings(block_size=4)) == "block size: 4"
     assert settings_difference(Settings(), Settings()) == ""
+
+
+def test_a_pixel_found_outside_differs_from_none_not_reached() -> None:
+    covered = np.array([[True, False, False]])
+    a = GridBuffer("coverage", covered, "bool", known=np.array([[True, True, False]]))
+    b = GridBuffer("coverage", covered, "bool", known=np.array([[True, False, False]]))
+    sides = [Side(name, name, buffer=buffer) for name, buffer in (("A", a), ("B", b))]
+    assert compare(*sides).summary == "0 of 3 pixels differ."
 
 
 def test_one_key_shows_both_and_the_pixels_again(window: MainWindow, qtbot: QtBot) -> None:

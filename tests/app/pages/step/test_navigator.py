@@ -50,7 +50,7 @@ def test_one_key_goes_into_the_triangle_and_one_back(model: MainWindow) -> None:
     model.session.set_stage("raster", 0)
     model.run_action("whole_picture")
     assert model.page.current_view() == "scene"
-    assert view.orbit() == home  # type: ignore[attr-defined]
+    assert view.chosen_orbit() is None  # type: ignore[attr-defined]
     assert model.session.document.triangle == document.triangle
     model.run_action("fit_region")
     assert model.page.current_view() == "pixels"

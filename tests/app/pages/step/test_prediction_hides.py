@@ -125,3 +125,15 @@ def test_the_grid_keeps_its_place(window: MainWindow) -> None:
         )
         window.session.step(1)
     assert places == {(before[0].toTuple(), before[1].toTuple())}
+
+
+def test_no_search_ahead_tells_what_comes(window: MainWindow) -> None:
+    session, stepping = window.session, window.page.stepping
+    session.set_stage("raster", 0)
+    session.set_pin((27, 20))
+    window.page.set_predicting(True)
+    before = session.cursor
+    for search in (stepping.run_to_pin, stepping.run_to_event, stepping.run_to_breakpoint):
+        search(1)
+        assert session.cursor == before
+        assert "P ends predicting" in window.statusBar().currentMessage()

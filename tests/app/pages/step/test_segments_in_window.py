@@ -167,3 +167,10 @@ def test_clippers_of_rectangles_are_refused_for_a_polygon(window: MainWindow) ->
     window.session.set_setting("line_clipping", "liang-barsky")
     window.open_path("polygon-window")
     assert window.session.document.settings.line_clipping in ("none", "liang-barsky")
+
+
+def test_menus_name_what_the_scene_is_made_of(window: MainWindow) -> None:
+    action = window.menus.actions_by_name["next_triangle"]
+    assert action.text() == "Next triangle"
+    open_scene(window, "segment")
+    assert action.text() == "Next segment"
