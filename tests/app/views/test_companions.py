@@ -50,7 +50,8 @@ def test_both_depths_are_alike_and_lie_where_they_are_largest(window: MainWindow
         main = page.grid.mapTo(area, page.grid.rect().topLeft())
         other = new_depths.mapTo(area, new_depths.rect().topLeft())
         assert (main.x() == other.x()) is ("scene" in panes), "below each other in a narrow area"
-        assert page.grid.placement().cell == new_depths.placement().cell, panes
+        # Of an odd height one has a pixel more.
+        assert page.grid.placement().cell == pytest.approx(new_depths.placement().cell, rel=0.01), panes
 
 
 def test_no_tab_of_a_view_is_hidden_beside_a_pane(window: MainWindow) -> None:
