@@ -3,6 +3,7 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 from typing import ClassVar
 
 from core.scene import ClipScene
@@ -94,12 +95,19 @@ class PlaceAnswer(Answer):
     def check(self, response: Places) -> Verdict:
         """Score the points against the nearest of all right answers, or by running."""
         if self.is_right is not None:
-            right = list(range(len(self.names))) if self.is_right(response) else []
+            if response not in self._found:
+                self._found[response] = self.is_right(response)
+            right = list(range(len(self.names))) if self._found[response] else []
         else:
             right = max((self._near(response, places) for places in (self.reference, *self.also)), key=len)
         wrong = [k for k in range(len(self.names)) if k not in right]
         counts = f"{len(right)} of {len(self.names)} points right"
         return Verdict(len(right) / len(self.names), counts, {"right": right, "wrong": wrong})
+
+    @cached_property
+    def _found(self) -> dict[Places, bool]:
+        """Whether places are right, by those that were run."""
+        return {}
 
     def _near(self, response: Places, places: Places) -> list[int]:
         return [

@@ -123,10 +123,17 @@ class BreakAnswer(Answer):
 
     def check(self, response: Values) -> Verdict:
         """Run both methods."""
-        scene = self.scene_of(response)
-        weak, robust = self.fails(scene, self.weak), self.fails(scene, self.robust)
+        if response not in self._found:
+            scene = self.scene_of(response)
+            self._found[response] = self.fails(scene, self.weak), self.fails(scene, self.robust)
+        weak, robust = self._found[response]
         counts = f"the weak method {_failed(weak)}, the other {_failed(robust)}"
         return Verdict(float(weak and not robust), counts, {"weak": weak, "robust": robust})
+
+    @cached_property
+    def _found(self) -> dict[Values, tuple[bool, bool]]:
+        """Whether the weak and the robust method fail, by the values that were run."""
+        return {}
 
     def is_same(self, one: Values, other: Values) -> bool:
         """Compare which methods fail."""
