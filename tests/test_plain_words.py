@@ -61,7 +61,7 @@ def explanations() -> Iterator[str]:
         for name in STAGES:
             stage = traced.stage(name)
             asked = question(stage, stage.steps.row_count // 2) if stage.steps.row_count else None
-            yield from (asked.question.text, asked.reveal) if asked is not None else ()
+            yield from (asked.text, asked.reveal) if asked is not None else ()
     for name in STAGES:
         card = stage_card(name)
         yield from (initial_sentence(name), card.title, card.gets, card.gives, card.purpose)

@@ -1,4 +1,4 @@
-"""What explanations hand to the widgets: formulas, variables, stage cards, questions and verdicts."""
+"""What explanations hand to lessons and widgets: formulas, variables, stage cards, questions and verdicts."""
 
 import math
 from collections.abc import Mapping
@@ -75,47 +75,35 @@ class AnswerKind(Enum):
 
 @dataclass(frozen=True)
 class Question:
-    """Something to predict."""
+    """Something to predict, as it is shown."""
 
     text: str
     kind: AnswerKind
     choices: tuple[str, ...] = ("Yes", "No")
     """Buttons of a choice."""
-    tolerance: str = ""
-    """What counts as right, in words, such as ``within 0.01``."""
-
-
-TOLERANCE = 0.01
-"""Relative error of a number that still counts as right."""
 
 
 @dataclass(frozen=True)
 class Asked:
-    """A question with its answer."""
+    """What can be asked about a step, and what is right."""
 
-    question: Question
+    text: str
     answer: float
     """The number, or the index of the right choice."""
     reveal: str
     """One sentence with the value."""
-
-    def is_right(self, answer: float) -> bool:
-        """Return whether an answer counts as right."""
-        if self.question.kind is AnswerKind.CHOICE:
-            return int(answer) == int(self.answer)
-        return math.isclose(answer, self.answer, rel_tol=TOLERANCE, abs_tol=1e-9)
+    choices: tuple[str, ...] = ()
+    """Empty: a number is asked for."""
 
 
 def choice(text: str, answer: int, reveal: str, choices: tuple[str, ...] = ("Yes", "No")) -> Asked:
-    """Return a question with buttons; ``answer`` is the index of the right one."""
-    return Asked(Question(text, AnswerKind.CHOICE, choices), answer, reveal)
+    """Return a question with choices; ``answer`` is the index of the right one."""
+    return Asked(text, answer, reveal, choices)
 
 
 def number(text: str, answer: float, reveal: str) -> Asked | None:
     """Return a question for a number; ``None`` where the answer is not finite."""
-    if not math.isfinite(answer):
-        return None
-    return Asked(Question(text, AnswerKind.NUMBER, tolerance="within 1 %"), answer, reveal)
+    return Asked(text, answer, reveal) if math.isfinite(answer) else None
 
 
 @dataclass(frozen=True)

@@ -97,11 +97,7 @@ def question(trace: StageTrace, row: int) -> Asked | None:
         if explanation is not None and found is not None and found.asks is not None:
             column, line = (int(number) for number in trace.pixel[row])
             asked = found.asks(StepValues(explanation, int(trace.triangle[row]), (column, line)))
-            return asked and replace(
-                asked,
-                question=replace(asked.question, text=in_words(asked.question.text, {})),
-                reveal=in_words(asked.reveal, {}),
-            )
+            return asked and replace(asked, text=in_words(asked.text, {}), reveal=in_words(asked.reveal, {}))
     return None
 
 

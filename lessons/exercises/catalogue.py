@@ -19,6 +19,7 @@ from lessons.exercises.templates import (
     line_methods,
     lines,
     mixing,
+    next_steps,
     placing,
     polygons,
     reading,
@@ -48,6 +49,7 @@ _MODULES = (
     reading,
     stepping,
     running,
+    next_steps,
 )
 
 TEMPLATES: dict[str, Template] = {

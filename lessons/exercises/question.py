@@ -36,6 +36,8 @@ class Draft:
     """Of the right run."""
     pixel: tuple[int, int] | None = None
     """Column and row of the pixel that the question is about, where there is one."""
+    reveal: str = ""
+    """A sentence with what is right, to be shown after the answer; empty: the answer says it."""
 
 
 @dataclass(frozen=True, eq=False)

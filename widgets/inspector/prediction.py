@@ -61,8 +61,6 @@ class PredictionView(QWidget):
         self._verdict = None
         hint = hint or "Turn prediction on to predict each value before it appears."
         text = question.text if question else hint
-        if question and question.tolerance:
-            text = f"{text} ({question.tolerance})"
         self.question.setText(text)
         set_role(self.question, "" if question else "muted")
         self._show_choices(question.choices if question and question.kind is AnswerKind.CHOICE else ())

@@ -17,7 +17,7 @@ from core.explain.equation import (
     linear_parts,
     relation,
 )
-from core.explain.records import AnswerKind, Asked, Question, choice
+from core.explain.records import Asked, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.edges import tie_reason
@@ -27,32 +27,10 @@ from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given
 from core.raster.edges.edge_functions import is_inside
 from core.raster.edges.snapping import SUBPIXELS
 from core.raster.number_formats.bit_patterns import bit_pattern
-from core.records.arrays import Flags
 from core.records.words import counted, joined
 
 SNAP_DISTANCE = 1 / SUBPIXELS
 """Largest distance in pixels at which snapping can reverse a decision."""
-COVERAGE_QUESTION = Question(
-    "Click the covered pixels in the grid: each is checked at once. "
-    "Or press Right to be asked about one pixel at a time.",
-    AnswerKind.GRID,
-)
-"""What is asked of coverage as a whole."""
-
-
-def coverage_reveal(column: int, row: int, is_covered: bool) -> str:
-    """Return whether a clicked pixel is covered."""
-    return f"({column}, {row}) is {'covered' if is_covered else 'not covered'}."
-
-
-def coverage_result(clicked: Flags, covered: Flags) -> str:
-    """Return how the clicked pixels, (H, W) bool, compare with the covered ones, (H, W) bool."""
-    right, extra, missing = (
-        int(np.count_nonzero(pixels))
-        for pixels in (clicked & covered, clicked & ~covered, covered & ~clicked)
-    )
-    count = counted(int(np.count_nonzero(covered)), "covered pixel")
-    return f"{right} of {count} right (tick), {extra} extra (cross), {missing} missing (square)."
 
 
 def covered(step: StepValues) -> Asked:

@@ -12,7 +12,7 @@ Pixel = tuple[int, int]
 Pixels = frozenset[Pixel]
 
 SIDE_LIMIT = 128
-"""Most pixels of a question on a side: each can be pointed at."""
+"""Most pixels on a side that files may ask for: each can be pointed at."""
 
 
 class NothingToMarkError(ValueError):
@@ -39,9 +39,6 @@ class PixelAnswer(Answer):
     kind: ClassVar[str] = "pixels"
 
     def __post_init__(self) -> None:
-        columns, rows = self.size
-        if not (1 <= columns <= SIDE_LIMIT and 1 <= rows <= SIDE_LIMIT):
-            raise ValueError(f"expected 1 to {SIDE_LIMIT} {self.noun} each way, got {columns} x {rows}")
         if not self.reference or not self._must_not_count:
             missing = "must not (.)" if self.reference else "must (#)"
             raise NothingToMarkError(

@@ -41,7 +41,7 @@ def compared(stored: float, before: float, **constants: float) -> Explanation:
 def test_depths_in_whole_numbers_are_told_apart_by_one_step() -> None:
     made = compared(14860001.0, 14860000.0, scale=16777215.0)
     asked = passes(StepValues(made, 3))
-    assert asked.question.text == "The buffer holds 14860000 at pixel (5, 6). Does 14860001 pass?"
+    assert asked.text == "The buffer holds 14860000 at pixel (5, 6). Does 14860001 pass?"
     assert "14860001, is larger than the buffer's 14860000 (1 step apart)" in sentence(made, 3, (5, 6))
     assert "14860001 & > & 14860000" in formula(made).substituted
 

@@ -7,7 +7,6 @@ import pytest
 
 from core import STAGES
 from core.explain import question
-from core.explain.records import AnswerKind
 from core.explain.rows import ROWS, explains
 from core.explain.step_values import row_key
 from core.explain.steps import load_subjects, row_of
@@ -65,17 +64,13 @@ def test_questions_are_finished_and_have_the_right_answer() -> None:
                 if asked is None:
                     continue
                 asked_about.add(name)
-                assert asked.question.text.endswith("?"), asked
+                assert asked.text.endswith("?"), asked
                 assert re.fullmatch(r".*[^.]\.", asked.reveal), asked
-                assert not re.search(r"nan|None|array|-\d|_", asked.question.text + asked.reveal), asked
+                assert not re.search(r"nan|None|array|-\d|_", asked.text + asked.reveal), asked
                 values = stage.variables(row)
                 if name in ANSWERS:
                     assert asked.answer == float(np.asarray(ANSWERS[name](values))), (asked, values)
-                assert asked.is_right(asked.answer)
-                wrong = (
-                    asked.answer + 1 + abs(asked.answer) if asked.question.kind is AnswerKind.NUMBER else 3
-                )
-                assert not asked.is_right(wrong)
+                assert not asked.choices or asked.answer in range(len(asked.choices)), asked
     assert asked_about == set(STAGES) - {"cull", "shade"}
 
 

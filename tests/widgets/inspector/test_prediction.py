@@ -4,7 +4,7 @@ from PySide6.QtCore import Qt
 from core.explain.records import AnswerKind, Question, Verdict
 from widgets.inspector.prediction import PredictionView
 
-NUMBER = Question("What is the depth?", AnswerKind.NUMBER, tolerance="within 0.01")
+NUMBER = Question("What is the depth? (within 0.01)", AnswerKind.NUMBER)
 CHOICE = Question("Is the pixel covered?", AnswerKind.CHOICE)
 
 

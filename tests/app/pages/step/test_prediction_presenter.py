@@ -68,7 +68,7 @@ def test_the_next_pixel_is_asked_and_answered(asking: MainWindow) -> None:
     trace = session.stage_trace
     asked = question(trace, trace.steps.rows_done(session.cursor.position))
     assert asked is not None
-    assert view.question.text() == asked.question.text
+    assert view.question.text() == asked.text
     view.choice_buttons[int(asked.answer)].click()
     assert view.verdict.text().startswith("Right: ")
     assert not view.verdict.text().startswith("Right: Right")

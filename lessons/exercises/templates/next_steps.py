@@ -1,0 +1,98 @@
+"""What comes next: the questions of Predict, asked of a run that is drawn from a seed."""
+
+from functools import partial
+
+import numpy as np
+
+from core import Settings, trace
+from core.explain.number_text import number_text
+from core.explain.records import Value
+from core.explain.steps import variables
+from core.trace import StageTrace
+from lessons.exercises.answers.choices import ChoiceAnswer
+from lessons.exercises.draws import Draws
+from lessons.exercises.next_step import row_draft
+from lessons.exercises.question import Draft, Template
+from lessons.small_scenes import triangle_scene
+
+SIZE = (12, 9)
+SETTINGS = Settings(fill="bounding-box")
+ROW_LIMIT = 40
+"""Most rows that are tried to find one that is asked about."""
+HIDDEN = ("column", "row", "number")
+"""Variables that the question names by itself."""
+HINTS = {
+    "transform": (
+        "Which space does the step lead to?",
+        "A divide is by w; the viewport maps [-1, 1] to W and H.",
+    ),
+    "edges": ("The edge function is a x + b y + c.", "a is how much it changes from one pixel to the next."),
+    "raster": ("Which side of each edge is the centre (i + 1/2, j + 1/2) on?", "All three edges must agree."),
+    "interpolate": ("Put the centre into the three edge functions.", "A weight is its value over their sum."),
+    "depth": ("Smaller is nearer.", "A tie keeps what is there."),
+}
+"""By the stages that are asked about."""
+
+
+def _corners(draws: Draws) -> list[tuple[int, int]]:
+    return [(draws.whole(0, 11), draws.whole(0, 8)) for _ in range(3)]
+
+
+def _text(value: Value) -> str:
+    if isinstance(value, tuple):
+        return f"({', '.join(map(number_text, value))})"
+    return str(value) if value is None or isinstance(value, str | bool) else number_text(value)
+
+
+def known_text(stage: StageTrace, row: int) -> str:
+    """Return what is known before a row."""
+    explanation = stage.explain(int(stage.steps.starts[row]) + 1)
+    if explanation is None:
+        return ""
+    known = [one for one in variables(explanation) if not one.is_changed() and one.name not in HIDDEN]
+    return "\n".join(f"{one.name} = {_text(one.now)}" for one in known)
+
+
+def draw_step(stage_name: str, draws: Draws) -> Draft | None:
+    """A step of a run with two triangles."""
+    corners = [_corners(draws), _corners(draws)]
+    depths = [[draws.whole(1, 9) / 10 for _ in range(3)] for _ in corners]
+    if min(abs(np.linalg.det(np.diff(np.array(one, float), axis=0))) for one in corners) < 12:
+        return None
+    scene = triangle_scene(corners, SIZE, depth=depths)
+    stage = trace(scene, SETTINGS).stage(stage_name)
+    for _ in range(ROW_LIMIT):
+        row = draws.whole(0, stage.steps.row_count - 1)
+        draft = row_draft(stage, row)
+        if draft is not None:
+            break
+    else:
+        return None
+    if isinstance(draft.answer, ChoiceAnswer) and stage_name == "depth" and "holds 1 " in draft.text:
+        # Nothing is there yet: every fragment passes.
+        return None
+    known = known_text(stage, row)
+    places = "\n".join(
+        f"Triangle {number}: {', '.join(map(str, one))}, depth {', '.join(map(str, depth))}"
+        for number, (one, depth) in enumerate(zip(corners, depths, strict=True))
+    )
+    # Where the corners lie in the window is what the transform finds.
+    shown = [f"Window of {SIZE[0]} x {SIZE[1]} pixels.", *([] if stage_name == "transform" else [places])]
+    given = "\n".join([*shown, "Before the step:", known])
+    return Draft(
+        draft.text,
+        given,
+        draft.answer,
+        HINTS[stage_name],
+        {},
+        None if stage_name == "transform" else scene,
+        SETTINGS,
+        draft.pixel,
+        draft.reveal,
+    )
+
+
+TEMPLATES = tuple(
+    Template(f"next-{stage}", 1, f"What comes next: {stage}", stage, 1, partial(draw_step, stage))
+    for stage in HINTS
+)
