@@ -42,6 +42,7 @@ COMMANDS = (
     Command("stress", "map where methods fail, and make failing cases small", "app.cli.stress"),
     Command("plan", "choose the cheapest methods that a scene needs, within a tolerance", "app.cli.plan"),
     Command("exercise", "ask questions by seed, check answers and exercise files", "app.cli.exercise"),
+    Command("diagnose", "say which mistake or method makes a picture", "app.cli.diagnose"),
     Command("bench", "measure the core against other libraries", "app.cli.bench"),
 )
 

@@ -18,8 +18,7 @@ from app.cli.commands import UsageError
 from app.files.file_writing import check_writable, whole_file
 from app.files.memory import check_free
 from core import Frame, Settings, render
-from core.framebuffer.display import Bytes, to_display
-from core.records.arrays import Singles
+from core.framebuffer.display import picture_bytes
 from core.resolved import resolve
 
 DESCRIPTION = (
@@ -86,22 +85,6 @@ def write_picture(path: str, frame: Frame, blend: str) -> None:
     pixels = picture_bytes(frame.color, blend)
     with whole_file(path) as file:
         Image.fromarray(np.ascontiguousarray(pixels[::-1])).save(file, "PNG")
-
-
-def picture_bytes(color: Singles, blend: str) -> Bytes:
-    """Return the sRGB bytes (H, W, 4) uint8 of a frame with straight alpha, as image files want them.
-
-    Parameters
-    ----------
-    color : (H, W, 4) float32
-        As the method ``blend`` leaves it: ``opaque`` stores straight alpha, others premultiplied colours.
-    """
-    if blend != "opaque":
-        alpha = color[..., 3:]
-        is_partial = (alpha > 0) & (alpha < 1)
-        straight = np.divide(color[..., :3], alpha, out=color[..., :3].copy(), where=is_partial)
-        color = np.concatenate([straight, alpha], axis=2)
-    return to_display(color).pixels
 
 
 def is_device(path: str) -> bool:

@@ -207,6 +207,22 @@ def to_display(color: Singles) -> DisplayImage:
     return DisplayImage(read_only(pixels), read_only(_undefined(color)))
 
 
+def picture_bytes(color: Singles, blend: str) -> Bytes:
+    """Return the sRGB bytes (H, W, 4) uint8 of a frame with straight alpha, as image files want them.
+
+    Parameters
+    ----------
+    color : (H, W, 4) float32
+        As the method ``blend`` leaves it: ``opaque`` stores straight alpha, others premultiplied colours.
+    """
+    if blend != "opaque":
+        alpha = color[..., 3:]
+        is_partial = (alpha > 0) & (alpha < 1)
+        straight = np.divide(color[..., :3], alpha, out=color[..., :3].copy(), where=is_partial)
+        color = np.concatenate([straight, alpha], axis=2)
+    return to_display(color).pixels
+
+
 def _undefined(color: Singles) -> Flags:
     """Return where ``color`` (H, W, C) has a NaN, (H, W) bool."""
     undefined = np.zeros(color.shape[:2], np.bool_)

@@ -8,7 +8,7 @@ from core import Settings
 from core.raster.edges.snapping import window_position
 from core.records.arrays import Flags, Floats
 from core.records.frame import Frame
-from core.scene import ClipScene
+from core.scene import AnyScene, ClipScene
 from lessons.mistakes.twin import Case, Twin
 from lessons.small_scenes import rectangle_corners, triangle_scene
 
@@ -61,32 +61,40 @@ def y_down(scene: ClipScene) -> ClipScene:
     return replace(scene, clip=clip)
 
 
-def transposed(frame: Frame, scene: ClipScene) -> Frame:
+CLEARED = {"color": 0, "depth": 1, "primitive": -1, "attributes": 0, "cover_count": 0}
+"""What the buffers of a frame hold where nothing is drawn; colours: those of the background."""
+
+
+def transposed(frame: Frame, scene: AnyScene) -> Frame:
     """Exchange rows and columns; what falls out of the window is lost, what is missing is cleared."""
     buffers = {}
-    for name, cleared in (
-        ("color", 0),
-        ("depth", 1),
-        ("primitive", -1),
-        ("attributes", 0),
-        ("cover_count", 0),
-    ):
+    for name, cleared in CLEARED.items():
         buffer = getattr(frame, name)
         turned = np.full_like(buffer, cleared)
+        if name == "color":
+            turned[:] = scene.background
         side = min(buffer.shape[:2])
         turned[:side, :side] = buffer[:side, :side].swapaxes(0, 1)
         buffers[name] = turned
     return replace(frame, **buffers)
 
 
+def upside_down(frame: Frame, scene: AnyScene) -> Frame:
+    """Exchange the upper and the lower rows."""
+    return replace(frame, **{name: getattr(frame, name)[::-1] for name in CLEARED})
+
+
 def short_box(frame: Frame, scene: ClipScene) -> Frame:
     """Leave out what lies in the column and the row of the truncated right and upper end of a triangle's box."""
-    primitive = frame.primitive.copy()
+    is_lost = np.zeros(frame.primitive.shape, bool)
     for triangle, (column, row) in enumerate(in_window(scene).max(axis=1).astype(int)):
-        kept = np.zeros(primitive.shape, bool)
-        kept[: max(row, 0), : max(column, 0)] = True
-        primitive[(primitive == triangle) & ~kept] = -1
-    return replace(frame, primitive=primitive)
+        is_kept = np.zeros(is_lost.shape, bool)
+        is_kept[: max(row, 0), : max(column, 0)] = True
+        is_lost |= (frame.primitive == triangle) & ~is_kept
+    buffers = {name: getattr(frame, name).copy() for name in CLEARED}
+    for name, cleared in CLEARED.items():
+        buffers[name][is_lost] = scene.background if name == "color" else cleared
+    return replace(frame, **buffers)
 
 
 def dropped_at_border(scene: ClipScene) -> ClipScene:

@@ -60,6 +60,11 @@ class Twin:
         """Whether it is a run that can be stepped; else only its picture can be shown."""
         return self.change_frame is _same_frame
 
+    @property
+    def takes_any_scene(self) -> bool:
+        """Whether it changes settings only: a mesh has no corners in the window that could be changed."""
+        return self.change_scene is _same_scene and self.change_frame is _same_frame
+
     def draw(self, scene: ClipScene, settings: Settings) -> Frame:
         """Draw a scene with this mistake."""
         return self.change_frame(render(self.change_scene(scene), self.change_settings(settings)), scene)

@@ -16,12 +16,11 @@ from PIL import Image
 from app import __version__
 from app.__main__ import main
 from app.cli.commands import run_command_line
-from app.cli.render import picture_bytes
 from app.files.open_any import open_any
 from app.files.state_files import State, save_state
 from app.session.document import STEPPED
 from core import STAGES, Settings, render, trace
-from core.framebuffer.display import to_display
+from core.framebuffer.display import picture_bytes, to_display
 from core.methods import table
 from core.scene import ClipScene
 from core.trace.symbols import symbols_of

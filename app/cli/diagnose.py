@@ -1,0 +1,78 @@
+"""``rasterscope diagnose``: which mistake or method makes a picture that another program drew."""
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+
+from app.cli.arguments import add_file, add_settings, chosen_settings, open_file, size_from_text
+from app.files.drawn_pictures import read_drawn
+from core.records.arrays import Flags
+from lessons.diagnosis import RIGHT, Diagnosis, check_size, diagnose
+
+DESCRIPTION = """Say which mistake, or which other method, makes a picture of a scene that another program drew; or how
+near the nearest is. For homework in any language."""
+EXAMPLES = """PICTURE is one of
+  .png  colours; the top row of the picture is the last row of the scene
+  .npz  color (H, W, 3 or 4), primitive (H, W) numbers of triangles, -1 for none, or pixels (N, 2); row 0 at the bottom
+  .csv  a pixel a line: column,row or column,row,triangle or column,row,red,green,blue; row 0 at the bottom
+Colours a byte apart are equal. The background may have any colour. A picture in two colours shows what is covered.
+
+examples:
+  rasterscope diagnose shared-edge homework.png
+  rasterscope diagnose shared-edge homework.csv --size 32x24 --set fill_rule=inclusive
+"""
+PIXELS_SHOWN = 20
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the command takes."""
+    add_file(parser)
+    parser.add_argument(
+        "picture", metavar="PICTURE", help="what another program drew of it: .png, .npz or .csv"
+    )
+    parser.add_argument(
+        "--size", metavar="WxH", type=size_from_text, help="pixels; default: those of the scene"
+    )
+    add_settings(parser)
+
+
+def run(options: argparse.Namespace) -> int:
+    """Compare and report."""
+    opened = open_file(options)
+    settings = chosen_settings(opened.document.settings, options.set)
+    scene = opened.document.scene
+    if options.size is not None:
+        scene = replace(scene, size=options.size)
+    check_size(scene.size, scene.size)
+    drawn = read_drawn(Path(options.picture), scene.size)
+    print("\n".join(report(diagnose(scene, settings, drawn))))
+    return 0
+
+
+def report(diagnosis: Diagnosis) -> list[str]:
+    """Return what was found, as lines of text."""
+    if diagnosis.is_right:
+        return ["right: every pixel is as this scene and its settings draw it"]
+    lines = []
+    for each in diagnosis.found:
+        kind = "mistake" if each.is_mistake else "method"
+        lines.append(f"{kind} {each.name}: {each.sentence}")
+    if lines:
+        return [*lines, pixels_text(diagnosis.from_right, RIGHT)]
+    nearest = diagnosis.nearest
+    return [
+        "unknown: no mistake on the shelf and no method makes this picture",
+        f"nearest: {pixels_text(diagnosis.differing, nearest.name)}",
+        *([nearest.sentence] if nearest.sentence else []),
+    ]
+
+
+def pixels_text(differing: Flags, name: str) -> str:
+    """Return how many pixels differ from the picture of a ``name``, and the first of them as (column, row)."""
+    places = [f"({column}, {row})" for row, column in np.argwhere(differing)[:PIXELS_SHOWN].tolist()]
+    count = int(differing.sum())
+    more = f" and {count - PIXELS_SHOWN} more" if count > PIXELS_SHOWN else ""
+    verb = "pixel differs" if count == 1 else "pixels differ"
+    return f"{count} of {differing.size} {verb} from {name}: {' '.join(places)}{more}"

@@ -1,0 +1,226 @@
+"""Which mistake, or which other method, makes a picture that somebody drew with a program of their own."""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from core import Settings, render
+from core.framebuffer.display import Bytes, picture_bytes, to_display
+from core.methods import table
+from core.records.arrays import Flags, Integers
+from core.records.frame import Frame
+from core.resolved import resolve
+from core.scene import AnyScene, ClipScene
+from core.settings import FAMILIES, no_effect, settings_from_texts
+from lessons.mistakes.coverage import transposed, upside_down
+from lessons.mistakes.shelf import SHELF
+from lessons.mistakes.twin import Twin
+
+PIXEL_LIMIT = 1 << 18
+"""Most pixels of a picture: it is compared with one of each mistake and method."""
+RIGHT = "the right picture"
+SLOW = ("fill=brute-force", "antialiasing=area")
+"""Methods that take minutes for a mesh of more triangles than ``SLOW_LIMIT``: they are left out there."""
+SLOW_LIMIT = 2000
+
+
+@dataclass(frozen=True, eq=False)
+class Drawn:
+    """A picture that somebody drew, as colours, as numbers of triangles, or as covered pixels; row 0 at the bottom."""
+
+    colors: Bytes | None = None
+    """(H, W, 3 or 4) uint8, sRGB."""
+    primitive: Integers | None = None
+    """(H, W), -1 for none."""
+    covered: Flags | None = None
+    """(H, W) bool."""
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Columns and rows."""
+        (buffer,) = [each for each in (self.colors, self.primitive, self.covered) if each is not None]
+        return buffer.shape[1], buffer.shape[0]
+
+
+@dataclass(frozen=True, eq=False)
+class Candidate:
+    """A run that may have made a picture."""
+
+    name: str
+    """Of a mistake, or a method as ``fill_rule=inclusive``."""
+    sentence: str
+    draw: Callable[[], Frame]
+    settings: Settings
+    is_mistake: bool
+
+
+@dataclass(frozen=True, eq=False)
+class Diagnosis:
+    """What a picture may be."""
+
+    is_right: bool
+    found: tuple[Candidate, ...]
+    """All that make exactly this picture, mistakes before methods; empty where it is right or unknown."""
+    nearest: Candidate
+    """That with the fewest other pixels."""
+    differing: Flags
+    """(H, W), where the nearest differs."""
+    from_right: Flags
+    """(H, W), where the right picture differs."""
+
+
+def candidates(scene: AnyScene, settings: Settings) -> Iterator[Candidate]:
+    """Yield the right run, the mistakes, and every other method of the families that matter, one change at a time."""
+    yield Candidate(RIGHT, "", lambda: render(scene, settings), settings, False)
+    for twin in SHELF.values():
+        changed = twin.change_settings(settings)
+        for draw in _faulty(twin, scene, settings):
+            yield Candidate(twin.name, twin.sentence, draw, changed, True)
+    for family in FAMILIES:
+        if no_effect(settings, family, scene):
+            continue
+        for method in table.names(family):
+            is_slow = f"{family}={method}" in SLOW and primitive_count(scene) > SLOW_LIMIT
+            if method != getattr(settings, family) and not is_slow:
+                changed = settings_from_texts({family: method}, settings)
+                sentence = f"{FAMILIES[family].title}: {table.get(family, method).title}."
+                yield Candidate(
+                    f"{family}={method}", sentence, partial(render, scene, changed), changed, False
+                )
+
+
+def primitive_count(scene: AnyScene) -> int:
+    """Return how many triangles, segments or points a scene has."""
+    return (
+        len(scene.clip) if isinstance(scene, ClipScene) else sum(len(mesh.triangles) for mesh in scene.meshes)
+    )
+
+
+def _faulty(twin: Twin, scene: AnyScene, settings: Settings) -> Iterator[Callable[[], Frame]]:
+    """Yield what draws a scene with a mistake; of a mesh, which has no corners in the window to be changed, some."""
+    if isinstance(scene, ClipScene):
+        yield partial(twin.draw, scene, settings)
+    elif twin.takes_any_scene:
+        yield partial(render, scene, twin.change_settings(settings))
+    elif twin.name == "rows-and-columns":
+        yield lambda: transposed(render(scene, settings), scene)
+    if twin.name == "y-down":  # Drawn the right way up, and saved from the wrong end.
+        yield lambda: upside_down(render(scene, settings), scene)
+
+
+class _Comparison:
+    """One reading of a picture, compared with one candidate after the other; the right one comes first."""
+
+    def __init__(self, drawn: Drawn) -> None:
+        self._drawn = drawn
+        self._fits: list[Candidate] = []
+        self._nearest: tuple[Candidate, Flags] | None = None
+        self._from_right: Flags | None = None
+
+    def add(self, candidate: Candidate, frame: Frame) -> None:
+        """Compare a frame."""
+        differing = _differing(frame, candidate.settings, self._drawn)
+        if self._nearest is None or differing.sum() < self._nearest[1].sum():
+            self._nearest = candidate, differing
+        if self._from_right is None:
+            self._from_right = differing
+        if not differing.any():
+            self._fits.append(candidate)
+
+    @property
+    def diagnosis(self) -> Diagnosis:
+        """What came of it."""
+        assert self._nearest is not None
+        assert self._from_right is not None
+        is_right = not self._from_right.any()
+        found = () if is_right else tuple(sorted(self._fits, key=lambda each: not each.is_mistake))
+        return Diagnosis(is_right, found, *self._nearest, self._from_right)
+
+
+def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn) -> Diagnosis:
+    """Compare a picture of a scene with those of all candidates.
+
+    Raises
+    ------
+    ValueError
+        If the picture has another size than the scene, or too many pixels; the message is one sentence.
+
+    Notes
+    -----
+    Colours that are a byte apart are equal, and any colour may stand for the background. A picture in two colours that
+    fits as no picture in colours is taken for covered pixels.
+    """
+    check_size(drawn.size, scene.size)
+    if isinstance(scene, ClipScene) and scene.attributes is None:
+        scene = replace(scene, attributes=np.tile([0.0, 0.0, 0.0, 1.0], (*scene.clip.shape[:2], 1)))
+    comparisons: list[_Comparison] = []
+    for candidate in candidates(scene, settings):
+        try:
+            with np.errstate(all="ignore"):
+                frame = candidate.draw()
+        except ValueError:
+            if not comparisons:
+                raise
+            continue  # The scene lacks what this method needs.
+        if not comparisons:
+            in_colors = _with_background(drawn, frame, settings)
+            comparisons = [_Comparison(each) for each in (in_colors, *_as_coverage(drawn))]
+        for comparison in comparisons:
+            comparison.add(candidate, frame)
+    first, *others = [comparison.diagnosis for comparison in comparisons]
+    if first.is_right or first.found or not others:
+        return first
+    return min(others, key=lambda one: int(one.differing.sum()))
+
+
+def check_size(size: tuple[int, int], wanted: tuple[int, int]) -> None:
+    """Raise ValueError for a picture that cannot be compared with a scene of a ``wanted`` size."""
+    if size != wanted:
+        raise ValueError(f"expected a picture of {wanted[0]} x {wanted[1]} pixels, got {size[0]} x {size[1]}")
+    if size[0] * size[1] > PIXEL_LIMIT:
+        raise ValueError(f"expected a picture of up to {PIXEL_LIMIT} pixels, got {size[0]} x {size[1]}")
+
+
+def _differing(frame: Frame, settings: Settings, drawn: Drawn) -> Flags:
+    if drawn.primitive is not None:
+        return np.asarray(frame.primitive != drawn.primitive)
+    if drawn.covered is not None:
+        return np.asarray((frame.primitive >= 0) != drawn.covered)
+    assert drawn.colors is not None
+    shown = _shown(frame, settings, drawn.colors.shape[2]).astype(int)
+    return np.asarray((np.abs(shown - drawn.colors) > 1).any(axis=2))
+
+
+def _shown(frame: Frame, settings: Settings, channels: int) -> Bytes:
+    """Return the bytes (H, W, channels) of a frame: over black, or with its alpha."""
+    if channels == 4:
+        return picture_bytes(frame.color, resolve(settings).blend_name)
+    return to_display(frame.color).pixels[..., :3]
+
+
+def _with_background(drawn: Drawn, right: Frame, settings: Settings) -> Drawn:
+    """Put the scene's background in place of another one: the most frequent colour where nothing should be drawn."""
+    empty = right.primitive < 0
+    if drawn.colors is None or not empty.any():
+        return drawn
+    shown = _shown(right, settings, drawn.colors.shape[2])
+    colors, counts = np.unique(drawn.colors[empty], axis=0, return_counts=True)
+    theirs, ours = colors[np.argmax(counts)].astype(int), shown[empty][0]
+    is_background = (np.abs(drawn.colors - theirs) <= 1).all(axis=2)
+    is_ours = (np.abs(drawn.colors - ours.astype(int)) <= 1).all(axis=2)
+    if (is_background | is_ours).all():
+        return drawn  # Ink in the colour of the scene's background would vanish.
+    return replace(drawn, colors=np.where(is_background[..., None], ours, drawn.colors))
+
+
+def _as_coverage(drawn: Drawn) -> list[Drawn]:
+    """Return what a picture in two colours may cover: the pixels of the one, or those of the other."""
+    if drawn.colors is None:
+        return []
+    first = (drawn.colors == drawn.colors[0, 0]).all(axis=2)
+    others = drawn.colors[~first]
+    if not len(others) or (others != others[0]).any():
+        return []
+    return [Drawn(covered=~first), Drawn(covered=first)]

@@ -1,0 +1,156 @@
+"""``rasterscope diagnose``: homework as PNG, npz and CSV, and one sentence for what is no picture."""
+
+import io
+import zipfile
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from app.files.drawn_pictures import read_drawn
+from core import Settings, render
+from core.framebuffer.display import to_display
+from lessons.scenes import make_scene
+from tests.app.cli.cli_runs import refused, run_program
+
+SCENE = "shared-edge"
+INCLUSIVE = render(make_scene(SCENE), Settings(fill_rule="inclusive"))
+COLORS = to_display(INCLUSIVE.color).pixels[..., :3]
+PLACES = np.argwhere(INCLUSIVE.primitive >= 0)[:, ::-1]
+
+
+def png(path: Path) -> None:
+    Image.fromarray(np.ascontiguousarray(COLORS[::-1])).save(path)
+
+
+def palette_png(path: Path) -> None:
+    Image.fromarray((INCLUSIVE.primitive[::-1] >= 0).astype(np.uint8) * 255).convert("P").save(path)
+
+
+def color_npz(path: Path) -> None:
+    np.savez(path, color=INCLUSIVE.color, depth=INCLUSIVE.depth)
+
+
+def pixel_npz(path: Path) -> None:
+    np.savez(path, pixels=PLACES)
+
+
+def number_npz(path: Path) -> None:
+    np.savez(path, primitive=INCLUSIVE.primitive)
+
+
+def number_csv(path: Path) -> None:
+    lines = [f"{column},{row},{INCLUSIVE.primitive[row, column]}" for column, row in PLACES]
+    path.write_text("\n".join(["column,row,triangle", *lines]))
+
+
+def color_csv(path: Path) -> None:
+    path.write_text("\n".join(f"{x}, {y}, {', '.join(map(str, COLORS[y, x]))}" for x, y in PLACES))
+
+
+@pytest.mark.parametrize("write", [png, palette_png, color_npz, pixel_npz, number_npz, number_csv, color_csv])
+def test_pictures_of_every_kind_are_read_from_the_bottom_row_up(write, tmp_path: Path) -> None:
+    path = tmp_path / f"homework.{write.__name__.split('_')[-1]}"
+    write(path)
+    drawn = read_drawn(path, (64, 48))
+    is_covered = INCLUSIVE.primitive >= 0
+    if write is pixel_npz:
+        np.testing.assert_array_equal(drawn.covered, is_covered)
+    elif write in (number_npz, number_csv):
+        np.testing.assert_array_equal(drawn.primitive, INCLUSIVE.primitive)
+    else:
+        wanted = is_covered[..., None] * [255, 255, 255] if write is palette_png else COLORS
+        np.testing.assert_array_equal(drawn.colors, wanted)
+
+
+def test_homework_is_diagnosed(tmp_path: Path) -> None:
+    path = tmp_path / "homework.png"
+    png(path)
+    done = run_program("diagnose", SCENE, path)
+    assert done.returncode == 0, done.stderr
+    lines = done.stdout.splitlines()
+    assert lines[0].startswith("mistake all-edges-inclusive: Every centre on an edge was counted")
+    assert "method fill_rule=inclusive: Fill rule: " in done.stdout
+    assert lines[-1].startswith("9 of 3072 pixels differ from the right picture: (12, 6) ")
+    right = run_program("diagnose", SCENE, path, "--set", "fill_rule=inclusive")
+    assert right.stdout.startswith("right: ")
+
+
+def test_what_fits_nothing_is_unknown(tmp_path: Path) -> None:
+    pixels = np.array([[x, y] for x in range(30) for y in range(2)])
+    np.savez(tmp_path / "a.npz", pixels=pixels)
+    lines = run_program("diagnose", SCENE, tmp_path / "a.npz").stdout.splitlines()
+    assert lines[0] == "unknown: no mistake on the shelf and no method makes this picture"
+    assert lines[1].startswith("nearest: 60 of 3072 pixels differ from ")
+    assert " and 40 more" in lines[1]
+
+
+def zipped(array: bytes) -> bytes:
+    file = io.BytesIO()
+    with zipfile.ZipFile(file, "w") as archive:
+        archive.writestr("color.npy", array)
+    return file.getvalue()
+
+
+def npz(**arrays) -> bytes:
+    file = io.BytesIO()
+    np.savez(file, **arrays)
+    return file.getvalue()
+
+
+def png_of(columns: int, rows: int) -> bytes:
+    file = io.BytesIO()
+    Image.new("RGB", (columns, rows)).save(file, "PNG")
+    return file.getvalue()
+
+
+HUGE = b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999,9), }".ljust(117) + b"\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "wanted"),
+    [
+        ("a.txt", b"", "expected a picture as .png, .npz, .csv"),
+        ("a.png", b"", "expected a PNG picture"),
+        ("a.png", b"no picture", "expected a PNG picture"),
+        ("a.png", png_of(64, 48)[:-40], "expected a whole PNG picture"),
+        ("a.png", png_of(48, 64), "expected a picture of 64 x 48 pixels, got 48 x 64"),
+        ("a.png", png_of(1000, 1000), "expected a picture of 64 x 48 pixels, got 1000 x 1000"),
+        ("a.npz", npz(color=np.zeros((48, 64, 3)))[:200], "expected a whole npz file"),
+        ("a.npz", npz(depth=np.zeros((48, 64))), "expected an array color, primitive or pixels"),
+        ("a.npz", npz(color=np.zeros((64, 48, 3))), "expected a picture of 64 x 48 pixels, got 48 x 64"),
+        ("a.npz", npz(color=np.zeros((48, 64))), "expected color"),
+        ("a.npz", npz(color=np.array([{}])), "expected up to 64 MiB of numbers as color"),
+        ("a.npz", npz(primitive=np.zeros((48, 64))), "expected whole numbers"),
+        ("a.npz", npz(pixels=np.array([[64, 0]])), "expected pixels inside of 64 x 48, got (64, 0)"),
+        ("a.npz", zipped(b"\x93NUMPY\x01\x00\x76\x00" + HUGE), "expected up to 64 MiB of numbers as color"),
+        ("a.npz", zipped(b"\x93NUMPY\x07\x00"), "expected an array of numbers as color"),
+        ("a.npz", zipped(b"no array"), "magic string"),
+        ("a.csv", b"", "expected lines of column, row"),
+        ("a.csv", b"column,row\n1,2\n3\n", "expected lines of column, row"),
+        ("a.csv", b"1,2\n3,1e400\n", "line 2: expected a whole number, got '1e400'"),
+        ("a.csv", b"1,2\n3,\xd9\xa1\n", "line 2: expected a whole number"),
+        ("a.csv", b"1,2\n3,nan\n", "line 2: expected a whole number, got 'nan'"),
+        ("a.csv", b"1,2\n-1,2\n", "expected pixels inside of 64 x 48, got (-1, 2)"),
+        ("a.csv", b"1,2,0,0,256\n", "expected red, green and blue from 0 to 255"),
+        ("a.csv", b"1,2\n\xff,3\n", "expected text in UTF-8"),
+        ("a.csv", b"1,2\n" * 300_000, "expected up to 262144 pixels"),
+    ],
+)
+def test_what_is_no_picture_is_refused_in_one_sentence(
+    name: str, content: bytes, wanted: str, tmp_path: Path
+) -> None:
+    path = tmp_path / name
+    path.write_bytes(content)
+    sentence = refused(1, "diagnose", SCENE, path)
+    assert wanted in sentence
+    assert name in sentence
+    assert len(sentence) - len(str(path)) < 250
+
+
+def test_too_many_pixels_are_refused_before_they_are_drawn(tmp_path: Path) -> None:
+    (tmp_path / "a.png").write_bytes(png_of(1000, 1000))
+    sentence = refused(1, "diagnose", SCENE, tmp_path / "a.png", "--size", "1000x1000")
+    assert sentence.endswith("expected a picture of up to 262144 pixels, got 1000 x 1000")
+    assert "cannot be read" in refused(1, "diagnose", SCENE, tmp_path / "missing.png")

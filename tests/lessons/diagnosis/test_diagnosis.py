@@ -1,0 +1,248 @@
+"""Pictures of plain rasterizers with one planted mistake each: named where it is on the shelf, unknown where not."""
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core import Settings, render
+from core.framebuffer.display import to_display
+from core.scene import ClipScene
+from core.settings import DEFAULTS
+from lessons.diagnosis import PIXEL_LIMIT, Diagnosis, Drawn, diagnose
+from lessons.scenes import CATALOGUE, make_scene
+from lessons.small_scenes import pixel_segments, triangle_scene
+from tests.lessons.diagnosis.plain_rasterizer import Homework, bresenham, over, perspective, shown
+
+SIZE = (16, 12)
+RED, GREEN, BLUE = (1.0, 0.0, 0.0, 1.0), (0.0, 1.0, 0.0, 1.0), (0.0, 0.0, 1.0, 1.0)
+WHITE = (1.0, 1.0, 1.0, 1.0)
+
+
+def corners(places, colors, depth=(0.5, 0.5, 0.5), w=(1, 1, 1)):
+    return tuple((*place, z, k, color) for place, z, k, color in zip(places, depth, w, colors, strict=True))
+
+
+FLAT = [
+    corners([(0.5, 0.5), (8.5, 0.5), (8.5, 8.5)], (RED, GREEN, BLUE)),
+    corners([(0.5, 0.5), (8.5, 8.5), (0.5, 8.5)], (RED, BLUE, WHITE)),
+    corners([(9.25, 2.25), (14.75, 3.5), (11.5, 9.25)], (BLUE, RED, GREEN)),
+    corners([(12, 8), (22, 7.5), (13, 11.5)], (GREEN, WHITE, RED)),
+]
+DEEP = [
+    corners([(1, 1), (14, 2), (4, 11)], (RED, GREEN, BLUE), (0.2, 0.7, 0.4), (1, 3, 2)),
+    corners([(2, 9), (3, 1), (15, 8)], (WHITE, BLUE, GREEN), (0.6, 0.1, 0.5), (2, 1, 4)),
+    corners([(6, 0.5), (15, 1), (9, 7)], (RED, WHITE, GREEN), (0.9, 0.8, 0.95), (1, 2, 1)),
+]
+CLEAR = [(*color[:3], alpha) for color, alpha in zip((RED, GREEN, BLUE), (0.5, 0.25, 0.75), strict=True)]
+GLASS = [
+    corners([(1, 1), (14, 2), (4, 11)], (CLEAR[0],) * 3),
+    corners([(2, 9), (3, 1), (15, 8)], (CLEAR[1],) * 3),
+    corners([(6, 0.5), (15, 1), (9, 7)], (CLEAR[2],) * 3),
+]
+BLENDED = Settings(blend="over", visibility="last-drawn")
+LINES = [(1, 1, 9, 4), (2, 11, 4, 2), (15, 9, 6, 5), (0, 6, 7, 10)]
+LECTURE = Settings(line="bresenham-lecture")
+
+
+def scene_of(triangles) -> ClipScene:
+    places = [[corner[:2] for corner in triangle] for triangle in triangles]
+    depth, w, colors = ([[corner[k] for corner in triangle] for triangle in triangles] for k in (2, 3, 4))
+    scene = triangle_scene(places, SIZE, depth, w, colors)
+    return replace(scene, background=np.array([0.0, 0.0, 0.0, 1.0]))
+
+
+def diagnosed(triangles, picture, settings: Settings = DEFAULTS) -> Diagnosis:
+    return diagnose(scene_of(triangles), settings, Drawn(colors=np.array(shown(picture), np.uint8)))
+
+
+def lines_diagnosed(**planted) -> Diagnosis:
+    covered = np.zeros(SIZE[::-1], bool)
+    for line in LINES:
+        for column, row in bresenham(*line, **planted):
+            if 0 <= column < SIZE[0] and 0 <= row < SIZE[1]:
+                covered[row, column] = True
+    scene = pixel_segments([((x0, y0), (x1, y1)) for x0, y0, x1, y1 in LINES], SIZE)
+    return diagnose(scene, LECTURE, Drawn(covered=covered))
+
+
+def flat(**planted) -> Diagnosis:
+    return diagnosed(FLAT, Homework(**planted).draw(FLAT, *SIZE))
+
+
+def deep(**planted) -> Diagnosis:
+    return diagnosed(DEEP, Homework(**planted).draw(DEEP, *SIZE))
+
+
+def glass(**planted) -> Diagnosis:
+    picture = Homework(blend=over, passes=lambda new, old: True, **planted).draw(GLASS, *SIZE)
+    return diagnosed(GLASS, picture, BLENDED)
+
+
+def moved(change: Callable, triangles=FLAT) -> Diagnosis:
+    """Draw other triangles than were given."""
+    other = [tuple(change(corner) for corner in triangle) for triangle in triangles]
+    return diagnosed(triangles, Homework().draw(other, *SIZE))
+
+
+def on_picture(change: Callable) -> Diagnosis:
+    """Store pixels wrongly that were drawn well."""
+    return diagnosed(FLAT, change(Homework().draw(FLAT, *SIZE)))
+
+
+def blended(blend: Callable) -> Diagnosis:
+    picture = Homework(blend=blend, passes=lambda new, old: True).draw(GLASS, *SIZE)
+    return diagnosed(GLASS, picture, BLENDED)
+
+
+def in_srgb(source, there):
+    def encoded(value):
+        return 12.92 * value if value <= 0.0031308 else 1.055 * value ** (1 / 2.4) - 0.055
+
+    def decoded(value):
+        return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+    mixed = over((*map(encoded, source[:3]), source[3]), (*map(encoded, there[:3]), there[3]))
+    return (*map(decoded, mixed[:3]), mixed[3])
+
+
+def turned(picture):
+    return [
+        [picture[i][j] if i < SIZE[1] and j < SIZE[0] else BLACK for i in range(SIZE[0])]
+        for j in range(SIZE[1])
+    ]
+
+
+BLACK = (0.0, 0.0, 0.0, 1.0)
+PLANTED = {
+    "corner-for-center": lambda: flat(center=(0, 0)),
+    "all-edges-inclusive": lambda: flat(covers=lambda e, owner: e >= 0),
+    "all-edges-exclusive": lambda: flat(covers=lambda e, owner: e > 0),
+    "level-edges-never": lambda: flat(owns=lambda ax, ay, bx, by: by < ay),
+    "vertices-rounded": lambda: moved(lambda c: (int(c[0] + 0.5), int(c[1] + 0.5), *c[2:])),
+    "y-down": lambda: moved(lambda c: (c[0], SIZE[1] - c[1], *c[2:])),
+    "rows-and-columns": lambda: on_picture(turned),
+    "box-truncated": lambda: flat(
+        last=lambda i, j, abc: i >= int(max(c[0] for c in abc)) or j >= int(max(c[1] for c in abc))
+    ),
+    "dropped-at-border": lambda: diagnosed(FLAT, Homework().draw(FLAT[:3], *SIZE)),
+    "weights-permuted": lambda: moved_colors(),
+    "affine-for-perspective": lambda: deep(interpolate=lambda k, w, v: sum(map(float.__mul__, k, v))),
+    "not-divided-back": lambda: deep(
+        interpolate=lambda k, w, v: sum(a * u / b for a, b, u in zip(k, w, v, strict=True))
+    ),
+    "multiplied-by-w": lambda: deep(interpolate=lambda k, w, v: perspective(k, [1 / one for one in w], v)),
+    "farther-wins": lambda: deep(passes=lambda new, old: new > old, cleared=0.0),
+    "no-depth-test": lambda: deep(passes=lambda new, old: True),
+    "order-reversed": lambda: diagnosed(
+        GLASS, Homework(blend=over, passes=lambda new, old: True).draw(GLASS[::-1], *SIZE), BLENDED
+    ),
+    "multiplied-twice": lambda: blended(lambda s, t: over((*(s[3] * v for v in s[:3]), s[3]), t)),
+    "blended-in-srgb": lambda: blended(in_srgb),
+    "ties-step": lambda: lines_diagnosed(ties=True),
+    "not-corrected": lambda: lines_diagnosed(corrected=False),
+    "slope-always-up": lambda: lines_diagnosed(down=1),
+    "last-pixel-lost": lambda: lines_diagnosed(last=0),
+}
+OFF_THE_SHELF = {
+    "a quarter for the centre": lambda: flat(center=(0.25, 0.25)),
+    "right edges own": lambda: flat(owns=lambda ax, ay, bx, by: by > ay or (by == ay and bx < ax)),
+    "a column to the right": lambda: on_picture(lambda picture: [[BLACK, *row[:-1]] for row in picture]),
+    "every second row": lambda: on_picture(
+        lambda rows: [r if k % 2 else [BLACK] * 16 for k, r in enumerate(rows)]
+    ),
+    "red and blue exchanged": lambda: on_picture(
+        lambda rows: [[(c[2], c[1], c[0], 1) for c in r] for r in rows]
+    ),
+    "weights squared": lambda: deep(weights=lambda k: [one * one for one in k]),
+    "depth not cleared": lambda: deep(cleared=0.45),
+    "always half": lambda: blended(lambda s, t: over((*s[:3], 0.5), t)),
+    "D begins at 2 dy": lambda: lines_diagnosed(start=lambda dx, dy: 2 * dy),
+    "gamma twice": lambda: on_picture(
+        lambda rows: [[tuple(v ** (1 / 2.2) for v in c) for c in r] for r in rows]
+    ),
+}
+
+
+def moved_colors() -> Diagnosis:
+    """Give each corner the colour of the one before."""
+    other = [tuple((*triangle[k][:4], triangle[k - 1][4]) for k in range(3)) for triangle in FLAT]
+    return diagnosed(FLAT, Homework().draw(other, *SIZE))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("draw", [flat, deep, glass, lines_diagnosed])
+def test_homework_without_a_mistake_is_right(draw) -> None:
+    assert draw().is_right
+
+
+@pytest.mark.parametrize("name", ["corner-for-center", "multiplied-by-w", "blended-in-srgb", "ties-step"])
+def test_a_planted_mistake_is_named(name: str) -> None:
+    assert name in [each.name for each in PLANTED[name]().found if each.is_mistake]
+
+
+@pytest.mark.slow
+def test_planted_mistakes_are_named() -> None:
+    found = {name: [each.name for each in draw().found if each.is_mistake] for name, draw in PLANTED.items()}
+    missed = {name: names for name, names in found.items() if name not in names}
+    assert len(PLANTED) >= 20
+    assert missed == {}
+
+
+@pytest.mark.slow
+def test_mistakes_off_the_shelf_are_unknown() -> None:
+    assert len(OFF_THE_SHELF) == 10
+    for name, draw in OFF_THE_SHELF.items():
+        diagnosis = draw()
+        assert not diagnosis.is_right, name
+        assert [each.name for each in diagnosis.found] == [], name
+        assert diagnosis.differing.any()
+
+
+def test_how_near_the_nearest_is() -> None:
+    picture = Homework().draw(FLAT, *SIZE)
+    picture[4][3] = picture[0][15] = WHITE
+    diagnosis = diagnosed(FLAT, picture)
+    assert not diagnosis.is_right
+    assert (diagnosis.found, diagnosis.nearest.name) == ((), "the right picture")
+    assert np.argwhere(diagnosis.differing).tolist() == [[0, 15], [4, 3]]
+
+
+def test_colours_a_byte_apart_and_any_background_are_equal() -> None:
+    colors = np.array(shown(Homework().draw(FLAT, *SIZE)), np.int64)
+    near = np.clip(colors + np.indices(colors.shape).sum(axis=0) % 3 - 1, 0, 255)
+    near[(colors == 0).all(axis=2)] = (250, 251, 252)
+    assert diagnose(scene_of(FLAT), Settings(), Drawn(colors=near.astype(np.uint8))).is_right
+    near[2, 3] += 2
+    assert not diagnose(scene_of(FLAT), Settings(), Drawn(colors=near.astype(np.uint8))).is_right
+
+
+def test_two_colours_show_what_is_covered() -> None:
+    frame = render(scene_of(FLAT), Settings(fill_rule="inclusive"))
+    colors = np.where((frame.primitive >= 0)[..., None], (0, 0, 0), (255, 255, 255)).astype(np.uint8)
+    found = diagnose(scene_of(FLAT), Settings(), Drawn(colors=colors)).found
+    assert next(each.name for each in found if each.is_mistake) == "all-edges-inclusive"
+    assert "fill_rule=inclusive" in [each.name for each in found if not each.is_mistake]
+
+
+def test_a_picture_saved_from_the_wrong_end_is_known_whatever_the_scene() -> None:
+    for scene in (scene_of(FLAT), replace(make_scene("cube"), size=(24, 16))):
+        pixels = to_display(render(scene).color).pixels[::-1, :, :3]
+        assert "y-down" in [each.name for each in diagnose(scene, Settings(), Drawn(colors=pixels)).found]
+
+
+@pytest.mark.parametrize("size", [(15, 12), (1000, 1000)])
+def test_another_size_or_too_many_pixels_are_refused(size) -> None:
+    covered = np.zeros(size[::-1], bool)
+    scene = replace(scene_of(FLAT), size=size if size[0] * size[1] > PIXEL_LIMIT else SIZE)
+    with pytest.raises(ValueError, match=r"expected a picture of (16 x 12|up to 262144) pixels, got "):
+        diagnose(scene, Settings(), Drawn(covered=covered))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", [scene.name for scene in CATALOGUE])
+def test_every_scene_is_right_as_it_is_drawn(name: str) -> None:
+    scene = replace(make_scene(name), size=(24, 16))
+    pixels = to_display(render(scene).color).pixels[..., :3]
+    assert diagnose(scene, Settings(), Drawn(colors=pixels)).is_right
