@@ -1,10 +1,11 @@
-"""What `core.settings.Settings` declares of each of its fields, once: menus, titles, command line and tests read it."""
+"""What `core.settings.Settings` declares of its fields, for menus, command line and tests; and where they matter."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
-from core.scene import AnyScene
+from core.methods import table
+from core.scene import AnyScene, ClipScene
 
 Reason = Callable[[Any, AnyScene | None], str]
 """Of settings and a scene: why a setting changes nothing with them, as a sentence; empty: it does."""
@@ -65,3 +66,62 @@ def number_field(
     """Declare a field of settings that is a number; ``applies`` are further fields of `WholeNumber`."""
     number = WholeNumber(title=title, limit=limit, offered=offered, label=label, **applies)
     return field(default=default, metadata={"field": number})
+
+
+def has_no_texture(settings: Any, scene: AnyScene | None) -> str:
+    """Return why textures do not matter."""
+    if scene is None:
+        return ""
+    textures = [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
+    return "" if any(texture is not None for texture in textures) else "This scene has no texture."
+
+
+def has_no_light(settings: Any, scene: AnyScene | None) -> str:
+    """Return why light does not matter."""
+    return "Typed triangles have no lights: they are unlit." if isinstance(scene, ClipScene) else ""
+
+
+def draws_lines(settings: Any, scene: AnyScene | None) -> str:
+    """Return why an interval between corrections does not matter."""
+    is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
+    return "Lines are interpolated with perspective at every pixel." if is_outlined else ""
+
+
+def has_no_polygons(settings: Any, scene: AnyScene | None) -> str:
+    """Return why methods of polygons do not matter."""
+    return "" if scene is None or scene.corner_count > 3 else "This scene has no polygons."
+
+
+OF_TRIANGLES = {
+    "clipping": "The planes of the view volume cut no polygon: all its corners lie in front of the eye.",
+    "coverage": "A polygon's corners are snapped to 1/256 pixel, and its crossings are exact.",
+    "fill_rule": "A polygon owns the pixel centres on its left and lower edges.",
+    "fill": "Polygons are filled row by row, from an edge table.",
+    "polygon_mode": "Polygons are filled.",
+    "interpolation": "A polygon has one colour.",
+    "provoking": "A polygon has the colour of its corner 0.",
+    "block_size": "Polygons are filled row by row, from an edge table.",
+}
+"""Settings that do not matter to polygons, and why."""
+
+
+def suited(settings: Any, corner_count: int) -> Any:
+    """Return the settings that primitives of so many corners are drawn with.
+
+    Segments (2) and points (1) have no area: they are drawn as lines, and face nowhere. Polygons (more than 3) are
+    filled by methods of their own, with the colour of corner 0.
+    """
+    if corner_count == 3:
+        return settings
+    if corner_count > 3:
+        defaults = {name: getattr(type(settings), name) for name in OF_TRIANGLES}
+        filled = {"fill": "scanline", "interpolation": "flat", "provoking": "first"}
+        return replace(settings, **{**defaults, **filled})
+    divides = table.get("clipping", settings.clipping).function().divides
+    return replace(
+        settings,
+        polygon_mode="wireframe",
+        cull="none",
+        clipping="homogeneous" if divides else settings.clipping,
+        line="bresenham" if corner_count == 1 else settings.line,
+    )

@@ -4,7 +4,7 @@
 
 1. *transform, cull, clip, edges* (`process_geometry`): vertices to clip space and to the window, triangles that need
    not be drawn left out, those that cross a plane cut, edge functions set up;
-2. *bin, raster* (`covered`): boxes and runs of pixels, and which of these lie inside of all edges;
+2. *bin, raster* (`fragments_of`): boxes and runs of pixels, and which of these lie inside of all edges;
 3. *depth* (`find_visible`): which fragment of every pixel is seen;
 4. *interpolate, shade*: attributes, texture and light of what is seen;
 5. *blend, resolve*: what the fragments leave in the buffers.
@@ -14,7 +14,6 @@ what is seen for each sample and shades once for a triangle in a pixel, `draw_ar
 functions serve the picture (in batches, nothing kept) and the trace (a few triangles, everything kept).
 """
 
-from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -35,31 +34,25 @@ from core.antialiasing.sampling import ROTATED_GRID, grid_positions
 from core.framebuffer.depth import Stored
 from core.framebuffer.nearest import NearestFragments
 from core.framebuffer.resolve import filter_weights, reach_of
-from core.raster.binning import bound
-from core.raster.coverage import Fragments, cover
-from core.raster.edges.edge_functions import EdgeFunctions
+from core.raster.coverage import Fragments
 from core.raster.lines.intensities import weigh_alpha, writes_depth
-from core.raster.lines.wireframe import draw_outlines
-from core.raster.pixel_runs import Boxes, Raster, Runs, rows_of
+from core.raster.pixel_runs import Raster
 from core.records.arrays import Integers, Singles
 from core.records.frame import Frame, Samples, StageCount
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Texture
 from core.settings import DEFAULTS, Settings
+from core.stages.bin_and_raster import Counts, fragments_of
 from core.stages.declared import STAGES
 from core.stages.fragment_depth import fragment_depth
 from core.stages.fragments import interpolate, owner_of, shade, shade_once
 from core.stages.hidden_surfaces import Visible, decide_fragments
 from core.stages.vertices import Geometry, process_geometry
 
-CHUNK = 1 << 22
-"""Pixels of bounding boxes that are scheduled in one go."""
 SAMPLE_BAND = 1 << 21
 """Samples that are drawn in one go: the numbers of more would take too much memory."""
 PIECE_BAND = 1 << 16
 """Pixels whose pieces are worked on together."""
-
-Counts = dict[str, StageCount]
 
 
 def render(scene: AnyScene, settings: Settings | None = None) -> Frame:
@@ -180,70 +173,6 @@ def draw_geometry(scene: AnyScene, geometry: Geometry, raster: Raster, counts: C
     )
 
 
-def schedule(
-    edges: EdgeFunctions, settings: Settings, raster: Raster, boxes: Boxes | None = None
-) -> tuple[Boxes, Runs]:
-    """Bin triangles and list the runs of pixels that the fill looks at: none where only outlines are drawn."""
-    resolved, boxes = resolve(settings), bound(edges, raster) if boxes is None else boxes
-    if resolved.is_outlined:
-        return boxes, rows_of(boxes, np.empty(0, np.int64))
-    return boxes, resolved.fill(edges, boxes, raster, settings.block_size)
-
-
-def covered(
-    geometry: Geometry, raster: Raster, counts: Counts, chosen: Integers | None = None
-) -> Iterator[Fragments]:
-    """Bin and raster: yield the fragments of the ``chosen`` (C,) primitives, or all, in batches."""
-    settings, resolved = geometry.settings, resolve(geometry.settings)
-    counts["raster"].note = "" if resolved.fill_name == settings.fill else settings.fill
-    with counts["bin"] as count:
-        edges = geometry.edges if chosen is None else geometry.edges.take(chosen)
-        count.incoming += len(edges.a)
-        boxes = bound(edges, raster)
-        area = (boxes.row_end - boxes.row) * (boxes.column_end - boxes.column)
-        if resolved.looks_everywhere:
-            area[:] = raster.shape[0] * raster.shape[1]
-        ends = np.flatnonzero(np.diff(np.cumsum(area) // CHUNK, append=-1)) + 1
-    for first, end in zip([0, *ends.tolist()][:-1], ends.tolist(), strict=True):
-        with count:
-            part, its_boxes = edges, boxes
-            if len(ends) > 1:
-                part, its_boxes = edges.take(slice(first, end)), Boxes(*(of[first:end] for of in boxes))
-            _, runs = schedule(part, settings, raster, its_boxes)
-            count.outgoing += int(runs.lengths.sum())
-        batches = cover(part, runs, raster)
-        while True:
-            with counts["raster"] as count_raster:
-                fragments, tested = next(batches, (None, 0))
-            if fragments is None:
-                break
-            count_raster.incoming += tested
-            count_raster.outgoing += len(fragments.primitive)
-            if first:
-                fragments = replace(fragments, primitive=fragments.primitive + first)
-            yield (
-                fragments
-                if chosen is None
-                else replace(fragments, primitive=chosen.take(fragments.primitive))
-            )
-
-
-def outlined(geometry: Geometry, raster: Raster, counts: Counts) -> Iterator[Fragments]:
-    """Raster a wireframe: yield the pixels of the outlines of all primitives, which have no bins."""
-    assert geometry.outlines is not None
-    counts["bin"].incoming = len(geometry.edges)
-    batches = draw_outlines(geometry.outlines, raster, geometry.settings.line)
-    while True:
-        with counts["raster"] as count:
-            fragments, _ = next(batches, (None, None))
-        if fragments is None:
-            return
-        for of_stage in (counts["bin"], count):
-            of_stage.outgoing += len(fragments)
-        count.incoming += len(fragments)
-        yield fragments
-
-
 def find_visible(geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
     """Bin, raster, depth: find every fragment, in batches, and which of them are seen."""
     resolved = resolve(geometry.settings)
@@ -255,7 +184,7 @@ def find_visible(geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
     counts["blend"].note = resolved.blend_inserted_for
     keeps_all = geometry.casts_rays or resolved.is_mixed
     kept: list[tuple[Fragments, Stored]] = []
-    for fragments in (covered if outlines is None else outlined)(geometry, raster, counts):
+    for fragments in fragments_of(geometry, raster, counts):
         with counts["depth"] as count:
             _, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
             if not keeps.all():
@@ -374,14 +303,14 @@ def draw_multisampled(
 def draw_areas(scene: AnyScene, settings: Settings, raster: Raster, chosen: Integers | None = None) -> Frame:
     """Draw the ``chosen`` (T,) triangles, or all, with exact areas.
 
-    The buffers beside the colour, and all of a wireframe, are those of the pixels' centres.
+    The buffers beside the colour, and all of a wireframe or polygon, are those of the pixels' centres.
     """
     from core.antialiasing.exact_area import draw_pieces, sum_areas
 
     frame = draw_centers(scene, settings, raster, chosen)
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, settings, counts, chosen)
-    if geometry.outlines is not None:
+    if not geometry.is_cut_to_pixels:
         return frame
     color = np.empty((*raster.shape, 4), np.float32)
     color[:] = scene.background

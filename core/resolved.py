@@ -107,6 +107,11 @@ class ResolvedSettings:
         return self.is_outlined and not is_registered(self.settings.line_clipping, "none")
 
     @cached_property
+    def polygon_fill(self) -> Callable[..., Any]:
+        """What of a row that crosses a polygon is inside, see `core.raster.polygon_fills.active_edges.Rule`."""
+        return self.method("polygon_fill").function
+
+    @cached_property
     def interpolation(self) -> tuple[Callable[..., Any], int, int]:
         """What an `Interpolator` takes: the rule of the weights, the provoking corner, columns between corrections."""
         provoking: int = self.method("provoking").function()

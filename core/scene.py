@@ -9,10 +9,14 @@ import numpy as np
 
 from core.records.arrays import Floats, Integers, Singles, checked, checked_size
 from core.records.cached import cached_property
-from core.records.clip_region import checked_region
+from core.records.clip_region import checked_polygon_region, checked_region
+from core.records.rings import checked_rings
 
 SIZE_LIMIT = 16384
 """Largest raster, in pixels each way: edge functions stay exact in float64 (see core.raster.edges.edge_functions)."""
+
+POLYGON_REACH = 8
+"""How far from the middle corners of polygons may lie, in halves of the raster: crossings stay exact in int64."""
 
 COORDINATE_LIMIT = 1e60
 """Largest coordinate: products of three of them, as in a determinant, stay far from the end of float64."""
@@ -233,19 +237,29 @@ class Scene:
 
 
 CORNER_COUNTS = {"points": 1, "segments": 2, "triangles": 3}
-"""Kinds of primitives and how many corners each has; all else is assembled from them (`core.assembly`)."""
+"""Kinds of primitives and how many corners each has; strips, fans and quads are assembled from them (`core.assembly`).
+
+``polygons`` have any number of corners from `POLYGON_CORNERS` on, in rings.
+"""
+KINDS = (*CORNER_COUNTS, "polygons")
+POLYGON_CORNERS = (4, 1000)
+"""Least and greatest number of corners of a polygon; one of three is a triangle."""
 
 
 @dataclass(frozen=True, eq=False)
 class ClipScene:
-    """Triangles, segments or points given in clip space: typed ones, recorded cases. Drawn and stepped like any scene.
+    """Triangles, segments, points or polygons given in clip space. Drawn and stepped like any scene.
 
     Segments and points have no area: they are drawn as lines by the method of the family ``line``. The pixel of a
     segment's second end is drawn unless another segment begins at a corner of the same name.
+
+    Polygons may be concave, have holes and cross themselves: a method of the family ``polygon_fill`` says what is
+    inside. Each has the colour of its corner 0, and lies in the plane of three of its corners.
     """
 
     clip: Floats
-    """(T, 3, 4) float64 clip-space x, y, z, w of every corner; (T, 2, 4) of segments, (T, 1, 4) of points."""
+    """(T, 3, 4) float64 clip-space x, y, z, w of every corner; (T, 2, 4) of segments, (T, 1, 4) of points, (T, C, 4)
+    of polygons with C corners each, all w above 0."""
     attributes: Floats | None = None
     """(T, 3, K) float64 to interpolate; the first four are the colour, or the first two the texture coordinates."""
     size: tuple[int, int] = (512, 512)
@@ -254,21 +268,27 @@ class ClipScene:
     shared: Integers | None = None
     """(T, 3) int64 names of corners: corners of one name move together in the window. ``None``: all separate."""
     kind: str = "triangles"
-    """One of `CORNER_COUNTS`."""
+    """One of `KINDS`."""
     clip_region: Floats | None = None
     """Left, bottom, right, top (4,), or the corners (M, 2) of a convex polygon, counter-clockwise, in NDC float64.
 
-    What methods of the family ``line_clipping`` clip to; ``None``: the raster.
+    What methods of the families ``line_clipping`` and ``polygon_clipping`` clip to; ``None``: the raster. What
+    polygons are clipped to may be any polygon, with holes.
     """
+    rings: Integers | None = None
+    """(R,) int64, first corner of each ring of a polygon, rising from 0: outline, then holes. ``None``: one ring."""
+    region_rings: Integers | None = None
+    """(R,) int64, the same of ``clip_region``."""
     corner_count: int = field(init=False)
     """How many corners a primitive has."""
 
     def __post_init__(self) -> None:
-        if self.kind not in CORNER_COUNTS:
-            raise ValueError(f"kind must be one of {', '.join(CORNER_COUNTS)}, got {self.kind}")
-        corners = CORNER_COUNTS[self.kind]
-        object.__setattr__(self, "corner_count", corners)
+        if self.kind not in KINDS:
+            raise ValueError(f"kind must be one of {', '.join(KINDS)}, got {self.kind}")
+        corners = CORNER_COUNTS.get(self.kind, "C")
         clip = checked("clip", self.clip, ("T", corners, 4), limit=COORDINATE_LIMIT)
+        corners = clip.shape[1]
+        object.__setattr__(self, "corner_count", corners)
         object.__setattr__(self, "clip", clip)
         if self.attributes is None:
             color = np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), (len(clip), corners, 4))
@@ -289,8 +309,42 @@ class ClipScene:
             object.__setattr__(self, "shared", shared)
         object.__setattr__(self, "size", checked_size("size", self.size, SIZE_LIMIT))
         object.__setattr__(self, "background", checked("background", self.background, (4,)))
-        if self.clip_region is not None:
+        if self.kind == "polygons":
+            self._check_polygons()
+        elif self.rings is not None or self.region_rings is not None:
+            raise ValueError(f"only polygons have rings, got rings of {self.kind}")
+        elif self.clip_region is not None:
             object.__setattr__(self, "clip_region", checked_region(self.clip_region, self.size))
+
+    def _check_polygons(self) -> None:
+        """Refuse polygons without a place in the window, and rings that are none."""
+        least, most = POLYGON_CORNERS
+        if not least <= self.corner_count <= most:
+            raise ValueError(
+                f"a polygon must have {least} to {most} corners (three are a triangle), got {self.corner_count}"
+            )
+        if self.texture is not None:
+            raise ValueError("a polygon has one colour and takes no texture")
+        with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+            reach = np.abs(self.clip[..., :2] / self.clip[..., 3:])
+        if not (self.clip[..., 3] > 0).all():
+            raise ValueError("a polygon needs all w above 0: other corners have no place in the window")
+        if not (reach <= POLYGON_REACH).all():
+            raise ValueError(
+                f"a polygon's corners must lie within {POLYGON_REACH} times half the raster from its middle, "
+                f"got {float(reach.max()):g}"
+            )
+        object.__setattr__(self, "rings", checked_rings("rings", self.rings, self.corner_count))
+        if self.clip_region is None:
+            if self.region_rings is not None:
+                raise ValueError("region_rings need a clip_region")
+            return
+        region = checked_polygon_region(self.clip_region)
+        object.__setattr__(self, "clip_region", region)
+        if region.ndim == 2:
+            object.__setattr__(
+                self, "region_rings", checked_rings("region_rings", self.region_rings, len(region))
+            )
 
 
 AnyScene = Scene | ClipScene

@@ -4,28 +4,21 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from core.families import Family, SettingField, WholeNumber, choice, number_field
+from core.families import (
+    OF_TRIANGLES,
+    Family,
+    SettingField,
+    WholeNumber,
+    choice,
+    draws_lines,
+    has_no_light,
+    has_no_polygons,
+    has_no_texture,
+    number_field,
+    suited,
+)
 from core.methods import Method, ReplacedName, table
-from core.scene import AnyScene, ClipScene
-
-
-def has_no_texture(settings: "Settings", scene: AnyScene | None) -> str:
-    """Return why textures do not matter."""
-    if scene is None:
-        return ""
-    textures = [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
-    return "" if any(texture is not None for texture in textures) else "This scene has no texture."
-
-
-def has_no_light(settings: "Settings", scene: AnyScene | None) -> str:
-    """Return why light does not matter."""
-    return "Typed triangles have no lights: they are unlit." if isinstance(scene, ClipScene) else ""
-
-
-def draws_lines(settings: "Settings", scene: AnyScene | None) -> str:
-    """Return why an interval between corrections does not matter."""
-    is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
-    return "Lines are interpolated with perspective at every pixel." if is_outlined else ""
+from core.scene import AnyScene
 
 
 @dataclass(frozen=True)
@@ -117,6 +110,16 @@ class Settings:
         taken_by="polygon_mode",
         otherwise="Only wireframes draw lines.",
         classical=("cohen-sutherland", "liang-barsky", "cyrus-beck"),
+    )
+    polygon_fill: str = choice(
+        "even-odd",
+        "Polygon fill",
+        "raster",
+        "core.raster.polygon_fills.active_edges",
+        reason=has_no_polygons,
+        asks=("listing", "operations"),
+        is_look=True,
+        classical=("even-odd", "non-zero"),
     )
     pixel_center: str = choice("half", "Pixel centres", "raster", "core.raster.pixel_runs", is_look=True)
     interpolation: str = choice(
@@ -313,13 +316,15 @@ def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> s
     """Return why a setting changes nothing with the others and this scene, as a sentence; empty: it may."""
     declared = FIELDS[name]
     by = declared.taken_by
+    if scene is not None and scene.corner_count > 3 and name in OF_TRIANGLES:
+        return OF_TRIANGLES[name]
     if scene is not None and scene.corner_count < 3:
         noun = "Segments have" if scene.corner_count == 2 else "Points have"
         if name == "line" and scene.corner_count == 1:
             return "A point is one pixel."
         if name in ("cull", "polygon_mode"):
             return f"{noun} no area."
-        settings = without_area(settings, scene.corner_count)
+        settings = suited(settings, scene.corner_count)
         if by == "polygon_mode":
             return "" if name in table.get(by, settings.polygon_mode).takes else f"{noun} no area."
     if by and name not in table.get(by, getattr(settings, by)).takes:
@@ -330,18 +335,6 @@ def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> s
 
 DEFAULTS = Settings()
 """What runs where nothing is chosen."""
-
-
-def without_area(settings: Settings, corner_count: int) -> Settings:
-    """Return the settings that segments (2 corners) or points (1) are drawn with: as lines, facing nowhere."""
-    divides = table.get("clipping", settings.clipping).function().divides
-    return replace(
-        settings,
-        polygon_mode="wireframe",
-        cull="none",
-        clipping="homogeneous" if divides else settings.clipping,
-        line="bresenham" if corner_count == 1 else settings.line,
-    )
 
 
 def import_methods(settings: Settings) -> None:

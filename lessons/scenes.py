@@ -1,6 +1,6 @@
 """The built-in scenes: small cases for one idea each, where every pixel can be read, and whole meshes."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -18,6 +18,8 @@ TEACHING_SIZE = (64, 48)
 PICTURE_SIZE = (512, 512)
 """Raster of the meshes."""
 
+Ring = Sequence[Sequence[float]]
+"""Corners of a ring of a polygon, x and y in pixels."""
 RED_GREEN_BLUE = np.array([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]])
 
 
@@ -161,6 +163,32 @@ def polygon() -> ClipScene:
     return assembled("polygon", x, y, TEACHING_SIZE)
 
 
+def polygon_of_rings(
+    rings: Sequence[Ring | Floats], size: tuple[int, int], color: str = FACE_COLORS[0]
+) -> ClipScene:
+    """Return one polygon with rings (K, 2) in pixels, y up: the outline, then holes."""
+    places = [np.asarray(ring, float) for ring in rings]
+    corners = np.concatenate(places)
+    clip = np.concatenate([2 * corners / size - 1, np.tile([0.0, 1.0], (len(corners), 1))], axis=1)
+    colors = np.tile(linear_color(color), (1, len(corners), 1))
+    starts = np.cumsum([0, *map(len, places)])[:-1]
+    return ClipScene(clip[None], colors, size, kind="polygons", rings=starts)
+
+
+def polygon_with_holes() -> ClipScene:
+    """A concave polygon with two holes, which run the other way round."""
+    outline: Ring = [[3, 3], [29, 2.5], [30, 12], [22, 14.5], [29, 21], [12, 22], [2.5, 16]]
+    square: Ring = [[6, 6], [7, 13], [14, 12.5], [13, 5.5]]
+    return polygon_of_rings([outline, square, [[19, 6], [20, 11], [26, 8]]], (32, 24))
+
+
+def pentagram() -> ClipScene:
+    """A polygon of five corners that crosses itself five times."""
+    angle = np.pi / 2 + np.arange(5) * 4 * np.pi / 5
+    corners = np.rint(4 * np.stack([16 + 15 * np.cos(angle), 11 + 12 * np.sin(angle)], axis=1)) / 4
+    return polygon_of_rings([corners], (32, 24), FACE_COLORS[1])
+
+
 def near_plane() -> Scene:
     """One triangle that reaches from far in front of the camera to behind it."""
     triangle = Mesh(
@@ -282,6 +310,18 @@ CATALOGUE = (
         "Concave polygon",
         "A star of ten corners, cut into eight triangles that draw no pixel twice.",
         polygon,
+    ),
+    BuiltInScene(
+        "polygon-holes",
+        "Polygon with holes",
+        "One polygon of three rings: step its edge table in the stage Raster, and drag a hole out of its outline.",
+        polygon_with_holes,
+    ),
+    BuiltInScene(
+        "pentagram",
+        "Self-crossing polygon",
+        "The even-odd rule leaves the middle of this star out, the non-zero rule fills it.",
+        pentagram,
     ),
     BuiltInScene(
         "near-plane",

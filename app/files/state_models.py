@@ -134,11 +134,13 @@ class ClipSceneRecord(Record):
     """A ``core.scene.ClipScene``; it is always kept as a whole."""
 
     kind: Literal["clip"]
-    primitives: Literal["triangles", "segments", "points"] = "triangles"
+    primitives: Literal["triangles", "segments", "points", "polygons"] = "triangles"
     clip: ArrayRecord
     attributes: ArrayRecord
     shared: ArrayRecord | None
     clip_region: ArrayRecord | None = None
+    rings: ArrayRecord | None = None
+    region_rings: ArrayRecord | None = None
     texture: ArrayRecord | None
     texture_name: str = "texture"
     size: Size

@@ -171,7 +171,10 @@ def _clip_record(scene: ClipScene) -> ClipSceneRecord:
         clip=array_record(scene.clip),
         attributes=array_record(scene.attributes),
         shared=None if scene.shared is None else array_record(scene.shared),
-        clip_region=None if scene.clip_region is None else array_record(scene.clip_region),
+        **{
+            name: None if getattr(scene, name) is None else array_record(getattr(scene, name))
+            for name in ("clip_region", "rings", "region_rings")
+        },
         texture=None if scene.texture is None else array_record(scene.texture.pixels),
         texture_name=shown_name(scene.texture.name) if scene.texture is not None else "texture",
         size=scene.size,
@@ -223,7 +226,7 @@ def scene_from_record(
 
 def _clip_scene(record: ClipSceneRecord) -> ClipScene:
     arrays: dict[str, Any] = {}
-    for name in ("clip", "attributes", "shared", "clip_region", "texture"):
+    for name in ("clip", "attributes", "shared", "clip_region", "rings", "region_rings", "texture"):
         found: ArrayRecord | None = getattr(record, name)
         with in_field(f"scene.{name}"):
             arrays[name] = None if found is None else array_from(found)

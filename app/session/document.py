@@ -216,10 +216,10 @@ def central_triangle(document: Document) -> int:
 
 
 def window_corners_of(document: Document, triangle: int) -> Floats:
-    """Return (3, 2) window positions of a triangle in the picture, NaN where w <= 0."""
+    """Return (3, 2) window positions of a triangle in the picture, (C, 2) of a polygon, NaN where w <= 0."""
     source = TraceSource(document.scene, document.settings, triangle)
     vertices = source.geometry.vertices
-    corners = vertices.corners[triangle]
+    corners = vertices.corners_of(triangle)
     return np.where(vertices.clip[corners, 3:] > 0, vertices.window[corners, :2], np.nan)
 
 

@@ -174,7 +174,7 @@ def _clip_window_outline(scene: ClipScene, size: tuple[int, int]) -> OutlineGrou
         rows = [
             _vector_row(f"clip-window/{k}", f"corner {k}", corner, "xy") for k, corner in enumerate(window)
         ]
-    return OutlineGroup("clip-window", "Clip window of lines", tuple(rows))
+    return OutlineGroup("clip-window", "Clip window", tuple(rows))
 
 
 def _set_camera(camera: Camera, names: list[str], value: float) -> Camera:
@@ -189,7 +189,7 @@ def _set_camera(camera: Camera, names: list[str], value: float) -> Camera:
 
 def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
     shown = range(min(len(scene.clip), TYPED_TRIANGLES)) if triangle is None else [triangle]
-    window = window_of_clip(scene.clip, size)
+    window, colors = window_of_clip(scene.clip, size), transform_vertices(scene).colors
     groups = []
     for index in shown:
         rows = []
@@ -198,7 +198,10 @@ def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int])
             if not np.isfinite(window[index, corner]).all():
                 rows.append(
                     OutlineRow(
-                        path, f"vertex {corner}", vertex=corner, note="at w = 0: no place in the window"
+                        path,
+                        f"vertex {corner}",
+                        vertex=colors[corner],
+                        note="at w = 0: no place in the window",
                     )
                 )
                 continue
@@ -206,10 +209,10 @@ def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int])
                 OutlineValue(name, float(number))
                 for name, number in zip(WINDOW_NAMES, window[index, corner], strict=True)
             )
-            rows.append(OutlineRow(path, f"vertex {corner}", values, vertex=corner))
+            rows.append(OutlineRow(path, f"vertex {corner}", values, vertex=colors[corner]))
         title = of_kind(f"Triangle {index}", scene.corner_count)
         groups.append(OutlineGroup(f"triangle/{index}", title, tuple(rows)))
-    if scene.corner_count == 2 or scene.clip_region is not None:
+    if scene.corner_count == 2 or scene.corner_count > 3 or scene.clip_region is not None:
         groups.append(_clip_window_outline(scene, size))
     return tuple(groups)
 

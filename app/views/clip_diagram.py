@@ -14,7 +14,7 @@ import numpy as np
 from core.explain.kinds import of_kind
 from core.geometry.culling import PLANES, REASONS
 from core.geometry.polygon_clipping.sutherland_hodgman import distance_from
-from core.records.arrays import Floats
+from core.records.arrays import Floats, Integers
 from core.trace import StageTrace, Trace
 from widgets.space.diagram import CUBE, Diagram, Patch, Spot, Stroke, Word
 from widgets.space.orbit import Orbit
@@ -47,19 +47,30 @@ class ClipState:
     """Whether the step just done has let the triangle pass as it is."""
     corner_count: int = 3
     """Corners of what is drawn: 2 of a segment, 1 of a point."""
+    sides: Integers = field(default_factory=lambda: np.array([[1, 2], [2, 0], [0, 1]]), repr=False)
+    """(S, 2) the corners that sides run between, see ``VertexStage``."""
+    colors: tuple[int, ...] = (0, 1, 2)
+    """Of corners and sides."""
 
 
 def clip_state(trace: Trace, triangle: int, position: int | None) -> ClipState:
     """Return a triangle at a position of the stage ``clip``; ``None``: after its end."""
     corner_count = trace.source.scene.corner_count
     state = _state_of(trace, triangle, position)
-    return replace(state, corner_count=corner_count, sentence=of_kind(state.sentence, corner_count))
+    vertices = trace.source.geometry.vertices
+    if vertices.rings is not None:
+        # Its rings are drawn as sides: they are no single line.
+        state = replace(state, polygon=np.empty((0, 4)), is_kept_whole=False)
+    sentence = of_kind(state.sentence, corner_count)
+    return replace(
+        state, corner_count=corner_count, sentence=sentence, sides=vertices.sides, colors=vertices.colors
+    )
 
 
 def _state_of(trace: Trace, triangle: int, position: int | None) -> ClipState:
     geometry = trace.source.geometry
     stage = trace.stage("clip")
-    before = geometry.vertices.clip[geometry.vertices.corners[triangle]]
+    before = geometry.vertices.clip[geometry.vertices.corners_of(triangle)]
     none = np.empty((0, 4))
     row = -1 if position is None else stage.steps.row_at(position)[0]
     is_now = row >= 0 and stage.triangle[row] == triangle
@@ -239,9 +250,10 @@ def _shapes(
         strokes.append(Stroke(face, "accent", 1.6, is_closed=True))
         words.append(Word(face.mean(axis=0), f"{PLANES[state.plane]}: {equations[state.plane]}", "accent"))
     is_whole = state.plane < 0
-    for k in range(3):
-        ends = before[[(k + 1) % 3, (k + 2) % 3]]
-        strokes.append(Stroke(ends, f"vertex {k}", 2.2 if is_whole else 1.4, "solid" if is_whole else "dash"))
+    for ends, color in zip(before[state.sides], state.colors, strict=True):
+        strokes.append(
+            Stroke(ends, f"vertex {color}", 2.2 if is_whole else 1.4, "solid" if is_whole else "dash")
+        )
     if state.is_kept_whole:
         strokes.insert(0, Stroke(before, "accent", 8.0, is_closed=True, opacity=0.6))
     if len(state.polygon):
@@ -259,7 +271,7 @@ def _shapes(
         spots.append(Spot(place(state.corner[None])[0], "accent", "square", 5.0, label="new corner"))
     for k in range(state.corner_count):
         label = f"{k}" if state.before[k, 3] > 0 else f"{k}, w = {state.before[k, 3]:.3g}".replace("-", "−")
-        spots.append(Spot(before[k], f"vertex {k}", label=label))
+        spots.append(Spot(before[k], f"vertex {state.colors[k]}", label=label))
     return Diagram(tuple(patches), tuple(strokes), tuple(spots), tuple(words))
 
 

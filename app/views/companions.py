@@ -140,17 +140,23 @@ def entered_diagram(session: Session) -> Diagram:
     geometry, stage = trace.source.geometry, session.stage_trace
     assembled = geometry.assembled.triangle
     is_there = spaces_reached(trace, "transform", position) >= NDC
-    corners = _placed(geometry.vertices.ndc[geometry.vertices.corners[assembled]])
+    corners = _placed(geometry.vertices.ndc[geometry.vertices.corners_of(assembled)])
     spots, strokes = [], list(cube_strokes())
     row, _ = stage.steps.row_at(position)
     current = -1 if row < 0 else int(np.flatnonzero(assembled == stage.triangle[row])[0])
     for number in np.flatnonzero(is_there.any(axis=1))[:MOST_TRIANGLES].tolist():
         there = is_there[number]
         if there.all():
-            strokes.append(Stroke(corners[number], "text", 1.2, is_closed=True))
+            strokes += [
+                Stroke(corners[number, ring], "text", 1.2, is_closed=True)
+                for ring in geometry.vertices.ring_slices
+            ]
         if number == current or not there.all():
             # Of whole triangles the outline is enough: hundreds of dots take long to paint.
-            spots += [Spot(corners[number, k], f"vertex {k}", radius=3.0) for k in np.flatnonzero(there)]
+            spots += [
+                Spot(corners[number, k], f"vertex {geometry.vertices.colors[k]}", radius=3.0)
+                for k in np.flatnonzero(there).tolist()
+            ]
     said = of_kind("Vertices appear here when they are divided by w.", is_there.shape[1])
     if row >= 0:
         k = int(stage.columns["corner"][row])

@@ -16,6 +16,7 @@ import numpy as np
 from app.views.pointed_pixel import PointedPixel, fragment_at
 from core.explain.kinds import of_kind
 from core.fragments.interpolation import numerators, plane_value, set_up_planes, value_plane
+from core.geometry.vertex_stage import VertexStage
 from core.records.arrays import Floats
 from core.trace import TraceSource
 from widgets.grid.buffer import number_text
@@ -74,11 +75,11 @@ def pyramid_diagram(source: TraceSource, triangle: int, pixel: PointedPixel | No
     homogeneous = homogeneous_corners(source, triangle)
     w = homogeneous[:, 2]
     frame = pyramid_frame(source, homogeneous)
-    corners = frame.place(homogeneous / frame.factor)
+    corners, vertices = frame.place(homogeneous / frame.factor), source.geometry.vertices
     shapes = [
         _raster(source, frame),
-        _pyramid(corners, source.scene.corner_count),
-        _image(source, frame, homogeneous),
+        _pyramid(corners, vertices),
+        *(_image(source, frame, homogeneous[ring]) for ring in vertices.ring_slices),
     ]
     sentences = [_sentence(w, frame)]
     if pixel is not None:
@@ -127,9 +128,9 @@ def hit_point(homogeneous: Floats, x: float, y: float) -> tuple[Floats, Floats, 
 
 
 def homogeneous_corners(source: TraceSource, triangle: int) -> Floats:
-    """Return (3, 3) corners of a triangle as (x, y, w), x and y in pixels times w."""
+    """Return (3, 3) corners of a triangle, (C, 3) of a polygon, as (x, y, w), x and y in pixels times w."""
     vertices = source.geometry.vertices
-    clip = vertices.clip[vertices.corners[triangle]]
+    clip = vertices.clip[vertices.corners_of(triangle)]
     width, height = source.scene.size
     x, y, w = clip[:, 0], clip[:, 1], clip[:, 3]
     return np.stack([(x + w) * (width / 2), (y + w) * (height / 2), w], axis=1)
@@ -152,18 +153,18 @@ def _sentence(w: Floats, frame: PyramidFrame) -> str:
     return " ".join(parts)
 
 
-def _pyramid(corners: Floats, corner_count: int) -> Diagram:
-    """Return the triangle and the planes through eye and edges, before and behind the eye."""
-    patches = [Patch(corners, "covered", 0.38)]
+def _pyramid(corners: Floats, vertices: VertexStage) -> Diagram:
+    """Return the primitive and the planes through eye and sides, before and behind the eye; holes stay open."""
+    patches = [Patch(corners, "covered", 0.38)] if len(vertices.ring_slices) == 1 else []
     strokes: list[Stroke] = []
-    for k in range(3):
-        ends = corners[[(k + 1) % 3, (k + 2) % 3]]
-        ink = f"vertex {k}"
+    inks, sides = [f"vertex {color}" for color in vertices.colors], vertices.sides
+    for k, ink in enumerate(inks):
+        ends = corners[sides[k]]
         strokes.append(Stroke(ends, ink, 2.4))
         patches.append(Patch(np.concatenate([np.zeros((1, 3)), ends]), ink, 0.13))
         patches.append(Patch(np.concatenate([np.zeros((1, 3)), -ends * MIRRORED]), ink, 0.07))
         strokes.append(Stroke(-ends * MIRRORED, ink, 1.0, "dash"))
-    for k in range(3):
+    for k in range(len(corners)):
         # A ray goes on to the plane of the raster where the corner lies before it.
         w = -float(corners[k, 2])
         reach = corners[k] * (1.0 / w) if 0 < w < 1 else corners[k]
@@ -171,7 +172,7 @@ def _pyramid(corners: Floats, corner_count: int) -> Diagram:
         if 0 < w < 1:
             strokes.append(Stroke(np.stack([corners[k], reach]), "muted_text", 1.0, "dot"))
         strokes.append(Stroke(np.stack([np.zeros(3), -corners[k] * MIRRORED]), "muted_text", 1.0, "dash"))
-    spots = tuple(Spot(corners[k], f"vertex {k}", label=str(k)) for k in range(corner_count))
+    spots = tuple(Spot(corners[k], inks[k], label=str(k)) for k in range(vertices.corner_count))
     return Diagram(tuple(patches), tuple(strokes), spots)
 
 
@@ -251,6 +252,10 @@ def _ray(
     if source.scene.corner_count < 3:
         sentence = f"The ray of the {pixel.name} meets only the raster: a triangle has no area."
         return Diagram((), tuple(strokes), tuple(spots)), sentence
+    vertices = source.geometry.vertices
+    if vertices.rings is not None:
+        # Its plane goes through three of its corners.
+        homogeneous = homogeneous[vertices.corners[triangle] - vertices.corners_of(triangle)[0]]
     point, weights, inverse_w = hit_point(homogeneous, x, y)
     if not np.isfinite(point).all():
         strokes.append(Stroke(np.stack([on_raster, on_raster * 3]), "text", 1.4, "dot"))
@@ -265,13 +270,11 @@ def _ray(
     spots.append(Spot(hit, "text", "disc" if is_covered else "cross", 4.5, label=f"w = {w_text}"))
     if not is_in_front:
         where = "behind the eye"
-    elif (weights >= 0).all():
+    elif is_covered if vertices.rings is not None else (weights >= 0).all():
         where = "inside the triangle"
     else:
         where = "beyond an edge"
     shares = ", ".join(number_text(float(weight), 3) for weight in weights)
-    sentence = (
-        f"The ray of the {pixel.name} meets the triangle's plane at w = {w_text}, {where}: "
-        f"weights ({shares})."
-    )
+    of_corners = f": weights ({shares})" if vertices.rings is None else ""
+    sentence = f"The ray of the {pixel.name} meets the triangle's plane at w = {w_text}, {where}{of_corners}."
     return Diagram((), tuple(strokes), tuple(spots)), sentence

@@ -261,7 +261,7 @@ class Scene3dPresenter(QObject):
             corners = space.corners(self.focus)[: space.scene.corner_count]
             for index, (x, y) in enumerate(fractions(space, orbit, size, corners).tolist()):
                 if np.isfinite([x, y]).all():
-                    handles.append(SceneHandle(index, x, y))
+                    handles.append(SceneHandle(index, x, y, space.vertices.colors[index]))
         words = space_words(space)
         places = fractions(space, orbit, size, np.stack([place for place, _ in words]))
         labels = tuple(

@@ -214,8 +214,10 @@ def space_lines(space: ViewSpace, focus: int | None) -> tuple[SpaceLine, ...]:
             lines.append(SpaceLine(roof, "text", hidden=0.45))
     if focus is not None:
         corners = space.corners(focus)
+        vertices = space.vertices
         lines += [
-            SpaceLine(corners[[(k + 1) % 3, (k + 2) % 3]], f"vertex {k}", 2, hidden=0.4) for k in range(3)
+            SpaceLine(corners[ends], f"vertex {color}", 2, hidden=0.4)
+            for ends, color in zip(vertices.sides, vertices.colors, strict=True)
         ]
     return tuple(lines)
 

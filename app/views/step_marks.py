@@ -40,7 +40,7 @@ def step_marks(session: Session, space: ViewSpace) -> list[SpaceMark]:
     row, _ = session.stage_trace.steps.row_at(position)
     if row < 0 or (stage not in GEOMETRY_STAGES and stage != "bin"):
         return []
-    return [_outline(space, int(session.stage_trace.triangle[row]))]
+    return _outlines(space, int(session.stage_trace.triangle[row]))
 
 
 def is_scene_lit(session: Session) -> bool:
@@ -59,7 +59,7 @@ def _corner_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     started = reached > spaces_reached(session.trace, "transform", 0)
     marks = []
     numbers, corners = np.nonzero(started)
-    vertices = source.geometry.vertices.corners[triangles[numbers], corners]
+    vertices = source.geometry.vertices.corners_of((triangles[numbers], corners))
     _, once = np.unique(vertices, return_index=True)
     for place in once.tolist() if len(once) <= MOST_MARKS else []:
         point = space.corners(int(triangles[numbers[place]]))[corners[place]]
@@ -93,7 +93,7 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
         return marks
     triangle, kind = int(triangles[current]), trace.kind_of(row)
     name = of_kind(f"triangle {triangle}", source.scene.corner_count)
-    marks.append(_outline(space, triangle))
+    marks += _outlines(space, triangle)
     facing = float(culled.facing[current])
     side = f"front, area {facing / 2:+.4g}" if facing > 0 else f"back, area {facing / 2:+.4g}"
     if is_dropped(session.trace, "cull", position)[current]:
@@ -109,8 +109,9 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     return marks
 
 
-def _outline(space: ViewSpace, triangle: int) -> SpaceMark:
-    return SpaceMark(space.corners(triangle)[[0, 1, 2, 0]], "accent")
+def _outlines(space: ViewSpace, triangle: int) -> list[SpaceMark]:
+    rings = [space.corners(triangle)[ring] for ring in space.vertices.ring_slices]
+    return [SpaceMark(np.concatenate([ring, ring[:1]]), "accent") for ring in rings]
 
 
 def _arrow(space: ViewSpace, triangle: int, facing: float, ink: str, label: str = "") -> SpaceMark:

@@ -59,8 +59,8 @@ class ViewSpace:
         return np.asarray(placed)
 
     def corners(self, triangle: int) -> Floats:
-        """Return (3, 3) places of a triangle's corners."""
-        vertices = self.vertices.corners[triangle]
+        """Return (3, 3) places of a triangle's corners, (C, 3) of a polygon's."""
+        vertices = self.vertices.corners_of(triangle)
         if self.vertices.world is not None:
             return np.array(self.vertices.world[vertices, :3])
         return self.place(self.vertices.clip[vertices])
@@ -136,11 +136,15 @@ def viewed_scene(
     Notes
     -----
     A corner at w <= 0 has no place in the box of the view volume, so triangles given in clip space are cut to
-    what lies between the near and the far plane.
+    what lies between the near and the far plane. Of polygons the sides are drawn.
     """
     if isinstance(scene, Scene):
         return replace(scene, camera=camera, size=size, background=background), None
     assert scene.attributes is not None
+    if scene.corner_count > 3:
+        sides, owner = _as_segments(scene, space.vertices.sides)
+        drawn_sides, side = viewed_scene(space, sides, camera, size, background)
+        return drawn_sides, owner if side is None else owner[side]
     number, count = np.arange(len(scene.clip)), scene.corner_count
     corners = own_corners(np.arange(1), count)[:, 0]
     clip = scene.clip[:, corners]
@@ -153,6 +157,15 @@ def viewed_scene(
         clip[:, :count], pieces.varyings[:, :count], size, scene.texture, background, kind=scene.kind
     )
     return drawn, pieces.triangle
+
+
+def _as_segments(scene: ClipScene, sides: Integers) -> tuple[ClipScene, Integers]:
+    """Return the sides (S, 2) of all polygons as segments, and the polygon (L,) of each."""
+    assert scene.attributes is not None
+    clip, colors = scene.clip[:, sides].reshape(-1, 2, 4), scene.attributes[:, sides]
+    colors = colors.reshape(-1, 2, colors.shape[-1])
+    whole = ClipScene(clip, colors, scene.size, background=scene.background, kind="segments")
+    return whole, np.repeat(np.arange(len(scene.clip)), len(sides))
 
 
 def thinned(scene: AnyScene, limit: int) -> tuple[AnyScene, Integers]:

@@ -1,4 +1,4 @@
-"""What is said of triangles, said of segments and points: they go the same way, and have ends in place of corners."""
+"""What is said of triangles, said of segments, points and polygons, which go the same way."""
 
 import re
 
@@ -13,7 +13,24 @@ _ANY = (
     (r", the nearest\b", ""),
     (r"three weights", "weights"),
 )
+POLYGON = 4
+"""Polygons of so many corners and more have the same words."""
 _WORDS = {
+    POLYGON: (
+        (
+            r"extends the values of three corners over the triangle.*",
+            "gives every pixel the colour of corner 0.",
+        ),
+        (
+            r"three weights at every pixel, and the weighted sum of the corners' values",
+            "the colour of every pixel",
+        ),
+        (r"decides by the sign of three edge functions at", "counts the edges to the left of"),
+        (r"the edge functions and the pixels to test", "the rings of every polygon in the window"),
+        (r"three vertices", "all vertices"),
+        (r"three corners", "all corners"),
+        (r"triangle", "polygon"),
+    ),
     2: (
         *_ANY,
         (r"edge or untouched triangle", "segment"),
@@ -64,7 +81,7 @@ def _as_begun(found: re.Match[str], noun: str) -> str:
 
 def of_kind(text: str, corner_count: int) -> str:
     """Return a sentence about triangles as one about primitives of so many corners."""
-    for pattern, noun in _WORDS.get(corner_count, ()):
+    for pattern, noun in _WORDS.get(min(corner_count, POLYGON), ()):
         text = re.sub(
             pattern,
             lambda found, noun=noun: _as_begun(found, noun),  # type: ignore[misc]

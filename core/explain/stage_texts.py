@@ -114,6 +114,8 @@ def initial_sentence(stage: str, corner_count: int = 3) -> str:
 
 def skipped_because(stage: str, corner_count: int) -> str:
     """Return why primitives of so many corners do not go through a stage; empty: they do."""
+    if corner_count > 3:
+        return stage_of(stage).not_of_polygons
     reason = stage_of(stage).needs_area if corner_count < 3 else ""
     return reason.format(kind=of_kind("triangle", corner_count))
 

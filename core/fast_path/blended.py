@@ -17,11 +17,11 @@ from core.framebuffer.blending import blend_stacks
 from core.framebuffer.depth import run_depth_tests
 from core.framebuffer.stacks import stacks_of
 from core.numeric.sorting import radix_order
-from core.pipeline import covered
 from core.raster.coverage import Fragments
 from core.raster.spans.fill import pixels_of_rows, rows_in_order
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.resolved import resolve
+from core.stages.bin_and_raster import covered
 from core.stages.fragment_depth import fragment_depth
 
 STRIP_FRAGMENTS = 1 << 17

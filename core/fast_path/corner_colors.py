@@ -77,7 +77,7 @@ class CornerColors:
         """Write the pixels of the plain triangles of a picture that is one layer."""
         chosen = np.flatnonzero(self.way == PLAIN)
         if len(chosen):
-            from core.pipeline import covered  # Few pictures have such triangles.
+            from core.stages.bin_and_raster import covered  # Few pictures have such triangles.
 
             part = context.part(chosen)
             colors = FragmentColors(part)

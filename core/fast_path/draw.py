@@ -10,6 +10,7 @@ from threading import local
 import numpy as np
 from numpy.typing import NDArray
 
+from core.families import suited
 from core.fast_path.draw_context import DrawContext, Words, encode
 from core.fast_path.opaque import draw_opaque
 from core.fast_path.palette import palette
@@ -20,7 +21,7 @@ from core.records.arrays import Integers, read_only
 from core.records.frame import StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
-from core.settings import DEFAULTS, Settings, without_area
+from core.settings import DEFAULTS, Settings
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 
@@ -85,8 +86,8 @@ def draw_picture(
     than snapping moves it and has corners much alike, ``corners`` stay between these, where `render` extrapolates.
     """
     settings = settings or DEFAULTS
-    if scene.corner_count < 3:
-        settings = without_area(settings, scene.corner_count)
+    if scene.corner_count != 3:
+        settings = suited(settings, scene.corner_count)
     raster = make_raster(scene.size, settings.pixel_center, region)
     if encoding not in ENCODINGS:
         raise ValueError(f"encoding must be one of {', '.join(ENCODINGS)}, got {encoding}")

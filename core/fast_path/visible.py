@@ -104,7 +104,7 @@ def _draw_big(context: DrawContext, words: Integers, planes: Planes, chosen: Int
 def _one_by_one(context: DrawContext, nearest: NearestFragments, chosen: Integers) -> int:
     """Look at the fragments of the ``chosen`` (C,) triangles; return how many there were."""
     # Most pictures have no such triangle and do not wait for it.
-    from core.pipeline import covered
+    from core.stages.bin_and_raster import covered
     from core.stages.fragment_depth import fragment_depth
 
     raster = context.raster

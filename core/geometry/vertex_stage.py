@@ -10,6 +10,7 @@ F. Pellacini, *Computer Graphics*, lecture "Graphics pipeline", "vertex processi
 
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from core.geometry.matrices import projection, transform, viewport, world_to_cam
 from core.records.arrays import Flags, Floats, Integers, Scalar, read_only
 from core.records.cached import cached_property
 from core.records.primitives import own_corners
+from core.records.rings import Rings
 from core.scene import ClipScene, Mesh, Scene
 
 
@@ -75,11 +77,61 @@ class VertexStage:
     view_range: tuple[float, float] | None = None
     """Near and far of a perspective camera, for which w is the distance along the view; ``None``: it is not."""
     corner_count: int = 3
-    """Corners of a primitive that are its own: 2 of segments, 1 of points, see ``own_corners``."""
+    """Corners of a primitive that are its own: 2 of segments, 1 of points, more than 3 of polygons.
+
+    ``corners`` has three of them all the same, see ``own_corners`` and `corners_of_planes`.
+    """
     draws_last: Flags | None = None
     """(T,) bool, the pixel of a segment's second end is drawn, see ``ClipScene``; ``None`` of triangles."""
     clip_region: Floats | None = None
-    """(4,) or (M, 2) float64, NDC, what lines are clipped to, see ``ClipScene``; ``None``: the raster."""
+    """(4,) or (M, 2) float64, NDC, what is clipped to, see ``ClipScene``; ``None``: the raster."""
+    rings: Integers | None = None
+    """(R,) int64, first corner of each ring of a polygon, see ``ClipScene``; ``None``: no polygons."""
+    region_rings: Integers | None = None
+    """(R,) int64, first corner of each ring of ``clip_region``."""
+
+    @property
+    def all_corners(self) -> Integers:
+        """(T, corner_count) int64, the vertices of every primitive: all corners of a polygon."""
+        if self.rings is None:
+            return self.corners[:, : self.corner_count]
+        return np.arange(len(self.corners) * self.corner_count).reshape(-1, self.corner_count)
+
+    def corners_of(self, primitive: Any) -> Integers:
+        """Return the vertices (..., 3) of primitives, as ``corners`` has them; all (..., C) of polygons."""
+        found: Integers = (self.corners if self.rings is None else self.all_corners)[primitive]
+        return found
+
+    @property
+    def ring_slices(self) -> list[slice]:
+        """Which of ``corners_of`` form a closed line: all of a triangle, one ring after the other of a polygon."""
+        if self.rings is None:
+            return [slice(0, 3)]
+        return [slice(*ends) for ends in pairwise([*self.rings.tolist(), self.corner_count])]
+
+    @property
+    def colors(self) -> tuple[int, ...]:
+        """0, 1 or 2 for each of ``corners_of`` and its side: a triangle's own number, a polygon's ring in turn."""
+        if self.rings is None:
+            return (0, 1, 2)
+        return tuple(k % 3 for k, ring in enumerate(self.ring_slices) for _ in range(ring.start, ring.stop))
+
+    @property
+    def sides(self) -> Integers:
+        """(S, 2) int64, which of ``corners_of`` sides run between: side k of a triangle lies opposite corner k."""
+        if self.rings is None:
+            return np.array([[1, 2], [2, 0], [0, 1]])
+        following = self.rings_of(np.zeros(1, np.int64)).following
+        return np.stack([np.arange(self.corner_count), following], axis=1)
+
+    def rings_of(self, polygon: Integers) -> Rings:
+        """Return the rings of polygons (P,) in the window, not snapped."""
+        assert self.rings is not None
+        count, ring_count = len(polygon), len(self.rings)
+        own = self.all_corners[polygon].ravel()
+        first = self.corner_count * np.repeat(np.arange(count), ring_count)
+        starts = np.append(first + np.tile(self.rings, count), len(own))
+        return Rings(self.window[own, :2], starts, np.repeat(np.arange(count), ring_count))
 
     @property
     def clip_rows(self) -> Floats:
@@ -160,12 +212,14 @@ def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
         count = len(scene.clip)
         return VertexStage(
             clip=_record(scene.clip.reshape(-1, 4).T),
-            corners=_record(own_corners(np.arange(count), scene.corner_count)),
+            corners=_record(_plane_corners(scene)),
             mesh=np.zeros(count, np.int64),
             size=scene.size,
             corner_count=scene.corner_count,
-            draws_last=None if scene.corner_count == 3 else _ends_alone(scene),
+            draws_last=_ends_alone(scene) if scene.corner_count < 3 else None,
             clip_region=scene.clip_region,
+            rings=scene.rings,
+            region_rings=scene.region_rings,
         )
     width, height = scene.size
     view = world_to_camera(scene.camera)
@@ -186,6 +240,32 @@ def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
         projection=project,
         view_range=view_range(scene),
     )
+
+
+def _plane_corners(scene: ClipScene) -> Integers:
+    """Return (3, T): the corners that a primitive's plane is set up from, which are all that a triangle has."""
+    number = np.arange(len(scene.clip))
+    if scene.rings is None:
+        return own_corners(number, scene.corner_count)
+    window = scene.clip[..., :2] / scene.clip[..., 3:] * scene.size
+    return scene.corner_count * number + corners_of_planes(window)
+
+
+def corners_of_planes(window: Floats) -> Integers:
+    """Return (3, T): three corners of each polygon (T, C, 2), of which the triangle is large, counter-clockwise.
+
+    The first is corner 0, which has the polygon's colour, and the next the one farthest from it. Depth and w of the
+    polygon are those of the plane through these three.
+    """
+    away = window - window[:, :1]
+    x, y = away[..., 0], away[..., 1]
+    second = (x * x + y * y).argmax(axis=1)
+    every = np.arange(len(window))
+    doubled = x[every, second, None] * y - y[every, second, None] * x
+    third = np.abs(doubled).argmax(axis=1)
+    is_turned = doubled[every, third] < 0
+    first = np.zeros(len(window), np.int64)
+    return np.stack([first, np.where(is_turned, third, second), np.where(is_turned, second, third)])
 
 
 def _ends_alone(scene: ClipScene) -> Flags:

@@ -7,7 +7,6 @@ import numpy as np
 
 from core.antialiasing.sample_rasters import at_sample, finer_scene, finer_settings, in_squares
 from core.methods import table
-from core.pipeline import schedule
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, PixelTests, examine_pixels, join_fragments
 from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
@@ -15,12 +14,14 @@ from core.raster.edges.snapping import place_corners
 from core.raster.lines.wireframe import Outlines, draw_outlines
 from core.raster.number_formats.number_format import CornerPositions
 from core.raster.pixel_runs import PROJECTED, Boxes, Raster, Runs, make_raster
+from core.raster.polygon_fills.active_edges import fill_rings
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 from core.records.frame import StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import Settings
+from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
 from core.trace.source import TraceSource
@@ -124,6 +125,8 @@ class PixelCandidates:
 
         A fill that looks everywhere has no boxes: numbers that wrap around may cover any pixel.
         """
+        if self.geometry.polygons is not None:
+            return np.arange(len(self.geometry.primitives))
         if self.rounds_corners or self.geometry.outlines is not None:
             contains = boxes_reach(self.geometry.edges.corners, self.center, ROUNDING_REACH)
         else:
@@ -155,6 +158,9 @@ class PixelCandidates:
     @cached_property
     def runs(self) -> Runs:
         """What the fill looks at, of this pixel."""
+        if self.geometry.polygons is not None:
+            rule = resolve(self.settings).polygon_fill
+            return fill_rings(self.geometry.polygons, self.raster, rule)
         return schedule(self.edges, self.settings, self.raster)[1]
 
     @cached_property

@@ -12,7 +12,10 @@ from core.raster.edges.edge_functions import EdgeFunctions
 from core.raster.edges.snapping import SUBPIXELS, place_corners
 from core.raster.lines.wireframe import LineFragments
 from core.raster.pixel_runs import INSIDE, MIXED, OUTSIDE, Boxes
+from core.raster.polygon_fills.active_edges import edge_table, find_crossings
 from core.records.arrays import Floats, Integers
+from core.records.rings import Rings
+from core.resolved import resolve
 
 
 def vertex_link(candidates: PixelCandidates, triangle: int) -> Link:
@@ -82,6 +85,10 @@ def undrawn_values(candidates: PixelCandidates, triangle: int) -> dict[str, Any]
 
     ``would_cover``: whether it would have had a fragment here.
     """
+    vertices = candidates.geometry.vertices
+    if vertices.rings is not None:
+        link = polygon_link(candidates, vertices.rings_of(np.array([triangle])), 0)
+        return dict(link.values) | {"would_cover": link.key == "in-polygon"}
     edges = candidates.unclipped(np.array([triangle]))
     tests = examine_edges(edges, *candidates.center)
     values = edge_values(edges, tests, 0)
@@ -127,6 +134,8 @@ def raster_links(candidates: PixelCandidates, k: int) -> list[Link]:
     values = edge_values(candidates.edges, candidates.edge_tests, k)
     box = tuple(int(getattr(candidates.boxes, name)[k]) for name in Boxes._fields[1:])
     values["box"] = box
+    if candidates.geometry.polygons is not None:
+        return [polygon_link(candidates, candidates.geometry.polygons, k)]
     if candidates.geometry.outlines is not None:
         return [missed_outline(candidates, k, values)]
     if values["doubled_area"] == 0:
@@ -202,6 +211,28 @@ def _span_of(candidates: PixelCandidates, k: int) -> dict[str, Any]:
     away = np.maximum(runs.start[spans] - candidates.column, candidates.column - runs.stop[spans] + 1)
     span = int(spans[np.argmin(away)])
     return {"start": int(runs.start[span]), "stop": int(runs.stop[span])}
+
+
+def polygon_link(candidates: PixelCandidates, rings: Rings, k: int) -> Link:
+    """Return what a row crosses of polygon ``k`` of ``rings`` up to the pixel's centre, and which edge is nearest."""
+    table = edge_table(rings, candidates.raster)
+    found = find_crossings(table, resolve(candidates.settings).polygon_fill)
+    to_left = np.flatnonzero((table.polygon[found.edge] == k) & (found.column <= candidates.column))
+    crossed, winding, is_inside = 0, 0, False
+    if len(to_left):
+        last = to_left[-1]
+        crossed, winding, is_inside = (
+            int(found.crossed[last]),
+            int(found.winding[last]),
+            bool(found.is_inside[last]),
+        )
+    own = np.flatnonzero(rings.polygon_of_corner == k)
+    sides = np.stack([rings.corners[own], rings.corners[rings.following[own]]], axis=1)
+    away = distance_to_segments(sides, *candidates.center)
+    edge = int(np.argmin(away))
+    values = {"crossed": crossed, "winding": winding, "edge": edge, "rule": candidates.settings.polygon_fill}
+    distance = float(away[edge]) if is_inside else -float(away[edge])
+    return Link("raster", "in-polygon" if is_inside else "outside-polygon", values | {"distance": distance})
 
 
 def outline_link(candidates: PixelCandidates, place: int) -> Link:

@@ -56,7 +56,7 @@ class PixelPieces:
 
 
 def pixel_pieces(source: TraceSource, column: int, row: int) -> PixelPieces | None:
-    """Return what became of a pixel in the picture of the whole scene; ``None``: outlines are drawn, not areas.
+    """Return what became of a pixel in the picture of the whole scene; ``None``: no triangles are filled.
 
     Parameters
     ----------
@@ -75,7 +75,7 @@ def pixel_pieces(source: TraceSource, column: int, row: int) -> PixelPieces | No
     if not (0 <= column < width and 0 <= row < height):
         raise ValueError(f"pixel must be inside the {width}x{height} image, got ({column}, {row})")
     geometry = whole_geometry(source)
-    if geometry.outlines is not None:
+    if not geometry.is_cut_to_pixels:
         return None
     raster = make_raster(scene.size, settings.pixel_center, (column, row, 1, 1))
     painter = piece_painter(scene, geometry, raster, {stage: StageCount() for stage in STAGES})

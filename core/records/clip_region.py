@@ -1,4 +1,4 @@
-"""The region that lines are clipped to: a rectangle or a convex polygon, in NDC: it scales with the raster."""
+"""The region that lines and polygons are clipped to: a rectangle or a polygon, in NDC: it scales with the raster."""
 
 from fractions import Fraction
 
@@ -7,6 +7,8 @@ from numpy.typing import ArrayLike
 
 from core.records.arrays import Floats, checked
 
+REGION_REACH = 8.0
+"""How far from the middle a region of polygons may reach, in halves of the raster."""
 DIGITS = 9
 """Decimal places of a pixel that a region is rounded to in the window: typed numbers come back unchanged."""
 
@@ -30,6 +32,23 @@ def checked_region(region: ArrayLike, size: tuple[int, int]) -> Floats:
         corners = checked("clip_region", region, ("M", 2))
         check_convex(region_in_window(corners, size))
         return corners
+    return _checked_rectangle(region)
+
+
+def checked_polygon_region(region: ArrayLike) -> Floats:
+    """Return what polygons are clipped to as a read-only array: a rectangle (4,), or corners (M, 2) of any rings.
+
+    Raises
+    ------
+    ValueError
+        If a rectangle has no area, or a corner lies farther than `REGION_REACH`.
+    """
+    if np.ndim(region) == 2:
+        return checked("clip_region", region, ("M", 2), limit=REGION_REACH)
+    return _checked_rectangle(region)
+
+
+def _checked_rectangle(region: ArrayLike) -> Floats:
     borders = checked("clip_region", region, (4,))
     left, bottom, right, top = borders.tolist()
     if left >= right or bottom >= top:

@@ -42,6 +42,8 @@ class Stage:
     """Whether it only decides what is looked at: methods may differ there and still do the same."""
     needs_area: str = ""
     """Why what has no area does not go through it, with ``{kind}`` for a segment or point; empty: it does."""
+    not_of_polygons: str = ""
+    """Why polygons do not go through it; empty: they do."""
     outcomes: tuple[str, ...] = ()
     """What comes of a pixel, by columns of its trace."""
 
@@ -113,6 +115,7 @@ DECLARED = (
         tracer="core.trace.edges.trace_edges",
         initial="No corner has been snapped and no edge function set up yet.",
         needs_area="A {kind} has no edge functions: it has no inside.",
+        not_of_polygons="A polygon needs no edge functions: its edge table is filled in the stage Raster.",
         group="one part of the set-up",
         group_label="All corners, edges",
         row_label="Corner or edge",
@@ -130,6 +133,7 @@ DECLARED = (
         tracer="core.trace.binning.trace_bin",
         initial="No box and no block has been tested yet.",
         needs_area="A {kind} has no area: its pixels are found without boxes and blocks.",
+        not_of_polygons="A polygon's spans are computed row by row, without boxes and blocks.",
         group="one block with its parts",
         group_label="Large block",
         row_label="Block",

@@ -12,7 +12,7 @@ import numpy as np
 from core.fragments.interpolation import Planes, set_up_planes, value_plane
 from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
 from core.geometry.culling import CullVerdicts, plane_distances
-from core.geometry.outcodes import RANGE_BIT, Outcodes, has_bits, joined_bits
+from core.geometry.outcodes import RANGE_BIT, Outcodes, has_bits, joined_bits, outcodes
 from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
 from core.geometry.reversed_depth import reversed_clip_depth
@@ -24,6 +24,7 @@ from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 from core.records.frame import StageCount
 from core.records.primitives import IndexedPrimitives, Primitives
+from core.records.rings import Rings
 from core.resolved import resolve
 from core.settings import Settings
 
@@ -107,7 +108,10 @@ class Geometry:
     @cached_property
     def is_in_range(self) -> Flags:
         """(P,) bool, every corner lies between the near and the far plane: depth is clamped, not tested."""
-        return ~has_bits(joined_bits(self.outcode, self.primitives.corner), RANGE_BIT)
+        if self.vertices.rings is None:
+            return ~has_bits(joined_bits(self.outcode, self.primitives.corner), RANGE_BIT)
+        own = self.vertices.all_corners[self.primitives.triangle]
+        return ~has_bits(np.bitwise_or.reduce(outcodes(self.vertices.clip)[own], axis=1), RANGE_BIT)
 
     @cached_property
     def corners(self) -> CornerPositions:
@@ -205,6 +209,19 @@ class Geometry:
                 self.draws_last,
             )
             return run_rightwards(outlines) if has_intensities(self.settings.line) else outlines
+
+    @cached_property
+    def polygons(self) -> Rings | None:
+        """The rings of the primitives that are filled, in the window; ``None``: no polygons."""
+        if self.vertices.rings is None:
+            return None
+        with self.count:
+            return self.vertices.rings_of(self.primitives.triangle).moved(*self.shift)
+
+    @property
+    def is_cut_to_pixels(self) -> bool:
+        """Whether exact areas apply: triangles are filled. Outlines and polygons are drawn at pixels' centres."""
+        return self.polygons is None and self.outlines is None
 
     @property
     def draws_last(self) -> Flags | None:

@@ -8,7 +8,8 @@ from functools import partial
 
 import numpy as np
 
-from core.geometry.culling import cull, plane_distances
+from core.families import suited
+from core.geometry.culling import CullVerdicts, cull, plane_distances
 from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, outcodes, shared_bits
 from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
@@ -21,7 +22,7 @@ from core.records.frame import StageCount
 from core.records.primitives import CornerValues, DrawingOrder, IndexedPrimitives, index_corners, own_corners
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene, Scene
-from core.settings import Settings, families, no_effect, without_area
+from core.settings import Settings, families, no_effect
 from core.stages.declared import GEOMETRY_STAGES
 from core.stages.geometry import Geometry, all_projected, clipping_distances
 
@@ -73,8 +74,8 @@ def process_geometry(
     raster : Raster, optional
         Leave out what lies beside it: a part of a picture is drawn from the triangles of that part.
     """
-    if scene.corner_count < 3:
-        settings = without_area(settings, scene.corner_count)
+    if scene.corner_count != 3:
+        settings = suited(settings, scene.corner_count)
     settings = resolve(settings).settings
     if chosen is not None or (raster is not None and raster.region is not None):
         return _process(scene, settings, counts, chosen, raster)
@@ -104,16 +105,22 @@ def _process(
 
     with counts["cull"]:
         window, outcode = place(assembled, scene.size, settings)
-        has_area = vertices.corner_count == 3
-        facing = face(assembled, window, scene.size, settings) if has_area else np.ones(triangle_count)
-        culled = cull(assembled, outcode, facing, resolve(settings).drops_facing)
+        has_area = vertices.corner_count >= 3
+        doubled_area = face(assembled, window, scene.size, settings) if has_area else np.ones(triangle_count)
+        culled = (
+            cull(assembled, outcode, doubled_area, resolve(settings).drops_facing)
+            if vertices.rings is None
+            else cull_polygons(vertices, assembled, settings)
+        )
         drawing = drawing_order(vertices, settings)
-        wanted = culled.kept if raster is None else culled.kept & ~is_beside(window, assembled.corner, raster)
+        wanted = culled.kept
+        if raster is not None and vertices.rings is None:
+            wanted = wanted & ~is_beside(window, assembled.corner, raster)
         if chosen is None and drawing.is_as_given and wanted.all():
-            kept, doubled_area = assembled, facing
+            kept = assembled
         else:
             index = in_drawing_order(np.flatnonzero(wanted), assembled, drawing)
-            kept, doubled_area = assembled.take(index), facing.take(index)
+            kept, doubled_area = assembled.take(index), doubled_area.take(index)
         # Triangles beside the raster are counted as if they went on, or the bands' counts would not be the picture's.
         kept_count = int(np.count_nonzero(culled.kept))
         counts["cull"].incoming, counts["cull"].outgoing = triangle_count, kept_count
@@ -176,7 +183,7 @@ def corner_values(
 ) -> CornerValues:
     """Return what is interpolated over triangles (P,); the time goes to ``count``."""
     if isinstance(scene, ClipScene):
-        find_values = partial(_given_values, scene)
+        find_values = partial(_given_values, scene, vertices)
     else:
         from core.stages.vertex_light import (
             light_vertices,  # Triangles given in clip space come without light.
@@ -191,13 +198,13 @@ def corner_values(
         return CornerValues(values.rows, values.layout, values.index[[provoking] * 3])
 
 
-def _given_values(scene: ClipScene, triangle: Integers) -> CornerValues:
+def _given_values(scene: ClipScene, vertices: VertexStage, triangle: Integers) -> CornerValues:
     """Return the attributes at the corners of triangles (P,)."""
     assert scene.attributes is not None
     count, corners, width = scene.attributes.shape
     layout = {"uv": slice(0, 2)} if scene.texture else {"color": slice(0, min(4, width))}
     rows = scene.attributes.reshape(count * corners, width)
-    return CornerValues(rows, layout, own_corners(triangle, scene.corner_count))
+    return CornerValues(rows, layout, vertices.corner_rows.take(triangle, axis=1))
 
 
 def place(
@@ -223,6 +230,26 @@ def face(
     if len(lost):
         facing[lost] = orient(place_corners(primitives.clip_of(lost), size, settings.coverage))
     return facing
+
+
+def cull_polygons(vertices: VertexStage, assembled: IndexedPrimitives, settings: Settings) -> CullVerdicts:
+    """Give every polygon its verdict, by all of its corners and the signed area inside all of its rings.
+
+    Of a polygon that crosses itself so that its parts cancel, the triangle of its plane decides: only what has no
+    area at all is degenerate.
+    """
+    rings = vertices.rings_of(assembled.triangle)
+    facing = np.zeros(len(assembled))
+    np.add.at(facing, rings.polygon, 2 * rings.areas)
+    one, other = (
+        vertices.window[assembled.corner[k], :2] - vertices.window[assembled.corner[0], :2] for k in (1, 2)
+    )
+    facing = np.where(facing == 0, one[:, 0] * other[:, 1] - one[:, 1] * other[:, 0], facing)
+    clip = vertices.clip[vertices.all_corners[assembled.triangle]]
+    shared = np.bitwise_and.reduce(outcodes(clip.reshape(-1, 4)).reshape(clip.shape[:2]), axis=1)
+    culled = CullVerdicts(assembled, facing, resolve(settings).drops_facing(facing), shared)
+    vars(culled)["distances"] = plane_distances(clip)
+    return culled
 
 
 def is_beside(window: WindowVertices, corner: Integers, raster: Raster) -> Flags:

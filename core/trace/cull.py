@@ -18,10 +18,11 @@ def trace_cull(source: TraceSource) -> StageTrace:
 
     Segments and points have neither area nor facing.
     """
-    assembled, culled = source.geometry.assembled, source.geometry.culled
+    assembled, culled, vertices = source.geometry.assembled, source.geometry.culled, source.geometry.vertices
+    clip = vertices.clip[vertices.all_corners[assembled.triangle]]
     projected = place_corners(assembled.clip, source.scene.size, source.settings.coverage).is_projected
     count = len(assembled)
-    behind = (assembled.clip[..., 3] <= 0).all(axis=1)
+    behind = (clip[..., 3] <= 0).all(axis=1)
     outside = (culled.distances < 0).all(axis=1)
 
     # Tests 0: behind, 1 to 6: planes, 7: degenerate, 8: facing, 9: kept; each runs if none before applied.
@@ -31,7 +32,7 @@ def trace_cull(source: TraceSource) -> StageTrace:
     applies[:, 7] = culled.facing == 0
     applies[:, 8] = (culled.verdict != KEPT) & (culled.verdict < DEGENERATE)
     runs = np.cumsum(applies, axis=1) - applies == 0
-    corner_count = source.geometry.vertices.corner_count
+    corner_count = vertices.corner_count
     if corner_count < 3:
         runs[:, 7:9] = False
     which, test = np.nonzero(runs)
@@ -39,7 +40,7 @@ def trace_cull(source: TraceSource) -> StageTrace:
     plane = np.clip(test - 1, 0, 5)
     verdict = np.array(REASONS)[culled.verdict]
     columns = {
-        "w": assembled.clip[which][:, :corner_count, 3],
+        "w": clip[which][..., 3],
         "plane": np.array(PLANES)[plane],
         "distances": np.take_along_axis(culled.distances[which], plane[:, None, None], axis=2)[
             :, :corner_count, 0

@@ -16,6 +16,7 @@ from core.records.arrays import Flags
 from core.records.listing import Listing, listing
 from core.records.steps import Steps, ends_of
 from core.trace.lines import trace_lines
+from core.trace.polygon_fill import trace_polygon_fill
 from core.trace.raster_rows import FILL_OPERATIONS, overdraw_track
 from core.trace.row_table import RowTable, rows_of_runs
 from core.trace.source import TraceSource
@@ -28,10 +29,12 @@ def trace_raster(source: TraceSource) -> StageTrace:
     """Return one row for every pixel looked at; fills by spans have a row before the pixels of every span.
 
     The fill ``spans`` has one before every triangle too, for its lane. Of a wireframe, one row for every pixel of its
-    lines.
+    lines; of polygons, the rows of their edge tables.
     """
     if source.geometry.outlines is not None:
         return trace_lines(source)
+    if source.geometry.polygons is not None:
+        return trace_polygon_fill(source)
     geometry, raster, fill = source.geometry, source.raster, source.fill
     constants: dict[str, float | int | str] = {
         "center": raster.center,

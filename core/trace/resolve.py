@@ -170,14 +170,14 @@ def _samples(source: TraceSource) -> Parts:
 
 
 def _pieces(source: TraceSource) -> tuple[Parts, PixelCuts | None]:
-    """Return the pieces that every pixel is made of, and how they were cut; outlines are not cut.
+    """Return the pieces that every pixel is made of, and how they were cut; outlines and polygons are not cut.
 
     They stand in the order of the sum; missing ones weigh 0.
     """
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(source.scene, source.settings, counts, last_drawn(source))
     count = source.raster.shape[0] * source.raster.shape[1]
-    if geometry.outlines is not None:
+    if not geometry.is_cut_to_pixels:
         frame = draw(source.scene, source.settings, source.raster, last_drawn(source))
         whole = np.ones((count, 1))
         shown = frame.primitive.reshape(-1, 1).astype(np.int64)

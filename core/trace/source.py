@@ -5,21 +5,25 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.families import suited
 from core.framebuffer.depth import DepthFormat, DepthTests
 from core.framebuffer.stacks import stack_fragments
 from core.geometry.vertex_stage import transform_vertices
-from core.pipeline import draw, schedule
+from core.pipeline import draw
+from core.raster.binning import bound
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
 from core.raster.lines.intensities import writes_depth
 from core.raster.lines.records import LineSteps
 from core.raster.lines.wireframe import LineFragments, draw_outlines, join_batches
 from core.raster.pixel_runs import Boxes, Raster, Runs, make_raster
+from core.raster.polygon_fills.active_edges import fill_rings
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.cached import cached_property
 from core.records.frame import Frame, StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
-from core.settings import Settings, without_area
+from core.settings import Settings
+from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
 from core.stages.fragment_color import Surface, shade_fragments
 from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
@@ -44,8 +48,8 @@ class TraceSource:
     """Buffers at the start: as the ``"earlier"`` triangles left them, or ``"cleared"``."""
 
     def __post_init__(self) -> None:
-        if self.scene.corner_count < 3:
-            object.__setattr__(self, "settings", without_area(self.settings, self.scene.corner_count))
+        if self.scene.corner_count != 3:
+            object.__setattr__(self, "settings", suited(self.settings, self.scene.corner_count))
 
     @cached_property
     def raster(self) -> Raster:
@@ -78,6 +82,9 @@ class TraceSource:
 
     @cached_property
     def _schedule(self) -> tuple[Boxes, Runs]:
+        if self.geometry.polygons is not None:
+            boxes = bound(self.geometry.edges, self.raster)
+            return boxes, fill_rings(self.geometry.polygons, self.raster, resolve(self.settings).polygon_fill)
         return schedule(self.geometry.edges, self.settings, self.raster)
 
     @property

@@ -28,7 +28,7 @@ def trace_transform(source: TraceSource) -> StageTrace:
     vertices = source.geometry.vertices
     triangle = source.geometry.assembled.triangle
     count = vertices.corner_count
-    corners = vertices.corners[triangle][:, :count].ravel()
+    corners = vertices.all_corners[triangle].ravel()
     owner = np.repeat(triangle, count)
     corner = np.tile(np.arange(count), len(triangle))
     kinds = (*(f"{a}-to-{b}" for _, a, b in MATRIX_SPACES), "divide", "viewport")

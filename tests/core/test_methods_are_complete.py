@@ -28,7 +28,17 @@ PLAIN = ClipScene(TRIANGLE, np.ones((1, 3, 4)), (9, 7))
 TEXTURED = ClipScene(
     TRIANGLE, TRIANGLE[..., :2] * 3, (9, 7), texture=Texture(np.eye(4, dtype=np.float32)[..., None])
 )
-SHOWN_BY = {"texture_filter": TEXTURED, "wrap": TEXTURED, "shading": SCENES["lit"]}
+POLYGON = ClipScene(
+    [[[-0.9, -0.8, 0, 1], [0.9, -0.8, 0, 1], [-0.8, 0.6, 0, 1], [0.1, 0.9, 0, 1], [0.7, 0.3, 0, 1]]],
+    size=(9, 7),
+    kind="polygons",
+)
+SHOWN_BY = {
+    "texture_filter": TEXTURED,
+    "wrap": TEXTURED,
+    "shading": SCENES["lit"],
+    "polygon_fill": POLYGON,
+}
 """Families to a scene in which their methods differ; `PLAIN` for the others."""
 OUTLINED = {"line", "line_clipping"}
 """Families that show in wireframes."""
@@ -85,7 +95,7 @@ def test_methods_are_complete(family: str) -> None:
     assert {name: problems for name, problems in found.items() if problems} == {}
 
 
-def test_a_first_course_has_two_or_three_methods_of_eleven_families() -> None:
+def test_a_first_course_has_two_or_three_methods_of_twelve_families() -> None:
     first = {name: family.classical for name, family in FAMILIES.items() if family.classical}
     assert set(first) - {"polygon_mode"} == {
         "cull",
@@ -93,6 +103,7 @@ def test_a_first_course_has_two_or_three_methods_of_eleven_families() -> None:
         "fill",
         "line",
         "line_clipping",
+        "polygon_fill",
         "interpolation",
         "texture_filter",
         "shading",

@@ -34,7 +34,7 @@ class OutlineRow:
     label: str
     values: tuple[OutlineValue, ...] = ()
     vertex: int | None = None
-    """0, 1 or 2 where it is that vertex of its triangle."""
+    """0, 1 or 2 where it is a vertex of that colour."""
     note: str = ""
     """Text instead of numbers (``968 triangles``), or the tooltip where there are numbers."""
     is_editable: bool = True

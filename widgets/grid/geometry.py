@@ -34,12 +34,15 @@ _NAMED_LENGTH = 7.0
 
 @dataclass(frozen=True, eq=False)
 class GridGeometry:
-    """Triangles, segments or points in window coordinates (y up)."""
+    """Triangles, segments, points or polygons in window coordinates (y up)."""
 
     vertices: NDArray[np.float64] = field(repr=False)
     """(V, 2) float64 window positions; any value, also far away, infinite or NaN (a vertex at w <= 0)."""
     triangles: NDArray[np.integer] = field(repr=False)
-    """(T, 3) integers into ``vertices``; of a segment the second stands twice, of a point the only one three times."""
+    """(T, 3) integers into ``vertices``; of a segment the second stands twice, of a point the only one three times.
+
+    (T, C) of polygons with C corners, more than three.
+    """
     focus: int = 0
     """The triangle whose vertices and edges have the colours 0, 1, 2; -1: none. Edge k faces vertex k."""
     snapped: NDArray[np.float64] | None = field(default=None, repr=False)
@@ -51,11 +54,14 @@ class GridGeometry:
     behind: NDArray[np.float64] | None = field(default=None, repr=False)
     """(V, 3) float64 homogeneous window coordinates (x w, y w, w) of the vertices at w <= 0, else NaN; None: none."""
 
+    rings: tuple[int, ...] = (0,)
+    """First corner of each ring of a polygon; the rings have the colours of the vertices 0, 1, 2 in turn."""
+
     def __post_init__(self) -> None:
         if self.vertices.ndim != 2 or self.vertices.shape[1] != 2:
             raise ValueError(f"vertices must be (V, 2), got {self.vertices.shape}")
-        if self.triangles.ndim != 2 or self.triangles.shape[1] != 3:
-            raise ValueError(f"triangles must be (T, 3), got {self.triangles.shape}")
+        if self.triangles.ndim != 2 or self.triangles.shape[1] < 3:
+            raise ValueError(f"triangles must be (T, 3 or more), got {self.triangles.shape}")
         if self.triangles.size and not 0 <= self.triangles.min() <= self.triangles.max() < len(self.vertices):
             raise ValueError(f"triangles must index {len(self.vertices)} vertices")
         if self.snapped is not None and self.snapped.shape != self.vertices.shape:
@@ -69,10 +75,26 @@ class GridGeometry:
 
     @property
     def focus_vertices(self) -> tuple[int, ...]:
-        """Indices of the vertices of the primitive in focus, 3, 2 or 1; empty if there is none."""
+        """Indices of the vertices of the primitive in focus; empty if there is none."""
         if not 0 <= self.focus < len(self.triangles):
             return ()
         return tuple(dict.fromkeys(self.triangles[self.focus].tolist()))
+
+    @property
+    def sides(self) -> NDArray[np.integer]:
+        """(S, 2) integers, the corners that sides run between: side k of a triangle faces its corner k."""
+        count = self.triangles.shape[1]
+        if count == 3:
+            return np.array([[1, 2], [2, 0], [0, 1]])
+        following = np.arange(1, count + 1)
+        following[np.array([*self.rings[1:], count]) - 1] = self.rings
+        return np.stack([np.arange(count), following], axis=1)
+
+    def color(self, corner: int) -> int:
+        """Return 0, 1 or 2, the colour of a corner of the primitive in focus: its own, or that of a polygon's ring."""
+        if self.triangles.shape[1] == 3:
+            return corner
+        return (int(np.searchsorted(self.rings, corner, "right")) - 1) % 3
 
     def edges(self, pairs: NDArray[np.integer]) -> NDArray[np.float64]:
         """Return (N, 2, 2) float64 the ends in the window of the edges between pairs (N, 2) of vertices."""
@@ -114,7 +136,7 @@ def outline_lines(placement: GridPlacement, geometry: GridGeometry) -> list[QLin
         if geometry.focus_vertices
         else geometry.triangles
     )
-    pairs = np.concatenate((others[:, [0, 1]], others[:, [1, 2]], others[:, [2, 0]]))
+    pairs = others[:, geometry.sides].reshape(-1, 2)
     told_apart = geometry.vertices
     if geometry.behind is not None:
         told_apart = np.where(np.isfinite(told_apart), told_apart, geometry.behind[:, :2])
@@ -158,8 +180,9 @@ def paint_focus(
         return
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    sides = SIDES[len(corners)]
-    ends = np.array([[corners[(k + 1) % 3], corners[(k + 2) % 3]] for k in sides], int).reshape(-1, 2)
+    own = np.array(SIDES.get(len(corners), range(len(corners))), int)
+    sides = [geometry.color(int(k)) for k in own]
+    ends = geometry.triangles[geometry.focus][geometry.sides[own]]
     lines, source = widget_lines(geometry.edges(ends), placement)
     scale = theme.text_px / 13
     width = 1.2 if small else 2.2 * scale
@@ -187,7 +210,7 @@ def paint_focus(
             for color, more in (
                 (theme.edge_rim, RIM),
                 (theme.edge_casing, CASING),
-                (theme.vertex[place], 0.0),
+                (theme.vertex[geometry.color(place)], 0.0),
             ):
                 painter.setBrush(QColor(color))
                 painter.drawEllipse(position, radius + more / 2, radius + more / 2)
@@ -259,7 +282,7 @@ def _paint_names(painter: QPainter, placement: GridPlacement, geometry: GridGeom
         box.moveCenter(position + QPointF(away[0] / length * reach, -away[1] / length * (reach + 2)))
         if QRectF(placement.viewport).contains(position):
             box = moved_inside(box, QRectF(placement.viewport))
-        _paint_chip(painter, box, text, theme.vertex_text[place], theme)
+        _paint_chip(painter, box, text, theme.vertex_text[geometry.color(place)], theme)
 
 
 def _paint_edge_names(

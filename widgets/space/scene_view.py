@@ -35,11 +35,13 @@ class SceneHandle:
     """A vertex of the triangle in focus."""
 
     index: int
-    """0, 1 or 2: its colour, its name, and its number in signals."""
+    """Its name, and its number in signals."""
     x: float
     """Fraction of the picture's width, from the left."""
     y: float
     """Fraction of the picture's height, from the bottom."""
+    color: int
+    """0, 1 or 2."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -248,7 +250,7 @@ class SceneView(OrbitArea):
         for handle in picture.handles:
             place = self._place(handle.x, handle.y)
             if place is not None:
-                ink = f"vertex {handle.index}"
+                ink = f"vertex {handle.color}"
                 spot = Spot(np.zeros(3), ink, radius=radius, handle=handle.index)
                 paint_spot(painter, place, spot, theme, handle.index == self._handle)
                 reach = 8.0 * scale

@@ -1,6 +1,7 @@
 """The run as chapters: what went into each stage and came out, how long it took, why it is there."""
 
 from core import STAGES, Trace
+from core.explain.kinds import POLYGON
 from core.explain.stage_texts import skipped_because
 from core.explain.subjects.number_formats import replaced_fill
 from core.records.frame import StageCount
@@ -18,7 +19,7 @@ COMPUTED = "No pixel is tested: the ends of the spans are computed."
 """Why the pixels that go into the rasterization are those that come out."""
 _TRIANGLES, _PIXELS, _FRAGMENTS = ("triangles", "tri"), ("pixels", "px"), ("fragments", "frag")
 Units = tuple[tuple[str, str], tuple[str, str]]
-_PRIMITIVES = {2: ("segments", "seg"), 1: ("points", "pt")}
+_PRIMITIVES = {4: ("polygons", "poly"), 2: ("segments", "seg"), 1: ("points", "pt")}
 _UNITS = dict.fromkeys(GEOMETRY_STAGES, (_TRIANGLES, _TRIANGLES)) | {
     "bin": (_TRIANGLES, _PIXELS),
     "raster": (_PIXELS, _FRAGMENTS),
@@ -46,7 +47,7 @@ def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
         found |= {"bin": (pieces, tested), "raster": (tested, fragments)}
         found |= dict.fromkeys(("interpolate", "shade"), (fragments, fragments))
         found |= {"depth": (fragments, passed), "blend": (passed, passed)}
-    if source.scene.corner_count < 3:
+    if source.scene.corner_count != 3:
         found |= {"bin": (pieces, pieces), "raster": (pieces, found["raster"][1])}
     elif not found["raster"][0] and found["raster"][1]:
         found["raster"] = found["bin"][1], found["raster"][1]
@@ -95,7 +96,7 @@ def _units(stage: str, corner_count: int) -> Units:
     takes, gives = _UNITS.get(stage, (_FRAGMENTS, _FRAGMENTS))
     if corner_count == 3:
         return takes, gives
-    primitives = _PRIMITIVES[corner_count]
+    primitives = _PRIMITIVES[min(corner_count, POLYGON)]
     return {"bin": (primitives, primitives), "raster": (primitives, gives)}.get(
         stage, (primitives, primitives) if takes == _TRIANGLES else (takes, gives)
     )

@@ -129,7 +129,8 @@ def geometry_of(
     wanted = document.triangle if document.triangle is not None else focus
     triangles = outlined_triangles(trace, wanted)
     corner_count = source.scene.corner_count
-    corners = geometry.vertices.corners[triangles, :corner_count].ravel()
+    vertices = geometry.vertices
+    corners = vertices.all_corners[triangles].ravel()
     first_column, first_row, _, _ = source.raster.bounds
     origin = np.array([first_column, first_row], float)
     chosen = np.isin(geometry.assembled.triangle, triangles)
@@ -153,10 +154,15 @@ def geometry_of(
     place = np.flatnonzero(triangles == wanted)
     return GridGeometry(
         vertices=window - origin,
-        triangles=own_corners(np.arange(len(triangles)), corner_count).T,
+        triangles=(
+            own_corners(np.arange(len(triangles)), corner_count).T
+            if vertices.rings is None
+            else np.arange(len(corners)).reshape(-1, corner_count)
+        ),
         focus=0 if len(triangles) == 1 else int(place[0]) if len(place) else -1,
         snapped=(snapped - origin) if snaps else None,
         behind=behind,
+        rings=(0,) if vertices.rings is None else tuple(vertices.rings.tolist()),
     )
 
 
@@ -171,7 +177,7 @@ def edge_overlay(geometry: GridGeometry, stage: StageTrace, position: int) -> Se
     count = 0 if STAGES.index(stage.stage) < STAGES.index("edges") else 3
     if stage.stage == "edges":
         count = known_edges(stage.steps.rows_done(position))[1]
-    if len(geometry.focus_vertices) < 3 or not count:
+    if len(geometry.focus_vertices) != 3 or not count:
         return None
     a, b, c = geometry.triangles[geometry.focus].tolist()
     segments = geometry.edges(np.array([[b, c], [c, a], [a, b]]))[:count]

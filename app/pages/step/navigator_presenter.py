@@ -129,12 +129,12 @@ class NavigatorPresenter(QObject):
         )
 
     def _focus_corners(self) -> Floats | None:
-        """Return the corners (3, 2) of the triangle in focus as parts of the picture, if it has a place there."""
+        """Return the corners (C, 2) of the triangle in focus as parts of the picture, if it has a place there."""
         document = self._session.document
         if document.triangle is None:
             return None
         vertices = self._session.trace.source.geometry.vertices
-        corners = vertices.corners[document.triangle]
+        corners = vertices.corners_of(document.triangle)
         window: Floats = vertices.window[corners, :2] / document.traced_scene.size
         is_seen = (vertices.clip[corners, 3] > 0).all() and np.abs(window).max() < 100
         return window if is_seen else None

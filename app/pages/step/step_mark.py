@@ -90,17 +90,16 @@ def _box(left: float, low: float, right: float, high: float) -> Floats:
 
 
 def _corners(trace: Trace, triangle: int) -> Floats:
-    """Return (3, 2) window positions of a triangle's corners, NaN where w <= 0."""
+    """Return (C, 2) window positions of a primitive's corners, NaN where w <= 0."""
     vertices = trace.source.geometry.vertices
-    clip = vertices.clip[vertices.corners[triangle]]
-    return np.where(clip[:, 3:] > 0, vertices.window[vertices.corners[triangle], :2], np.nan)
+    corners = vertices.corners_of(triangle)
+    return np.where(vertices.clip[corners, 3:] > 0, vertices.window[corners, :2], np.nan)
 
 
 def _edges(trace: Trace, triangle: int) -> Floats:
-    """Return (3, 2, 2) a triangle's edges in the window, edge k opposite to corner k, cut off before the eye."""
+    """Return (S, 2, 2) the sides of a primitive in the window, see ``VertexStage.sides``, cut off before the eye."""
     vertices = trace.source.geometry.vertices
-    clip = vertices.clip[vertices.corners[triangle]]
-    ends = np.stack([clip[[1, 2, 0]], clip[[2, 0, 1]]], axis=1)
+    ends = vertices.clip[vertices.corners_of(triangle)][vertices.sides]
     w = ends[..., 3]
     least = NEAREST_W * np.abs(w).max()
     with np.errstate(divide="ignore", invalid="ignore"):

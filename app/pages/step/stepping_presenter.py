@@ -139,11 +139,12 @@ class SteppingPresenter(QObject):
         """Return what a step of each level is in a stage."""
         declared, settings = stage_of(stage), self._session.document.settings
         corner_count = self._session.document.scene.corner_count
-        names = {Level.TRIANGLE: of_kind("Triangle", corner_count)} if corner_count < 3 else {}
+        names = {Level.TRIANGLE: of_kind("Triangle", corner_count)} if corner_count != 3 else {}
         if stage == "raster":
             is_wireframe = corner_count < 3 or table.get("polygon_mode", settings.polygon_mode).function()
             fill = effective_fill(settings.fill, settings.coverage)
-            return names | {Level.GROUP: "Line" if is_wireframe else fill_traits(fill).group_label}
+            label = "Line" if is_wireframe else fill_traits(fill).group_label
+            return names | {Level.GROUP: label if corner_count <= 3 else declared.group_label}
         names[Level.GROUP] = declared.group_label
         return names | ({Level.PIXEL: declared.row_label} if declared.row_label else {})
 

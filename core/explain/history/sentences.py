@@ -174,6 +174,12 @@ def _accepted(values: Values) -> str:
     return f"covered: {_block(values)} lies wholly inside"
 
 
+def _crossed(values: Values) -> str:
+    """Return how often a polygon's edges are crossed on the way to a pixel."""
+    edges = counted(values["crossed"], "edge")
+    return f"{edges}, winding number {values['winding']}," if values["rule"] == "non-zero" else edges
+
+
 def _edge_margin(values: Values) -> str:
     return f"covered: inside all three edges, {_pixels(values['distance'])} from edge {values['edge']}"
 
@@ -300,6 +306,12 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("raster", "undefined"): "an edge function is not a number here",
     ("raster", "outside-span"): lambda v: f"outside the span of this row, {_span(v)}; {_not_here(v)}",
     ("raster", "row-not-drawn"): lambda v: f"the fill as printed draws no span in this row; {_not_here(v)}",
+    ("raster", "in-polygon"): lambda v: (
+        f"covered: {_crossed(v)} to its left, {_pixels(v['distance'])} from edge {v['edge']}"
+    ),
+    ("raster", "outside-polygon"): lambda v: (
+        f"outside: {_crossed(v)} to its left, and edge {v['edge']} is {_pixels(v['distance'])} away"
+    ),
     ("raster", "on-outline"): lambda v: (
         f"on edge {v['edge']}, the pixel centre {_pixels(v['distance'])} from the exact line"
     ),

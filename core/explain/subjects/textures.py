@@ -163,7 +163,9 @@ def level_of_detail(step: StepValues) -> Said:
         rf"{_LOGARITHM} \max({', '.join(map(number_latex, lengths))})",
     )
     length: list[Part] = [(rf"\rho_{name}", lengths[longer]), "=", root]
-    return f"{text}.", equation(*beside(length, [(r"\lambda", lod), "=", logarithm]))
+    # Of a place that stays the same, 0 texels long, the logarithm has no value.
+    sign: Part = ("=", r"\to") if lod == -math.inf else "="
+    return f"{text}.", equation(*beside(length, [(r"\lambda", lod), sign, logarithm]))
 
 
 def _level_name(step: StepValues, place: int) -> str:

@@ -26,7 +26,13 @@ def _vertex(step: StepValues) -> str:
 
 
 def _symbol(step: StepValues, axis: str, space: str) -> str:
-    return rf"\vertex{{{step.whole('corner')}}}{{{axis}_{{\mathrm{{{space}}}}}}}"
+    symbol, corner = rf"{axis}_{{\mathrm{{{space}}}}}", _colored(step)
+    return symbol if corner is None else rf"\vertex{{{corner}}}{{{symbol}}}"
+
+
+def _colored(step: StepValues) -> int | None:
+    """Return the corner of the step, in whose colour its numbers stand; ``None``: one of many of a polygon."""
+    return None if step.explanation.corner_count > 3 else step.whole("corner")
 
 
 def position(step: StepValues) -> Asked | None:
@@ -67,7 +73,7 @@ def divided(step: StepValues) -> Said:
         text += "; as w is below 0 it lies behind the eye, and the division mirrors it"
     elif abs(after) > 1:
         text += f"; not between −1 and 1, so it lies beyond the {BEYOND[axis, 1 if after > 0 else -1]} plane"
-    quotient = fraction((rf"{axis}_{{\mathrm{{clip}}}}", before), ("w", w), step.whole("corner"))
+    quotient = fraction((rf"{axis}_{{\mathrm{{clip}}}}", before), ("w", w), _colored(step))
     return f"{text}.", equation((_symbol(step, axis, "ndc"), after), "=", quotient)
 
 

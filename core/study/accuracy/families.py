@@ -14,6 +14,7 @@ from core.study.accuracy.interpolated import INTERPOLATION
 from core.study.accuracy.line_clippers import LINE_CLIPPING
 from core.study.accuracy.lines import LINE
 from core.study.accuracy.orientation import ORIENTATION
+from core.study.accuracy.polygons import POLYGON_FILL
 from core.study.accuracy.visible import CLIPPING, CULL, DEPTH, VISIBILITY
 from core.study.accuracy.whole_picture import PIPELINE, standing_in
 
@@ -23,6 +24,7 @@ OWN = (
     COVERAGE,
     ORIENTATION,
     LINE_CLIPPING,
+    POLYGON_FILL,
     CLIPPING,
     INTERPOLATION,
     TEXTURE_FILTER,

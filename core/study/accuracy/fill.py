@@ -2,12 +2,12 @@
 
 import numpy as np
 
-from core.pipeline import schedule
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Floats, Integers
 from core.records.cached import cached_property
 from core.records.frame import Frame, StageCount
 from core.settings import Settings
+from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 from core.study.accuracy.family import Assignment, Errors, StudyFamily

@@ -11,7 +11,6 @@ import numpy as np
 from core.antialiasing.sample_rasters import at_sample, finer_raster, finer_scene, finer_settings, in_squares
 from core.framebuffer.depth import DepthFormat, Stored
 from core.methods import table
-from core.pipeline import covered, outlined
 from core.raster.binning import bound
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Integers
@@ -19,6 +18,7 @@ from core.records.frame import StageCount
 from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import Settings
+from core.stages.bin_and_raster import fragments_of
 from core.stages.declared import STAGES
 from core.stages.fragment_depth import farthest_stored, fragment_depth
 from core.stages.geometry import Geometry
@@ -50,7 +50,7 @@ def loses_fragments(scene: AnyScene, settings: Settings, triangles: Integers) ->
         room -= int(((boxes.row_end - boxes.row) * (boxes.column_end - boxes.column)).sum())
         if room < 0:
             return True
-        for fragments in (covered if geometry.outlines is None else outlined)(geometry, raster, counts):
+        for fragments in fragments_of(geometry, raster, counts):
             _, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
             if not _is_kept(stored[keeps], depth_format).all():
                 return True

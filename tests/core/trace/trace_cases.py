@@ -105,7 +105,7 @@ CHOICES = [{}] + [
     {family: name}
     for family in families()
     for name in table.names(family)
-    if name != getattr(Settings(), family) and family not in ("line", "line_clipping")
+    if name != getattr(Settings(), family) and family not in ("line", "line_clipping", "polygon_fill")
 ]
 """Every method of triangles once, beside the defaults of the other families."""
 
@@ -168,10 +168,11 @@ def _met(families: set[str], scenes: Sequence[str], **numbers: tuple[int, ...]) 
 
 
 _OF_OUTLINES = {"line", "line_clipping"}
+_OF_POLYGONS = {"polygon_fill"}
 _OF_FILLS = {"fill", "fill_rule", "coverage", "pixel_center"}
 
 FILLED = _met(
-    set(table.families) - _OF_OUTLINES - {"polygon_mode"},
+    set(table.families) - _OF_OUTLINES - _OF_POLYGONS - {"polygon_mode"},
     list(SCENES),
     block_size=(8, 1, 3),
     correction_interval=(16, 3),

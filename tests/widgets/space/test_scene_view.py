@@ -57,7 +57,7 @@ def test_a_drag_turns_and_does_not_pick(view, qtbot):
 
 
 def test_a_handle_is_dragged_in_fractions(view, qtbot):
-    view.show_picture(picture_of(4, 3, handles=(SceneHandle(2, 0.5, 0.5),)))
+    view.show_picture(picture_of(4, 3, handles=(SceneHandle(2, 0.5, 0.5, 2),)))
     told: list[tuple[int, float, float]] = []
     view.vertex_dragged.connect(lambda *args: told.append(args))
     with qtbot.waitSignals([view.vertex_drag_started, view.vertex_drag_finished]):
@@ -69,7 +69,9 @@ def test_a_handle_is_dragged_in_fractions(view, qtbot):
 
 def test_a_double_click_fits_though_its_first_click_brought_a_handle(view):
     view.show_picture(picture_of(4, 3))
-    view.picked.connect(lambda *_: view.show_picture(picture_of(4, 3, handles=(SceneHandle(0, 0.5, 0.5),))))
+    view.picked.connect(
+        lambda *_: view.show_picture(picture_of(4, 3, handles=(SceneHandle(0, 0.5, 0.5, 0),)))
+    )
     view.set_orbit(turned(view.orbit(), 30, 0))
     view.set_orbit(replace(view.orbit(), extent=0.25))
     QTest.mouseClick(view, LEFT, NONE, QPoint(200, 150))
@@ -112,7 +114,7 @@ def test_the_caption_takes_its_room_from_the_picture(view, qtbot):
 def test_marks_of_any_coordinates_can_be_drawn(view):
     wild = np.array([[0.1, 0.1], [np.nan, 0.2], [0.5, 1e300], [0.7, 0.7]])
     marks = (SceneMark(wild, label="ray"), SceneMark(wild[::-1], shape="cross"), SceneMark(wild[:2]))
-    view.show_picture(picture_of(4, 3, marks=marks, handles=(SceneHandle(0, 1e30, np.nan),)))
+    view.show_picture(picture_of(4, 3, marks=marks, handles=(SceneHandle(0, 1e30, np.nan, 0),)))
     assert not view.grab().isNull()
 
 

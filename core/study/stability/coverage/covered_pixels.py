@@ -6,13 +6,13 @@ from functools import lru_cache, partial
 
 import numpy as np
 
-from core.pipeline import covered
 from core.raster.number_formats.number_format import number_format
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Integers
 from core.records.frame import StageCount
 from core.scene import ClipScene
 from core.settings import Settings
+from core.stages.bin_and_raster import covered
 from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
 from core.study.accuracy.family import settings_of

@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.pipeline import covered
 from core.raster.edges.edge_functions import edge_value, set_up_edges
 from core.raster.edges.snapping import place_corners
 from core.raster.pixel_runs import half, make_raster
@@ -19,6 +18,7 @@ from core.records.arrays import Flags, Integers
 from core.records.frame import StageCount
 from core.scene import ClipScene
 from core.settings import Settings
+from core.stages.bin_and_raster import covered
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 from core.study.stability.coverage.covered_pixels import Wanted, count_cover

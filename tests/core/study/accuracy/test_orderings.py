@@ -55,6 +55,16 @@ def test_fill() -> None:
         assert (fills[name].errors["misclassified"] == 0) == (name != "scanline-lecture")
 
 
+def test_polygon_fill() -> None:
+    # Both rules decide in whole numbers, as the referee does. Of a ring and a hole that runs the other way, both fill
+    # the same.
+    fills = run("polygon_fill", "holes", corners=16)
+    assert [fills[name].errors["misclassified"] for name in table.names("polygon_fill")] == [0, 0]
+    assert fills["even-odd"].counts == fills["non-zero"].counts
+    crossing = run("polygon_fill", "crossing", corners=8)
+    assert {point.errors["misclassified"] for point in crossing.values()} == {0}
+
+
 def test_coverage() -> None:
     # A centre on an edge is drawn more than once with >= 0, never with > 0, once with the rule of shared edges: both
     # wrong rules are wrong on the very same pixels. Where six triangles meet the first is off by 5 and the second by 1.

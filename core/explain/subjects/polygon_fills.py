@@ -1,0 +1,204 @@
+"""Polygon fills: the edge table, the active edges of a row, and what lies between them."""
+
+import math
+
+from core.explain.digits import number_latex, signed_latex, spoken
+from core.explain.equation import Part, beside, conclusion, equation
+from core.explain.records import Asked, Formula, choice
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.variable_text import PIXEL, VariableText, given, hides, shows
+
+_TABLE = "table-edge|table-level"
+_ACTIVE = "active-leave|active-advance|active-enter"
+
+
+def edge_name(step: StepValues) -> str:
+    """Return the edge that a step is about, with its corners."""
+    return f"edge {step.whole('edge')} (corner {step.whole('edge_start')} to {step.whole('edge_end')})"
+
+
+@explains("raster.table-edge.rows")
+def rows_of_edge(step: StepValues) -> Said:
+    """In which rows an edge is active."""
+    first, end = step.whole("row_first"), step.whole("row_end")
+    lower, upper, center = step.vector("lower")[1], step.vector("upper")[1], step.number("center")
+    rows = f"rows {first} to {end - 1}" if end - first > 1 else f"row {first}"
+    way = "up" if step.whole("direction") > 0 else "down"
+    text = (
+        f"{edge_name(step).capitalize()} runs {way}, from y = {spoken(lower)} to y = {spoken(upper)} at its ends: "
+        f"the centres of {rows} lie on it."
+    )
+    parts = [
+        found
+        for symbol, row, y in ((r"\mathrm{first}", first, lower), (r"\mathrm{end}", end, upper))
+        if (found := _row_of(symbol, row, y, center))
+    ]
+    return (text, equation(*beside(*parts))) if parts else text
+
+
+def _row_of(symbol: str, row: int, y: float, center: float) -> list[Part]:
+    """Return the first row whose centre is not below y; nothing where the raster's border takes its place."""
+    if math.ceil(y - center) != row:
+        return []
+    numbers = rf"\lceil {number_latex(y)} - {number_latex(center)} \rceil"
+    return [(symbol, row), "=", (rf"\lceil y - {number_latex(center)} \rceil", numbers)]
+
+
+@explains("raster.table-level.rows")
+def level_edge(step: StepValues) -> Said:
+    """An edge without a row."""
+    lower, upper = step.vector("lower")[1], step.vector("upper")[1]
+    reason = "it is level" if lower == upper else "the centre of no row lies on it"
+    return f"{edge_name(step).capitalize()} goes into no bucket: from y = {spoken(lower)} to {spoken(upper)}, {reason}."
+
+
+@explains("raster.table-edge.crossing")
+def first_crossing(step: StepValues) -> Said:
+    """Where an edge crosses its first row, and how far it moves from row to row."""
+    row, x, shift = step.whole("row_first"), step.number("crossing"), step.number("shift")
+    text = (
+        f"It crosses row {row} at x = {spoken(x)}, and moves by {spoken(shift)} to the right from row to row."
+    )
+    return text, _crossing(step)
+
+
+def _crossing(step: StepValues) -> Formula:
+    """Return where an edge crosses its first row."""
+    row, x, shift = step.whole("row_first"), step.number("crossing"), step.number("shift")
+    (x0, y0), center = step.vector("lower"), step.number("center")
+    symbols = r"x_0 + (y_{\mathrm{row}} - y_0) \cdot \frac{\Delta x}{\Delta y}"
+    height = f"({number_latex(row + center)} - {signed_latex(y0)})"
+    numbers = rf"{number_latex(x0)} + {height} \cdot {signed_latex(shift)}"
+    return equation(("x", x), "=", (symbols, numbers))
+
+
+@explains("raster.table-edge.bucket")
+def bucket(step: StepValues) -> Said:
+    """Which list of the edge table an edge goes into."""
+    return (
+        f"{edge_name(step).capitalize()} goes into the bucket of row {step.whole('bucket')}, the first row that it "
+        "crosses."
+    )
+
+
+@explains("raster.active-leave.leave")
+def leaves(step: StepValues) -> Said:
+    """An edge that is no longer active."""
+    upper = step.vector("upper")[1]
+    return (
+        f"Row {step.whole('row')}: {edge_name(step)} leaves the active edges: it ends at y = {spoken(upper)}, "
+        "not above the row's centre."
+    )
+
+
+@explains("raster.active-advance.advance")
+def advances(step: StepValues) -> Said:
+    """An active edge in the next row."""
+    x, before, slope = step.number("crossing"), step.number("crossing_before"), step.number("shift")
+    text = f"Row {step.whole('row')}: {edge_name(step)} moves on, from x = {spoken(before)} to {spoken(x)}."
+    return text, equation(
+        ("x", x), "=", (r"x^{\mathrm{before}}", before), "+", (r"\frac{\Delta x}{\Delta y}", slope)
+    )
+
+
+@explains("raster.active-enter.enter")
+def enters(step: StepValues) -> Said:
+    """An edge that becomes active."""
+    return (
+        f"Row {step.whole('row')}: {edge_name(step)} enters the active edges from the bucket of this row, "
+        f"at x = {spoken(step.number('crossing'))}."
+    ), _crossing(step)
+
+
+@explains("raster.active-interval.count")
+def counts(step: StepValues) -> Said:
+    """What lies to the left of an interval between two active edges."""
+    crossed, winding = step.whole("crossed"), step.whole("winding")
+    left, right = step.number("interval_left"), step.number("interval_right")
+    direction = "up" if step.whole("direction") > 0 else "down"
+    return (
+        f"Row {step.whole('row')}, from x = {spoken(left)} to {spoken(right)}: {crossed} edge"
+        f"{'s lie' if crossed > 1 else ' lies'} to the left, and {edge_name(step)}, which runs {direction}, makes the "
+        f"winding number {spoken(winding)}."
+    )
+
+
+def inside(step: StepValues) -> Asked:
+    """Ask whether an interval is inside the polygon."""
+    is_inside = step.flag("is_inside")
+    reason = _reason(step)
+    left, right = step.number("interval_left"), step.number("interval_right")
+    return choice(
+        f"Is row {step.whole('row')} inside the polygon from x = {spoken(left)} to {spoken(right)}?",
+        0 if is_inside else 1,
+        f"{'Yes' if is_inside else 'No'}: {reason}.",
+    )
+
+
+def _reason(step: StepValues) -> str:
+    """Say why an interval is inside or not."""
+    if step.text("polygon_fill") == "non-zero":
+        return f"the winding number is {spoken(step.whole('winding'))}"
+    crossed = step.whole("crossed")
+    return f"{crossed} is {'odd' if crossed % 2 else 'even'}"
+
+
+@explains("raster.active-interval.decide", asks=inside)
+def decides(step: StepValues) -> Said:
+    """Whether an interval is inside, and which pixels it has."""
+    is_inside, start, stop = step.flag("is_inside"), step.whole("start"), step.whole("stop")
+    found = "inside" if is_inside else "outside"
+    text = f"It is {found}, since {_reason(step)}"
+    if is_inside:
+        columns = f"columns {start} to {stop - 1}" if stop - start > 1 else f"column {start}"
+        text += f": the centres of {columns} lie there" if stop > start else ": no centre lies there"
+    if step.text("polygon_fill") == "non-zero":
+        winding = step.whole("winding")
+        parts: list[Part] = [(r"\mathrm{winding}", winding), (r"\ne", r"\ne" if winding else "="), "0"]
+    else:
+        crossed = step.whole("crossed")
+        parts = [(r"\mathrm{crossed} \bmod 2", rf"{crossed} \bmod 2"), "=", ("1", crossed % 2)]
+    return f"{text}.", equation(*parts, *conclusion("inside", found))
+
+
+@explains("raster.active-pixel.draw")
+def draws(step: StepValues) -> Said:
+    """A pixel of a span."""
+    left, right, x = (
+        step.number("interval_left"),
+        step.number("interval_right"),
+        step.pixel[0] + step.number("center"),
+    )
+    tie = ", exactly on the left edge, which owns it" if x == left else ""
+    return f"{step.pixel_name} is covered: its centre x = {spoken(x)} lies from {spoken(left)} to {spoken(right)}{tie}."
+
+
+shows(
+    "raster",
+    {
+        "lower": VariableText("lower end", "Lower end of the edge, in pixels, snapped to 1/256.", ""),
+        "upper": VariableText("upper end", "Upper end of the edge, in pixels, snapped to 1/256.", ""),
+        "direction": given(
+            "direction", "1 where the ring runs upwards along the edge, -1 where it runs downwards."
+        ),
+        "row_first": VariableText("first", "First row whose centre lies on the edge."),
+        "row_end": VariableText("end", "First row whose centre lies above the edge."),
+        "shift": VariableText("Δx/Δy", "How far to the right the edge goes from row to row."),
+        "crossing": VariableText(
+            "x", "Where the row crosses the edge, in pixels.", previous="crossing_before"
+        ),
+        "bucket": VariableText("bucket", "Row whose list in the edge table has the edge."),
+        "interval_left": given("left", "Where the interval begins, in pixels."),
+        "interval_right": given("right", "Where the interval ends, in pixels."),
+        "crossed": VariableText("crossed", "Active edges to the left of the interval."),
+        "winding": VariableText("winding", "Sum of the directions of the edges to the left."),
+        "is_inside": VariableText("inside", "Whether the interval is inside, by the rule."),
+    },
+)
+_OF_EDGES = ("lower", "upper", "direction", "row_first", "row_end", "shift", "crossing", "bucket")
+_OF_INTERVALS = ("interval_left", "interval_right", "crossed", "winding", "is_inside", "start", "stop")
+hides(f"raster.{_TABLE}", (*_OF_INTERVALS, *PIXEL))
+hides(f"raster.{_ACTIVE}", (*_OF_INTERVALS, "column"))
+hides("raster.active-interval", ("column", *(name for name in _OF_EDGES if name != "direction")))
+hides("raster.active-pixel", (*_OF_EDGES, "crossed", "winding", "is_inside"))

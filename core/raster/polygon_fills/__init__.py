@@ -1,0 +1,1 @@
+"""Polygon fills: the methods of the family ``polygon_fill``, which fill rings of edges row by row."""
