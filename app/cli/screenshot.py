@@ -27,6 +27,7 @@ EXAMPLES = """examples:
   rasterscope screenshot cube -o lines.png --page compare --show line --work pixel-ends --choose line=dda
   rasterscope screenshot cube -o cracks.png --page stability --show shared-edges --choose fill_rule=exclusive
   rasterscope screenshot teapot.obj -o plan.png --page plan
+  rasterscope screenshot cube -o asked.png --page exercises --show triangle-coverage --choose corner-for-center
   rasterscope screenshot study-line-any-ends.json -o study.png
 
 The other pages first measure or run their content, in fewer rounds than in the window. A saved study or atlas is shown
@@ -37,11 +38,11 @@ ONLY_OF = {
     "stage": ("step",),
     "step": ("step",),
     "view": ("step",),
-    "show": ("compare", "stability"),
+    "show": ("compare", "stability", "exercises"),
     "work": ("compare",),
     "rounds": ("compare",),
     "grow": ("compare",),
-    "choose": ("compare", "stability"),
+    "choose": ("compare", "stability", "exercises"),
 }
 """Options that are of some pages only."""
 ENDINGS = (".png", ".svg", ".pdf")
@@ -91,7 +92,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--view", metavar="NAME", help="main view, as pixels or compare")
     parser.add_argument("--page", choices=PAGES, help="page to show (step)")
     parser.add_argument(
-        "--show", metavar="NAME", help="family (page compare) or experiment (page stability) to run"
+        "--show",
+        metavar="NAME",
+        help="family (page compare) or experiment (page stability) to run, or exercise to ask",
     )
     parser.add_argument("--work", metavar="NAME", help="kind of work of the family")
     parser.add_argument(
@@ -107,7 +110,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="also measure how the cost of the whole pipeline grows with the picture (minutes)",
     )
     parser.add_argument(
-        "--choose", metavar="METHOD", help="open the pictures of a method, or the first cell where it fails"
+        "--choose",
+        metavar="METHOD",
+        help="open the pictures of a method, or the first cell where it fails; or check a mistake's answer",
     )
     add_settings(parser)
 

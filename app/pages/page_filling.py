@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.cli.commands import UsageError
 from app.pages.compare.page import ComparePage
+from app.pages.exercises.page import ExercisesPage
 from app.pages.page_bar import Page
 from app.pages.plan.page import PlanPage
 from app.pages.result_page import ResultPage
@@ -15,6 +16,8 @@ from app.pages.stability.page import StabilityPage
 from app.pages.start.page import StartPage
 from app.window.main_window import MainWindow
 
+PICTURE_SEED = 7
+"""Of the question that is asked for a picture."""
 PICTURE_ROUNDS = 3
 """Timed runs of every method for a picture of the page: fewer than in the window, where the figures matter."""
 
@@ -26,11 +29,11 @@ class PageContent:
     page: str
     """Name of a page of ``app.pages.page_table``."""
     name: str = ""
-    """Family of the Compare page, or experiment of the Stability page; empty: the first."""
+    """Family of the Compare page, experiment of the Stability page, or exercise; empty: the first."""
     work: str = ""
     """Kind of work of the family; empty: the first."""
     method: str = ""
-    """Method whose mark is opened, or whose first failing cell is; empty: none."""
+    """Method whose mark is opened, or whose first failing cell is; mistake whose answer is checked; empty: none."""
     rounds: int | None = None
     """Timed runs of every method of the family; ``None``: as many as a picture needs."""
     grow: bool = False
@@ -56,6 +59,8 @@ def fill_page(window: MainWindow, content: PageContent) -> None:
     elif isinstance(page, PlanPage):
         page.plans.analyse()
         _wait_until(lambda: not page.plans.is_running)
+    elif isinstance(page, ExercisesPage):
+        _ask(page, content)
     if refusals.texts:
         raise ValueError(refusals.texts[0])
 
@@ -113,6 +118,20 @@ def _show_result(page: ResultPage, content: PageContent) -> None:
     elif isinstance(page, StabilityPage):
         page.opened.choose_failure(_known(what, content.method, list(page.results.cells)))
         _wait_until(lambda: not page.jobs.looking.is_running)
+
+
+def _ask(page: ExercisesPage, content: PageContent) -> None:
+    """Ask the requested exercise, and check the answer that a mistake gives."""
+    templates = page.exercises.templates
+    name = _known("exercise", content.name or next(iter(templates)), list(templates))
+    page.settle()
+    page.questions.open(templates[name], PICTURE_SEED)
+    page.settle()
+    if content.method and page.question is not None:
+        mistakes = page.question.draft.mistakes
+        page.questions.answer(mistakes[_known(f"mistake of {name}", content.method, list(mistakes))])
+        page.questions.check()
+        page.settle()
 
 
 def _known(what: str, name: str, names: list[str]) -> str:

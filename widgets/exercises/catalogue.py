@@ -98,6 +98,7 @@ class Catalogue(QWidget):
             for entry in group.entries:
                 item = QTreeWidgetItem(parent)
                 item.setData(0, _NAME, entry.name)
+                item.setFirstColumnSpanned(True)
                 self._items[entry.name] = item
 
     @Slot()
@@ -107,6 +108,7 @@ class Catalogue(QWidget):
         for parent, group in zip(self._parents, self._groups, strict=True):
             parent.setText(0, group.title)
             parent.setText(1, f"{group.solved} of {len(group.entries)}")
+            parent.setTextAlignment(1, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter)
             parent.setSizeHint(0, QSize(0, side + ROW_ROOM))
             said = f"{group.title}: {group.solved} of {len(group.entries)} solved"
             parent.setData(0, Qt.ItemDataRole.AccessibleTextRole, said)

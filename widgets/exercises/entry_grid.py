@@ -12,6 +12,8 @@ from widgets.basics.typed_value import tabular_font
 from widgets.exercises.answer_view import show_mark
 from widgets.exercises.records import Cell
 
+WIDEST = 240
+"""Pixels of a field that stands alone in its row."""
 MOST_STOPS = 12
 """Fields that Tab stops at one by one; of more it stops at one, and the arrows go on."""
 _UPRIGHT = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1, Qt.Key.Key_Return: 1, Qt.Key.Key_Enter: 1}
@@ -43,7 +45,7 @@ class EntryGrid(QWidget):
         layout.setVerticalSpacing(4)
         for column, name in enumerate(columns):
             layout.addWidget(text_label(name, self, role="muted"), 0, 1 + 2 * column)
-            layout.setColumnStretch(1 + 2 * column, 1)
+            layout.setColumnStretch(1 + 2 * column, 4)
         for row, label in enumerate(labels):
             layout.addWidget(text_label(label, self), 1 + row, 0)
             for column, name in enumerate(columns):
@@ -51,6 +53,7 @@ class EntryGrid(QWidget):
                 field.setFont(tabular_font(field.font()))
                 field.setAccessibleName(" ".join(text for text in (name, label) if text))
                 field.setReadOnly(column in read_only)
+                field.setMaximumWidth(WIDEST if len(columns) == 1 else 16_777_215)
                 field.setFocusPolicy(
                     Qt.FocusPolicy.NoFocus if column in read_only else Qt.FocusPolicy.StrongFocus
                 )
@@ -60,6 +63,7 @@ class EntryGrid(QWidget):
                 self._fields[row, column], self._marks[row, column] = field, mark
                 layout.addWidget(field, 1 + row, 1 + 2 * column)
                 layout.addWidget(mark, 1 + row, 2 + 2 * column)
+        layout.setColumnStretch(1 + 2 * len(columns), 1)
         open_fields = [field for field in self._fields.values() if not field.isReadOnly()]
         if len(open_fields) > MOST_STOPS:
             self._group = ArrowGroup(open_fields, self, is_upright=True)

@@ -1,16 +1,21 @@
-"""A pixel grid that is answered on: click, drag, or arrows and Space mark pixels."""
+"""A pixel grid that is answered on: click, drag, or arrows and Space mark pixels; points are placed the same way."""
+
+from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtGui import QKeyEvent, QMouseEvent
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
 from PySide6.QtWidgets import QWidget
 
 from widgets.basics.accessible import announce
+from widgets.basics.theme import current_theme
+from widgets.exercises.point_layer import Place, PointLayer
 from widgets.exercises.records import Pixel, PixelMarks, Pixels
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
-from widgets.grid.overlay import Mark, MaskOverlay
+from widgets.grid.overlay import Mark, MaskOverlay, Overlay
 from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.view import GridPlacement
 
 NOTHING: Pixels = frozenset()
 _MOVES = {
@@ -19,32 +24,48 @@ _MOVES = {
     Qt.Key.Key_Up: (0, 1),
     Qt.Key.Key_Down: (0, -1),
 }
+_WINDOWS_OWN = (
+    Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.MetaModifier
+)
 
 
 class MarkGrid(PixelGrid):
-    """Shows a raster with its outlines and the pixels that the learner has marked; nothing else is in its buffer."""
+    """Shows a raster with its outlines and what the learner has marked; of the answer it holds nothing else."""
 
     pixels_painted = Signal(object, bool)
     """Pixels, and whether they are marked now."""
+    point_moved = Signal(int, float, float)
+    """Number of a point, and its new place in the window; where it can lie is the form's affair."""
+    point_nudged = Signal(int, int, int, bool)
+    """Number of a point, steps to the right and up, and whether they are whole pixels."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._size = (1, 1)
         self._marked = NOTHING
+        self._picture: GridBuffer | None = None
+        self._found: tuple[Overlay, ...] = ()
         self._is_paintable = False
         self._stroke: bool | None = None
         """What the drag in progress does to pixels; ``None``: the next one decides."""
         self._last: Pixel | None = None
+        self._points = PointLayer()
+        self._dragged: int | None = None
         self.pixel_clicked.connect(self._paint_at)
 
     def show_raster(self, size: tuple[int, int], geometry: GridGeometry | None, pixel: Pixel | None) -> None:
         """Show an empty raster of (columns, rows) with outlines; ``pixel`` is what the question is about."""
-        self._size, self._marked = size, NOTHING
+        self._size, self._marked, self._picture, self._found = size, NOTHING, None, ()
         self.fit()
         self._show_marked()
         self.show_geometry(geometry)
-        self.show_overlays(())
         self.show_pin(pixel)
+        self.show_points(())
+
+    def show_picture(self, picture: GridBuffer | None, overlays: Sequence[Overlay] = ()) -> None:
+        """Show a picture under the marks; ``None``: the marks themselves are the picture."""
+        self._picture, self._found = picture, tuple(overlays)
+        self._show_marked()
 
     def set_paintable(self, is_paintable: bool) -> None:
         """Let clicks and keys mark pixels."""
@@ -62,16 +83,18 @@ class MarkGrid(PixelGrid):
 
     def show_marks(self, marks: PixelMarks | None) -> None:
         """Mark what is right, missing, extra or double, each by a shape of its own."""
-        if marks is None:
-            self.show_overlays(())
-            return
         kinds = (
-            ("right", Mark.RIGHT, marks.right),
-            ("missing", Mark.MISSING, marks.missing),
-            ("extra", Mark.EXTRA, marks.extra),
-            ("double", Mark.DOUBLE, marks.double),
+            ()
+            if marks is None
+            else (
+                ("right", Mark.RIGHT, marks.right),
+                ("missing", Mark.MISSING, marks.missing),
+                ("extra", Mark.EXTRA, marks.extra),
+                ("double", Mark.DOUBLE, marks.double),
+            )
         )
-        self.show_overlays([MaskOverlay(key, mark, self._mask(pixels)) for key, mark, pixels in kinds])
+        self._found = tuple(MaskOverlay(key, mark, self._mask(pixels)) for key, mark, pixels in kinds)
+        self._show_marked()
 
     def _mask(self, pixels: Pixels) -> np.ndarray:
         mask = np.zeros(self._size[::-1], bool)
@@ -81,29 +104,88 @@ class MarkGrid(PixelGrid):
         return mask
 
     def _show_marked(self) -> None:
-        self.show_buffer(GridBuffer("marked", self._mask(self._marked), "bool", title="your marks"))
+        """Show the marks: as the picture, or as rings over one."""
+        marked = self._mask(self._marked)
+        own = GridBuffer("marked", marked, "bool", title="your marks")
+        self.show_buffer(self._picture or own)
+        rings = () if self._picture is None else (MaskOverlay("marked", Mark.TIE, marked, title="your mark"),)
+        self.show_overlays((*rings, *self._found))
 
     def spoken_description(self) -> str:
-        """Return what a screen reader says of the pixel that the keyboard is at."""
-        if not self._is_paintable or self.pin() is None:
+        """Return what a screen reader says of the pixel or point that the keyboard is at."""
+        pixel = self.pin()
+        if self._points.names:
+            return self._points.text(self._points.chosen)
+        if not self._is_paintable or pixel is None:
             return super().spoken_description()
-        return f"{self._pixel_text(self.pin() or (0, 0))}. {len(self._marked)} marked."
+        return f"{self._pixel_text(pixel)}. {len(self._marked)} marked."
 
     def _pixel_text(self, pixel: Pixel) -> str:
         found = [
             overlay.label
-            for overlay in self.overlays()
+            for overlay in self._found
             if isinstance(overlay, MaskOverlay) and overlay.mask[pixel[1], pixel[0]]
         ]
+        value = [] if self._picture is None else [self.value_text(pixel)]
         state = "marked" if pixel in self._marked else "not marked"
-        return f"Pixel {pixel[0]}, {pixel[1]}: {', '.join([state, *found])}"
+        return f"Pixel {pixel[0]}, {pixel[1]}: {', '.join([*value, state, *found])}"
+
+    # Points.
+
+    def show_points(self, names: Sequence[str]) -> None:
+        """Have points with these names, without places; none: pixels are marked."""
+        self._points, self._dragged = PointLayer(names), None
+        self.update()
+
+    def place_point(self, number: int, place: Place | None) -> None:
+        """Put a point somewhere, or nowhere."""
+        self._points.places[number] = place
+        self.update()
+
+    def mark_points(self, marks: dict[int, bool]) -> None:
+        """Mark points as right or wrong."""
+        self._points.marks = marks
+        self.update()
+
+    def _paint_marks(self, painter: QPainter, placement: GridPlacement) -> None:
+        """Paint the points above everything."""
+        super()._paint_marks(painter, placement)
+        if self._points.names:
+            self._points.paint(painter, placement, current_theme(), has_focus=self.hasFocus())
 
     # By mouse.
 
     def mousePressEvent(self, event: QMouseEvent) -> None:
-        """Begin a stroke: its first pixel decides whether it marks or clears."""
+        """Begin a stroke, whose first pixel decides whether it marks or clears; or take or place a point."""
         self._stroke = self._last = None
-        super().mousePressEvent(event)
+        if self._points.names and self._is_paintable and event.button() == Qt.MouseButton.LeftButton:
+            taken = self._points.near(self.placement(), event.position())
+            self._dragged = self._points.next_free() if taken is None else taken
+            self._points.chosen = self._dragged
+            if taken is None:
+                self._drag_point(event)
+            self.update()
+        else:
+            super().mousePressEvent(event)
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:
+        """Drag a point, or what else was taken."""
+        if self._dragged is None:
+            super().mouseMoveEvent(event)
+        else:
+            self._drag_point(event)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
+        """Leave a point where it is."""
+        if self._dragged is None:
+            super().mouseReleaseEvent(event)
+        self._dragged = None
+
+    def _drag_point(self, event: QMouseEvent) -> None:
+        assert self._dragged is not None
+        x, y = self.placement().to_window(event.position())
+        columns, rows = self._size
+        self.point_moved.emit(self._dragged, min(max(x, 0.0), columns), min(max(y, 0.0), rows))
 
     @Slot(int, int)
     def _paint_at(self, column: int, row: int) -> None:
@@ -126,31 +208,47 @@ class MarkGrid(PixelGrid):
     # By keyboard.
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Go with the arrows, Home and End; mark with Space; with Shift take the mark of this pixel along."""
-        if self._is_paintable and self.pin() is None and event.key() in (*_MOVES, Qt.Key.Key_Space):
-            self.show_pin((0, self._size[1] - 1))
-            announce(self, self._pixel_text((0, self._size[1] - 1)))
-            return
-        pixel, columns = self.pin(), self._size[0]
-        moves = {**_MOVES, Qt.Key.Key_Home: (-columns, 0), Qt.Key.Key_End: (columns, 0)}
-        key = Qt.Key(event.key())
-        if not self._is_paintable or pixel is None or event.modifiers() & ~Qt.KeyboardModifier.ShiftModifier:
+        """Go with the arrows and mark with Space, or choose a point with Space and move it with the arrows."""
+        key, is_shifted = Qt.Key(event.key()), bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
+        is_own = key in _MOVES or key in (Qt.Key.Key_Space, Qt.Key.Key_Home, Qt.Key.Key_End)
+        if not self._is_paintable or not is_own or event.modifiers() & _WINDOWS_OWN:
             super().keyPressEvent(event)
+        elif self._points.names:
+            self._go_points(key, is_shifted)
+        else:
+            self._go_pixels(key, is_shifted)
+
+    def keyReleaseEvent(self, event: QKeyEvent) -> None:
+        """Keep Space from the base class, which pans with it."""
+        if not (self._is_paintable and event.key() == Qt.Key.Key_Space):
+            super().keyReleaseEvent(event)
+
+    def _go_pixels(self, key: Qt.Key, is_shifted: bool) -> None:
+        """Go to a neighbour, or to the end of the row; with Shift take the mark of this pixel along."""
+        columns, rows = self._size
+        pixel = self.pin()
+        if pixel is None:
+            self.show_pin((0, rows - 1))
         elif key == Qt.Key.Key_Space:
             self._paint(frozenset({pixel}), pixel not in self._marked)
-            announce(self, self._pixel_text(pixel))
-        elif key in moves:
-            across, up = moves[key]
-            there = (
-                min(max(pixel[0] + across, 0), columns - 1),
-                min(max(pixel[1] + up, 0), self._size[1] - 1),
-            )
-            if event.modifiers() & Qt.KeyboardModifier.ShiftModifier:
+        else:
+            ends = {Qt.Key.Key_Home: (-columns, 0), Qt.Key.Key_End: (columns, 0)}
+            across, up = {**_MOVES, **ends}[key]
+            there = min(max(pixel[0] + across, 0), columns - 1), min(max(pixel[1] + up, 0), rows - 1)
+            if is_shifted:
                 self._paint(_between(pixel, there), pixel in self._marked)
             self.show_pin(there)
-            announce(self, self._pixel_text(there))
-        else:
-            super().keyPressEvent(event)
+        announce(self, self._pixel_text(self.pin() or (0, rows - 1)))
+
+    def _go_points(self, key: Qt.Key, is_shifted: bool) -> None:
+        """Choose the next point, or move the chosen one by steps; with Shift by pixels."""
+        points = self._points
+        if key == Qt.Key.Key_Space:
+            points.chosen = (points.chosen + 1) % len(points.names)
+            self.update()
+        elif key in _MOVES:
+            self.point_nudged.emit(points.chosen, *_MOVES[key], is_shifted)
+        announce(self, points.text(points.chosen))
 
 
 def _between(start: Pixel, end: Pixel) -> Pixels:

@@ -1,8 +1,10 @@
 """A question: its text and numbers, the form of its answer, hints, what a check found, and what to do next."""
 
+import re
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtGui import QFontDatabase
 from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QScrollArea, QSizePolicy, QWidget
 
 from widgets.basics.accessible import announce
@@ -16,6 +18,7 @@ from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.records import AnswerForm, Feedback, QuestionRecord
 
+_ART = re.compile(r"^[.#?A-Z]{4,}$", re.MULTILINE)
 WIDEST = 720
 """Pixels of a line of text at a size of 13: longer ones are hard to read."""
 
@@ -30,13 +33,20 @@ class QuestionView(QWidget):
     twin_requested = Signal()
     model_requested = Signal()
     copy_requested = Signal()
+    list_requested = Signal()
+    """The list of exercises is to be unfolded, or folded away."""
 
     def __init__(self, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._grid = grid
         self._feedback: Feedback | None = None
+        self._has_art = False
+        """Whether the numbers hold a picture as text, whose columns must line up."""
         self.answer: AnswerView | None = None
         self.setAccessibleName("Question")
+        self.list_button = self._button("All exercises", "Unfold the list of exercises, or fold it away")
+        self.list_button.setCheckable(True)
+        self.list_button.hide()
         self.title = text_label("", self, role="title", wraps=True)
         self.mark = text_label(
             "", self, role="muted", is_selectable=True, name="Line that gives this question again"
@@ -69,6 +79,7 @@ class QuestionView(QWidget):
             (self.twin_button, self.twin_requested),
             (self.model_button, self.model_requested),
             (self.copy_button, self.copy_requested),
+            (self.list_button, self.list_requested),
         ):
             button.clicked.connect(signal)
         theme_notifier().theme_changed.connect(self._follow_theme)
@@ -86,6 +97,7 @@ class QuestionView(QWidget):
         head.addWidget(self.mark)
         head.addWidget(self.copy_button)
         head.addStretch(1)
+        column.addWidget(self.list_button, 0, Qt.AlignmentFlag.AlignLeft)
         column.addWidget(self.title)
         column.addLayout(head)
         for label in (self.text, self.given, self.credit):
@@ -136,6 +148,8 @@ class QuestionView(QWidget):
         ):
             label.setText(text)
             label.setVisible(bool(text))
+        self._has_art = _ART.search(record.given) is not None
+        self._follow_theme()
         if self.answer is not None:
             self.answer.release()
             self._answer_place.removeWidget(self.answer)
@@ -148,6 +162,11 @@ class QuestionView(QWidget):
         self.show_feedback(None)
         self.scroll_area.verticalScrollBar().setValue(0)
         return self.answer
+
+    def show_list_button(self, is_shown: bool, is_open: bool) -> None:
+        """Offer to unfold the list of exercises, where it has no room of its own."""
+        self.list_button.setVisible(is_shown)
+        self.list_button.setChecked(is_open)
 
     @Slot(str)
     def show_note(self, text: str) -> None:
@@ -181,6 +200,8 @@ class QuestionView(QWidget):
         self._follow_theme()
         if not is_stale:
             announce(self, self.verdict.text())
+            if self.answer is not None:
+                self.scroll_area.ensureWidgetVisible(self.answer)
 
     def show_choices(self, *, twin: str, model: str) -> None:
         """Offer the run of a mistake and the model answer by these texts; an empty one: there is no such."""
@@ -192,6 +213,13 @@ class QuestionView(QWidget):
     def _follow_theme(self) -> None:
         theme = current_theme()
         self._content.setMaximumWidth(WIDEST * theme.text_px // 13)
+        set_role(self.given, "" if self._has_art else "strong")
+        if self._has_art:
+            font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+            font.setPixelSize(theme.code_px)
+            self.given.setFont(font)
+        else:
+            self.given.setFont(self.text.font())
         if self._feedback is not None:
             mark = Mark.RIGHT if self._feedback.is_right else Mark.WRONG
             self._icon.setPixmap(mark_pixmap(mark, theme.text_px + 4, self.devicePixelRatioF()))

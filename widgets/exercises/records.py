@@ -4,6 +4,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 
+from widgets.grid.buffer import GridBuffer
+
 Pixel = tuple[int, int]
 """Column and row; row 0 is the bottom row."""
 Pixels = frozenset[Pixel]
@@ -119,7 +121,136 @@ class ChoiceForm:
     is_several: bool
 
 
-AnswerForm = PixelForm | FieldForm | OrderForm | ChoiceForm
+@dataclass(frozen=True)
+class PlaceForm:
+    """Points to be placed in the window."""
+
+    size: tuple[int, int]
+    names: tuple[str, ...]
+    snapped: Callable[[float], str]
+    """The text of the nearest coordinate that a point can have."""
+    number: Callable[[str], float | None]
+    """The coordinate that a text means; ``None``: it means nothing."""
+    understand: Callable[[int, str], Understood]
+
+
+@dataclass(frozen=True)
+class ListingForm:
+    """Lines of a listing, of which one is pointed at."""
+
+    lines: tuple[str, ...]
+
+
+@dataclass(frozen=True, eq=False)
+class SpotForm:
+    """A picture in which pixels are pointed at, and options of what is wrong with it."""
+
+    pixels: PixelForm
+    picture: GridBuffer
+    options: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class StepLine:
+    """One step of a run that the learner goes."""
+
+    prompt: str
+    tries: str
+    """What was tried so far."""
+    standing: str
+    """``right``, ``wrong`` and tried again, ``fixed``, ``open`` or empty: it comes later."""
+
+
+@dataclass(frozen=True)
+class StepsState:
+    """How far a run is."""
+
+    lines: tuple[StepLine, ...]
+    open: int | None
+    """The step that is asked; ``None``: all are done."""
+    kind: str = ""
+    """What it asks for: ``pixel``, ``number``, ``choice`` or ``place``."""
+    options: tuple[str, ...] = ()
+    is_missed: bool = False
+    """The last try at it was wrong."""
+    pixels: Pixels = frozenset()
+    """Pixels of the steps that are done."""
+
+
+@dataclass(frozen=True)
+class StepsForm:
+    """A run gone by the learner, step by step."""
+
+    state: Callable[[list[list[str]]], StepsState]
+    """From the tries of every step so far; ValueError with a sentence where the last try means nothing."""
+
+
+@dataclass(frozen=True)
+class DialRecord:
+    """One number that can be changed in steps."""
+
+    name: str
+    count: int
+    """How many values it has."""
+    text: Callable[[int], str]
+    """The text of a value, by its place from 0."""
+    place: Callable[[str], int | None]
+    """The place of the value that a text means; ``None``: it means none."""
+
+
+@dataclass(frozen=True)
+class CornerRecord:
+    """A corner on the picture whose coordinates are dials; ``None``: that coordinate stays."""
+
+    name: str
+    x: int | None
+    y: int | None
+    at: Callable[[list[str]], tuple[float, float]]
+    """Its place in the window, from the texts of all dials."""
+
+
+@dataclass(frozen=True)
+class DialForm:
+    """Numbers to be changed until something happens."""
+
+    dials: tuple[DialRecord, ...]
+    start: tuple[str, ...]
+    corners: tuple[CornerRecord, ...]
+    snapped: Callable[[int, float], str]
+    """The text of the nearest value of a dial."""
+
+
+@dataclass(frozen=True)
+class FamilyRecord:
+    """Methods to choose from."""
+
+    name: str
+    title: str
+    methods: tuple[tuple[str, str], ...]
+    """Name and text of each, with its cost."""
+
+
+@dataclass(frozen=True)
+class MethodForm:
+    """One method of each family."""
+
+    families: tuple[FamilyRecord, ...]
+    cost: Callable[[dict[str, str]], str]
+    """What some methods cost together."""
+
+
+AnswerForm = (
+    PixelForm
+    | FieldForm
+    | OrderForm
+    | ChoiceForm
+    | PlaceForm
+    | ListingForm
+    | SpotForm
+    | StepsForm
+    | DialForm
+    | MethodForm
+)
 
 
 # What is right in an answer, and what is not.
@@ -152,4 +283,17 @@ class ItemMarks:
     missing: frozenset[int] = frozenset()
 
 
-AnswerMarks = PixelMarks | FieldMarks | ItemMarks
+@dataclass(frozen=True)
+class SpotMarks:
+    """Pixels that were pointed at, and whether the mistake has the right name."""
+
+    pixels: PixelMarks
+    option: bool | None
+
+
+@dataclass(frozen=True)
+class NoMarks:
+    """What a check says in words alone."""
+
+
+AnswerMarks = PixelMarks | FieldMarks | ItemMarks | SpotMarks | NoMarks

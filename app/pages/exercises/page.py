@@ -3,6 +3,7 @@
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QSplitter, QWidget
 
 from app.pages.exercises.catalogue_presenter import CataloguePresenter
@@ -14,6 +15,7 @@ from app.session.session import Session
 from lessons.exercises.question import Template
 from widgets.basics.controls import column_layout
 from widgets.basics.pane_splitter import PaneSplitter
+from widgets.basics.theme import current_theme, theme_notifier
 from widgets.exercises.catalogue import Catalogue
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.pixel_answer import PixelAnswerView
@@ -21,6 +23,10 @@ from widgets.exercises.question_view import QuestionView
 
 if TYPE_CHECKING:
     from lessons.exercises.question import Question
+
+
+ROOM = 75
+"""Width of the page, in sizes of the text, from which the catalogue stands beside question and picture."""
 
 
 class ExercisesPage(Page):
@@ -42,6 +48,10 @@ class ExercisesPage(Page):
         self.columns = SideColumns(self.catalogue, self.panes, self)
         layout = column_layout(self, margins=(8, 4, 8, 8))
         layout.addWidget(self.columns)
+        self._wants_catalogue: bool | None = None
+        """Whether the user has unfolded the catalogue or folded it away; ``None``: it follows the room."""
+        self.question_view.list_requested.connect(self._toggle_catalogue)
+        theme_notifier().theme_changed.connect(self._make_room)
         self.exercises.question_chosen.connect(self._open)
         self.questions.asked.connect(self.exercises.show_question)
         self.questions.checked.connect(self.exercises.take_attempt)
@@ -63,12 +73,33 @@ class ExercisesPage(Page):
 
     @Slot(object, object)
     def _open(self, template: Template, seed: int | None) -> None:
+        self._wants_catalogue = None
+        self._make_room()
         self.questions.open(template, seed)
 
     @property
     def question(self) -> "Question | None":
         """The question that is shown."""
         return self.questions.question
+
+    # The catalogue takes its room last.
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Fold the catalogue away where question and picture need the room."""
+        super().resizeEvent(event)
+        self._make_room()
+
+    @Slot()
+    def _make_room(self) -> None:
+        has_room = self.width() >= ROOM * current_theme().text_px
+        is_shown = has_room if self._wants_catalogue is None else self._wants_catalogue
+        self.catalogue.setVisible(is_shown)
+        self.question_view.show_list_button(not has_room, is_shown)
+
+    @Slot()
+    def _toggle_catalogue(self) -> None:
+        self._wants_catalogue = self.catalogue.isHidden()
+        self._make_room()
 
     # As a page of the window.
 
@@ -99,7 +130,7 @@ class ExercisesPage(Page):
         return self.panes
 
     def focus_panes(self) -> list[QWidget]:
-        """Return what F6 goes through after the question: the picture and the catalogue."""
+        """Return what F6 goes through after question and picture: the catalogue, and the borders."""
         return [self.catalogue, self]
 
     def caption(self) -> Caption:

@@ -9,12 +9,13 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QMenu
 
 from app.background.workers import JobGroup
+from app.pages.exercises.answer_kind import Live
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.runs import faulty_run, is_stepped, right_run
 from app.pages.exercises.unfinished import Unfinished, UnfinishedFile
-from app.pages.exercises.work import Asked, Checked, asking, checking
+from app.pages.exercises.work import Asked, Checked, asking, checking, drawing
 from core.records.words import counted
-from lessons.exercises.answers.answer import NotCheckedError
+from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Question, Template
 from lessons.mistakes.shelf import SHELF
 from widgets.exercises.mark_grid import MarkGrid
@@ -56,11 +57,13 @@ class QuestionPresenter(QObject):
         self._is_shown = self._is_sure = False
         self._begun = monotonic()
         self._jobs = JobGroup(self)
-        self._asking, self._checking = self._jobs.add_job(), self._jobs.add_job()
+        self._asking, self._checking, self._drawing = (self._jobs.add_job() for _ in range(3))
         self._asking.succeeded.connect(self._show)
         self._asking.failed.connect(self._refuse)
         self._checking.succeeded.connect(self._show_checked)
         self._checking.failed.connect(self._refuse)
+        self._drawing.succeeded.connect(self._show_live)
+        self._drawing.failed.connect(self._refuse)
         view.check_requested.connect(self.check)
         view.hint_requested.connect(self.show_hint)
         view.variant_requested.connect(self.ask_variant)
@@ -71,8 +74,8 @@ class QuestionPresenter(QObject):
 
     @property
     def is_working(self) -> bool:
-        """Whether a question is being drawn or an answer checked."""
-        return self._asking.is_running or self._checking.is_running
+        """Whether a question or an answer is being drawn, or an answer is being checked."""
+        return any(job.is_running for job in (self._asking, self._checking, self._drawing))
 
     def stop(self) -> None:
         """End all work."""
@@ -87,6 +90,7 @@ class QuestionPresenter(QObject):
             is_kept = kept is not None and kept.version == template.version
             seed = kept.seed if kept is not None and is_kept else new_seed()
         self._checking.cancel()
+        self._drawing.cancel()
         self._asking.start(asking(template, seed))
 
     @Slot()
@@ -113,13 +117,14 @@ class QuestionPresenter(QObject):
         self._checked, self._is_sure = None, False
         self._hints, self._is_shown = min(kept.hints, len(draft.hints)), kept.is_shown
         self._begun = monotonic()
-        size = getattr(draft.answer, "size", None) or (draft.scene.size if draft.scene else None)
+        kind = KINDS[draft.answer.kind]
+        size = kind.size(draft)
         self._grid.setVisible(size is not None)
         if size is not None:
             self._grid.show_raster(size, asked.outline, draft.pixel)
         credit = f"{counted(template.points, 'point')}. {draft.answer.credit}"
-        record = QuestionRecord(template.title, question.mark, draft.text, draft.given, credit)
-        answer = self._view.show_question(record, KINDS[draft.answer.kind].form(draft.answer))
+        record = QuestionRecord(template.title, question.mark, draft.text, kind.numbers(draft), credit)
+        answer = self._view.show_question(record, kind.form(draft.answer))
         answer.answer_changed.connect(self._change)
         if kept.given is not None:
             try:
@@ -127,6 +132,7 @@ class QuestionPresenter(QObject):
             except (TypeError, ValueError, LookupError):
                 self.refused.emit("The answer that was kept is of another form. It is empty now.")
                 answer.show_given(None)
+        self._draw_live()
         self._show_state()
         self._keep()
         self.asked.emit(question)
@@ -153,7 +159,28 @@ class QuestionPresenter(QObject):
             assert self._view.answer is not None
             self._view.answer.show_marks(None)
             self._view.show_feedback(self._feedback(self._checked), is_stale=True)
+        self._draw_live()
         self._keep()
+
+    def _draw_live(self) -> None:
+        """Draw what is shown of an answer while it is given."""
+        if self.question is not None and self._view.answer is not None:
+            work = drawing(self.question, self._view.answer.given())
+            if work is not None:
+                self._drawing.start(work)
+
+    @Slot(object)
+    def _show_live(self, live: Live | None) -> None:
+        if live is not None:
+            self._grid.show_geometry(live.outline)
+            self._grid.show_picture(live.picture, live.overlays)
+
+    def answer(self, response: Response) -> None:
+        """Fill the form with an answer, as if the learner had given it."""
+        if self.question is not None and self._view.answer is not None:
+            answer = self.question.draft.answer
+            self._view.answer.show_given(KINDS[answer.kind].given(answer, response))
+            self._change()
 
     def _keep(self, **changed: Any) -> None:
         """Keep how far the learner is."""

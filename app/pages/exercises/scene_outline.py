@@ -4,6 +4,7 @@ from dataclasses import replace
 
 from app.pages.step.grid_records import geometry_of
 from app.session.document import STEPPED, Document, open_document
+from core.scene import AnyScene
 from core.settings import DEFAULTS
 from lessons.exercises.question import Draft
 from widgets.grid.geometry import GridGeometry
@@ -23,8 +24,11 @@ def document_of(draft: Draft, title: str) -> Document:
 
 def outline_of(draft: Draft, stage: str) -> GridGeometry | None:
     """Return the outlines of the scene; ``None``: there is none, or it is what is asked for."""
-    if draft.scene is None or stage in HIDDEN:
-        return None
-    document = document_of(draft, "")
-    outlines = geometry_of(document, document.make_trace())
+    return None if draft.scene is None or stage in HIDDEN else scene_outline(draft.scene)
+
+
+def scene_outline(scene: AnyScene) -> GridGeometry:
+    """Return the outlines of a scene as they are before culling: what is dropped may be what is asked for."""
+    document = open_document(scene, "")
+    outlines = geometry_of(document, document.make_trace(), stage="cull")
     return replace(outlines, draggable=False, snapped=None)

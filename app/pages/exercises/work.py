@@ -6,10 +6,11 @@ from datetime import UTC, datetime
 
 from app.background.workers import Progress
 from app.cli.attempts import attempt_file
+from app.pages.exercises.answer_kind import AnswerKind, Live
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.scene_outline import outline_of
 from lessons.attempts.record import Attempt, attempt_of
-from lessons.exercises.answers.answer import Response
+from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Judgement, Question, Template, ask, judge
 from widgets.exercises.records import AnswerMarks
 from widgets.grid.geometry import GridGeometry
@@ -42,6 +43,25 @@ def asking(template: Template, seed: int) -> Callable[[Progress, Callable[[], bo
     def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Asked:
         question = ask(template, seed)
         return Asked(question, outline_of(question.draft, template.stage))
+
+    return work
+
+
+def drawing(
+    question: Question, given: object
+) -> Callable[[Progress, Callable[[], bool]], Live | None] | None:
+    """Return the work that draws an answer while it is given; ``None``: nothing is drawn of this type."""
+    draft = question.draft
+    kind = KINDS[draft.answer.kind]
+    if type(kind).live is AnswerKind.live:
+        return None
+
+    def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Live | None:
+        try:
+            response = draft.answer.read(kind.read(draft.answer, given))
+        except NotCheckedError:
+            response = None
+        return kind.live(draft, response)
 
     return work
 

@@ -123,7 +123,10 @@ def test_pictures_show_what_was_asked_for(tmp_path):
     ("arguments", "wanted"),
     [
         (["cube", "--page", "plan", "--stage", "raster"], "--stage: it is for page step, got page plan"),
-        (["cube", "--show", "slivers"], "--show: it is for page compare or stability, got page step"),
+        (
+            ["cube", "--show", "slivers"],
+            "--show: it is for page compare or stability or exercises, got page step",
+        ),
         (
             ["cube", "--page", "stability", "--work", "any"],
             "--work: it is for page compare, got page stability",

@@ -9,13 +9,23 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.cli.attempts import attempt_file
+from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.page import ExercisesPage
 from app.window.main_window import MainWindow
+from lessons.exercises.answers.spots import SpotAnswer
+from lessons.exercises.answers.trials import BreakAnswer
 from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.question import ask
 from widgets.exercises.choice_answer import ChoiceAnswerView
+from widgets.exercises.dial_answer import DialAnswerView
 from widgets.exercises.field_answer import FieldAnswerView
+from widgets.exercises.listing_answer import ListingAnswerView
+from widgets.exercises.method_answer import MethodAnswerView
 from widgets.exercises.order_answer import OrderAnswerView
 from widgets.exercises.pixel_answer import PixelAnswerView
+from widgets.exercises.place_answer import PlaceAnswerView
+from widgets.exercises.spot_answer import SpotAnswerView
+from widgets.exercises.steps_answer import StepsAnswerView
 from widgets.grid.overlay import Mark, MaskOverlay
 
 Page = Callable[..., ExercisesPage]
@@ -33,6 +43,7 @@ def page(window: MainWindow) -> Page:
         shown.settle()
         shown.questions.open(TEMPLATES[name], seed)
         shown.settle()
+        QApplication.processEvents()
         return shown
 
     return show
@@ -86,7 +97,7 @@ def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
     assert window.session.cursor.position > 0 or comparing.second_position
 
 
-def test_pixels_are_marked_by_keyboard_alone(page: Page) -> None:
+def check_that_pixels_are_marked_by_keyboard_alone(page: Page) -> None:
     """Arrows go, Space marks, Shift paints; the rows say the same."""
     shown = page("shared-edge")
     assert shown.question is not None
@@ -111,7 +122,7 @@ def test_pixels_are_marked_by_keyboard_alone(page: Page) -> None:
     assert shown.grid.spoken_description() == "Pixel 4, 0: not marked. 3 marked."
 
 
-def test_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page: Page) -> None:
+def check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page: Page) -> None:
     """Return goes down; what is typed is said to be understood; a slip costs one cell."""
     shown = page("bresenham-table")
     answer = shown.question_view.answer
@@ -134,14 +145,15 @@ def test_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page: Page) -> None
     assert answer.fields.field(0, 0).accessibleDescription() == "right"
 
 
-def test_an_answer_that_means_nothing_costs_nothing(page: Page) -> None:
+def check_that_nonsense_costs_nothing(page: Page) -> None:
     shown = page("barycentric-weights")
+    before = attempt_file().attempts()
     check(shown)
     assert shown.question_view.note.text() == "Not checked yet: the answer is empty."
-    assert attempt_file().attempts() == ()
+    assert attempt_file().attempts() == before
 
 
-def test_an_order_is_moved_by_keys(page: Page) -> None:
+def check_that_an_order_is_moved_by_keys(page: Page) -> None:
     shown = page("stage-order")
     answer = shown.question_view.answer
     assert shown.question is not None
@@ -153,7 +165,7 @@ def test_an_order_is_moved_by_keys(page: Page) -> None:
     assert check(shown).startswith("2 of 2 points")
 
 
-def test_options_are_chosen_by_space_and_marked(page: Page) -> None:
+def check_that_options_are_chosen_by_space_and_marked(page: Page) -> None:
     shown = page("facing")
     answer = shown.question_view.answer
     assert shown.question is not None
@@ -166,7 +178,7 @@ def test_options_are_chosen_by_space_and_marked(page: Page) -> None:
     assert answer.buttons[min(right)].accessibleDescription() == "right"
 
 
-def test_hints_come_in_order_and_the_model_answer_asks_first(page: Page) -> None:
+def check_that_hints_come_in_order_and_the_model_answer_asks_first(page: Page) -> None:
     shown = page("triangle-coverage")
     view = shown.question_view
     QTest.mouseClick(view.hint_button, LEFT)
@@ -195,3 +207,124 @@ def test_work_survives_leaving_and_the_program(page: Page, qtbot: QtBot) -> None
     assert other.grid.marked() == {(2, 2), (3, 2)}
     assert other.question_view.hints.text().startswith("Hint 1")
     other.stop()
+
+
+def check_that_a_point_is_placed_by_mouse_and_moved_by_keys(page: Page) -> None:
+    shown = page("clip-ends")
+    answer = shown.question_view.answer
+    assert isinstance(answer, PlaceAnswerView)
+    placement = shown.grid.placement()
+    QTest.mouseClick(shown.grid, LEFT, pos=placement.to_widget(2.0, 1.0).toPoint())
+    QTest.mouseClick(shown.grid, LEFT, pos=placement.to_widget(6.0, 3.0).toPoint())
+    assert [round(float(text)) for row in answer.given() for text in row] == [2, 1, 6, 3]
+    before = answer.given()[0]
+    shown.grid.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(shown.grid, Qt.Key.Key_Space)
+    QTest.keyClick(shown.grid, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
+    QTest.keyClick(shown.grid, Qt.Key.Key_Up)
+    assert float(answer.given()[0][0]) == float(before[0]) + 1
+    assert float(answer.given()[0][1]) > float(before[1])
+    assert "of 2 points right" in check(shown)
+
+
+def check_that_a_line_of_a_listing_is_chosen_by_keys(page: Page) -> None:
+    shown = page("wrong-line")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    assert isinstance(answer, ListingAnswerView)
+    for _ in range(shown.question.draft.answer.reference + 1):
+        QTest.keyClick(answer.list, Qt.Key.Key_Down)
+    assert check(shown).startswith("2 of 2 points")
+
+
+def check_that_what_is_wrong_with_a_picture_is_pointed_at_and_named(page: Page) -> None:
+    shown = page("wrong-picture")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    right = shown.question.draft.answer
+    assert isinstance(answer, SpotAnswerView)
+    assert isinstance(right, SpotAnswer)
+    QTest.mouseClick(shown.grid, LEFT, pos=at(shown, min(right.wrong)))
+    QTest.keyClick(answer.choice.buttons[right.right], Qt.Key.Key_Space)
+    assert check(shown).startswith("4 of 4 points")
+
+
+def check_that_steps_are_judged_at_once_and_put_right(page: Page) -> None:
+    """A pixel is clicked, a number typed; a wrong try may be put right and earns nothing."""
+    shown = page("bresenham-steps")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    steps = shown.question.draft.answer.steps
+    assert isinstance(answer, StepsAnswerView)
+    QTest.keyClicks(answer.field, "77")
+    QTest.keyClick(answer.field, Qt.Key.Key_Return)
+    assert shown.question_view.note.text() == "Step 1: 77 is not right. Try again, or have it put right."
+    QTest.mouseClick(answer.fix_button, LEFT)
+    for step in steps[1:]:
+        if step.kind == "pixel":
+            QTest.mouseClick(shown.grid, LEFT, pos=at(shown, step.right))
+        else:
+            QTest.keyClicks(answer.field, str(step.right))
+            QTest.keyClick(answer.field, Qt.Key.Key_Return)
+    assert answer.prompt.text() == "All steps are done."
+    assert f"{len(steps) - 1} of {len(steps)} steps right" in check(shown)
+    assert shown.grid.marked() == {step.right for step in steps if step.kind == "pixel"}
+
+
+def check_that_a_weak_method_is_broken_by_a_drag_and_by_keys(page: Page) -> None:
+    shown = page("break-inclusive")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    right = shown.question.draft.answer
+    assert isinstance(answer, DialAnswerView)
+    assert isinstance(right, BreakAnswer)
+    x, y = map(float, right.reference)
+    placement = shown.grid.placement()
+    start, end = (placement.to_widget(*place).toPoint() for place in (map(float, right.start), (x, y)))
+    QTest.mousePress(shown.grid, LEFT, pos=start)
+    QTest.mouseMove(shown.grid, end)
+    QTest.mouseRelease(shown.grid, LEFT, pos=end)
+    assert [float(text) for text in answer.given()] == [x, y]
+    assert check(shown).startswith("3 of 3 points")
+    QTest.keyClick(answer.sliders[0], Qt.Key.Key_Right)
+    shown.settle()
+    assert float(answer.given()[0]) == x + float(right.dials[0].step)
+
+
+def check_that_the_cheapest_methods_are_chosen(page: Page) -> None:
+    shown = page("cheapest-methods")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    assert isinstance(answer, MethodAnswerView)
+    for box, method in zip(answer.boxes, shown.question.draft.answer.reference, strict=True):
+        box.setFocus()
+        for _ in range(method + 1):
+            QTest.keyClick(box, Qt.Key.Key_Down)
+    assert check(shown).startswith("4 of 4 points")
+
+
+def test_every_form_takes_every_answer_of_its_questions() -> None:
+    """What a form holds for an answer is read as that answer."""
+    for template in list(TEMPLATES.values())[::4]:
+        draft = ask(template, 3).draft
+        kind = KINDS[draft.answer.kind]
+        for response in (draft.answer.reference, *draft.mistakes.values()):
+            given = kind.given(draft.answer, response)
+            read = draft.answer.read(kind.read(draft.answer, given))
+            assert draft.answer.is_same(read, response), template.name
+
+
+def test_every_type_is_answered_in_one_window(page: Page) -> None:
+    """One window for all of them: making one takes longer than answering."""
+    check_that_pixels_are_marked_by_keyboard_alone(page)
+    check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page)
+    check_that_nonsense_costs_nothing(page)
+    check_that_an_order_is_moved_by_keys(page)
+    check_that_options_are_chosen_by_space_and_marked(page)
+    check_that_hints_come_in_order_and_the_model_answer_asks_first(page)
+    check_that_a_point_is_placed_by_mouse_and_moved_by_keys(page)
+    check_that_a_line_of_a_listing_is_chosen_by_keys(page)
+    check_that_what_is_wrong_with_a_picture_is_pointed_at_and_named(page)
+    check_that_steps_are_judged_at_once_and_put_right(page)
+    check_that_a_weak_method_is_broken_by_a_drag_and_by_keys(page)
+    check_that_the_cheapest_methods_are_chosen(page)
