@@ -7,6 +7,7 @@ from pydantic import BaseModel, ConfigDict
 
 from app.cli import attempts, exercise_folders
 from app.cli.commands import UsageError
+from app.cli.exercise_coverage import coverage_lines
 from app.cli.exercise_folders import known_templates
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.catalogue import TEMPLATES, template_named
@@ -24,6 +25,7 @@ EXAMPLES = """examples:
   rasterscope exercise validate my-exercise.toml
   rasterscope exercise show my-exercise.toml
   rasterscope exercise selftest --seeds 200
+  rasterscope exercise coverage
   rasterscope exercise folders --add my-exercises
   rasterscope exercise practice --user Ada
   rasterscope exercise export attempts.json --user Ada
@@ -59,6 +61,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     validate.add_argument("path", metavar="PATH", help="a .toml file")
     selftest = parsers.add_parser("selftest", help="check all exercises", allow_abbrev=False)
     selftest.add_argument("--seeds", metavar="K", type=seed_of_text, default=10, help="seeds of each (10)")
+    parsers.add_parser("coverage", help="list what the exercises ask, and what none asks", allow_abbrev=False)
     exercise_folders.add_parser(parsers)
     attempts.add_parsers(parsers)
 
@@ -75,6 +78,9 @@ def run(options: argparse.Namespace) -> int:
     if options.action == "list":
         for template in known_templates().values():
             print(f"{template.name:<23} {template.stage:<13}{template.title}")
+        return 0
+    if options.action == "coverage":
+        print("\n".join(coverage_lines()))
         return 0
     if options.action == "folders":
         return exercise_folders.run(options)

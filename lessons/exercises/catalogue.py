@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from core import STAGES
+from lessons.exercises import templates
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Template
 from lessons.exercises.templates import (
@@ -55,7 +56,11 @@ _MODULES = (
 TEMPLATES: dict[str, Template] = {
     template.name: template
     for template in sorted(
-        (each for module in _MODULES for each in module.TEMPLATES), key=lambda each: STAGES.index(each.stage)
+        [
+            *(each for module in _MODULES for each in module.TEMPLATES),
+            *(read_exercise(path) for path in sorted(Path(templates.__file__).parent.glob("*.toml"))),
+        ],
+        key=lambda each: STAGES.index(each.stage),
     )
 }
 """By name, stage by stage."""

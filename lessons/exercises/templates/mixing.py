@@ -75,6 +75,29 @@ def draw_glass(draws: Draws) -> Draft | None:
     )
 
 
+def draw_panes(draws: Draws) -> Draft:
+    """Two panes of glass, the nearer one first."""
+    alpha, red, blue = (Fraction(draws.whole(1, 3), 4) for _ in range(3))
+    scene = cards([0.25] * 3, [0.75] * 3)
+    colors = [[(float(red), 0, 0, float(alpha))] * 3, [(0, 0, float(blue), float(alpha))] * 3]
+    scene = replace(scene, attributes=np.array(colors), background=np.array([0.0, 0.0, 0.0, 1.0]))
+    text = (
+        "Two panes of glass are drawn over black with over, the nearer one first. Glass is tested against the depth "
+        "buffer, but does not write its depth. What are red and blue of the result, linear?"
+    )
+    given = (
+        f"Near pane, drawn first: red {number_text(red)}\nFar pane: blue {number_text(blue)}\nalpha of both: "
+    )
+    given += number_text(alpha)
+    wrong = {
+        name: SHELF[name].draw(scene, BLENDED).color[0, 0, [0, 2]].tolist()
+        for name in ("glass-writes-depth", "order-reversed")
+    }
+    hints = ("Does the far pane pass the depth test?", "What is drawn last lies on top, wherever it stands.")
+    right = [(1 - alpha) * alpha * red, alpha * blue]
+    return numbers(text, given, right, hints, wrong, ("red", "blue"), scene=scene, settings=BLENDED)
+
+
 def draw_additive(draws: Draws) -> Draft:
     """Lights that add up."""
     values = [(Fraction(draws.whole(1, 9), 10), Fraction(draws.whole(1, 4), 4)) for _ in range(2)]
@@ -177,6 +200,7 @@ TEMPLATES = (
     Template("result-alpha", 1, "The alpha of the result", "blend", 2, draw_alpha),
     Template("straight-color", 1, "A straight colour", "blend", 2, draw_straight),
     Template("glass-and-wall", 1, "Glass in front of a wall", "blend", 2, draw_glass),
+    Template("panes-of-glass", 1, "Glass that is drawn too early", "blend", 2, draw_panes),
     Template("additive-layers", 1, "Lights that add up", "blend", 1, draw_additive),
     Template("samples-of-two", 1, "Two triangles in a pixel", "resolve", 3, draw_samples),
     Template("box-filter", 1, "The box filter", "resolve", 1, draw_coverage),

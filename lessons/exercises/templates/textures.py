@@ -92,14 +92,16 @@ def draw_border(draws: Draws) -> Draft:
     return of_strip(text, drawn_texels(draws, count), u, settings, ("border-repeated",), hints)
 
 
-def draw_wrap(draws: Draws) -> Draft:
+def draw_wrap(draws: Draws) -> Draft | None:
     """Texels beyond the border."""
     size = draws.whole(4, 7)
     indices = [draws.whole(-2 * size + 1, -1), draws.whole(0, size - 1), draws.whole(size, 2 * size - 1)]
     modes = ("repeat", "clamp", "mirror")
     right = [[wrapped_index(index, size, mode) for mode in modes] for index in indices]
     below = int(repeat_mirrored(indices[0], size))  # type: ignore[arg-type]
-    wrong = [[below, *right[0][1:]], *right[1:]]
+    if below == right[0][0]:
+        return None
+    wrong = {"negative-repeat": [[below, *right[0][1:]], *right[1:]]}
     text = (
         "Which texel is read for each index, with the wrap modes repeat (start again), clamp (repeat the border texel) "
         "and mirror (every second repetition runs backwards)?"
@@ -111,9 +113,37 @@ def draw_wrap(draws: Draws) -> Draft:
         "mirror: the texels run 0, 1, ... to the end and back again.",
     )
     labels = [f"index {index}" for index in indices]
-    return table(
-        text, given, modes, labels, right, hints, {"negative-repeat": wrong} if wrong != right else {}
+    return table(text, given, modes, labels, right, hints, wrong)
+
+
+def draw_repeated(draws: Draws) -> Draft | None:
+    """A texture that repeats across the window."""
+    texels, start = drawn_texels(draws, 4), -draws.whole(1, 2)
+    pixel = draws.whole(0, 7), 0
+    scene, settings = (
+        strip([float(texel) for texel in texels], start, 1.0),
+        Settings(texture_filter="nearest"),
     )
+    u = start + Fraction(2 * pixel[0] + 1, 16) * (1 - start)
+    wrong = {
+        name: [float(SHELF[name].draw(scene, settings).color[0, pixel[0], 0])]
+        for name in ("window-for-uv", "negative-repeat")
+    }
+    text = (
+        f"Which value has pixel {pixel}? The texture is repeated, and the nearest texel is read at the pixel's "
+        "centre."
+    )
+    given = (
+        f"Texture of 4 x 1 texels: {', '.join(map(number_text, texels))}\nWindow of 8 pixels: u grows evenly from "
+        f"{start} at its left border to 1 at its right border."
+    )
+    hints = (
+        "What is u at the centre of the pixel?",
+        "Repeat takes u - floor(u).",
+        "Texel i reaches from i to i + 1.",
+    )
+    right = texels[floor((u - floor(u)) * 4)]
+    return numbers(text, given, [right], hints, wrong, scene=scene, settings=settings, pixel=pixel)
 
 
 def draw_upside(draws: Draws) -> Draft | None:
@@ -175,6 +205,7 @@ TEMPLATES = (
     Template("texels-linear", 1, "Between two texels", "shade", 3, draw_bilinear),
     Template("texels-bilinear", 1, "Between four texels", "shade", 3, draw_square),
     Template("texel-border", 1, "The filter at the border", "shade", 3, draw_border),
+    Template("texture-repeated", 1, "A texture that repeats", "shade", 3, draw_repeated),
     Template("texel-wrap", 1, "Texels beyond the border", "shade", 3, draw_wrap),
     Template("mip-level", 1, "The mipmap level", "shade", 2, draw_level),
 )
