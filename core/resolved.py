@@ -14,6 +14,7 @@ from core.settings import Settings, import_methods
 if TYPE_CHECKING:
     from core.antialiasing.sampling import Sampling
     from core.framebuffer.depth import DepthFormat
+    from core.geometry.normal_view import EyeTriangles, NormalView
     from core.geometry.polygon_clipping.methods import PolygonClipping
     from core.raster.number_formats.number_format import NumberFormat
     from core.records.primitives import DrawingOrder
@@ -42,6 +43,12 @@ class ResolvedSettings:
     def drops_facing(self) -> Callable[..., Any]:
         """Culling: which facings (T,) are dropped."""
         return self.method("cull").function
+
+    @cached_property
+    def look(self) -> "Callable[[EyeTriangles], NormalView] | None":
+        """Culling by N . V: what it sees of triangles; ``None``: the facing decides."""
+        look: Callable[[EyeTriangles], NormalView] | None = self.method("cull").traits
+        return look
 
     @cached_property
     def drawing_order(self) -> "Callable[..., DrawingOrder]":

@@ -36,6 +36,7 @@ class Settings:
         "Cull",
         "cull",
         "core.geometry.culling",
+        "core.geometry.normal_view",
         is_look=True,
         classical=("none", "back"),
     )

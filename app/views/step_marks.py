@@ -88,18 +88,19 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     has_arrows = len(kept) <= MOST_MARKS and source.scene.corner_count == 3
     for number in kept.tolist() if has_arrows else []:
         if number != current:
-            marks.append(_arrow(space, int(triangles[number]), float(culled.facing[number]), "text"))
+            marks.append(_arrow(space, int(triangles[number]), float(culled.side[number]), "text"))
     if current < 0:
         return marks
     triangle, kind = int(triangles[current]), trace.kind_of(row)
     name = of_kind(f"triangle {triangle}", source.scene.corner_count)
     marks += _outlines(space, triangle)
-    facing = float(culled.facing[current])
-    side = f"front, area {facing / 2:+.4g}" if facing > 0 else f"back, area {facing / 2:+.4g}"
+    facing = float(culled.side[current])
+    what = f"area {facing / 2:+.4g}" if culled.sight is None else f"N · V {-facing:+.4g}"
+    side = f"front, {what}" if facing > 0 else f"back, {what}"
     if is_dropped(session.trace, "cull", position)[current]:
         label = f"{name}: dropped, {REASONS[int(culled.verdict[current])].replace('-', ' ')}"
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label, "cross"))
-    elif kind in ("facing", "kept", "degenerate") and source.scene.corner_count == 3:
+    elif kind not in ("behind", "plane") and source.scene.corner_count == 3:
         marks.append(_arrow(space, triangle, facing, "accent", f"{name}: {side}"))
     else:
         place = "behind the eye" if kind == "behind" else f"outside the {trace.columns['plane'][row]} plane"

@@ -254,7 +254,7 @@ _OPERATIONS: dict[str, Callable[..., Number]] = {
     "sign": lambda a: (a > 0) - (a < 0),
     "float": lambda a: Fraction(float(np.float32(float(a)))),
     "sqrt": lambda a: math.sqrt(a),
-    "log": lambda a: math.log2(a),
+    "log": lambda a: math.log2(a) if a else -math.inf,
     "min": min,
     "max": max,
 }

@@ -18,8 +18,8 @@ from core.trace import Explanation, StageTrace
 from core.trace.stage_trace import KEPT_EXPLANATIONS
 
 SUBJECTS = (
-    *("transform", "culling", "clipping", "number_formats", "edges", "binning", "spans", "fills"),
-    "polygon_fills",
+    *("transform", "culling", "normal_view", "clipping", "number_formats", "edges", "binning", "spans"),
+    *("fills", "polygon_fills"),
     *("line_clipping", "lines", "smooth_lines", "interpolation", "barycentric", "textures", "shading"),
     *("depth", "packed_keys", "rays", "blending", "areas", "resolve", "clip_tables"),
 )

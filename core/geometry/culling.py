@@ -7,6 +7,7 @@ LMU, *Computer Graphics 1*, tutorial 5, "Culling"; Jubair, "Backface culling"; F
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -15,6 +16,9 @@ from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 from core.records.primitives import IndexedPrimitives
+
+if TYPE_CHECKING:
+    from core.geometry.normal_view import NormalView
 
 KEPT, BACK_FACING, FRONT_FACING, DEGENERATE, BEHIND_EYE, OUTSIDE_PLANE = range(6)
 REASONS = ("kept", "back-facing", "front-facing", "degenerate", "behind-eye", "outside-plane")
@@ -42,6 +46,13 @@ class CullVerdicts:
     """(T,) bool, the method of the family ``cull`` drops what faces this way."""
     shared_outcode: Outcodes
     """(T,) uint8, the bits that all corners have, see ``core.geometry.outcodes``."""
+    sight: "NormalView | None" = None
+    """What a method by N . V has seen; ``None``: ``facing`` decides."""
+
+    @property
+    def side(self) -> Floats:
+        """(T,) float64, by which the method drops: positive front, negative back."""
+        return self.facing if self.sight is None else -self.sight.product
 
     @cached_property
     def kept(self) -> Flags:
@@ -53,7 +64,7 @@ class CullVerdicts:
     @cached_property
     def verdict(self) -> Integers:
         """(T,) int64, an index of ``REASONS``; the first that applies of behind, outside, degenerate, facing."""
-        verdict = np.where(self.drops, np.where(self.facing > 0, FRONT_FACING, BACK_FACING), KEPT)
+        verdict = np.where(self.drops, np.where(self.side > 0, FRONT_FACING, BACK_FACING), KEPT)
         verdict[self.facing == 0] = DEGENERATE
         verdict[has_bits(self.shared_outcode, PLANE_BITS)] = OUTSIDE_PLANE
         verdict[has_bits(self.shared_outcode, BEHIND_BIT)] = BEHIND_EYE
@@ -78,7 +89,11 @@ def plane_distances(clip: Floats) -> Floats:
 
 
 def cull(
-    assembled: IndexedPrimitives, outcode: Outcodes, facing: Floats, drops_facing: Callable[[Floats], Flags]
+    assembled: IndexedPrimitives,
+    outcode: Outcodes,
+    facing: Floats,
+    drops_facing: Callable[[Floats], Flags],
+    sight: "NormalView | None" = None,
 ) -> CullVerdicts:
     """Give every triangle its verdict.
 
@@ -89,8 +104,11 @@ def cull(
     facing : (T,) float64, see ``core.raster.edges.edge_functions.orient``
     drops_facing : callable
         The function of a method of the family ``cull``.
+    sight : NormalView, optional
+        What a method by N . V decides by, of the same triangles.
     """
-    return CullVerdicts(assembled, facing, drops_facing(facing), shared_bits(outcode, assembled.corner))
+    drops = drops_facing(facing if sight is None else -sight.product)
+    return CullVerdicts(assembled, facing, drops, shared_bits(outcode, assembled.corner), sight)
 
 
 @method("cull", "none", "Both faces", source="OpenGL 4.6, 14.6.1", exact_for="every scene")

@@ -33,7 +33,7 @@ def cull_link(candidates: PixelCandidates, triangle: int, tests: dict[str, Any] 
     culled = candidates.geometry.culled
     plane = int(culled.plane[triangle])
     values: dict[str, Any] = {
-        "facing": float(culled.facing[triangle]),
+        "facing": float(culled.side[triangle]),
         "plane": PLANES[plane] if plane >= 0 else "none",
         "plane_distances": culled.distances[triangle, :, plane] if plane >= 0 else None,
     }

@@ -107,8 +107,13 @@ def _process(
         window, outcode = place(assembled, scene.size, settings)
         has_area = vertices.corner_count >= 3
         doubled_area = face(assembled, window, scene.size, settings) if has_area else np.ones(triangle_count)
+        sight = None
+        if (look := resolve(settings).look) is not None and vertices.corner_count == 3:
+            from core.geometry.normal_view import eye_triangles  # Only culling by N . V waits for its file.
+
+            sight = look(eye_triangles(vertices, assembled.triangle))
         culled = (
-            cull(assembled, outcode, doubled_area, resolve(settings).drops_facing)
+            cull(assembled, outcode, doubled_area, resolve(settings).drops_facing, sight)
             if vertices.rings is None
             else cull_polygons(vertices, assembled, settings)
         )

@@ -3,18 +3,24 @@
 import numpy as np
 
 from core.geometry.culling import DEGENERATE, KEPT, PLANES, REASONS, cull_verdict
+from core.geometry.normal_view import NormalView, cofactors, face_normals
+from core.methods import table
 from core.raster.edges.snapping import place_corners
+from core.records.arrays import Integers
 from core.records.listing import listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
-KINDS = ("behind", "plane", "degenerate", "facing", "kept")
+KINDS: tuple[str, ...] = ("behind", "plane", "degenerate", "facing", "kept")
+"""What rows may be about; the method decides by what the facing is tested."""
 
 
 def trace_cull(source: TraceSource) -> StageTrace:
     """Return one row for every test: behind the eye, six planes, degenerate, facing; and one for a kept triangle.
+
+    Culling by N . V has rows of its own in place of the facing.
 
     Segments and points have neither area nor facing.
     """
@@ -50,10 +56,19 @@ def trace_cull(source: TraceSource) -> StageTrace:
         "applies": applies[which, test],
         "verdict": np.where(applies[which, test] | (test == 9), verdict[which], "undecided"),
     }
+    kinds, listings = KINDS, dict.fromkeys(KINDS, listing(cull_verdict))
+    method = table.get("cull", source.settings.cull)
+    sight = culled.sight
+    if sight is not None:
+        columns |= _normal_view(sight, which)
+        kinds = tuple(method.name if name == "facing" else name for name in KINDS)
+        assert method.listing is not None
+        listings[method.name] = listing(method.listing)
     steps = Steps(
-        kinds=KINDS,
+        kinds=kinds,
         kind=kind,
-        operations={
+        operations=dict(method.operations)
+        | {
             "behind": (Operation("test", "behind", ("w", "applies")),),
             "plane": (Operation("test", "outside", ("plane", "distances", "applies")),),
             "degenerate": (Operation("test", "degenerate", ("facing", "applies")),),
@@ -70,7 +85,25 @@ def trace_cull(source: TraceSource) -> StageTrace:
         columns=columns,
         triangle=assembled.triangle[which],
         pixel=no_pixels(len(which)),
-        listings=dict.fromkeys(KINDS, listing(cull_verdict)),
+        listings=listings,
         marks={"rejected": applies[which, test], "covered": test == 9},
         extra={"culled": culled},
     )
+
+
+def _normal_view(sight: NormalView, which: Integers) -> dict[str, np.ndarray]:
+    """Return what N . V is made of, for rows (R,) about the triangles ``which``."""
+    eye, count = sight.eye, len(which)
+    stored, _ = face_normals(eye.given)
+    _, determinant = cofactors(eye.carry)
+    return {
+        "eye_corners": eye.corners.transpose(2, 0, 1)[which],
+        "object_corners": eye.given.transpose(2, 0, 1)[which],
+        "carry": eye.carry[which],
+        "stored": stored.T[which],
+        "determinant": determinant[which],
+        "normal": sight.normal[which],
+        "is_parallel": np.full(count, sight.is_parallel),
+        "view": sight.view[which],
+        "product": sight.product[which],
+    }

@@ -92,7 +92,9 @@ def culled(turned: bool) -> tuple[bool, bool]:
     face = (0, 2, 1) if turned else (0, 1, 2)
     a, b, c = positions[list(face)]
     camera = Camera(np.zeros(3), np.array([0.0, 0.0, -1.0]))
-    frame = render(Scene((Mesh(positions, np.array([face])),), camera, (), (8, 6)), Settings(cull="back"))
+    frame = render(
+        Scene((Mesh(positions, np.array([face])),), camera, (), (8, 6)), Settings(cull="back-normal")
+    )
     return bool(np.cross(b - a, c - a) @ a > 0), not frame.cover_count.any()
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from core.scene import Camera, ClipScene, Mesh, Scene
 from lessons.scenes import CATALOGUE, RED_GREEN_BLUE, BuiltInScene
-from lessons.shapes import linear_color
+from lessons.shapes import cube, linear_color
 from lessons.slides.small_scenes import SPLIT_SQUARE, triangles
 from lessons.small_scenes import pixel_segments, segment_scene
 
@@ -36,6 +36,20 @@ def clipped(x0: float, y0: float, x1: float, y1: float) -> Callable[[], ClipScen
         return replace(lying, clip_region=np.array([-0.5, -0.5, 0.5, 0.5]))
 
     return make
+
+
+def two_cubes() -> Scene:
+    """Return two cubes beside the axis of the camera, the right one higher and mirrored."""
+    meshes = []
+    for name, across, up, place in (("cube", 1.0, 1.0, -3.4), ("mirrored cube", -1.0, 1.4, 3.4)):
+        turn = np.radians(15.0)
+        model = np.eye(4)
+        model[:3, :3] = [[np.cos(turn), 0, np.sin(turn)], [0, 1, 0], [-np.sin(turn), 0, np.cos(turn)]]
+        model[:3, :3] = np.diag([across, up, 1.0]) @ model[:3, :3]
+        model[0, 3] = place
+        meshes.append(replace(cube(), transform=model, name=name))
+    camera = Camera(np.array([0.0, 2.0, 5.0]), np.array([0.0, 0.6, 0.0]), field_of_view=np.radians(75.0))
+    return Scene(tuple(meshes), camera, (), (64, 48))
 
 
 def frustum_segments() -> ClipScene:
@@ -114,6 +128,14 @@ LECTURE_SCENES = {
             "The segment (2, 8)-(6, 8) lies above the window; the printed algorithm keeps it.",
             clipped(2, 8, 6, 8),
             line_clipping="cyrus-beck-lecture",
+        ),
+        _scene(
+            "jubair-backfaces",
+            "Back-face culling by N · V",
+            "Two cubes beside the camera's axis. The direction of the camera in place of V loses a side of the left "
+            "one. The right one is mirrored: the determinant keeps its inside, the mesh's own N its outside.",
+            two_cubes,
+            cull="back-normal",
         ),
     ),
     "LMU": (

@@ -38,6 +38,7 @@ FAILING_CELLS = [
     ("incremental-drift", "coverage=float32 fill=incremental", (128.0, 1.3)),
     ("line-drift", "line=dda-float32", (4096.0, 0.7)),
     ("inverse-slopes", "fill=scanline-lecture", (44.0, 11.0)),
+    ("facing-off-axis", "cull=back-axis", (30.0, 20.0)),
     ("signs-of-w", "clipping=project-first", (-1.75, 1.25)),
     ("signs-of-w", "clipping=after-divide", (-1.75, 1.25)),
     ("clip-after-divide", "clipping=project-first", (2.0**-60, -1.0)),

@@ -46,7 +46,7 @@ def plane(step: StepValues) -> Said:
     return text, all_of(compared, *_dropped(step))
 
 
-def _area(step: StepValues) -> tuple[str, str]:
+def decisive_area(step: StepValues) -> tuple[str, str]:
     """Return what decides the facing, and its symbol: the area, or the determinant where a w is not above 0."""
     has_area = all(value > 0 for value in step.vector("w"))
     if step.has("is_projected"):
@@ -57,7 +57,7 @@ def _area(step: StepValues) -> tuple[str, str]:
 @explains("cull.degenerate.test")
 def degenerate(step: StepValues) -> Said:
     """Whether the triangle has an area."""
-    (name, symbol), value = _area(step), step.number("facing")
+    (name, symbol), value = decisive_area(step), step.number("facing")
     text = f"is not degenerate: {name} is {spoken(value)}, not 0."
     if step.flag("applies"):
         text = f"is degenerate and dropped: {name} is 0."
@@ -68,7 +68,7 @@ def degenerate(step: StepValues) -> Said:
 @explains("cull.facing.test")
 def facing(step: StepValues) -> Said:
     """Which side the eye sees, and whether the setting drops that side."""
-    (name, symbol), value = _area(step), step.number("facing")
+    (name, symbol), value = decisive_area(step), step.number("facing")
     side, sign = ("front", "above") if value > 0 else ("back", "below")
     verdict, does = ("culled", "drops") if step.flag("applies") else ("kept", "keeps")
     text = (
@@ -91,7 +91,7 @@ shows(
         "plane": VariableText("plane", "Plane of the view volume."),
         "distances": VariableText("d#", "Signed distance of the corner: below 0 is outside.", spread="edges"),
         "facing": VariableText(
-            lambda step: _area(step)[1],
+            lambda step: decisive_area(step)[1],
             "Twice the signed area 2A, or the determinant D: above 0 is the front.",
         ),
         "applies": VariableText("applies", "Whether the test drops the triangle."),

@@ -250,3 +250,8 @@ def test_numbers_that_wrap_around_are_congruent_not_equal(fill: str) -> None:
                 assert statement.holds(), (explanation.key, made)
                 signs.update(statement.relations)
     assert signs[r"\equiv"]
+
+
+def test_the_logarithm_of_0_is_minus_infinity() -> None:
+    (found,) = statements([r"-\infty", "=", r"\log_{{2}} \max(0, 0)"])
+    assert found.holds()

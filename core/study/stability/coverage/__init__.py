@@ -3,6 +3,7 @@
 from core.study.stability.coverage import (
     clipping,
     drift,
+    facing,
     inverse_slopes,
     line_clippers,
     meshes,
@@ -17,6 +18,7 @@ COVERAGE_EXPERIMENTS: tuple[Experiment, ...] = (
     *meshes.EXPERIMENTS,
     *drift.EXPERIMENTS,
     *inverse_slopes.EXPERIMENTS,
+    *facing.EXPERIMENTS,
     *clipping.EXPERIMENTS,
     *line_clippers.EXPERIMENTS,
 )

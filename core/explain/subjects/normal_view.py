@@ -1,0 +1,110 @@
+"""Culling by N . V: the face normal, the vector to the face, their product."""
+
+from core.explain.digits import signed_latex, spoken, vector_text
+from core.explain.equation import Part, comparison, conclusion, equation, vector_latex
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.subjects.culling import decisive_area
+from core.explain.variable_text import VariableText, shows
+
+
+def _sides(step: StepValues, corners: str) -> tuple[list[float], list[float]]:
+    """Return the sides from corner 0 to corners 1 and 2."""
+    a, b, c = step.rows(corners)
+    return [y - x for x, y in zip(a, b, strict=True)], [y - x for x, y in zip(a, c, strict=True)]
+
+
+def _cross(name: str, value: list[float], sides: tuple[list[float], list[float]], point: str) -> list[Part]:
+    first, second = ((f"({point}_{k} - {point}_0)", vector_latex(sides[k - 1])) for k in (1, 2))
+    return [(name, vector_latex(value)), "=", first, r"\times", second]
+
+
+@explains("cull.back-normal|back-axis.normal")
+def normal(step: StepValues) -> Said:
+    """The cross product of two sides in camera space."""
+    value = step.vector("normal")
+    text = (
+        f"Triangle {step.triangle}: its normal is N = {vector_text(value)}, the cross product of two of its sides in "
+        "camera space, on the side from which the corners run counter-clockwise."
+    )
+    return text, equation(*_cross("N", value, _sides(step, "eye_corners"), "p"))
+
+
+@explains("cull.back-stored-normal.stored")
+def stored(step: StepValues) -> Said:
+    """The same in object space, before anything is transformed."""
+    value = step.vector("stored")
+    text = f"Triangle {step.triangle}: its normal in object space is n = {vector_text(value)}, as the mesh may keep it."
+    return text, equation(*_cross("n", value, _sides(step, "object_corners"), "o"))
+
+
+@explains("cull.back-stored-normal.carried")
+def carried(step: StepValues) -> Said:
+    """Normals are carried by the inverse transpose; a mirror leaves them where they point."""
+    value, determinant = step.vector("normal"), step.number("determinant")
+    name = f"Triangle {step.triangle}"
+    text = (
+        f"{name}: the inverse transpose of the matrix to camera space carries it to N = {vector_text(value)}"
+    )
+    if determinant < 0:
+        text += "; this matrix mirrors, which turns the corners around but not this normal"
+    elif determinant == 0:
+        text += ", since it has no inverse"
+    made = equation(("N", vector_latex(value)), "=", r"A^{-T}", ("n", vector_latex(step.vector("stored"))))
+    return f"{text}.", made
+
+
+@explains("cull.back-normal|back-axis|back-stored-normal.view")
+def view(step: StepValues) -> Said:
+    """From the eye to the face, or the direction of the camera."""
+    value = step.vector("view")
+    if step.flag("is_parallel"):
+        rest = (
+            "for every face" if step.kind == "back-axis" else "as rays of an orthographic camera are parallel"
+        )
+        text = f"Triangle {step.triangle}: V = {vector_text(value)} is the direction of the camera, {rest}."
+        return text, equation(("V", vector_latex(value)))
+    text = f"Triangle {step.triangle}: V = {vector_text(value)} leads from the eye, at 0, to corner 0."
+    return text, equation(("V", vector_latex(value)), "=", ("p_0", vector_latex(step.rows("eye_corners")[0])))
+
+
+@explains("cull.back-normal|back-axis|back-stored-normal.product")
+def product(step: StepValues) -> Said:
+    """The sum of three products."""
+    value = step.number("product")
+    n, v = step.vector("normal"), step.vector("view")
+    side = "along V" if value > 0 else "against V" if value < 0 else "at a right angle to V"
+    made: list[Part] = [(r"N \cdot V", value), "="]
+    for k, axis in enumerate("xyz"):
+        made += ["+"] if k else []
+        made.append((rf"N_{axis} V_{axis}", rf"{signed_latex(n[k])} \cdot {signed_latex(v[k])}"))
+    return f"Triangle {step.triangle}: N · V is {spoken(value)}, so N points {side}.", equation(*made)
+
+
+@explains("cull.back-normal|back-axis|back-stored-normal.test")
+def turned_away(step: StepValues) -> Said:
+    """Above 0 is turned away; the determinant may say otherwise."""
+    value, facing = step.number("product"), step.number("facing")
+    verdict, sign = ("culled", "above 0") if step.flag("applies") else ("kept", "below 0")
+    side = "its back faces the eye" if value > 0 else "its front faces the eye"
+    if value == 0:
+        sign, side = "not above 0", "the eye sees its edge"
+    text = f"Triangle {step.triangle} is {verdict}: N · V is {spoken(value)}, {sign}, so {side}"
+    if value * facing > 0:
+        text += f"; {decisive_area(step)[0]}, {spoken(facing)}, says the other side"
+    side = "back" if value > 0 else "front"
+    return f"{text}.", equation(*comparison(r"N \cdot V", ">", value), *conclusion("back", side))
+
+
+shows(
+    "cull",
+    {
+        "stored": VariableText("n", "Normal of the face in object space."),
+        "determinant": VariableText(
+            "det A", "Determinant of A, the matrix to camera space: below 0 it mirrors."
+        ),
+        "normal": VariableText("N", "Normal of the face in camera space."),
+        "view": VariableText("V", "From the eye to the face, or the direction of the camera."),
+        "product": VariableText("N · V", "Above 0: the face is turned away."),
+    },
+)
