@@ -11,6 +11,7 @@ from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
+from time import monotonic, sleep
 from typing import Any
 
 from lessons.attempts.record import VERSION, Attempt
@@ -20,6 +21,8 @@ APPLICATION = 0x52415354
 """The application of the file's header: RAST."""
 SECONDS_TO_WAIT = 10.0
 """For another window that is writing."""
+PAUSE = 0.005
+"""Seconds between two looks whether it has ended."""
 TABLE = """CREATE TABLE attempts (
     user TEXT NOT NULL,
     at TEXT NOT NULL,
@@ -195,7 +198,7 @@ class AttemptFile:
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
             with self._connected(lock, "rwc") as connection:
-                connection.execute("BEGIN EXCLUSIVE")
+                _lock(connection)
                 yield
         except AttemptFileError:
             raise
@@ -235,6 +238,21 @@ class AttemptFile:
                 raise DamagedFileError(f"{self.path} is damaged: {problem}") from problem
             reason = _REASONS.get(code, str(problem))
             raise AttemptFileError(f"{self.path} cannot be read or written: {reason}") from problem
+
+
+def _lock(connection: sqlite3.Connection) -> None:
+    """Take the lock, asking often: SQLite's own waiting sleeps longer and longer, and finds no gap for seconds."""
+    connection.execute("PRAGMA busy_timeout = 0")
+    end = monotonic() + SECONDS_TO_WAIT
+    while True:
+        try:
+            connection.execute("BEGIN EXCLUSIVE")
+        except sqlite3.OperationalError as problem:
+            if problem.sqlite_errorcode & 0xFF != sqlite3.SQLITE_BUSY or monotonic() > end:
+                raise
+            sleep(PAUSE)
+        else:
+            return
 
 
 def _row_of_attempt(attempt: Attempt) -> tuple[Any, ...]:
