@@ -16,6 +16,7 @@ from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Question, ask, judge
 from lessons.exercises.selftest import check_template
 from lessons.exercises.toml_file import TomlFile
+from lessons.mistakes.shelf import SHELF
 
 DESCRIPTION = """Ask a question by its seed, check an answer, or check an exercise that a teacher wrote."""
 EXAMPLES = """examples:
@@ -55,8 +56,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         one.add_argument("name", metavar="NAME", help="an exercise of the list, or a .toml file")
         one.add_argument("--seed", metavar="N", type=seed_of_text, default=0, help="seed of the question (0)")
     show.add_argument("--hints", action="store_true", help="print the hints, too")
+    show.add_argument(
+        "--answers", action="store_true", help="print the right answer and those of the mistakes, too"
+    )
     check.add_argument("answer", metavar="ANSWER.toml", help="a file with answer = ...")
     check.add_argument("--user", metavar="NAME", help="keep the attempt under this name")
+    parsers.add_parser("mistakes", help="list the mistakes that a file may name", allow_abbrev=False)
     validate = parsers.add_parser("validate", help="check an exercise file", allow_abbrev=False)
     validate.add_argument("path", metavar="PATH", help="a .toml file")
     selftest = parsers.add_parser("selftest", help="check all exercises", allow_abbrev=False)
@@ -75,12 +80,8 @@ def seed_of_text(text: str) -> int:
 
 def run(options: argparse.Namespace) -> int:
     """Do what the action asks."""
-    if options.action == "list":
-        for template in known_templates().values():
-            print(f"{template.name:<23} {template.stage:<13}{template.title}")
-        return 0
-    if options.action == "coverage":
-        print("\n".join(coverage_lines()))
+    if options.action in LISTS:
+        print("\n".join(LISTS[options.action]()))
         return 0
     if options.action == "folders":
         return exercise_folders.run(options)
@@ -100,8 +101,24 @@ def run(options: argparse.Namespace) -> int:
     question = ask(template_named(name, TEMPLATES if is_known else known_templates()), options.seed)
     if options.action == "show":
         print("\n".join(shown_question(question, options.hints)))
+        if options.answers:
+            print("\n".join(shown_answers(question)))
         return 0
     return _check(question, Path(options.answer), options.user)
+
+
+def listed_templates() -> list[str]:
+    """Return a line for each exercise."""
+    return [f"{each.name:<23} {each.stage:<13}{each.title}" for each in known_templates().values()]
+
+
+def listed_mistakes() -> list[str]:
+    """Return a line for each mistake that a file may name."""
+    return [f"{twin.name:<23} {twin.sentence}" for twin in SHELF.values()]
+
+
+LISTS = {"list": listed_templates, "mistakes": listed_mistakes, "coverage": coverage_lines}
+"""Actions that only print."""
 
 
 def points_text(points: int) -> str:
@@ -119,6 +136,15 @@ def shown_question(question: Question, has_hints: bool) -> list[str]:
     if has_hints:
         count = len(draft.hints)
         lines += [f"Hint {number} of {count}: {hint}" for number, hint in enumerate(draft.hints, 1)]
+    return lines
+
+
+def shown_answers(question: Question) -> list[str]:
+    """Return the right answer and those of the mistakes as lines of text."""
+    draft = question.draft
+    lines = ["", "Right answer:", draft.answer.text(draft.answer.reference)]
+    for name, response in draft.mistakes.items():
+        lines += ["", f"{name}:", draft.answer.text(response)]
     return lines
 
 

@@ -24,6 +24,12 @@ def test_exercises_are_listed_shown_and_checked(tmp_path: Path) -> None:
     assert shown.stdout.startswith("Pixels of a triangle (triangle-coverage 1, seed 7)\n\n")
     assert all(text in shown.stdout for text in (draft.given, draft.answer.credit, "Hint 3 of 3: "))
 
+    answers = run_program("exercise", "show", "triangle-coverage", "--seed", "7", "--answers").stdout
+    assert f"Right answer:\n{draft.answer.text(draft.answer.reference)}\n" in answers
+    assert all(f"\n{name}:\n{draft.answer.text(one)}" in answers for name, one in draft.mistakes.items())
+    mistakes = run_program("exercise", "mistakes").stdout.splitlines()
+    assert [line.split()[0] for line in mistakes] == list(SHELF)
+
     wrong = draft.mistakes["all-edges-exclusive"]
     path = answered(tmp_path, f"answer = '''\n{draft.answer.text(wrong)}\n'''\n")
     checked = run_program("exercise", "check", "triangle-coverage", "--seed", "7", path)

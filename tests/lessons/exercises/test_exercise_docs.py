@@ -3,22 +3,31 @@
 import re
 from pathlib import Path
 
-from lessons.exercises.answers.pixels import PixelAnswer
-from lessons.exercises.exercise_file import read_exercise
-from lessons.exercises.question import ask, judge
-from lessons.exercises.toml_file import TomlFile
+import pytest
+
+from lessons.mistakes.shelf import SHELF
+from tests.app.cli.cli_runs import run_program
 
 PAGE = Path(__file__).parents[3] / "docs" / "exercises.md"
 
 
-def test_the_first_exercise_of_the_page_works(tmp_path: Path) -> None:
-    exercise, answer = re.findall(r"```toml\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
-    (tmp_path / "triangle.toml").write_text(exercise, encoding="utf-8")
-    (tmp_path / "answer.toml").write_text(answer, encoding="utf-8")
-    question = ask(read_exercise(tmp_path / "triangle.toml"), 4)
-    given = TomlFile(tmp_path / "answer.toml").values["answer"]
-    assert isinstance(question.draft.answer, PixelAnswer)
-    judgement = judge(question, question.draft.answer.read(given))
-    assert judgement.mistakes == ("all-edges-inclusive",), question.draft.answer.text(
-        question.draft.answer.reference
+def test_the_first_exercise_of_the_page_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path))
+    text = PAGE.read_text(encoding="utf-8").split("## What a file holds")[0]
+    exercise, answer = re.findall(r"```toml\n(.*?)```", text, re.DOTALL)
+    folder = Path(run_program("exercise", "folders").stdout.strip())
+    folder.mkdir()
+    (folder / "triangle.toml").write_text(exercise, encoding="utf-8")
+    (folder / "../answer.toml").write_text(answer, encoding="utf-8")
+    said = {}
+    for command in re.findall(r"^ +rasterscope (.*)$", text, re.MULTILINE):
+        done = run_program(*command.split(), cwd=folder)
+        assert (done.returncode, done.stderr) == (0, ""), command
+        said[command.split()[1]] = done.stdout
+    assert list(said) == ["validate", "show", "check"]
+    assert said["validate"].startswith("triangle.toml: valid: ")
+    assert "(triangle 1, seed 4)" in said["show"]
+    assert all(
+        part in said["show"] for part in ("Right answer:", "corner-for-center:", "all-edges-inclusive:")
     )
+    assert SHELF["all-edges-inclusive"].sentence in said["check"]
