@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QApplication
 
 from app.cli.commands import UsageError
 from app.pages.compare.page import ComparePage
+from app.pages.exercises.catalogue_presenter import FIRST_COURSE
 from app.pages.exercises.page import ExercisesPage
 from app.pages.page_bar import Page
 from app.pages.plan.page import PlanPage
@@ -123,7 +124,7 @@ def _show_result(page: ResultPage, content: PageContent) -> None:
 def _ask(page: ExercisesPage, content: PageContent) -> None:
     """Ask the requested exercise, and check the answer that a mistake gives."""
     templates = page.exercises.templates
-    name = _known("exercise", content.name or next(iter(templates)), list(templates))
+    name = _known("exercise", content.name or FIRST_COURSE[0], list(templates))
     page.settle()
     page.questions.open(templates[name], PICTURE_SEED)
     page.settle()

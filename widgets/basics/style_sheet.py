@@ -20,6 +20,9 @@ QToolButton[flat="true"], QPushButton[flat="true"] { background: transparent; bo
 QPushButton:hover, QComboBox:hover, QToolButton:hover,
 QToolButton[flat="true"]:hover, QPushButton[flat="true"]:hover { background: $selection; }
 QPushButton:pressed, QToolButton:pressed { background: $outline; }
+QPushButton[role="primary"] { background: $text; color: $panel; border-color: $text; }
+QPushButton[role="primary"]:hover { background: $muted_text; }
+QPushButton[role="primary"]:focus { background: $selection; color: $text; }
 QPushButton:checked, QToolButton:checked, QToolButton[flat="true"]:checked {
     background: $selection; color: $text; border-color: $text;
 }
@@ -131,8 +134,8 @@ QWidget[role="kept"] { background: $raised; border-left: ${u}px solid $text; }
 def style_sheet(theme: Theme) -> str:
     """Return the application's style sheet for ``theme``.
 
-    Labels may set the property ``role`` to muted, title, strong, good or bad, containers to panel or kept, and buttons
-    ``flat`` to true.
+    Labels may set the property ``role`` to muted, title, strong, good or bad, containers to panel or kept, the one main
+    button of a page to primary, and buttons ``flat`` to true.
     """
     unit = theme.unit
     names = (

@@ -16,7 +16,8 @@ WIDEST = 240
 """Pixels of a field that stands alone in its row."""
 MOST_STOPS = 12
 """Fields that Tab stops at one by one; of more it stops at one, and the arrows go on."""
-_UPRIGHT = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1, Qt.Key.Key_Return: 1, Qt.Key.Key_Enter: 1}
+_RETURN = Qt.Key.Key_Return, Qt.Key.Key_Enter
+_UPRIGHT = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1, **dict.fromkeys(_RETURN, 1)}
 
 
 class EntryGrid(QWidget):
@@ -63,7 +64,10 @@ class EntryGrid(QWidget):
                 self._fields[row, column], self._marks[row, column] = field, mark
                 layout.addWidget(field, 1 + row, 1 + 2 * column)
                 layout.addWidget(mark, 1 + row, 2 + 2 * column)
-        layout.setColumnStretch(1 + 2 * len(columns), 1)
+        self._notes = [text_label("", self, role="muted") for _ in labels]
+        for row, note in enumerate(self._notes):
+            layout.addWidget(note, 1 + row, 1 + 2 * len(columns))
+        layout.setColumnStretch(1 + 2 * len(columns), 4 if len(columns) == 1 else 1)
         open_fields = [field for field in self._fields.values() if not field.isReadOnly()]
         if len(open_fields) > MOST_STOPS:
             self._group = ArrowGroup(open_fields, self, is_upright=True)
@@ -91,6 +95,10 @@ class EntryGrid(QWidget):
         word = {True: "right", False: "wrong", None: ""}[is_right]
         self._fields[row, column].setAccessibleDescription(word)
 
+    def show_note(self, row: int, text: str) -> None:
+        """Write behind a row how it is understood."""
+        self._notes[row].setText(text)
+
     def set_open(self, is_open: bool) -> None:
         """Take text, or only show it."""
         for field in self._fields.values():
@@ -113,10 +121,10 @@ class EntryGrid(QWidget):
         if event.type() == QEvent.Type.ShortcutOverride:
             event.accept()
             return True
-        if event.type() == QEvent.Type.KeyPress:
-            self._go(self._cell(watched), move)
-            return True
-        return False
+        # Return in the last field is not this grid's: it checks the answer.
+        return event.type() == QEvent.Type.KeyPress and (
+            self._go(self._cell(watched), move) or event.key() not in _RETURN
+        )
 
     def _cell(self, watched: QObject | None) -> Cell:
         return next(cell for cell, field in self._fields.items() if field is watched)
@@ -133,14 +141,16 @@ class EntryGrid(QWidget):
             return 0, 1
         return None
 
-    def _go(self, cell: Cell, move: Cell) -> None:
-        """Go to a neighbour; from the last row down to the next column's first."""
+    def _go(self, cell: Cell, move: Cell) -> bool:
+        """Go to a neighbour, from the last row down to the next column's first; return whether there is one."""
         row, column = cell[0] + move[0], cell[1] + move[1]
         if row >= self._shape[0]:
             row, column = 0, column + 1
         there = self._fields.get((row, column))
-        if there is not None and there.focusPolicy() != Qt.FocusPolicy.NoFocus:
+        has_neighbour = there is not None and there.focusPolicy() != Qt.FocusPolicy.NoFocus
+        if there is not None and has_neighbour:
             give_focus(there)
+        return has_neighbour
 
     @Slot()
     def _edited(self) -> None:

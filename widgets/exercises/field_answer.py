@@ -34,6 +34,7 @@ class FieldAnswerView(AnswerView):
         for row in range(len(self._form.labels)):
             for column in range(len(self._form.columns)):
                 self.fields.show_text(row, column, given[row][column] if given else "")
+            self._note(row)
 
     def show_marks(self, marks: AnswerMarks | None) -> None:
         """Mark every field."""
@@ -52,9 +53,18 @@ class FieldAnswerView(AnswerView):
         self._tell(row, column)
         self.answer_changed.emit()
 
+    def _note(self, row: int) -> None:
+        """Write behind a single field what a fraction or a root in it comes to."""
+        if len(self._form.columns) > 1:
+            return
+        text = self.fields.text(row, 0).strip()
+        found = self._form.understand(0, text) if set(text) & set("/*(") else None
+        self.fields.show_note(row, f"= {found.text}" if found is not None and found.is_readable else "")
+
     @Slot(int, int)
     def _tell(self, row: int, column: int) -> None:
         """Say how the text of a field is understood."""
+        self._note(row)
         text = self.fields.text(row, column)
         if not text.strip():
             self.note_changed.emit("")

@@ -4,7 +4,7 @@ import re
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtGui import QFontDatabase
+from PySide6.QtGui import QFont, QFontDatabase
 from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QScrollArea, QSizePolicy, QWidget
 
 from widgets.basics.accessible import announce
@@ -18,6 +18,7 @@ from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.records import AnswerForm, Feedback, QuestionRecord
 
+MODEL_TIP = "Show the right answer; before a check this ends the variant without points (Ctrl+M)"
 _ART = re.compile(r"^[.#?A-Z]{4,}$", re.MULTILINE)
 WIDEST = 720
 """Pixels of a line of text at a size of 13: longer ones are hard to read."""
@@ -60,14 +61,18 @@ class QuestionView(QWidget):
         )
         self.note = text_label("", self, role="muted", wraps=True)
         self.hints = text_label("", self, wraps=True, is_selectable=True, name="Hints")
-        self.check_button = self._button("Check", "Check the answer (Ctrl+Return)")
+        self.check_button = self._button("Check", "Check the answer (Return)")
+        self.check_button.setProperty("role", "primary")
         self.hint_button = self._button("Hint", "Show the next hint (Ctrl+H)")
         self.variant_button = self._button("New variant", "Ask the same with other numbers (Ctrl+N)")
         self.again_button = self._button("Start again", "Empty the answer: the same question again (Ctrl+R)")
         self.twin_button = self._button(
             "Show that run", "Step the right run beside the one with this mistake (Ctrl+D)"
         )
-        self.model_button = self._button("Model answer", "Show the right answer, and step it (Ctrl+M)")
+        self.model_button = self._button(
+            "Model answer",
+            "Show the right answer; before a check this ends the variant without points (Ctrl+M)",
+        )
         self._icon = QLabel(self)
         self.verdict = text_label("", self, wraps=True, name="Verdict")
         self._arrange()
@@ -112,6 +117,7 @@ class QuestionView(QWidget):
         self.scroll_area.setFrameShape(QFrame.Shape.NoFrame)
         self.scroll_area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.scroll_area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.scroll_area.setAlignment(Qt.AlignmentFlag.AlignHCenter)
         self.scroll_area.setWidget(self._content)
         self._result = QWidget(self)
         self._result.setProperty("role", "panel")
@@ -129,10 +135,17 @@ class QuestionView(QWidget):
             self.again_button,
         ):
             buttons.addWidget(button)
+        self._foot = QWidget(self)
+        foot = column_layout(self._foot, 8, margins=(4, 0, 4, 0))
+        foot.addWidget(self._result)
+        foot.addLayout(buttons)
+        middle = row_layout()
+        middle.addStretch(1)
+        middle.addWidget(self._foot, 1000)
+        middle.addStretch(1)
         page = column_layout(self, 8)
         page.addWidget(self.scroll_area, 1)
-        page.addWidget(self._result)
-        page.addLayout(buttons)
+        page.addLayout(middle)
         self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Expanding)
 
     # What is shown.
@@ -212,14 +225,15 @@ class QuestionView(QWidget):
     @Slot()
     def _follow_theme(self) -> None:
         theme = current_theme()
-        self._content.setMaximumWidth(WIDEST * theme.text_px // 13)
+        for part in (self._content, self._foot):
+            part.setMaximumWidth(WIDEST * theme.text_px // 13)
         set_role(self.given, "" if self._has_art else "strong")
         if self._has_art:
             font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
             font.setPixelSize(theme.code_px)
             self.given.setFont(font)
         else:
-            self.given.setFont(self.text.font())
+            self.given.setFont(QFont())
         if self._feedback is not None:
             mark = Mark.RIGHT if self._feedback.is_right else Mark.WRONG
             self._icon.setPixmap(mark_pixmap(mark, theme.text_px + 4, self.devicePixelRatioF()))

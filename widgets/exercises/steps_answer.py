@@ -2,8 +2,8 @@
 
 from typing import Any
 
-from PySide6.QtCore import QSize, Signal, Slot
-from PySide6.QtGui import QIcon
+from PySide6.QtCore import QSize, Qt, Signal, Slot
+from PySide6.QtGui import QIcon, QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QListWidget, QPushButton, QSizePolicy, QWidget
 
 from widgets.basics.accessible import announce
@@ -99,6 +99,11 @@ class StepsAnswerView(AnswerView):
         """Leave the picture to the next form."""
         self._grid.pixels_painted.disconnect(self._pointed)
         self._grid.set_paintable(False)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Keep Return: in the field it tries the step, and does not check the whole answer."""
+        if event.key() not in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            super().keyPressEvent(event)
 
     @Slot()
     def _try_text(self) -> None:

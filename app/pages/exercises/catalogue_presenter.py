@@ -1,12 +1,14 @@
 """Fills the catalogue: the exercises of every stage, how far the learner is, and what to try next."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from datetime import UTC, datetime
 
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job, Progress
 from app.cli.attempts import attempt_file
+from app.files.exercise_folders import all_templates
 from app.pages.exercises.unfinished import UnfinishedFile
 from core import STAGES
 from core.records.words import counted
@@ -19,6 +21,28 @@ from widgets.exercises.catalogue import Catalogue
 from widgets.exercises.records import ExerciseEntry, ExerciseGroup, Standing
 
 Attempts = tuple[Attempt, ...]
+FIRST_COURSE = (
+    "triangle-coverage",
+    "bresenham-pixels",
+    "facing",
+    "clip-ends",
+    "edge-values",
+    "barycentric-weights",
+    "depth-test-steps",
+    "blend-over",
+    "wrong-picture",
+)
+"""What somebody new is asked first, one or two of each stage, those on the picture before those by numbers."""
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """What there is when the page begins."""
+
+    templates: dict[str, Template]
+    attempts: Attempts
+    trouble: str
+    """What to tell of it, in sentences."""
 
 
 class CataloguePresenter(QObject):
@@ -27,6 +51,8 @@ class CataloguePresenter(QObject):
     question_chosen = Signal(object, object)
     """A `Template`, and the seed of its question or ``None``."""
     refused = Signal(str)
+    found = Signal()
+    """All exercises are known now, also those of teachers."""
 
     def __init__(self, view: Catalogue, unfinished: UnfinishedFile, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -38,7 +64,7 @@ class CataloguePresenter(QObject):
         self._choice: Choice | None = None
         self._current = ""
         self._reading, self._choosing = Job(self), Job(self)
-        self._reading.succeeded.connect(self._take_attempts)
+        self._reading.succeeded.connect(self._take_found)
         self._reading.failed.connect(self._refuse)
         self._choosing.succeeded.connect(self._take_choice)
         self._choosing.failed.connect(self._refuse)
@@ -52,12 +78,14 @@ class CataloguePresenter(QObject):
         return self._reading.is_running or self._choosing.is_running
 
     def begin(self) -> None:
-        """Read what the learner has answered so far."""
+        """Read the exercises of teachers' folders, and what the learner has answered so far."""
 
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> tuple[Attempts, str]:
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Found:
+            templates, skipped = all_templates()
             file = attempt_file()
-            trouble = file.check()
-            return file.attempts(user), trouble
+            trouble = [f"Skipped: {sentence}." for sentence in skipped]
+            trouble += filter(None, [file.check()])
+            return Found(templates, file.attempts(user), " ".join(trouble))
 
         user = self.user
         self._reading.start(work)
@@ -69,11 +97,12 @@ class CataloguePresenter(QObject):
         self._choosing.shut_down()
 
     @Slot(object)
-    def _take_attempts(self, found: tuple[Attempts, str]) -> None:
-        self._attempts, trouble = found
-        if trouble:
-            self.refused.emit(trouble)
+    def _take_found(self, found: Found) -> None:
+        self.templates, self._attempts = found.templates, found.attempts
+        if found.trouble:
+            self.refused.emit(found.trouble)
         self._choose()
+        self.found.emit()
 
     @Slot(object)
     def take_attempt(self, attempt: Attempt) -> None:
@@ -83,7 +112,8 @@ class CataloguePresenter(QObject):
 
     def _choose(self) -> None:
         """Choose what to try next."""
-        attempts, templates, user = self._attempts, self.templates, self.user
+        attempts, user = self._attempts, self.user
+        templates = {name: self.templates[name] for name in dict.fromkeys((*FIRST_COURSE, *self.templates))}
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Choice | None:
             return next_question(attempts, templates, user, datetime.now(UTC))
@@ -162,15 +192,23 @@ class CataloguePresenter(QObject):
                 return Standing.MISSED
             return Standing.BEGUN if name in begun and begun[name].given else Standing.NEW
 
-        groups = []
-        for stage in STAGES:
-            entries = tuple(
-                ExerciseEntry(each.name, each.title, counted(each.points, "point"), standing(each.name))
-                for each in self.templates.values()
-                if each.stage == stage
+        def group(name: str, title: str, templates: Iterable[Template]) -> ExerciseGroup:
+            return ExerciseGroup(
+                name,
+                title,
+                tuple(
+                    ExerciseEntry(each.name, each.title, counted(each.points, "point"), standing(each.name))
+                    for each in templates
+                ),
             )
-            if entries:
-                groups.append(ExerciseGroup(stage, stage_of(stage).short_title, entries))
+
+        shipped = [each for each in self.templates.values() if each.name in TEMPLATES]
+        groups = [
+            group(stage, stage_of(stage).short_title, (each for each in shipped if each.stage == stage))
+            for stage in STAGES
+        ]
+        own = [each for each in self.templates.values() if each.name not in TEMPLATES]
+        groups = [each for each in (*groups, group("own", "Own exercises", own)) if each.entries]
         choice = self._choice
         to_try = "" if choice is None else f"{choice.question.template.title}. {choice.reason}"
         self._view.show_exercises(groups, self._current, to_try)

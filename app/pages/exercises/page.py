@@ -3,10 +3,10 @@
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
-from PySide6.QtGui import QResizeEvent
-from PySide6.QtWidgets import QSplitter, QWidget
+from PySide6.QtGui import QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QPushButton, QSplitter, QWidget
 
-from app.pages.exercises.catalogue_presenter import CataloguePresenter
+from app.pages.exercises.catalogue_presenter import FIRST_COURSE, CataloguePresenter
 from app.pages.exercises.question_presenter import QuestionPresenter
 from app.pages.exercises.unfinished import UnfinishedFile
 from app.pages.page_bar import Caption, Handlers, Page
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
     from lessons.exercises.question import Question
 
 
+CATALOGUE_WIDTH = 292
+"""Pixels of the catalogue at the usual size of the type: the longest title is read whole."""
 ROOM = 75
 """Width of the page, in sizes of the text, from which the catalogue stands beside question and picture."""
 
@@ -46,6 +48,7 @@ class ExercisesPage(Page):
             self.panes.setStretchFactor(self.panes.count() - 1, stretch)
         self.panes.setSizes([400, 600])
         self.columns = SideColumns(self.catalogue, self.panes, self)
+        self.columns.setSizes([CATALOGUE_WIDTH, 1000])
         layout = column_layout(self, margins=(8, 4, 8, 8))
         layout.addWidget(self.columns)
         self._wants_catalogue: bool | None = None
@@ -66,16 +69,33 @@ class ExercisesPage(Page):
         trouble = self.unfinished.read()
         if trouble:
             self.edit_refused.emit(trouble)
+        self.exercises.found.connect(self._open_last)
         self.exercises.begin()
-        templates = self.exercises.templates
-        last = self.unfinished.answers.current
-        self.questions.open(templates.get(last) or next(iter(templates.values())))
+        if self.unfinished.answers.current in ("", *self.exercises.templates):
+            self._open_last()
+
+    @Slot()
+    def _open_last(self) -> None:
+        """Show the exercise that was open last, or else the first: a teacher's once the folders are read."""
+        if self.question is None and not self.questions.is_working:
+            templates = self.exercises.templates
+            self.questions.open(templates.get(self.unfinished.answers.current) or templates[FIRST_COURSE[0]])
 
     @Slot(object, object)
     def _open(self, template: Template, seed: int | None) -> None:
         self._wants_catalogue = None
         self._make_room()
         self.questions.open(template, seed)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Press a button with Return; elsewhere Return checks the answer."""
+        focused = self.focusWidget()
+        if event.key() not in (Qt.Key.Key_Return, Qt.Key.Key_Enter) or event.modifiers():
+            super().keyPressEvent(event)
+        elif isinstance(focused, QPushButton):
+            focused.click()
+        elif focused is not None and self.panes.isAncestorOf(focused):
+            self.questions.check()
 
     @property
     def question(self) -> "Question | None":

@@ -54,7 +54,7 @@ class QuestionPresenter(QObject):
         self._checked: Checked | None = None
         """What the last check found; ``None``: nothing was checked since the question was asked."""
         self._hints = 0
-        self._is_shown = self._is_sure = False
+        self._has_answer = self._is_shown = self._is_sure = False
         self._begun = monotonic()
         self._jobs = JobGroup(self)
         self._asking, self._checking, self._drawing = (self._jobs.add_job() for _ in range(3))
@@ -114,7 +114,7 @@ class QuestionPresenter(QObject):
         kept = self._unfinished.answers.answers.get(template.name)
         if kept is None or (kept.version, kept.seed) != (template.version, question.seed):
             kept = Unfinished(version=template.version, seed=question.seed)
-        self._checked, self._is_sure = None, False
+        self._checked, self._is_sure, self._has_answer = None, False, kept.given is not None
         self._hints, self._is_shown = min(kept.hints, len(draft.hints)), kept.is_shown
         self._begun = monotonic()
         kind = KINDS[draft.answer.kind]
@@ -155,6 +155,8 @@ class QuestionPresenter(QObject):
     @Slot()
     def _change(self) -> None:
         """Keep the answer at once; what was found of an earlier one holds no longer."""
+        self._has_answer = True
+        self._checking.cancel()  # It is about an earlier answer.
         if self._checked is not None:
             assert self._view.answer is not None
             self._view.answer.show_marks(None)
@@ -189,7 +191,7 @@ class QuestionPresenter(QObject):
             now: dict[str, Any] = {
                 "version": template.version,
                 "seed": self.question.seed,
-                "given": self._view.answer.given(),
+                "given": self._view.answer.given() if self._has_answer else None,
                 "hints": self._hints,
                 "is_shown": self._is_shown,
             }
@@ -228,23 +230,32 @@ class QuestionPresenter(QObject):
         assert self.question is not None
         judgement, most = checked.judgement, self.question.template.points
         heading = f"{judgement.points:.3g} of {counted(most, 'point')}"
-        sentences = (*judgement.sentences, *((SHOWN,) if self._is_shown else ()))
-        return Feedback(heading, judgement.verdict.counts, sentences, judgement.verdict.score == 1)
+        is_right = judgement.verdict.score == 1
+        reveal = (self.question.draft.reveal,) if is_right and self.question.draft.reveal else ()
+        sentences = (*judgement.sentences, *reveal, *((SHOWN,) if self._is_shown else ()))
+        return Feedback(heading, judgement.verdict.counts, sentences, is_right)
 
     # Help.
 
     @Slot()
     def show_hint(self) -> None:
         """Show the next hint."""
-        if self.question is not None and self._hints < len(self.question.draft.hints):
+        if self.question is not None and self._hints < len(self._all_hints()):
             self._hints += 1
             self._show_state()
             self._keep()
 
+    def _all_hints(self) -> tuple[str, ...]:
+        """Return the hints in order; after a wrong answer the last says where it goes wrong first."""
+        assert self.question is not None
+        draft = self.question.draft
+        where = "" if self._checked is None else draft.answer.first_wrong(self._checked.response)
+        return (*draft.hints, *((where,) if where else ()))
+
     def _show_state(self) -> None:
         """Show the hints so far, and what can be done next."""
         assert self.question is not None
-        hints = self.question.draft.hints
+        hints = self._all_hints()
         self._view.show_hints(hints[: self._hints], len(hints))
         mistakes = self._checked.judgement.mistakes if self._checked else ()
         stepped = [name for name in mistakes if is_stepped(self.question, name)]

@@ -137,6 +137,8 @@ def check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page: Page) -
         assert "understood as" in shown.question_view.note.text()
         QTest.keyClick(focused, Qt.Key.Key_Return)
     assert answer.given() == right
+    shown.settle()  # Return in the last field has checked the answer.
+    assert shown.question_view.verdict.text().startswith("4 of 4 points")
     last = answer.fields.field(len(right) - 1, 0)
     last.setFocus()
     QTest.keyClicks(last, "1")
