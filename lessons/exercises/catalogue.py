@@ -8,6 +8,9 @@ from lessons.exercises import templates
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Template
 from lessons.exercises.templates import (
+    beliefs_looks,
+    beliefs_pixels,
+    beliefs_space,
     clipping,
     coverage,
     depths,
@@ -51,6 +54,9 @@ _MODULES = (
     stepping,
     running,
     next_steps,
+    beliefs_space,
+    beliefs_pixels,
+    beliefs_looks,
 )
 
 TEMPLATES: dict[str, Template] = {

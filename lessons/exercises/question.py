@@ -9,6 +9,7 @@ from core.scene import AnyScene
 from core.settings import DEFAULTS
 from lessons.exercises.answers.answer import Answer, Response, Verdict
 from lessons.exercises.draws import Draws
+from lessons.exercises.refutation import Refutation
 from lessons.mistakes.shelf import MISTAKES
 
 TRY_LIMIT = 1000
@@ -38,6 +39,8 @@ class Draft:
     """Column and row of the pixel that the question is about, where there is one."""
     reveal: str = ""
     """A sentence with what is right, to be shown after the answer; empty: the answer says it."""
+    refutations: Mapping[Response, Refutation] = field(default_factory=dict)
+    """By wrong answers behind which a belief stands, what refutes it."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,13 +86,16 @@ class Judgement:
     """Names of all twins that give exactly this answer."""
     is_slip: bool
     """No twin gives it, and it differs from the right answer in the smallest way."""
+    refutation: Refutation | None = None
+    """Of the belief behind the answer, where there is one."""
 
     @property
     def sentences(self) -> list[str]:
-        """The mistakes in words; of several that give one answer, all."""
+        """The mistakes in words; of several that give one answer, all; and what refutes a belief."""
         if self.is_slip:
             return ["A slip: all but one is right."]
-        return [MISTAKES[name].sentence for name in self.mistakes]
+        refuting = [] if self.refutation is None else [self.refutation.sentence]
+        return [*(MISTAKES[name].sentence for name in self.mistakes), *refuting]
 
 
 def ask(template: Template, seed: int) -> Question:
@@ -147,7 +153,8 @@ def judge(question: Question, response: Response) -> Judgement:
     if draft.answer.is_same(response, draft.answer.reference):
         return Judgement(verdict, points, (), False)
     names = tuple(name for name, wrong in draft.mistakes.items() if draft.answer.is_same(response, wrong))
-    return Judgement(verdict, points, names, not names and draft.answer.is_slip(response))
+    refutation = draft.refutations.get(response) if draft.refutations else None
+    return Judgement(verdict, points, names, not names and draft.answer.is_slip(response), refutation)
 
 
 def hints_after(question: Question, response: Response | None = None) -> list[str]:
@@ -156,6 +163,6 @@ def hints_after(question: Question, response: Response | None = None) -> list[st
     if response is None:
         return hints
     judgement = judge(question, response)
-    named = [] if judgement.is_slip else judgement.sentences
+    named = [MISTAKES[name].sentence for name in judgement.mistakes]
     first_wrong = question.draft.answer.first_wrong(response)
     return [*named, *hints, *([first_wrong] if first_wrong else [])]
