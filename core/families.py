@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from core.methods import table
+from core.methods import is_registered, table
 from core.scene import AnyScene, ClipScene
 
 Reason = Callable[[Any, AnyScene | None], str]
@@ -105,14 +105,26 @@ OF_TRIANGLES = {
 """Settings that do not matter to polygons, and why."""
 
 
-def suited(settings: Any, corner_count: int) -> Any:
-    """Return the settings that primitives of so many corners are drawn with.
+OF_TABLES = ("visibility", "blend")
+"""Settings that matter to a table of depths."""
 
-    Segments (2) and points (1) have no area: they are drawn as lines, and face nowhere. Polygons (more than 3) are
-    filled by methods of their own, with the colour of corner 0.
+
+def suited(settings: Any, scene: AnyScene) -> Any:
+    """Return the settings that the primitives of a scene are drawn with.
+
+    Segments and points have no area: they are drawn as lines, and face nowhere. Polygons are filled by methods of
+    their own, with the colour of corner 0. A table of depths brings its own depth test.
     """
+    corner_count = scene.corner_count
     if corner_count == 3:
         return settings
+    if isinstance(scene, ClipScene) and scene.table is not None:
+        from core.framebuffer.whole_depths import TABLE_DEPTHS  # Only such scenes wait for it.
+
+        casts_rays = is_registered(settings.visibility, "ray-casting")
+        seen = "z-buffer" if casts_rays else settings.visibility
+        plain = type(settings)(polygon_mode="wireframe", visibility=seen, blend=settings.blend)
+        return plain.replaced(depth=TABLE_DEPTHS[scene.table.test])
     if corner_count > 3:
         defaults = {name: getattr(type(settings), name) for name in OF_TRIANGLES}
         filled = {"fill": "scanline", "interpolation": "flat", "provoking": "first"}

@@ -180,9 +180,12 @@ def find_visible(geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
     pixel_count = raster.shape[0] * raster.shape[1]
     cover_count = np.zeros(pixel_count, np.int32)
     owner_count = len(geometry.primitives if outlines is None else outlines)
-    nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
+    in_order = geometry.casts_rays or not depth_format.keeps_nearest
+    nearest = None
+    if not in_order:
+        nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
     counts["blend"].note = resolved.blend_inserted_for
-    keeps_all = geometry.casts_rays or resolved.is_mixed
+    keeps_all = in_order or resolved.is_mixed
     kept: list[tuple[Fragments, Stored]] = []
     for fragments in fragments_of(geometry, raster, counts):
         with counts["depth"] as count:
@@ -194,16 +197,18 @@ def find_visible(geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
             count.incoming += len(pixel)
             if keeps_all:
                 kept.append((fragments, stored))
-            if not geometry.casts_rays:
+            if nearest is not None:
                 writes = None if outlines is None else writes_depth(fragments)
                 if writes is not None:
                     pixel, fragments, stored = pixel[writes], fragments.select(writes), stored[writes]
                 nearest.add(pixel, owner_of(fragments), stored)
     with counts["depth"]:
         decided = decide_fragments(geometry, kept, raster) if keeps_all else None
-        pixel, owner, depth = nearest.resolve()
-        if geometry.casts_rays and decided is not None:
+        if nearest is not None:
+            pixel, owner, depth = nearest.resolve()
+        elif decided is not None:
             pixel, last = decided.last_kept(raster)
+            depth = np.full(pixel_count, depth_format.cleared, depth_format.stored_type)
             owner, depth[pixel] = owner_of(decided.fragments)[last], decided.stored[last]
     return Visible(pixel, owner, depth, cover_count, decided)
 

@@ -7,9 +7,10 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.records.arrays import Floats, Integers, Singles, checked, checked_size
+from core.records.arrays import Floats, Integers, Singles, checked, checked_size, read_only
 from core.records.cached import cached_property
 from core.records.clip_region import checked_polygon_region, checked_region
+from core.records.depth_table import DepthTable
 from core.records.rings import checked_rings
 
 SIZE_LIMIT = 16384
@@ -236,10 +237,11 @@ class Scene:
         object.__setattr__(self, "background", checked("background", self.background, (4,)))
 
 
-CORNER_COUNTS = {"points": 1, "segments": 2, "triangles": 3}
+CORNER_COUNTS = {"points": 1, "segments": 2, "triangles": 3, "fragments": 0}
 """Kinds of primitives and how many corners each has; strips, fans and quads are assembled from them (`core.assembly`).
 
-``polygons`` have any number of corners from `POLYGON_CORNERS` on, in rings.
+``polygons`` have any number of corners from `POLYGON_CORNERS` on, in rings. Fragments have a place and a depth, but no
+corner: they enter the pipeline at the depth test (`core.depth_tables`).
 """
 KINDS = (*CORNER_COUNTS, "polygons")
 POLYGON_CORNERS = (4, 1000)
@@ -258,8 +260,8 @@ class ClipScene:
     """
 
     clip: Floats
-    """(T, 3, 4) float64 clip-space x, y, z, w of every corner; (T, 2, 4) of segments, (T, 1, 4) of points, (T, C, 4)
-    of polygons with C corners each, all w above 0."""
+    """(T, 3, 4) float64 clip-space x, y, z, w of every corner; (T, 2, 4) of segments, (T, 1, 4) of points and
+    fragments, (T, C, 4) of polygons with C corners each, all w above 0."""
     attributes: Floats | None = None
     """(T, 3, K) float64 to interpolate; the first four are the colour, or the first two the texture coordinates."""
     size: tuple[int, int] = (512, 512)
@@ -279,16 +281,20 @@ class ClipScene:
     """(R,) int64, first corner of each ring of a polygon, rising from 0: outline, then holes. ``None``: one ring."""
     region_rings: Integers | None = None
     """(R,) int64, the same of ``clip_region``."""
+    table: DepthTable | None = None
+    """What fragments are made from (`core.depth_tables.table_scene`); ``None`` of all other kinds."""
     corner_count: int = field(init=False)
     """How many corners a primitive has."""
 
     def __post_init__(self) -> None:
         if self.kind not in KINDS:
             raise ValueError(f"kind must be one of {', '.join(KINDS)}, got {self.kind}")
-        corners = CORNER_COUNTS.get(self.kind, "C")
+        if (self.kind == "fragments") != (self.table is not None):
+            raise ValueError("a scene of the kind fragments, and no other, needs a table of depths")
+        corners = CORNER_COUNTS.get(self.kind, "C") or 1
         clip = checked("clip", self.clip, ("T", corners, 4), limit=COORDINATE_LIMIT)
         corners = clip.shape[1]
-        object.__setattr__(self, "corner_count", corners)
+        object.__setattr__(self, "corner_count", CORNER_COUNTS.get(self.kind, corners))
         object.__setattr__(self, "clip", clip)
         if self.attributes is None:
             color = np.broadcast_to(np.array([0.0, 0.0, 0.0, 1.0]), (len(clip), corners, 4))
@@ -315,6 +321,12 @@ class ClipScene:
             raise ValueError(f"only polygons have rings, got rings of {self.kind}")
         elif self.clip_region is not None:
             object.__setattr__(self, "clip_region", checked_region(self.clip_region, self.size))
+
+    @cached_property
+    def numbers(self) -> Integers:
+        """(T,) int64, the number that each primitive goes by: of fragments that of their patch."""
+        own = np.arange(len(self.clip)) if self.table is None or self.shared is None else self.shared[:, 0]
+        return read_only(own)
 
     def _check_polygons(self) -> None:
         """Refuse polygons without a place in the window, and rings that are none."""

@@ -5,6 +5,7 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 from core.families import (
+    OF_TABLES,
     OF_TRIANGLES,
     Family,
     SettingField,
@@ -319,13 +320,15 @@ def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> s
     by = declared.taken_by
     if scene is not None and scene.corner_count > 3 and name in OF_TRIANGLES:
         return OF_TRIANGLES[name]
+    if scene is not None and scene.corner_count == 0:
+        return "" if name in OF_TABLES else "A table of depths begins at the depth test, and has its own."
     if scene is not None and scene.corner_count < 3:
         noun = "Segments have" if scene.corner_count == 2 else "Points have"
         if name == "line" and scene.corner_count == 1:
             return "A point is one pixel."
         if name in ("cull", "polygon_mode"):
             return f"{noun} no area."
-        settings = suited(settings, scene.corner_count)
+        settings = suited(settings, scene)
         if by == "polygon_mode":
             return "" if name in table.get(by, settings.polygon_mode).takes else f"{noun} no area."
     if by and name not in table.get(by, getattr(settings, by)).takes:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 from core.assembly import assemble
 from core.records.arrays import Floats, checked
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, Scene
+from lessons.depth_tables import two_triangles
 from lessons.shapes import FACE_COLORS, cube, floor, knot, linear_color, plates, sphere, torus
 from lessons.teapot import teapot
 
@@ -334,6 +335,12 @@ CATALOGUE = (
         "Intersecting triangles",
         "Two triangles pass through each other, which only a test of each pixel's depth gets right.",
         intersecting,
+    ),
+    BuiltInScene(
+        "depth-table",
+        "Table of depths",
+        "Two triangles of whole-number depths meet a buffer of infinities: type the cells, and step the depth test.",
+        two_triangles,
     ),
     BuiltInScene(
         "z-fighting",

@@ -147,6 +147,16 @@ class ClipSceneRecord(Record):
     background: Numbers4
 
 
+class TableSceneRecord(Record):
+    """A ``core.scene.ClipScene`` of fragments: its ``core.records.depth_table.DepthTable``."""
+
+    kind: Literal["table"]
+    patches: list[str]
+    """Cells as they are printed: a line for each row, the top row first."""
+    colors: ArrayRecord
+    test: Literal["less", "less-equal", "greater", "greater-equal"]
+
+
 class RasterRecord(Record):
     """An ``app.session.document.TeachingRaster``."""
 
@@ -255,7 +265,7 @@ class StateRecord(Record):
     program: Literal["rasterscope"]
     version: Literal[2]
     title: str
-    scene: Annotated[MeshSceneRecord | ClipSceneRecord, Field(discriminator="kind")]
+    scene: Annotated[MeshSceneRecord | ClipSceneRecord | TableSceneRecord, Field(discriminator="kind")]
     settings: dict[str, str | int]
     """Family to method; a family that is left out has its default."""
     raster: RasterRecord

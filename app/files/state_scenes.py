@@ -36,7 +36,10 @@ from app.files.state_models import (
     MeshRecord,
     MeshSceneRecord,
     SourceRecord,
+    TableSceneRecord,
 )
+from core.depth_tables import table_scene
+from core.records.depth_table import DepthTable, depths_of_text, text_of_depths
 from core.scene import (
     AnyScene,
     Camera,
@@ -80,7 +83,7 @@ def in_field(name: str) -> Iterator[None]:
 
 def scene_record(
     scene: AnyScene, path: str, folder: Path, keep: Keep = array_record
-) -> MeshSceneRecord | ClipSceneRecord:
+) -> MeshSceneRecord | ClipSceneRecord | TableSceneRecord:
     """Return the record of a scene.
 
     Parameters
@@ -93,7 +96,7 @@ def scene_record(
         Makes the record of an array that has no source.
     """
     if isinstance(scene, ClipScene):
-        return _clip_record(scene)
+        return _clip_record(scene) if scene.table is None else _table_record(scene.table)
     own = fingerprints_of(scene.meshes)
     source, theirs = _source_of(own, path, folder)
     return MeshSceneRecord(
@@ -163,6 +166,15 @@ def _light_record(light: Light) -> LightRecord:
     return LightRecord(kind=kind, vector=_numbers(vector), color=_numbers(light.color))
 
 
+def _table_record(table: DepthTable) -> TableSceneRecord:
+    return TableSceneRecord(
+        kind="table",
+        patches=[text_of_depths(cells) for cells in table.depths],
+        colors=array_record(table.colors),
+        test=table.test,  # type: ignore[arg-type]
+    )
+
+
 def _clip_record(scene: ClipScene) -> ClipSceneRecord:
     assert scene.attributes is not None
     return ClipSceneRecord(
@@ -197,7 +209,7 @@ def _plain(value: Any) -> Any:
 
 
 def scene_from_record(
-    record: MeshSceneRecord | ClipSceneRecord,
+    record: MeshSceneRecord | ClipSceneRecord | TableSceneRecord,
     state: Path,
     progress: Report | None,
     is_cancelled: Callable[[], bool] | None,
@@ -212,6 +224,8 @@ def scene_from_record(
     """
     if isinstance(record, ClipSceneRecord):
         return _clip_scene(record), "", ()
+    if isinstance(record, TableSceneRecord):
+        return _table_scene(record), "", ()
     sources, path, warnings = _open_source(record.source, state, progress, is_cancelled, allows_outside)
     meshes = tuple(_mesh(k, mesh, sources, record.source, state) for k, mesh in enumerate(record.meshes))
     with in_field("scene.camera"):
@@ -237,6 +251,19 @@ def _clip_scene(record: ClipSceneRecord) -> ClipScene:
         return ClipScene(
             kind=record.primitives, size=record.size, texture=texture, background=background, **arrays
         )
+
+
+def _table_scene(record: TableSceneRecord) -> ClipScene:
+    patches = []
+    for number, text in enumerate(record.patches):
+        with in_field(f"scene.patches.{number}"):
+            patches.append(depths_of_text(text))
+            if patches[-1].shape != patches[0].shape:
+                raise ValueError("all patches must have as many rows and columns as the first")
+    with in_field("scene.colors"):
+        colors = array_from(record.colors)
+    with in_field("scene"):
+        return table_scene(DepthTable(np.array(patches), colors, record.test))
 
 
 def _open_source(

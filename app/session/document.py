@@ -81,9 +81,10 @@ class Document:
     @property
     def traced_scene(self) -> AnyScene:
         """The scene at the size that is traced."""
-        if self.raster.origin is None:
-            return replace(self.scene, size=(self.raster.columns, self.raster.rows))
-        return self.scene
+        has_table = isinstance(self.scene, ClipScene) and self.scene.table is not None
+        if self.raster.origin is not None or has_table:
+            return self.scene
+        return replace(self.scene, size=(self.raster.columns, self.raster.rows))
 
     @property
     def region(self) -> tuple[int, int, int, int] | None:

@@ -20,6 +20,7 @@ from app.session.tracing import (
 from core import STAGES, Settings, Trace
 from core.explain.stage_texts import skipped_because
 from core.records.steps import Level
+from core.scene import AnyScene
 from core.trace import Explanation, StageTrace
 from core.trace.incremental.draft import Draft
 
@@ -66,7 +67,7 @@ class Session(QObject):
         self.tracing.failed.connect(self._refuse)
         self.tracing.busy_changed.connect(self.history_changed)
         self._history = History(document, held_arrays)
-        self._cursor = Cursor()
+        self._cursor = _cursor_for(document.scene, Cursor())
         self._visited = History(self._cursor)
         self._pin: Pixel | None = None
         self._hover: Pixel | None = None
@@ -145,6 +146,7 @@ class Session(QObject):
             trace = trace_now(document, self._cursor.stage)
         self._history.put(document)
         self._pin = self._hover = None
+        self._cursor = _cursor_for(document.scene, self._cursor)
         self._document_replaced(trace)
         self.pin_changed.emit()
 
@@ -403,3 +405,10 @@ class Session(QObject):
         """Return whether the traced raster has this pixel."""
         first_column, first_row, end_column, end_row = self._trace.source.raster.bounds
         return first_column <= pixel[0] < end_column and first_row <= pixel[1] < end_row
+
+
+def _cursor_for(scene: AnyScene, cursor: Cursor) -> Cursor:
+    """Return the cursor, or the start of the next stage that a scene goes through, if it skips the present one."""
+    later = STAGES[STAGES.index(cursor.stage) :]
+    stage = next(stage for stage in later if not skipped_because(stage, scene.corner_count))
+    return cursor if stage == cursor.stage else replace(cursor, stage=stage, position=0)

@@ -145,7 +145,7 @@ def viewed_scene(
         sides, owner = _as_segments(scene, space.vertices.sides)
         drawn_sides, side = viewed_scene(space, sides, camera, size, background)
         return drawn_sides, owner if side is None else owner[side]
-    number, count = np.arange(len(scene.clip)), scene.corner_count
+    number, count = np.arange(len(scene.clip)), max(scene.corner_count, 1)
     corners = own_corners(np.arange(1), count)[:, 0]
     clip = scene.clip[:, corners]
     whole = Primitives(clip, scene.attributes[:, corners], number, np.zeros_like(number), {})
@@ -153,9 +153,8 @@ def viewed_scene(
     pieces = by(whole, plane_distances(clip), DEPTH_PLANES).primitives
     pieces = pieces.select(np.asarray((pieces.clip[..., 3] > 0).all(axis=1)))
     clip = transform(viewing_matrix(camera, size) @ space.from_clip, pieces.clip)
-    drawn = ClipScene(
-        clip[:, :count], pieces.varyings[:, :count], size, scene.texture, background, kind=scene.kind
-    )
+    kind = "points" if scene.kind == "fragments" else scene.kind
+    drawn = ClipScene(clip[:, :count], pieces.varyings[:, :count], size, scene.texture, background, kind=kind)
     return drawn, pieces.triangle
 
 
@@ -178,6 +177,10 @@ def thinned(scene: AnyScene, limit: int) -> tuple[AnyScene, Integers]:
 def with_triangles(scene: AnyScene, chosen: Integers) -> AnyScene:
     """Return a scene with some of its triangles, (T',) numbers that rise; a mesh without any is left out."""
     if isinstance(scene, ClipScene):
+        if scene.table is not None:
+            # Fragments are drawn as points; those of a patch are chosen together.
+            chosen = np.flatnonzero(np.isin(scene.numbers, chosen))
+            scene = replace(scene, kind="points", table=None)
         assert scene.attributes is not None
         return replace(scene, clip=scene.clip[chosen], attributes=scene.attributes[chosen], shared=None)
     meshes, first = [], 0

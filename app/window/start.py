@@ -157,7 +157,7 @@ def grab_window(
     window = MainWindow(document)
     window.files.show_opened(replace(opened, document=document))
     if stage is not None or step is not None or opened.state is None:
-        window.session.set_stage(stage or (window.session.cursor.stage if opened.state else "raster"), step)
+        window.session.set_stage(stage or window.session.cursor.stage, step)
     if view is not None and view not in window.page.view_names():
         raise UsageError(f"view must be one of {', '.join(window.page.view_names())}, got {view}")
     if view is not None:

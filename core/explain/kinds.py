@@ -1,4 +1,4 @@
-"""What is said of triangles, said of segments, points and polygons, which go the same way."""
+"""What is said of triangles, said of segments, points, polygons and patches of fragments, which go the same way."""
 
 import re
 
@@ -45,6 +45,12 @@ _WORDS = {
         (r"(the )?edge 2\b", "the segment"),
         (r"edge", "segment"),
         (r"corner", "end"),
+    ),
+    0: (
+        (r"triangles", "patches"),
+        (r"a triangle's", "a patch's"),
+        (r"triangle", "patch"),
+        (r"tri\b", "patch"),
     ),
     1: (
         *_ANY,

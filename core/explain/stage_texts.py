@@ -10,7 +10,7 @@ from core.methods import table
 from core.records.steps import Level
 from core.records.words import counted
 from core.settings import FIELDS
-from core.stages.declared import Stage, stage_of
+from core.stages.declared import STAGES, Stage, stage_of
 from core.trace.stage_trace import MARKS
 
 Account = Callable[[Mapping[str, int]], list[str]]
@@ -65,6 +65,8 @@ LINE_CARD = {
     "purpose": "Draws a line as the pixels nearest to it, one in each column or row.",
 }
 """The card of the rasterization of lines."""
+BEFORE_TABLES = "A table of depths has no triangles: it begins at the depth test."
+"""Why fragments that are given skip a stage."""
 ACCOUNTS: Mapping[str, Account] = {
     "transform": _rows_account("position", "transformed to the next space"),
     "cull": _cull_account,
@@ -116,6 +118,8 @@ def skipped_because(stage: str, corner_count: int) -> str:
     """Return why primitives of so many corners do not go through a stage; empty: they do."""
     if corner_count > 3:
         return stage_of(stage).not_of_polygons
+    if corner_count == 0:
+        return BEFORE_TABLES if STAGES.index(stage) < STAGES.index("depth") else ""
     reason = stage_of(stage).needs_area if corner_count < 3 else ""
     return reason.format(kind=of_kind("triangle", corner_count))
 

@@ -87,7 +87,7 @@ def draw_picture(
     """
     settings = settings or DEFAULTS
     if scene.corner_count != 3:
-        settings = suited(settings, scene.corner_count)
+        settings = suited(settings, scene)
     raster = make_raster(scene.size, settings.pixel_center, region)
     if encoding not in ENCODINGS:
         raise ValueError(f"encoding must be one of {', '.join(ENCODINGS)}, got {encoding}")

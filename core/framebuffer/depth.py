@@ -78,8 +78,20 @@ class DepthFormat:
     stored_type: ClassVar[type[np.floating[Any]]] = np.float32
     nearness_bits: ClassVar[int] = 31
     """Bits of a nearness key."""
+    keeps_nearest: ClassVar[bool] = True
+    """Whether the nearest fragment stays, and of equal ones the first, so that they need not be tested in order."""
     is_planar: ClassVar[bool] = False
     """Whether the stored value of most triangles is an integer plane (``fixed_depth``), not rounded pixel by pixel."""
+
+    @property
+    def comparison(self) -> str:
+        """How a depth must compare with the buffer's to pass."""
+        return ">" if self.larger_is_nearer else "<"
+
+    @property
+    def listing(self) -> Callable[..., Any]:
+        """The test at one pixel."""
+        return depth_test
 
     def nearness_key(self, stored: Stored) -> Integers:
         """Return (F,) int64 keys: smaller is nearer, equal where the stored values (0 or more) are equal."""

@@ -77,7 +77,7 @@ class VertexStage:
     view_range: tuple[float, float] | None = None
     """Near and far of a perspective camera, for which w is the distance along the view; ``None``: it is not."""
     corner_count: int = 3
-    """Corners of a primitive that are its own: 2 of segments, 1 of points, more than 3 of polygons.
+    """Corners of a primitive that are its own: 2 of segments, 1 of points, 0 of fragments, more than 3 of polygons.
 
     ``corners`` has three of them all the same, see ``own_corners`` and `corners_of_planes`.
     """
@@ -246,7 +246,7 @@ def _plane_corners(scene: ClipScene) -> Integers:
     """Return (3, T): the corners that a primitive's plane is set up from, which are all that a triangle has."""
     number = np.arange(len(scene.clip))
     if scene.rings is None:
-        return own_corners(number, scene.corner_count)
+        return own_corners(number, max(scene.corner_count, 1))
     window = scene.clip[..., :2] / scene.clip[..., 3:] * scene.size
     return scene.corner_count * number + corners_of_planes(window)
 
@@ -270,7 +270,7 @@ def corners_of_planes(window: Floats) -> Integers:
 
 def _ends_alone(scene: ClipScene) -> Flags:
     """Return (T,) bool: no other segment begins where a segment ends; so it is with all points."""
-    if scene.shared is None or scene.corner_count == 1:
+    if scene.shared is None or scene.corner_count < 2:
         return np.ones(len(scene.clip), bool)
     return ~np.isin(scene.shared[:, 1], scene.shared[:, 0])
 

@@ -75,7 +75,7 @@ def process_geometry(
         Leave out what lies beside it: a part of a picture is drawn from the triangles of that part.
     """
     if scene.corner_count != 3:
-        settings = suited(settings, scene.corner_count)
+        settings = suited(settings, scene)
     settings = resolve(settings).settings
     if chosen is not None or (raster is not None and raster.region is not None):
         return _process(scene, settings, counts, chosen, raster)
@@ -170,17 +170,17 @@ def assemble(
 ) -> IndexedPrimitives:
     """Point the ``chosen`` (T,) triangles, or all, to their vertices, which are lit when their values are asked for."""
     values_of = partial(corner_values, scene, vertices, settings, count)
+    number = np.arange(len(vertices.corners)) if chosen is None else np.asarray(chosen, np.int64)
+    triangle = scene.numbers.take(number) if isinstance(scene, ClipScene) else number
     if chosen is None:
-        number = np.arange(len(vertices.corners))
         return IndexedPrimitives(
-            vertices.clip_rows, vertices.corner_rows, number, vertices.mesh, values_of, number
+            vertices.clip_rows, vertices.corner_rows, triangle, vertices.mesh, values_of, number
         )
-    number = np.asarray(chosen, np.int64)
     vertex_clip, corner = vertices.clip_rows, vertices.corner_rows.take(number, axis=1)
     if corner.size < vertex_clip.shape[1]:
         # A few triangles of many: only their own vertices go on.
         vertex_clip, corner = vertex_clip.take(corner.T.ravel(), axis=1), own_corners(np.arange(len(number)))
-    return IndexedPrimitives(vertex_clip, corner, number, vertices.mesh.take(number), values_of, number)
+    return IndexedPrimitives(vertex_clip, corner, triangle, vertices.mesh.take(number), values_of, number)
 
 
 def corner_values(

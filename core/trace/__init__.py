@@ -99,9 +99,9 @@ def trace(
 
 
 def scene_triangle_count(scene: AnyScene) -> int:
-    """Return T."""
+    """Return T; of a table of depths the number of its patches."""
     if isinstance(scene, ClipScene):
-        return len(scene.clip)
+        return len(scene.clip if scene.table is None else scene.table.depths)
     return sum(len(mesh.triangles) for mesh in scene.meshes)
 
 

@@ -20,13 +20,18 @@ OPERATIONS: dict[str, tuple[Operation, ...]] = {
         Operation("compare", "compare", ("before", "passes")),
         Operation("write", Either("passes", "store", "reject"), ("after",)),
     ),
+    "cell": (
+        Operation("depth", "", ("stored",)),
+        Operation("compare", "compare", ("before", "passes")),
+        Operation("write", Either("passes", "store", "reject"), ("after",)),
+    ),
     "out-of-range": (Operation("range", "range", ("depth", "passes")),),
     "store": (
         Operation("depth", "", ("depth", "stored")),
         Operation("write", "store", ("before", "after", "passes")),
     ),
 }
-"""Kind of row to what it does."""
+"""Kind of row to what it does; a ``cell`` is that of a table of depths."""
 
 
 def trace_depth(source: TraceSource) -> StageTrace:
@@ -55,6 +60,7 @@ def trace_depth(source: TraceSource) -> StageTrace:
     operations = _operations(source)
     listings = {
         "test": listing(depth_test),
+        "cell": listing(source.depth_format.listing),
         "out-of-range": listing(depth_in_range),
         "store": listing(store_depth),
     }
@@ -68,10 +74,12 @@ def trace_depth(source: TraceSource) -> StageTrace:
     triangle = source.triangle_of_fragment
     steps = Steps(
         kinds=tuple(operations),
-        kind=_kinds(tuple(operations), tested, keeps, columns),
+        kind=_kinds(tuple(operations), tested, keeps, columns, source.depth_format.keeps_nearest),
         operations=operations,
         triangle_ends=ends_of(triangle),
-        group_ends=ends_of(fragments.primitive, fragments.row),
+        group_ends=ends_of(
+            triangle if source.scene.corner_count == 0 else fragments.primitive, fragments.row
+        ),
     )
     kept = np.flatnonzero(is_stored)
     place = source.place
@@ -80,13 +88,13 @@ def trace_depth(source: TraceSource) -> StageTrace:
     unknown = np.full(source.raster.shape, np.nan)
     return StageTrace(
         stage="depth",
-        method=f"depth={source.settings.depth}",
+        method="" if source.scene.corner_count == 0 else f"depth={source.settings.depth}",
         steps=steps,
         columns=columns,
         triangle=triangle,
         pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings=listings,
-        constants=value_constants(source),
+        constants={**value_constants(source), **_test_constants(source)},
         marks={"covered": tests.passes, "depth-failed": ~tests.passes, "nan": np.isnan(depth)},
         buffers=(
             BufferTrack("depth", source.start.depth, kept, place[kept], stored[kept], starts_known=True),
@@ -94,6 +102,12 @@ def trace_depth(source: TraceSource) -> StageTrace:
             BufferTrack("passes", unknown, every, place, tests.passes.astype(float), "flags"),
         ),
     )
+
+
+def _test_constants(source: TraceSource) -> dict[str, str]:
+    """Return how depths are compared, where a table of depths has chosen it."""
+    kept = source.depth_format
+    return {} if kept.keeps_nearest else {"comparison": kept.comparison}
 
 
 def _operations(source: TraceSource) -> dict[str, tuple[Operation, ...]]:
@@ -104,9 +118,12 @@ def _operations(source: TraceSource) -> dict[str, tuple[Operation, ...]]:
     return {kind: (*made, *rows[1:]) if kind != "out-of-range" else rows for kind, rows in OPERATIONS.items()}
 
 
-def _kinds(names: tuple[str, ...], tested: bool, keeps: Flags, columns: dict[str, np.ndarray]) -> Integers:
+def _kinds(
+    names: tuple[str, ...], tested: bool, keeps: Flags, columns: dict[str, np.ndarray], keeps_nearest: bool
+) -> Integers:
     """Return (R,) int64, which of ``names`` each row is."""
-    usual = names.index("test" if tested else "store")
+    test = "test" if keeps_nearest else "cell"
+    usual = names.index(test if tested else "store")
     kind = np.where(keeps, usual, names.index("out-of-range"))
     if "is_linear" in columns:
         # A depth that is rounded pixel by pixel, or one that is a plane, needs words of its own.

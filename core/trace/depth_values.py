@@ -59,6 +59,6 @@ def value_constants(source: TraceSource) -> dict[str, float | str]:
     constants: dict[str, float | str] = {"quantity": kept.quantity.name}
     if kept.scale != 1 and not kept.is_planar:
         constants["scale"] = kept.scale
-    if kept.quantity.convert is not None:
+    if kept.quantity.convert is not None and kept.quantity.plane != "z":
         constants["near"], constants["far"] = logarithm_range(source.geometry)
     return constants

@@ -21,7 +21,7 @@ from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.cached import cached_property
 from core.records.frame import Frame, StageCount
 from core.resolved import resolve
-from core.scene import AnyScene
+from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
@@ -49,7 +49,7 @@ class TraceSource:
 
     def __post_init__(self) -> None:
         if self.scene.corner_count != 3:
-            object.__setattr__(self, "settings", suited(self.settings, self.scene.corner_count))
+            object.__setattr__(self, "settings", suited(self.settings, self.scene))
 
     @cached_property
     def raster(self) -> Raster:
@@ -65,6 +65,8 @@ class TraceSource:
     def geometry(self) -> Geometry:
         """The traced triangles up to their edge functions."""
         chosen = None if self.triangle is None else np.array([self.triangle])
+        if chosen is not None and isinstance(self.scene, ClipScene):
+            chosen = np.flatnonzero(self.scene.numbers == self.triangle)
         return process_geometry(self.scene, self.settings, {s: StageCount() for s in STAGES}, chosen)
 
     @cached_property
@@ -72,7 +74,11 @@ class TraceSource:
         """The buffers before the first row."""
         earlier = np.empty(0, np.int64)
         if self.triangle is not None and self.before == "earlier":
-            earlier = np.sort(self.order[: int(np.flatnonzero(self.order == self.triangle)[0])])
+            number = self.scene.numbers[self.order] if isinstance(self.scene, ClipScene) else self.order
+            is_own = number == self.triangle
+            # A patch without fragments is drawn after those before it.
+            first = int(is_own.argmax()) if is_own.any() else int((number < self.triangle).sum())
+            earlier = np.sort(self.order[:first])
         return draw(self.scene, self.settings, self.raster, earlier)
 
     @property

@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 
 from core.scene import Camera, ClipScene, Mesh, Scene
+from lessons.depth_tables import equal_depths, larger_is_nearer, two_triangles, two_triangles_turned
 from lessons.scenes import CATALOGUE, RED_GREEN_BLUE, BuiltInScene
 from lessons.shapes import cube, linear_color
 from lessons.slides.small_scenes import SPLIT_SQUARE, triangles
@@ -83,6 +84,12 @@ LECTURE_SCENES = {
                 *SPLIT_SQUARE, colors=np.repeat([RED_GREEN_BLUE[:1], RED_GREEN_BLUE[2:]], 3, axis=1)
             ),
         ),
+        _scene(
+            "zwicker-z-buffer",
+            "Z-buffer of 1/w",
+            "Three patches of 1/w in whole numbers: a pixel is updated only if the new value is larger.",
+            larger_is_nearer,
+        ),
     ),
     "Pellacini": (
         _scene(
@@ -99,6 +106,12 @@ LECTURE_SCENES = {
             "the frustum and is rejected early.",
             frustum_segments,
             clipping="sutherland-hodgman",
+        ),
+        _scene(
+            "pellacini-z-buffer",
+            "Z-buffer, the other order",
+            "The two triangles of Jubair's table, the sloping one first: hidden surfaces do not depend on the order.",
+            two_triangles_turned,
         ),
     ),
     "Jubair": (
@@ -137,6 +150,12 @@ LECTURE_SCENES = {
             two_cubes,
             cull="back-normal",
         ),
+        _scene(
+            "jubair-z-buffer",
+            "Z-buffer, 8 x 8 cells",
+            "Two triangles of whole-number depths, drawn into a buffer of 64 infinities.",
+            two_triangles,
+        ),
     ),
     "LMU": (
         _scene(
@@ -168,6 +187,12 @@ LECTURE_SCENES = {
                 ((2.5, 12.5), (9.5, 7.5), (4.5, 1.5)), size=(16, 16), colors=RED_GREEN_BLUE[None]
             ),
             fill="scanline-lecture",
+        ),
+        _scene(
+            "lmu-equal-depths",
+            "Z-fighting, equal depths",
+            "Two patches have the same depth: with < the first one stays, with ≤ the second one replaces it.",
+            equal_depths,
         ),
         _scene(
             "lmu-three-js",

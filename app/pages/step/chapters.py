@@ -19,7 +19,7 @@ COMPUTED = "No pixel is tested: the ends of the spans are computed."
 """Why the pixels that go into the rasterization are those that come out."""
 _TRIANGLES, _PIXELS, _FRAGMENTS = ("triangles", "tri"), ("pixels", "px"), ("fragments", "frag")
 Units = tuple[tuple[str, str], tuple[str, str]]
-_PRIMITIVES = {4: ("polygons", "poly"), 2: ("segments", "seg"), 1: ("points", "pt")}
+_PRIMITIVES = {4: ("polygons", "poly"), 2: ("segments", "seg"), 1: ("points", "pt"), 0: ("fragments", "frag")}
 _UNITS = dict.fromkeys(GEOMETRY_STAGES, (_TRIANGLES, _TRIANGLES)) | {
     "bin": (_TRIANGLES, _PIXELS),
     "raster": (_PIXELS, _FRAGMENTS),

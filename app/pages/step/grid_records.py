@@ -167,8 +167,10 @@ def geometry_of(
 
 
 def outlined_triangles(trace: Trace, focus: int | None) -> Integers:
-    """Return (K,) the primitives whose outlines are drawn: all, or of many the one in focus."""
+    """Return (K,) the primitives whose outlines are drawn: all, or of many the one in focus; fragments have none."""
     triangles = trace.source.geometry.assembled.triangle
+    if trace.source.scene.corner_count == 0:
+        return triangles[:0]
     return triangles if len(triangles) <= OUTLINE_LIMIT else triangles[triangles == focus][:1]
 
 

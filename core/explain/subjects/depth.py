@@ -15,6 +15,7 @@ QUANTITIES = {
     "inverse-w": ("1/w", r"\frac{1}{w}", "inverse_w"),
     "reversed-z": ("reversed z", "r", "value"),
     "logarithm": ("logarithmic depth", "l", "value"),
+    "whole depth": ("depth", "d", "stored"),
 }
 """Quantity of the depth buffer to its name, its symbol and the variable that holds it."""
 
@@ -65,6 +66,9 @@ def stored(step: StepValues) -> Said:
     """What the depth format stores of a fragment."""
     value, (name, symbol, variable) = step.number("stored"), quantity_of(step)
     before = step.number(variable)
+    if name == "depth":
+        text = f"{step.pixel_name}: the cell of triangle {step.triangle} holds {spoken(value)}."
+        return text, equation((r"z_{\mathrm{new}}", value))
     if name == "z":
         of_steps = f" of {step.whole('scale')} steps" if step.has("scale") else ""
         text = f"{step.pixel_name}: its depth z = {spoken(before)} is stored as {spoken(value)}{of_steps}."
@@ -108,7 +112,10 @@ def compared(step: StepValues) -> Said:
     """The depth test."""
     new, old = step.number("stored"), step.number("before")
     shown, shown_before, name = spoken(new), spoken(old), quantity_of(step)[0]
-    if math.isnan(new) or math.isnan(old):
+    if step.has("comparison"):
+        holds, outcome = ("", "passes") if step.flag("passes") else ("not ", "fails")
+        text = f"{outcome}: {shown} is {holds}{step.text('comparison')} the buffer's {shown_before}."
+    elif math.isnan(new) or math.isnan(old):
         text = f"fails: its {name}, {shown}, cannot be compared with the buffer's {shown_before}."
     elif new == old:
         text = f"fails: its {name}, {shown}, equals the buffer's, and a tie keeps the stored depth."
@@ -120,6 +127,8 @@ def compared(step: StepValues) -> Said:
             f"{_apart(step)}, so it is {outcome}."
         )
     wanted = ">" if step.flag("larger_is_nearer") else "<"
+    if step.has("comparison"):
+        wanted = {"≤": r"\le", "≥": r"\ge"}.get(step.text("comparison"), step.text("comparison"))
     return f"{step.pixel_name} {text}", equation(
         (r"z_{\mathrm{new}}", new),
         (wanted, relation(new, old)),
@@ -219,3 +228,4 @@ shows(
     },
 )
 hides("depth.rounded|out-of-range|store", ("origin", "across", "up"))
+hides("depth.cell", ("depth", "inverse_w"))

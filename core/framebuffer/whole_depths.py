@@ -1,0 +1,115 @@
+"""Depths in whole numbers with infinities: what the depth buffer of a table of depths holds, and its tests."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, ClassVar
+
+import numpy as np
+
+from core.framebuffer.depth import DepthFormat, DepthQuantity, Stored, as_float32
+from core.methods import Method
+from core.records.arrays import Flags, Floats
+from core.records.depth_table import DEPTH_TESTS
+
+WHOLE_STEPS = 2.0**14
+"""Steps of window depth, each a whole number; the last one, z = 1, stands for infinity."""
+
+
+def window_depth(depth: Floats) -> Floats:
+    """Return the window depths (...) of whole numbers and infinities (...); no rounding takes place."""
+    return np.where(np.isinf(depth), 1.0, depth / WHOLE_STEPS)
+
+
+def whole_depth(z: Floats, near: float, far: float) -> Floats:
+    """Return the whole number, or infinity, of window depths (F,)."""
+    return np.where(z >= 1, np.inf, np.rint(z * WHOLE_STEPS))
+
+
+WHOLE_DEPTH = DepthQuantity("whole depth", "z", whole_depth)
+
+
+def less_passes(new: float, old: float) -> tuple[float, bool]:
+    """Listing of the depth test of a table where smaller depths pass: what the buffer holds then, and whether."""
+    if new < old:  #: compare
+        return new, True  #: store
+    return old, False  #: reject
+
+
+def less_equal_passes(new: float, old: float) -> tuple[float, bool]:
+    """Listing of the depth test of a table where smaller depths and equal ones pass."""
+    if new <= old:  #: compare
+        return new, True  #: store
+    return old, False  #: reject
+
+
+def greater_passes(new: float, old: float) -> tuple[float, bool]:
+    """Listing of the depth test of a table where larger depths pass."""
+    if new > old:  #: compare
+        return new, True  #: store
+    return old, False  #: reject
+
+
+def greater_equal_passes(new: float, old: float) -> tuple[float, bool]:
+    """Listing of the depth test of a table where larger depths and equal ones pass."""
+    if new >= old:  #: compare
+        return new, True  #: store
+    return old, False  #: reject
+
+
+COMPARED: dict[str, tuple[np.ufunc, Callable[..., Any]]] = {
+    "less": (np.less, less_passes),
+    "less-equal": (np.less_equal, less_equal_passes),
+    "greater": (np.greater, greater_passes),
+    "greater-equal": (np.greater_equal, greater_equal_passes),
+}
+"""Each of `DEPTH_TESTS`: its rule and its listing."""
+
+
+@dataclass(frozen=True)
+class TableFormat(DepthFormat):
+    """Whole numbers and infinities as float32, with a test of one's choice."""
+
+    test: str = "less"
+    """One of ``core.records.depth_table.DEPTH_TESTS``."""
+
+    keeps_nearest: ClassVar[bool] = False
+
+    @property
+    def comparison(self) -> str:
+        """How a depth must compare with the buffer's to pass."""
+        return DEPTH_TESTS[self.test]
+
+    @property
+    def listing(self) -> Callable[..., Any]:
+        """The test at one pixel."""
+        return COMPARED[self.test][1]
+
+    def is_nearer(self, new: Stored, old: Stored) -> Flags:
+        """Decide the depth test of stored values (F,)."""
+        return np.asarray(COMPARED[self.test][0](new, old))
+
+
+def _depths_of_table(test: str) -> Method:
+    """Return what stands in place of the chosen depth method where a scene is a table of depths."""
+    is_smaller = test.startswith("less")
+    holds = "∞" if is_smaller else "−∞"
+    made = TableFormat(
+        WHOLE_DEPTH,
+        f"Whole numbers, {holds} where cleared: a fragment passes if its depth is {DEPTH_TESTS[test]} the buffer's.",
+        np.inf if is_smaller else -np.inf,
+        not is_smaller,
+        as_float32,
+        test=test,
+    )
+    return Method(
+        "depth",
+        "z-float32",
+        f"Whole numbers and infinities, {DEPTH_TESTS[test]}",
+        lambda: made,
+        source="Jubair, Z-buffer Algorithm; Pellacini; LMU 2020, Frame and Depth Buffers",
+        exact_for="whole numbers from 0 to 9999, and infinity",
+    )
+
+
+TABLE_DEPTHS = {test: _depths_of_table(test) for test in DEPTH_TESTS}
+"""By depth test."""
