@@ -176,14 +176,12 @@ def draw_geometry(scene: AnyScene, geometry: Geometry, raster: Raster, counts: C
 def find_visible(geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
     """Bin, raster, depth: find every fragment, in batches, and which of them are seen."""
     resolved = resolve(geometry.settings)
-    depth_format, outlines = resolved.depth_format, geometry.outlines
+    depth_format, outlines, tested = resolved.depth_format, geometry.outlines, geometry.uses_depth_test
     pixel_count = raster.shape[0] * raster.shape[1]
     cover_count = np.zeros(pixel_count, np.int32)
     owner_count = len(geometry.primitives if outlines is None else outlines)
     in_order = geometry.casts_rays or not depth_format.keeps_nearest
-    nearest = None
-    if not in_order:
-        nearest = NearestFragments(pixel_count, owner_count, depth_format, geometry.uses_depth_test)
+    nearest = None if in_order else NearestFragments(pixel_count, owner_count, depth_format, tested)
     counts["blend"].note = resolved.blend_inserted_for
     keeps_all = in_order or resolved.is_mixed
     kept: list[tuple[Fragments, Stored]] = []
@@ -207,9 +205,7 @@ def find_visible(geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
         if nearest is not None:
             pixel, owner, depth = nearest.resolve()
         elif decided is not None:
-            pixel, last = decided.last_kept(raster)
-            depth = np.full(pixel_count, depth_format.cleared, depth_format.stored_type)
-            owner, depth[pixel] = owner_of(decided.fragments)[last], decided.stored[last]
+            pixel, owner, depth = decided.resolve(raster, depth_format)
     return Visible(pixel, owner, depth, cover_count, decided)
 
 

@@ -10,7 +10,6 @@ from core.explain.kinds import of_kind
 from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
 from core.records.clip_region import region_in_window, region_of_window
-from core.records.depth_table import DEPTH_TESTS
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, PointLight, Scene
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue
 
@@ -190,10 +189,7 @@ def _set_camera(camera: Camera, names: list[str], value: float) -> Camera:
 
 def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
     if scene.table is not None:
-        columns, lines = scene.table.size
-        text = f"{len(scene.table.depths)} patches of {columns} × {lines} cells, test {DEPTH_TESTS[scene.table.test]}"
-        hint = OutlineRow("table/hint", "Type cells and move patches in the view Tables.")
-        return (OutlineGroup("table", "Table of depths", (OutlineRow("table/size", text), hint)),)
+        return ()
     shown = range(min(len(scene.clip), TYPED_TRIANGLES)) if triangle is None else [triangle]
     window, colors = window_of_clip(scene.clip, size), transform_vertices(scene).colors
     groups = []

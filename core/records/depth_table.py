@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from core.records.arrays import Floats, checked, read_only
+from core.records.words import counted
 
 MOST_DEPTH = 9999
 """Largest depth of a cell that is a number."""
@@ -91,7 +92,7 @@ def depths_of_text(text: str) -> Floats:
     for number, line in enumerate(lines, start=1):
         if len(line) != len(lines[0]):
             raise ValueError(
-                f"row {number} has {len(line)} cells, row 1 has {len(lines[0])}: all need as many"
+                f"row {number} has {counted(len(line), 'cell')}, row 1 has {len(lines[0])}: all need as many"
             )
     rows = [
         [_depth(cell, f"row {number}, cell {place}: ") for place, cell in enumerate(line, start=1)]

@@ -109,6 +109,13 @@ class DecidedFragments:
         pixel = np.flatnonzero(last >= 0)
         return pixel, last[pixel]
 
+    def resolve(self, raster: Raster, depth_format: DepthFormat) -> tuple[Integers, Integers, Stored]:
+        """Return the pixels that something is seen at (V,), the owner there (V,), and the depth buffer (H*W,)."""
+        pixel, last = self.last_kept(raster)
+        depth = cleared_buffers(raster.shape[0] * raster.shape[1], depth_format).depth.copy()
+        depth[pixel] = self.stored[last]
+        return pixel, owner_of(self.fragments)[last], depth
+
 
 @dataclass(frozen=True, eq=False)
 class Visible:

@@ -174,3 +174,9 @@ class StageTrace:
 def no_pixels(count: int) -> Integers:
     """Return (count, 2) pixels of rows that are about none."""
     return np.full((count, 2), -1, np.int64)
+
+
+def no_steps(stage: str) -> StageTrace:
+    """Return the trace of a stage that a scene does not go through."""
+    none, ends = np.empty(0, np.int64), np.zeros(1, np.int64)
+    return StageTrace(stage, "", Steps((), none, {}, ends, ends), {}, none, no_pixels(0), {})

@@ -95,7 +95,7 @@ def test_a_table_is_read_and_written_as_it_is_printed():
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("1 2\n3", "row 2 has 1 cells, row 1 has 2"),
+        ("1 2\n3", "row 2 has 1 cell, row 1 has 2"),
         ("1 2\n3 x", "row 2, cell 2: expected a whole number from 0 to 9999"),
         ("1 nan", "row 1, cell 2: expected"),
         ("1 -inf", "row 1, cell 2: expected"),

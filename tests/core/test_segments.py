@@ -137,7 +137,7 @@ def test_picture_trace_history_and_fast_path_agree(seed):
 
 def test_a_wrong_kind_and_a_wrong_shape_are_refused():
     with pytest.raises(
-        ValueError, match="kind must be one of points, segments, triangles, polygons, got lines"
+        ValueError, match="kind must be one of points, segments, triangles, fragments, polygons, got lines"
     ):
         ClipScene(np.zeros((1, 2, 4)), kind="lines")
     with pytest.raises(ValueError, match=r"clip must be \(T, 2, 4\)"):

@@ -78,7 +78,7 @@ def test_the_catalogue():
     assert scene_names() == (
         "single-triangle", "shared-edge", "fan", "segment", "clipped-segment", "polygon-window",
         "line-strip", "points", "triangle-strip", "polygon", "polygon-holes", "pentagram", "near-plane",
-        "intersecting", "z-fighting", "textured-floor", "cube", "teapot", "sphere", "torus", "knot",
+        "intersecting", "depth-table", "z-fighting", "textured-floor", "cube", "teapot", "sphere", "torus", "knot",
     )  # fmt: skip
     for scene in CATALOGUE:
         assert scene.title[0].isupper()

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QComboBox, QScrollArea, QSplitter, QStackedWidget,
 from app.pages.page_bar import Caption, Handlers, Page
 from app.pages.step.ab_presenter import ComparePresenter
 from app.pages.step.actions import step_handlers
+from app.pages.step.depth_table_presenter import DepthTablePresenter
 from app.pages.step.grid_presenter import GridPresenter
 from app.pages.step.inspector_column import InspectorColumn
 from app.pages.step.inspector_presenter import InspectorPresenter
@@ -30,6 +31,7 @@ from widgets.basics.settings_panel import SettingsPanel
 from widgets.basics.side_tabs import SideTabs
 from widgets.grid.navigator import Navigator
 from widgets.grid.overlay_legend import OverlayLegend
+from widgets.tables.depth_table_editor import DepthTableEditor
 from widgets.timeline.transport import Timeline
 
 SIDE_PANES = (("scene", "Scene", "S"), ("methods", "Methods", "M"), ("overlays", "Overlays", "O"))
@@ -56,6 +58,7 @@ class StepPage(Page):
         self.session = session
         self.timeline = Timeline(self)
         self.outline, self.settings_panel = SceneOutline(self), SettingsPanel(self)
+        self.depth_tables = DepthTableEditor(self)
         self.legend = OverlayLegend(self)
         self.views = StageViews(session, self)
         self.main_area = MainArea(session, self.views, self)
@@ -81,6 +84,7 @@ class StepPage(Page):
         )
         self.grids = GridPresenter(session, self.main_area, self.legend, self)
         self.scene = SceneOutlinePresenter(session, self.outline, self.settings_panel, self)
+        self.table_editing = DepthTablePresenter(session, self.depth_tables, self)
         self.comparing = ComparePresenter(session, self.compare_view, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self.grids, self)
         self.narrator = StepNarrator(
@@ -104,6 +108,7 @@ class StepPage(Page):
         self.comparing.look_changed.connect(self.look_changed)
         for refusal in (
             self.scene.edit_refused,
+            self.table_editing.edit_refused,
             self.views.refused,
             self.grids.edit_refused,
             self.comparing.edit_refused,
@@ -121,7 +126,9 @@ class StepPage(Page):
         self.side_tabs = SideTabs(self)
         self.side_panes = QStackedWidget(self)
         for (name, title, key), pane in zip(
-            SIDE_PANES, (self.outline, self._scrolled(self.settings_panel), self._overlay_pane()), strict=True
+            SIDE_PANES,
+            (self._scene_pane(), self._scrolled(self.settings_panel), self._overlay_pane()),
+            strict=True,
         ):
             self.side_tabs.add_tab(name, title, f"Show or fold away: {title} ({key})")
             self.side_panes.addWidget(pane)
@@ -148,6 +155,13 @@ class StepPage(Page):
         scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         scroll.setWidget(widget)
         return scroll
+
+    def _scene_pane(self) -> QWidget:
+        pane = QWidget(self)
+        layout = column_layout(pane, 0)
+        layout.addWidget(self.outline, 1)
+        layout.addWidget(self.depth_tables, 6)
+        return pane
 
     def _overlay_pane(self) -> QWidget:
         pane = QWidget(self)
