@@ -2,13 +2,15 @@
 
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
-from typing import Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import AfterValidator, AwareDatetime, BaseModel, ConfigDict, Field, ValidationError
 
-from lessons.exercises.answers.answer import Response
 from lessons.exercises.draws import SEED_LIMIT
-from lessons.exercises.question import Judgement, Question
+
+if TYPE_CHECKING:
+    from lessons.exercises.answers.answer import Response
+    from lessons.exercises.question import Judgement, Question
 
 FORMAT: Literal["rasterscope attempts"] = "rasterscope attempts"
 """First words of an exported file."""
@@ -75,7 +77,12 @@ class Attempt(BaseModel):
 
 
 def attempt_of(
-    user: str, question: Question, response: Response, judgement: Judgement, seconds: float, at: datetime
+    user: str,
+    question: "Question",
+    response: "Response",
+    judgement: "Judgement",
+    seconds: float,
+    at: datetime,
 ) -> Attempt:
     """Return the attempt of a ``user`` who gave ``response`` after ``seconds``, checked ``at`` a time with its zone."""
     template, draft = question.template, question.draft

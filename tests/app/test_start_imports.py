@@ -58,7 +58,7 @@ def test_the_window_waits_for_no_typesetter_chart_or_other_page() -> None:
     imported = imported_by(code)
     assert "app.pages.step.page" in imported
     pages = ("compare", "stability", "plan", "exercises")
-    assert not {"ziamath", "pyqtgraph", "PIL", "trimesh"} & imported
+    assert not {"ziamath", "pyqtgraph", "PIL", "trimesh", "fsrs", "sqlite3"} & imported
     assert [
         name for name in sorted(imported) if name.startswith(tuple(f"app.pages.{page}" for page in pages))
     ] == []

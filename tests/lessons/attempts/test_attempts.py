@@ -12,34 +12,15 @@ from pathlib import Path
 import pytest
 from pydantic import ValidationError
 
-from lessons.attempts.record import Attempt, attempt_of, attempts_json, read_attempts_json
+from lessons.attempts.record import attempt_of, attempts_json, read_attempts_json
 from lessons.attempts.store import FILE_NAME, AttemptFile, AttemptFileError
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask, judge
+from tests.lessons.attempts.made_attempts import attempt
 
 ROOT = Path(__file__).parents[3]
 EARLIER = Path(__file__).parent / "earlier"
 INJECTION = "Robert'); DROP TABLE attempts;--"
-
-
-def attempt(number: int = 0, **changes: object) -> Attempt:
-    """Return an attempt that differs from those of other numbers."""
-    values: dict[str, object] = {
-        "user": "me",
-        "at": datetime(2026, 11, 23, 8, 0, 0, number, tzinfo=UTC) + timedelta(hours=number),
-        "template": "triangle-coverage",
-        "version": 1,
-        "seed": number,
-        "stage": "raster",
-        "asked": ("corner-for-center", "all-edges-inclusive"),
-        "answer": "..#\n.##",
-        "verdict": "2 right, 1 missing, 0 extra",
-        "score": 0.5,
-        "points": 2.0,
-        "most": 4,
-        "seconds": 12.5,
-    }
-    return Attempt.model_validate(values | changes)
 
 
 @pytest.fixture
@@ -161,7 +142,7 @@ CHILD = """
 import sys
 from pathlib import Path
 from lessons.attempts.store import AttemptFile, AttemptFileError
-from tests.lessons.attempts.test_attempts import attempt
+from tests.lessons.attempts.made_attempts import attempt
 file = AttemptFile(Path(sys.argv[1]))
 """
 

@@ -10,7 +10,6 @@ from lessons.attempts.practice import Choice, next_question, progress, recall
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import Question, Template, ask, judge
-from tests.app.test_start_imports import imported_by
 
 NOW = datetime(2026, 11, 23, 12, tzinfo=UTC)
 PAIR = ("corner-for-center", "all-edges-inclusive")
@@ -123,9 +122,3 @@ def test_points_never_fall_and_mistakes_are_counted() -> None:
     assert (reached.correct, reached.tried) == ({"triangle-coverage": 6}, {"triangle-coverage": 10})
     points = [progress(attempts[:number]).points for number in range(11)]
     assert points == sorted(points)
-
-
-def test_the_library_is_imported_when_somebody_practises() -> None:
-    imported = imported_by("import app.cli.exercise, app.cli.attempts, lessons.attempts.practice")
-    assert "lessons.attempts.practice" in imported
-    assert not {"fsrs", "PySide6"} & imported
