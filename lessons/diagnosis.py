@@ -8,6 +8,7 @@ import numpy as np
 
 from core import Settings, render
 from core.framebuffer.display import Bytes, picture_bytes, to_display
+from core.geometry.vertex_stage import transform_vertices
 from core.methods import table
 from core.records.arrays import Flags, Integers
 from core.records.frame import Frame
@@ -21,6 +22,7 @@ from lessons.mistakes.twin import Twin
 PIXEL_LIMIT = 1 << 18
 """Most pixels of a picture: it is compared with one of each mistake and method."""
 RIGHT = "the right picture"
+Report = Callable[[float, str], None]
 SLOW = ("fill=brute-force", "antialiasing=area")
 """Methods that take minutes for a mesh of more triangles than ``SLOW_LIMIT``: they are left out there."""
 SLOW_LIMIT = 2000
@@ -110,37 +112,17 @@ def _faulty(twin: Twin, scene: AnyScene, settings: Settings) -> Iterator[Callabl
         yield lambda: upside_down(render(scene, settings), scene)
 
 
-class _Comparison:
-    """One reading of a picture, compared with one candidate after the other; the right one comes first."""
-
-    def __init__(self, drawn: Drawn) -> None:
-        self._drawn = drawn
-        self._fits: list[Candidate] = []
-        self._nearest: tuple[Candidate, Flags] | None = None
-        self._from_right: Flags | None = None
-
-    def add(self, candidate: Candidate, frame: Frame) -> None:
-        """Compare a frame."""
-        differing = _differing(frame, candidate.settings, self._drawn)
-        if self._nearest is None or differing.sum() < self._nearest[1].sum():
-            self._nearest = candidate, differing
-        if self._from_right is None:
-            self._from_right = differing
-        if not differing.any():
-            self._fits.append(candidate)
-
-    @property
-    def diagnosis(self) -> Diagnosis:
-        """What came of it."""
-        assert self._nearest is not None
-        assert self._from_right is not None
-        is_right = not self._from_right.any()
-        found = () if is_right else tuple(sorted(self._fits, key=lambda each: not each.is_mistake))
-        return Diagnosis(is_right, found, *self._nearest, self._from_right)
-
-
-def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn) -> Diagnosis:
+def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report | None = None) -> Diagnosis:
     """Compare a picture of a scene with those of all candidates.
+
+    Parameters
+    ----------
+    scene, settings
+        What was to be drawn, and how.
+    drawn : Drawn
+        What was drawn.
+    report : callable, optional
+        Is called with the fraction that is done, and with what is being done.
 
     Raises
     ------
@@ -153,26 +135,61 @@ def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn) -> Diagnosis:
     fits as no picture in colours is taken for covered pixels.
     """
     check_size(drawn.size, scene.size)
-    if isinstance(scene, ClipScene) and scene.attributes is None:
-        scene = replace(scene, attributes=np.tile([0.0, 0.0, 0.0, 1.0], (*scene.clip.shape[:2], 1)))
-    comparisons: list[_Comparison] = []
-    for candidate in candidates(scene, settings):
+    seen = _compared(_with_corners(scene, settings, drawn), settings, drawn, report)
+    if seen.is_right or seen.found:
+        return seen
+    others = [diagnose(scene, settings, each, report) for each in _as_coverage(drawn)]
+    return min(others, key=lambda one: int(one.differing.sum())) if others else seen
+
+
+def _with_corners(scene: AnyScene, settings: Settings, drawn: Drawn) -> AnyScene:
+    """Return a scene with corners in clip space, which mistakes may change, where that draws the same picture."""
+    if isinstance(scene, ClipScene):
+        if scene.attributes is not None:
+            return scene
+        return replace(scene, attributes=np.tile([0.0, 0.0, 0.0, 1.0], (*scene.clip.shape[:2], 1)))
+    is_lit = settings.shading != "unlit" or any(mesh.texture is not None for mesh in scene.meshes)
+    if drawn.colors is not None and is_lit:
+        return scene
+    stage = transform_vertices(scene)
+    colors = np.concatenate(
+        [np.ones((len(mesh.positions), 4)) if mesh.colors is None else mesh.colors for mesh in scene.meshes]
+    )
+    return ClipScene(
+        stage.clip[stage.corners], colors[stage.corners], scene.size, background=scene.background
+    )
+
+
+def _compared(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report | None) -> Diagnosis:
+    """Compare a picture in one way."""
+    fits: list[Candidate] = []
+    nearest: tuple[Candidate, Flags] | None = None
+    from_right: Flags | None = None
+    runs = list(candidates(scene, settings))
+    for number, candidate in enumerate(runs):
+        if report is not None:
+            report(number / len(runs), "comparing")
         try:
             with np.errstate(all="ignore"):
                 frame = candidate.draw()
         except ValueError:
-            if not comparisons:
+            if from_right is None:
                 raise
             continue  # The scene lacks what this method needs.
-        if not comparisons:
-            in_colors = _with_background(drawn, frame, settings)
-            comparisons = [_Comparison(each) for each in (in_colors, *_as_coverage(drawn))]
-        for comparison in comparisons:
-            comparison.add(candidate, frame)
-    first, *others = [comparison.diagnosis for comparison in comparisons]
-    if first.is_right or first.found or not others:
-        return first
-    return min(others, key=lambda one: int(one.differing.sum()))
+        if from_right is None:
+            drawn = _with_background(drawn, frame, settings)
+        differing = _differing(frame, candidate.settings, drawn)
+        if from_right is None:
+            from_right = differing
+        if nearest is None or differing.sum() < nearest[1].sum():
+            nearest = candidate, differing
+        if not differing.any():
+            fits.append(candidate)
+    assert nearest is not None
+    assert from_right is not None
+    is_right = not from_right.any()
+    found = () if is_right else tuple(sorted(fits, key=lambda each: not each.is_mistake))
+    return Diagnosis(is_right, found, *nearest, from_right)
 
 
 def check_size(size: tuple[int, int], wanted: tuple[int, int]) -> None:

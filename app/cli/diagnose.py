@@ -6,7 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from app.cli.arguments import add_file, add_settings, chosen_settings, open_file, size_from_text
+from app.cli.arguments import (
+    add_file,
+    add_settings,
+    chosen_settings,
+    open_file,
+    progress_line,
+    size_from_text,
+)
 from app.files.drawn_pictures import read_drawn
 from core.records.arrays import Flags
 from lessons.diagnosis import RIGHT, Diagnosis, check_size, diagnose
@@ -47,7 +54,9 @@ def run(options: argparse.Namespace) -> int:
         scene = replace(scene, size=options.size)
     check_size(scene.size, scene.size)
     drawn = read_drawn(Path(options.picture), scene.size)
-    print("\n".join(report(diagnose(scene, settings, drawn))))
+    with progress_line() as progress:
+        diagnosis = diagnose(scene, settings, drawn, progress)
+    print("\n".join(report(diagnosis)))
     return 0
 
 

@@ -8,9 +8,11 @@ import pytest
 
 from core import Settings, render
 from core.framebuffer.display import to_display
+from core.geometry.vertex_stage import transform_vertices
 from core.scene import ClipScene
 from core.settings import DEFAULTS
 from lessons.diagnosis import PIXEL_LIMIT, Diagnosis, Drawn, diagnose
+from lessons.mistakes.coverage import rounded
 from lessons.scenes import CATALOGUE, make_scene
 from lessons.small_scenes import pixel_segments, triangle_scene
 from tests.lessons.diagnosis.plain_rasterizer import Homework, bresenham, over, perspective, shown
@@ -230,6 +232,22 @@ def test_a_picture_saved_from_the_wrong_end_is_known_whatever_the_scene() -> Non
     for scene in (scene_of(FLAT), replace(make_scene("cube"), size=(24, 16))):
         pixels = to_display(render(scene).color).pixels[::-1, :, :3]
         assert "y-down" in [each.name for each in diagnose(scene, Settings(), Drawn(colors=pixels)).found]
+
+
+@pytest.mark.slow
+def test_a_mesh_is_diagnosed_by_its_coverage_and_by_its_colours() -> None:
+    scene = replace(make_scene("cube"), size=(24, 16))
+    unlit = Settings(shading="unlit")
+    for settings, drawn in (
+        (unlit, lambda frame: Drawn(colors=to_display(frame.color).pixels[..., :3])),
+        (DEFAULTS, lambda frame: Drawn(primitive=frame.primitive)),
+    ):
+        assert diagnose(scene, settings, drawn(render(scene, settings))).is_right
+        stage = transform_vertices(scene)
+        colors = np.concatenate([mesh.colors for mesh in scene.meshes])[stage.corners]
+        corners = ClipScene(stage.clip[stage.corners], colors, scene.size)
+        found = diagnose(scene, settings, drawn(render(rounded(corners), settings))).found
+        assert "vertices-rounded" in [each.name for each in found]
 
 
 @pytest.mark.parametrize("size", [(15, 12), (1000, 1000)])
