@@ -50,7 +50,9 @@ def numbers(
     if shape is None:
         shape = () if len(right) == 1 else (len(right),)
     mistakes = {name: as_numbers(response) for name, response in (wrong or {}).items()}
-    is_whole = all(isinstance(v, Fraction) and v.denominator == 1 for v in right)
+    # Runs give floats, which must be recognised when they are typed as whole numbers.
+    every = [number for response in (right, *mistakes.values()) for number in response]
+    is_whole = all(isinstance(number, Fraction) and number.denominator == 1 for number in every)
     answer = NumberAnswer(right, shape, tuple(names), 0.0 if is_whole else TOLERANCE)
     asked = text if is_whole else f"{text} {WITHIN}"
     return Draft(asked, given, answer, hints, mistakes, scene, settings, pixel)

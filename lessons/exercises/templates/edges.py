@@ -156,7 +156,7 @@ def draw_owned(draws: Draws) -> Draft | None:
     )
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"
     shown = {"all-edges-inclusive": [0, 1, 2]} | {name: r for name, r in wrong.items() if r and r != right}
-    return several(text, given, NAMES, right, hints, shown)
+    return several(text, given, NAMES, right, hints, shown, triangle_scene(np.array([corners], float), SIZE))
 
 
 def draw_snapped(draws: Draws) -> Draft:

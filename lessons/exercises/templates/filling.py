@@ -173,7 +173,7 @@ def draw_rows(draws: Draws) -> Draft | None:
 
     names = ("crossing-from-vertex", "height-plus-one")
     right = crossings(names[0], is_right=True)
-    if any(len(row) != 2 for row in right):
+    if any(len(row) != 2 or row[0] == row[1] for row in right):
         return None
     text = "Where do the edges cross the centres of these rows, y = j + 1/2: left x and right x?"
     hints = (
@@ -224,7 +224,9 @@ def draw_fourth(draws: Draws) -> Draft | None:
     )
     x = v1[0] + (v2[1] - v1[1]) / (v3[1] - v1[1]) * (v3[0] - v1[0])
     hints = ("Sort the vertices by y.", "v4 has the y of the middle vertex, and lies between the other two.")
-    return numbers(text, f"Triangle: {corner_text(corners)}", [x, v2[1]], hints, names=("x", "y"))
+    scene = triangle_scene(np.array([corners], float), (13, 13))
+    given = f"Triangle: {corner_text(corners)}"
+    return numbers(text, given, [x, v2[1]], hints, names=("x", "y"), scene=scene)
 
 
 def draw_fan(draws: Draws) -> Draft | None:

@@ -190,7 +190,7 @@ def draw_stages(draws: Draws) -> Draft:
         "A colour is found before it is blended.",
     )
     answer = OrderAnswer(options, shown)
-    return Draft("Put these stages of the pipeline in order, first to last.", ", ".join(shown), answer, hints)
+    return Draft("Put these stages of the pipeline in order, first to last.", "", answer, hints)
 
 
 TEMPLATES = (

@@ -58,7 +58,8 @@ def draw_two_points(draws: Draws) -> Draft | None:
         "alpha is the area of the point with vertices 1 and 2.",
         "Inside, all three are positive; the sum is 1 for every point.",
     )
-    return table(text, given, NAMES, ("P", "Q"), rows, hints, {"weights-permuted": turned})
+    scene = triangle_scene(np.array([corners], float), (10, 10))
+    return table(text, given, NAMES, ("P", "Q"), rows, hints, {"weights-permuted": turned}, scene=scene)
 
 
 def draw_color(draws: Draws) -> Draft | None:
@@ -186,7 +187,8 @@ def draw_plane(draws: Draws) -> Draft | None:
         "Three equations, three unknowns; subtract one from the other two.",
         "Or sum the edge functions, each over the area and times the value at its vertex.",
     )
-    return numbers(text, given, right, hints, names=("a", "b", "c"))
+    scene = triangle_scene(np.array([corners], float), (7, 7), w=np.array([w], float))
+    return numbers(text, given, right, hints, names=("a", "b", "c"), scene=scene)
 
 
 def edge_shares(draws: Draws) -> tuple[Fraction, tuple[Any, ...]]:

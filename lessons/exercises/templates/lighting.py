@@ -8,6 +8,7 @@ from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.drafting import by_rule, one_of, place_text
 from lessons.exercises.templates.transforms import wholes
+from lessons.mistakes.transforms import dot
 
 VECTORS: tuple[tuple[Any, ...], ...] = (
     (0, 0, 1),
@@ -71,10 +72,12 @@ def draw_between(draws: Draws) -> Draft:
     return by_rule(text, given, (*units, t, to_light), ("normal-not-renormalized",), hints)
 
 
-def draw_highlight(draws: Draws) -> Draft:
+def draw_highlight(draws: Draws) -> Draft | None:
     """Blinn and Phong."""
     normal, to_light, to_eye = (draws.item(VECTORS) for _ in range(3))
     shininess = draws.item((2, 4, 8))
+    if dot(normal, to_light) <= 0:
+        return None
     text = (
         "What is the highlight max(0, N . H)^s of Blinn and Phong? H is halfway between L and V; all vectors are "
         "made to length 1."

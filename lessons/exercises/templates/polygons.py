@@ -127,10 +127,15 @@ VERDICTS = (
 )
 
 
+def around(draws: Draws) -> tuple[int, int]:
+    """Draw a point in the window or around it."""
+    return draws.whole(-6, 14), draws.whole(-5, 11)
+
+
 def draw_verdict(draws: Draws) -> Draft | None:
     """What Cyrus-Beck does with a segment; each verdict is asked for equally often."""
     wanted = draws.whole(0, 3)
-    start, end = ((draws.whole(-6, 14), draws.whole(-5, 11)) for _ in range(2))
+    start, end = around(draws), around(draws)
     if wanted == 3:
         end = (end[0], start[1])
     outside = [not 0 <= c <= s for c, s in zip(start, SIZE, strict=True)]
@@ -163,7 +168,7 @@ def draw_verdict(draws: Draws) -> Draft | None:
 
 def draw_rejected(draws: Draws) -> Draft | None:
     """Segments that outcodes reject at once."""
-    segments = [tuple((draws.whole(-6, 14), draws.whole(-5, 11)) for _ in range(2)) for _ in range(5)]
+    segments: list[Ends] = [(around(draws), around(draws)) for _ in range(5)]
     codes = [[code_of(place) for place in ends] for ends in segments]
     right = [k for k, (a, b) in enumerate(codes) if any(x == y == "1" for x, y in zip(a, b, strict=True))]
     text = (
@@ -175,7 +180,7 @@ def draw_rejected(draws: Draws) -> Draft | None:
         f"{name}: {ends[0]} to {ends[1]}" for name, ends in zip(names, segments, strict=True)
     )
     hints = ("Write the outcodes of all ends.", "Two ends outside of different borders share no bit.")
-    return several(text, given, tuple(names), right, hints)
+    return several(text, given, tuple(names), right, hints, scene=segment_scene(segments, SIZE))
 
 
 TEMPLATES = (

@@ -231,7 +231,7 @@ def draw_size(draws: Draws) -> Draft:
 def ordered(text: str, options: tuple[str, ...], draws: Draws, hints: tuple[str, ...]) -> Draft:
     """Ask for an order; the question lists the options in another one."""
     shown = draws.shuffled(options)
-    return Draft(text, ", ".join(shown), OrderAnswer(options, shown), hints)
+    return Draft(text, "", OrderAnswer(options, shown), hints)
 
 
 def draw_spaces(draws: Draws) -> Draft:

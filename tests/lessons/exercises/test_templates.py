@@ -16,7 +16,16 @@ from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template, ask, hints_after, judge
 from lessons.exercises.selftest import check_template, question_problems, question_text
-from lessons.exercises.templates import clipping, fragments, lines
+from lessons.exercises.templates import (
+    clipping,
+    fragments,
+    interpolation,
+    lines,
+    mixing,
+    polygons,
+    textures,
+    transforms,
+)
 from lessons.exercises.templates.clipping import outcode_table, parameter_table
 from lessons.exercises.templates.lines import d_table
 from lessons.mistakes.shelf import SHELF
@@ -164,6 +173,16 @@ class Faultless:
         (fragments, fragments.draw_depths),
         (lines, lines.draw_table),
         (clipping, clipping.draw_parameters),
+        (transforms, transforms.draw_viewport),
+        (polygons, polygons.draw_ends),
+        (interpolation, interpolation.draw_color),
+        (interpolation, interpolation.draw_sorted),
+        (textures, textures.draw_nearest),
+        (textures, textures.draw_repeated),
+        (mixing, mixing.draw_alpha),
+        (mixing, mixing.draw_straight),
+        (mixing, mixing.draw_glass),
+        (mixing, mixing.draw_panes),
     ],
 )
 def test_exact_answers_are_those_of_a_run_without_a_mistake(module, draw, monkeypatch) -> None:
