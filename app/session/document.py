@@ -16,7 +16,7 @@ from core.trace import TraceSource, scene_triangle_count
 TEACHING_LIMIT = (96, 72)
 """Largest teaching raster in pixels; every pixel can be pointed at, and all buffers are traced at once."""
 TEACHING_SIZES = ((8, 6), (16, 12), (24, 16), (32, 24), (48, 36), (64, 48), (96, 72))
-VIEWS = ("pixels", "scene", "clip", "pyramid", "texture", "compare")
+VIEWS = ("pixels", "scene", "clip", "pyramid", "texture", "flow", "compare")
 """Names of the main views."""
 TRACED_TOGETHER = 400
 """A scene of more triangles is traced one triangle at a time."""

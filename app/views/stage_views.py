@@ -6,6 +6,7 @@ from PySide6.QtCore import QEvent, QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.session.session import Session
+from app.views.flow_view import FlowView
 from app.views.scene3d_presenter import Scene3dPresenter
 from app.views.stage_view import ClipView, PyramidView, StageView, TextureView
 from widgets.space.orbit import Orbit
@@ -16,6 +17,7 @@ VIEWS: tuple[type[StageView], ...] = (
     ClipView,
     PyramidView,
     TextureView,
+    FlowView,
 )
 """The views behind the 3D scene, in the order of their tabs."""
 
@@ -46,6 +48,7 @@ class StageViews(QObject):
         session.cursor_changed.connect(self._refresh_visible)
         session.pin_changed.connect(self._refresh_visible)
         session.hover_changed.connect(self._refresh_visible)
+        session.predicting_changed.connect(self._refresh_visible)
 
     @property
     def widgets(self) -> list[tuple[str, str, QWidget]]:

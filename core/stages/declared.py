@@ -223,6 +223,46 @@ DECLARED = (
 )
 """All stages, in pipeline order."""
 
+
+@dataclass(frozen=True)
+class Phase:
+    """One of the four stages that the pipeline has in the lecture; those of `DECLARED` are its parts."""
+
+    title: str
+    stages: tuple[str, ...]
+    takes: str
+    """What goes in, behind the number of them."""
+    gives: str
+    """What comes out, behind the number of them."""
+
+
+PHASES = (
+    Phase(
+        "Vertex processing",
+        ("transform",),
+        "in object space, with {values}",
+        "in clip space, with {values}",
+    ),
+    Phase(
+        "Clipping and rasterization",
+        ("cull", "clip", "edges", "bin", "raster", "interpolate"),
+        "assembled of these vertices",
+        "with interpolated {values}",
+    ),
+    Phase(
+        "Fragment processing",
+        ("shade",),
+        "with {values}, and textures and lights",
+        "with one colour each, and their depth",
+    ),
+    Phase(
+        "Framebuffer processing",
+        ("depth", "blend", "resolve"),
+        "with colour and depth",
+        "of the final picture, as display bytes",
+    ),
+)
+"""The four stages of F. Pellacini, "Graphics pipeline stages", in pipeline order."""
 STAGES = tuple(stage.name for stage in DECLARED)
 """Their names."""
 GEOMETRY_STAGES = tuple(stage.name for stage in DECLARED if stage.of_triangles)

@@ -67,13 +67,14 @@ def handle_place(widget, index: int) -> QPoint:
     return widget._place(handle.x, handle.y).toPoint()
 
 
-def test_there_are_four_views_in_order(show):
+def test_the_views_are_in_order(show):
     _, views, _ = show("clip", "single-triangle")
     assert [(name, title) for name, title, _ in views.widgets] == [
         ("scene", "3D scene"),
         ("clip", "Clip space"),
         ("pyramid", "(x, y, w)"),
         ("texture", "Texture"),
+        ("flow", "Flow"),
     ]
 
 

@@ -1,0 +1,143 @@
+"""The run as a few phases side by side: what goes into each, what comes out, and the stages in it."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QScrollArea, QSizePolicy, QToolButton, QWidget
+
+from widgets.basics.controls import column_layout
+from widgets.basics.labels import set_role, text_label
+
+
+@dataclass(frozen=True)
+class Part:
+    """One stage of a phase."""
+
+    title: str
+    counts: str
+    """What goes in and comes out."""
+    more: str = ""
+    """The same in words, or why it is not needed or was inserted."""
+    is_current: bool = False
+
+
+@dataclass(frozen=True)
+class PhaseCard:
+    """One phase."""
+
+    title: str
+    incoming: str
+    """How many of what go in, as ``24 vertices``."""
+    takes: str
+    """What they bring along."""
+    outgoing: str
+    gives: str
+    parts: tuple[Part, ...]
+
+
+class PhaseColumn(QFrame):
+    """One phase from top to bottom: in, the stages, out."""
+
+    part_chosen = Signal(int)
+    """The user chooses a stage, by its place in the phase."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setProperty("role", "panel")
+        self._layout = column_layout(self, 4, (12, 12, 12, 12))
+        self._title = text_label("", self, "title", wraps=True)
+        self._texts: list[QLabel] = []
+        self._layout.addWidget(self._title)
+        self._in = self._end("In")
+        self._buttons_box = column_layout(None, 2, (0, 8, 0, 8))
+        self._layout.addLayout(self._buttons_box)
+        self._out = self._end("Out")
+        self._layout.addStretch(1)
+        self.buttons: list[QToolButton] = []
+
+    def _end(self, name: str) -> tuple[QLabel, QLabel]:
+        """Return the count and the kind of what goes in or comes out."""
+        self._layout.addWidget(text_label(name, self, "muted"))
+        count, what = text_label("", self, "strong", wraps=True), text_label("", self, wraps=True)
+        self._layout.addWidget(count)
+        self._layout.addWidget(what)
+        return count, what
+
+    def show_card(self, card: PhaseCard) -> None:
+        """Show a phase."""
+        is_current = any(part.is_current for part in card.parts)
+        self._title.setText(card.title)
+        set_role(self, "kept" if is_current else "panel")
+        for label, text in zip(
+            (*self._in, *self._out), (card.incoming, card.takes, card.outgoing, card.gives), strict=True
+        ):
+            label.setText(text)
+        self.setAccessibleName(f"{card.title}: {card.incoming} in, {card.outgoing} out")
+        while len(self.buttons) < len(card.parts):
+            button = QToolButton(self)
+            button.setProperty("flat", True)
+            button.setCheckable(True)
+            button.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+            button.clicked.connect(self._choose)
+            self.buttons.append(button)
+            self._buttons_box.addWidget(button)
+        for place, button in enumerate(self.buttons):
+            button.setVisible(place < len(card.parts))
+            if place < len(card.parts):
+                part = card.parts[place]
+                button.setText(f"{part.title}\n{part.counts}")
+                button.setChecked(part.is_current)
+                button.setToolTip("\n".join(text for text in (part.title, part.more) if text))
+                button.setAccessibleName(f"Stage {part.title}: {part.more}")
+
+    @Slot()
+    def _choose(self) -> None:
+        button = self.sender()
+        assert isinstance(button, QToolButton)
+        button.setChecked(not button.isChecked())  # Which stage is stepped is shown, not chosen here.
+        self.part_chosen.emit(self.buttons.index(button))
+
+
+class Phases(QScrollArea):
+    """All phases in a row, with an arrow from each to the next."""
+
+    stage_chosen = Signal(int)
+    """The user chooses a stage, by its place in the run."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.columns: list[PhaseColumn] = []
+        self._first: list[int] = []
+        self._content = QWidget(self)
+        self._grid = QGridLayout(self._content)
+        self._grid.setContentsMargins(8, 8, 8, 8)
+        self._grid.setSpacing(4)
+        self.setWidget(self._content)
+        self.setWidgetResizable(True)
+        self.setFrameShape(QScrollArea.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+
+    @Slot(object)
+    def show_cards(self, cards: Sequence[PhaseCard]) -> None:
+        """Show the phases in order; there are as many each time."""
+        for place in range(len(self.columns), len(cards)):
+            if place:
+                self._grid.addWidget(text_label("→", self._content, "title"), 0, 2 * place - 1)
+            column = PhaseColumn(self._content)
+            column.part_chosen.connect(self._choose)
+            self._grid.addWidget(column, 0, 2 * place)
+            self._grid.setColumnStretch(2 * place, 1)
+            self.columns.append(column)
+        first = 0
+        self._first = []
+        for column, card in zip(self.columns, cards, strict=True):
+            column.show_card(card)
+            self._first.append(first)
+            first += len(card.parts)
+
+    @Slot(int)
+    def _choose(self, part: int) -> None:
+        column = self.sender()
+        assert isinstance(column, PhaseColumn)
+        self.stage_chosen.emit(self._first[self.columns.index(column)] + part)
