@@ -229,7 +229,7 @@ class AttemptFile:
         address = f"{path.absolute().as_uri()}?mode={mode}"
         try:
             with closing(
-                sqlite3.connect(address, SECONDS_TO_WAIT, isolation_level=None, uri=True)
+                sqlite3.connect(address, timeout=SECONDS_TO_WAIT, isolation_level=None, uri=True)
             ) as connection:
                 yield connection
         except sqlite3.Error as problem:

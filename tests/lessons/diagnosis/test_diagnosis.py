@@ -10,10 +10,11 @@ from core import Settings, render
 from core.framebuffer.display import to_display
 from core.geometry.vertex_stage import transform_vertices
 from core.scene import ClipScene
-from core.settings import DEFAULTS
+from core.settings import DEFAULTS, settings_from_texts
 from lessons.diagnosis import PIXEL_LIMIT, Diagnosis, Drawn, diagnose
 from lessons.mistakes.coverage import rounded
-from lessons.scenes import CATALOGUE, make_scene
+from lessons.scenes import BuiltInScene, make_scene
+from lessons.slides.scenes import ALL_SCENES
 from lessons.small_scenes import pixel_segments, triangle_scene
 from tests.lessons.diagnosis.plain_rasterizer import Homework, bresenham, over, perspective, shown
 
@@ -259,8 +260,11 @@ def test_another_size_or_too_many_pixels_are_refused(size) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("name", [scene.name for scene in CATALOGUE])
-def test_every_scene_is_right_as_it_is_drawn(name: str) -> None:
-    scene = replace(make_scene(name), size=(24, 16))
-    pixels = to_display(render(scene).color).pixels[..., :3]
-    assert diagnose(scene, Settings(), Drawn(colors=pixels)).is_right
+@pytest.mark.parametrize("built_in", ALL_SCENES.values(), ids=ALL_SCENES)
+def test_every_scene_is_right_as_it_is_drawn(built_in: BuiltInScene) -> None:
+    scene, settings = built_in.make(), settings_from_texts(dict(built_in.settings))
+    if scene.size[0] > 100:
+        scene = replace(scene, size=(24, 16))
+    frame = render(scene, settings)
+    for drawn in (Drawn(colors=to_display(frame.color).pixels[..., :3]), Drawn(primitive=frame.primitive)):
+        assert diagnose(scene, settings, drawn).is_right
