@@ -39,6 +39,8 @@ class StepRequest:
     """The triangle to be stepped, where there are too many to step all; ``None``: the one that is seen at the pixel."""
     other_scene: "AnyScene | None" = None
     """What B draws, of the same size; ``None``: what A does."""
+    is_asked: bool | None = None
+    """Whether it is hidden as while predicting, for it is asked for; ``None``: as it is now."""
 
 
 @dataclass(frozen=True)
@@ -58,6 +60,9 @@ class Page(QWidget):
     """Why what was asked for came to nothing."""
     step_requested = Signal(object)
     """A `StepRequest`: the user wants to step something that this page shows."""
+
+    question_requested = Signal(str)
+    """The line of a question that the Exercises page is to ask."""
 
     work_progressed = Signal(object)
     """A ``Progress``: how far the work of this page has come; ``None``: it does none any more."""

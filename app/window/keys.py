@@ -126,6 +126,8 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("pane_details", ("H",), "Variables and pixel history", VIEWING, "View", is_checkable=True),
         KeyAction("pane_run", ("R",), "Run: stages and timeline", VIEWING, "View", is_checkable=True),
         KeyAction("predict", ("P",), "Predict, then reveal", VIEWING, "View", is_checkable=True),
+        KeyAction("ask_step", ("Q",), "Ask this step as a question", VIEWING, "View"),
+        KeyAction("ask_value", ("Shift+Q",), "Ask for the value of the pinned pixel", VIEWING, "View"),
     ),
     KeyAction("page_start", ("Alt+0",), "Start page", PAGES, "Help"),
     *_on("start", KeyAction("begin_stepping", ("Right",), "Step what is open", STEPPING)),
@@ -234,6 +236,7 @@ ACTIONS: tuple[KeyAction, ...] = (
             "step_mistake", ("Ctrl+D",), "Step the right run beside that mistake", ANSWERING, "Exercises"
         ),
         KeyAction("model_answer", ("Ctrl+M",), "Model answer", ANSWERING, "Exercises"),
+        KeyAction("step_question", ("Ctrl+G",), "Step the scene, hidden", ANSWERING, "Exercises"),
         KeyAction(
             "answer_rows", ("Ctrl+L",), "Answer row by row instead of on the picture", ANSWERING, "Exercises"
         ),

@@ -129,6 +129,7 @@ class MainWindow(QMainWindow):
         self.appearance.text_size_changed.connect(self.menus.show_text_size)
         self.opening.message_sent.connect(self._show_message)
         self.opening.opened.connect(self._show_step)
+        self.opening.hiding_wanted.connect(self.set_predict)
         self.edits.edit_refused.connect(self.refuse)
         self.overlays.keys.keys_changed.connect(self._take_keys)
         self.overlays.keys.set_choices(self.memory.key_choices())
@@ -302,8 +303,13 @@ class MainWindow(QMainWindow):
 
     def toggle_predict(self) -> None:
         """Ask before showing, or stop asking."""
-        is_on = not self.page.predicting.is_active
-        self.page.set_predicting(is_on)
+        self.set_predict(not self.page.predicting.is_active)
+
+    @Slot(bool)
+    def set_predict(self, is_on: bool) -> None:
+        """Ask before showing from now on, or show everything."""
+        if is_on != self.page.predicting.is_active:
+            self.page.set_predicting(is_on)
         self.menus.show_checked("predict", is_on)
 
     def toggle_caption(self) -> None:
@@ -323,6 +329,7 @@ class MainWindow(QMainWindow):
         page.message_sent.connect(self.tell)
         page.edit_refused.connect(self._warn)
         page.step_requested.connect(self.opening.open_request)
+        page.question_requested.connect(self._ask_question)
         page.action_requested.connect(self.run_action)
         page.open_requested.connect(self.open_path)
         page.help_requested.connect(self.help.show_page)
@@ -340,6 +347,16 @@ class MainWindow(QMainWindow):
     @Slot()
     def _show_step(self) -> None:
         self.pages.show_page("step")
+
+    @Slot(str)
+    def _ask_question(self, line: str) -> None:
+        """Ask the question of a line on the Exercises page."""
+        from app.pages.exercises.page import ExercisesPage  # As in app.pages.page_table.
+
+        self.pages.show_page("exercises")
+        page = self.pages.current
+        assert isinstance(page, ExercisesPage)
+        page.open_line(line)
 
     # Showing the state.
 

@@ -40,7 +40,7 @@ BEFORE_SEPARATORS = (
     "visited_forward",
     "compare",
     "pane_run",
-    "predict",
+    "ask_value",
     "page_exercises",
     "previous_pane",
     "previous_family",

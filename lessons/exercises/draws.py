@@ -21,6 +21,7 @@ class Draws:
     def __init__(self, seed: int) -> None:
         if type(seed) is not int or not 0 <= seed <= SEED_LIMIT:
             raise ValueError(f"seed must be a whole number from 0 to {SEED_LIMIT}, got {seed!r}")
+        self.seed = seed
         self._random = Random(seed)
 
     def fraction(self) -> float:

@@ -33,6 +33,7 @@ class QuestionView(QWidget):
     again_requested = Signal()
     twin_requested = Signal()
     model_requested = Signal()
+    step_requested = Signal()
     copy_requested = Signal()
     list_requested = Signal()
     """The list of exercises is to be unfolded, or folded away."""
@@ -73,6 +74,9 @@ class QuestionView(QWidget):
             "Model answer",
             "Show the right answer; before a check this ends the variant without points (Ctrl+M)",
         )
+        self.step_button = self._button(
+            "Step it, hidden", "Step the scene on the Step page, which hides what comes next (Ctrl+G)"
+        )
         self._icon = QLabel(self)
         self.verdict = text_label("", self, wraps=True, name="Verdict")
         self._arrange()
@@ -84,6 +88,7 @@ class QuestionView(QWidget):
             (self.twin_button, self.twin_requested),
             (self.model_button, self.model_requested),
             (self.copy_button, self.copy_requested),
+            (self.step_button, self.step_requested),
             (self.list_button, self.list_requested),
         ):
             button.clicked.connect(signal)
@@ -133,6 +138,7 @@ class QuestionView(QWidget):
             self.model_button,
             self.variant_button,
             self.again_button,
+            self.step_button,
         ):
             buttons.addWidget(button)
         self._foot = QWidget(self)
@@ -216,9 +222,9 @@ class QuestionView(QWidget):
             if self.answer is not None:
                 self.scroll_area.ensureWidgetVisible(self.answer)
 
-    def show_choices(self, *, twin: str, model: str) -> None:
-        """Offer the run of a mistake and the model answer by these texts; an empty one: there is no such."""
-        for button, text in ((self.twin_button, twin), (self.model_button, model)):
+    def show_choices(self, *, twin: str, model: str, step: str) -> None:
+        """Offer the run of a mistake, the model answer and the scene by these texts; empty: there is no such."""
+        for button, text in ((self.twin_button, twin), (self.model_button, model), (self.step_button, step)):
             button.setVisible(bool(text))
             button.setText(text)
 

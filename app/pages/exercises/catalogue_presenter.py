@@ -17,6 +17,7 @@ from lessons.attempts.practice import Choice, next_question
 from lessons.attempts.record import DEFAULT_USER, Attempt
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import Question, Template
+from lessons.exercises.screen import PREFIX, screen_template
 from widgets.exercises.catalogue import Catalogue
 from widgets.exercises.records import ExerciseEntry, ExerciseGroup, Standing
 
@@ -98,7 +99,7 @@ class CataloguePresenter(QObject):
 
     @Slot(object)
     def _take_found(self, found: Found) -> None:
-        self.templates, self._attempts = found.templates, found.attempts
+        self.templates, self._attempts = {**self.templates, **found.templates}, found.attempts
         if found.trouble:
             self.refused.emit(found.trouble)
         self._choose()
@@ -113,13 +114,19 @@ class CataloguePresenter(QObject):
     def _choose(self) -> None:
         """Choose what to try next."""
         attempts, user = self._attempts, self.user
-        templates = {name: self.templates[name] for name in dict.fromkeys((*FIRST_COURSE, *self.templates))}
+        templates = {
+            name: self.templates[name] for name in dict.fromkeys((*FIRST_COURSE, *self._practised()))
+        }
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Choice | None:
             return next_question(attempts, templates, user, datetime.now(UTC))
 
         self._choosing.start(work)
         self.refresh()
+
+    def _practised(self) -> list[str]:
+        """Return the names of what practice chooses from: a question from the screen comes only when it is asked."""
+        return [name for name in self.templates if not name.startswith(PREFIX)]
 
     @Slot(object)
     def _take_choice(self, choice: Choice | None) -> None:
@@ -157,7 +164,11 @@ class CataloguePresenter(QObject):
         """Open the question of a line such as ``triangle-coverage 1, seed 7``."""
         head, _, seed = line.strip().rpartition(", seed ")
         name, _, version = head.rpartition(" ")
-        template = self.templates.get(name)
+        try:
+            template = self.template(name)
+        except ValueError as problem:
+            self.refused.emit(f"{problem}.")
+            return
         if template is None or not seed.isascii() or not seed.isdecimal() or len(seed) > 10:
             self.refused.emit(
                 f"Expected a line such as triangle-coverage 1, seed 7; got {line.strip()[:60]!r}."
@@ -169,6 +180,12 @@ class CataloguePresenter(QObject):
             )
         else:
             self.question_chosen.emit(template, int(seed))
+
+    def template(self, name: str) -> Template | None:
+        """Return an exercise by its name, also of what is on the screen; ValueError where such a name is wrong."""
+        if name.startswith(PREFIX) and name not in self.templates:
+            self.templates[name] = screen_template(name)
+        return self.templates.get(name)
 
     @Slot(object)
     def show_question(self, question: Question) -> None:
@@ -208,7 +225,9 @@ class CataloguePresenter(QObject):
             for stage in STAGES
         ]
         own = [each for each in self.templates.values() if each.name not in TEMPLATES]
-        groups = [each for each in (*groups, group("own", "Own exercises", own)) if each.entries]
+        groups = [
+            each for each in (*groups, group("own", "Own, and from the Step page", own)) if each.entries
+        ]
         choice = self._choice
         to_try = "" if choice is None else f"{choice.question.template.title}. {choice.reason}"
         self._view.show_exercises(groups, self._current, to_try)

@@ -6,6 +6,7 @@ from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
 from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QPushButton, QSplitter, QWidget
 
+from app.pages.exercises.asked_scene import AskedScene
 from app.pages.exercises.catalogue_presenter import FIRST_COURSE, CataloguePresenter
 from app.pages.exercises.question_presenter import QuestionPresenter
 from app.pages.exercises.unfinished import UnfinishedFile
@@ -36,6 +37,7 @@ class ExercisesPage(Page):
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.session = session
         self.grid = MarkGrid(self)
         self.catalogue, self.question_view = Catalogue(self), QuestionView(self.grid, self)
         self.unfinished = UnfinishedFile(self)
@@ -62,7 +64,14 @@ class ExercisesPage(Page):
         self.questions.step_requested.connect(self.step_requested)
         for source in (self.questions.refused, self.exercises.refused, self.unfinished.failed):
             source.connect(self.edit_refused)
+        self.hiding = AskedScene(session, self.questions, self)
+        self.hiding.hiding_toggled.connect(self._toggle_hiding)
         self._begin()
+
+    @Slot()
+    def _toggle_hiding(self) -> None:
+        """Let the Step page ask before it shows what is asked here, or show it again."""
+        self.action_requested.emit("predict")
 
     def _begin(self) -> None:
         """Show the exercise that was open last, or else the first."""
@@ -71,15 +80,25 @@ class ExercisesPage(Page):
             self.edit_refused.emit(trouble)
         self.exercises.found.connect(self._open_last)
         self.exercises.begin()
-        if self.unfinished.answers.current in ("", *self.exercises.templates):
+        if not self.unfinished.answers.current or self._last() is not None:
             self._open_last()
 
     @Slot()
     def _open_last(self) -> None:
         """Show the exercise that was open last, or else the first: a teacher's once the folders are read."""
         if self.question is None and not self.questions.is_working:
-            templates = self.exercises.templates
-            self.questions.open(templates.get(self.unfinished.answers.current) or templates[FIRST_COURSE[0]])
+            self.questions.open(self._last() or self.exercises.templates[FIRST_COURSE[0]])
+
+    def _last(self) -> Template | None:
+        """Return the exercise that was open last, if there is such."""
+        try:
+            return self.exercises.template(self.unfinished.answers.current)
+        except ValueError:
+            return None  # A question about a screen of another version: it is not asked again.
+
+    def open_line(self, line: str) -> None:
+        """Ask the question of a line that was handed out."""
+        self.exercises.open_line(line)
 
     @Slot(object, object)
     def _open(self, template: Template, seed: int | None) -> None:
@@ -132,6 +151,7 @@ class ExercisesPage(Page):
             "start_again": self.questions.ask_again,
             "step_mistake": self.questions.show_twin,
             "model_answer": self.questions.show_model,
+            "step_question": self.questions.step_hidden,
             "answer_rows": self._toggle_rows,
             "next_exercise": lambda: self.exercises.open_neighbour(1),
             "previous_exercise": lambda: self.exercises.open_neighbour(-1),

@@ -40,6 +40,8 @@ class QuestionPresenter(QObject):
     """A `Question`: it is shown now."""
     checked = Signal(object)
     """An `Attempt` that was kept."""
+    state_changed = Signal()
+    """The question may be asked now, or be asked no longer."""
     message_sent = Signal(str)
     refused = Signal(str)
     step_requested = Signal(object)
@@ -71,6 +73,7 @@ class QuestionPresenter(QObject):
         view.twin_requested.connect(self.show_twin)
         view.model_requested.connect(self.show_model)
         view.copy_requested.connect(self.copy_line)
+        view.step_requested.connect(self.step_hidden)
 
     @property
     def is_working(self) -> bool:
@@ -80,6 +83,11 @@ class QuestionPresenter(QObject):
     def stop(self) -> None:
         """End all work."""
         self._jobs.shut_down()
+
+    @property
+    def is_asked(self) -> bool:
+        """Whether the question is still open: neither checked nor shown."""
+        return self.question is not None and self._checked is None and not self._is_shown
 
     # Asking.
 
@@ -263,7 +271,9 @@ class QuestionPresenter(QObject):
         self._view.show_choices(
             twin="" if not stepped else "Show that run" if len(stepped) == 1 else "Show those runs",
             model="Model answer" if not self._is_shown else "Step the right run" if has_run else "",
+            step="Step it, hidden" if has_run and self.is_asked else "",
         )
+        self.state_changed.emit()
 
     @Slot()
     def show_twin(self) -> None:
@@ -280,6 +290,25 @@ class QuestionPresenter(QObject):
             chosen = menu.exec(self._view.twin_button.mapToGlobal(self._view.twin_button.rect().bottomLeft()))
             if chosen is not None:
                 self._step_twin(chosen.data())
+
+    @Slot()
+    def step_hidden(self) -> None:
+        """Step the scene of the question; the Step page hides what comes next, as while predicting."""
+        if self.question is None or not self.is_asked:
+            return
+        request = right_run(self.question, is_asked=True)
+        if request is not None:
+            self.step_requested.emit(request)
+
+    def give_up(self) -> None:
+        """Take the question back: the Step page has shown what it asks for."""
+        if self.is_asked:
+            self._is_shown = True
+            self._show_state()
+            self._keep()
+            self.message_sent.emit(
+                "The Step page shows what was asked for. The question earns nothing any more."
+            )
 
     def _step_twin(self, name: str) -> None:
         assert self.question is not None

@@ -8,14 +8,14 @@ from lessons.exercises.question import Question
 from lessons.mistakes.shelf import SHELF
 
 
-def right_run(question: Question) -> StepRequest | None:
-    """Return what steps the right run; ``None``: the question draws nothing."""
+def right_run(question: Question, *, is_asked: bool = False) -> StepRequest | None:
+    """Return what steps the right run, hidden while it ``is_asked``; ``None``: the question draws nothing."""
     draft = question.draft
     if draft.scene is None:
         return None
     document = document_of(draft, question.template.title)
     opening = Opening(draft.scene, document.settings, question.template.stage, draft.pixel)
-    return StepRequest(opening, question.template.title)
+    return StepRequest(opening, question.template.title, is_asked=is_asked)
 
 
 def is_stepped(question: Question, mistake: str) -> bool:
@@ -34,4 +34,5 @@ def faulty_run(question: Question, mistake: str) -> StepRequest | None:
         f"{request.title}: {mistake}",
         twin.change_settings(request.opening.settings),
         other_scene=twin.change_scene(scene),
+        is_asked=False,
     )

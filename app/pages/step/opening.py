@@ -32,6 +32,8 @@ class StepOpening(QObject):
     """A ``Message``: why it could not be opened."""
     opened = Signal()
     """It is on the Step page now."""
+    hiding_wanted = Signal(bool)
+    """Whether the Step page has to hide what comes next, before it shows anything."""
 
     def __init__(self, session: Session, page: StepPage, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -58,6 +60,8 @@ class StepOpening(QObject):
     def _show(self, ready: _Ready) -> None:
         opening, other = ready.request.opening, ready.request.other
         self._page.timeline.show_playing(False)
+        if ready.request.is_asked is not None:
+            self.hiding_wanted.emit(ready.request.is_asked)
         self._session.open(ready.document, ready.trace)
         self._page.stepping.set_places()
         self._session.set_stage(opening.stage, 0)
@@ -66,7 +70,7 @@ class StepOpening(QObject):
             self._session.set_pin(pixel)
         if other is None:
             self._page.show_view("pixels")
-            if pixel is not None:
+            if pixel is not None and not ready.request.is_asked:
                 self._page.stepping.step_into(opening.stage, *pixel)
         else:
             scene = ready.request.other_scene

@@ -9,6 +9,7 @@ from PySide6.QtWidgets import QComboBox, QScrollArea, QSplitter, QStackedWidget,
 from app.pages.page_bar import Caption, Handlers, Page
 from app.pages.step.ab_presenter import ComparePresenter
 from app.pages.step.actions import step_handlers
+from app.pages.step.ask_this import AskThis
 from app.pages.step.depth_table_presenter import DepthTablePresenter
 from app.pages.step.grid_presenter import GridPresenter
 from app.pages.step.inspector_column import InspectorColumn
@@ -96,6 +97,10 @@ class StepPage(Page):
         self.navigator.close_requested.connect(partial(self.toggle_pane, "navigator"))
         self.pixel_menu = PixelMenu(session, self.stepping, self)
         self.pixel_menu.origin_requested.connect(self.go_to_writer)
+        self.asking = AskThis(session, self)
+        self.asking.question_requested.connect(self.question_requested)
+        self.asking.refused.connect(self.message_sent)
+        self.pixel_menu.question_requested.connect(self.ask_value)
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.main_area.view_changed.connect(self._follow_view)
@@ -333,11 +338,20 @@ class StepPage(Page):
         if buffer is not None:
             self.inspector.go_to_writer(buffer.name, buffer.label)
 
+    @Slot()
+    def ask_value(self) -> None:
+        """Ask for the value of the main grid at the pinned pixel."""
+        buffer = self.grid.buffer()
+        if buffer is not None:
+            self.asking.ask_value(buffer.name)
+
     # As a page of the window.
 
     def handlers(self) -> Handlers:
         """Return what the keys of this page do."""
         return {
+            "ask_step": self.asking.ask_step,
+            "ask_value": self.ask_value,
             **step_handlers(self.session, self.stepping, self.timeline),
             **view_handlers(self),
             "fit_view": self._fit,

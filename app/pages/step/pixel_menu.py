@@ -15,6 +15,8 @@ class PixelMenu(QObject):
 
     origin_requested = Signal()
     """The user asks where the value of the pixel, which is pinned by now, comes from."""
+    question_requested = Signal()
+    """The value of the pixel, which is pinned by now, is to become a question."""
 
     def __init__(self, session: Session, stepping: SteppingPresenter, parent: QWidget) -> None:
         super().__init__(parent)
@@ -41,6 +43,7 @@ class PixelMenu(QObject):
         has_breakpoint = self._pixel in self._stepping.pixel_breakpoints
         self._add("Remove the breakpoint" if has_breakpoint else "Breakpoint", "breakpoint")
         self._add("Where does this value come from?", "origin")
+        self._add("Ask for this value", "ask")
         self.menu.addSeparator()
         for stage in STAGES[STAGES.index("raster") :]:
             self._add(f"Step here in {stage_of(stage).short_title}", stage)
@@ -59,6 +62,9 @@ class PixelMenu(QObject):
         elif name == "origin":
             self._session.set_pin(self._pixel)
             self.origin_requested.emit()
+        elif name == "ask":
+            self._session.set_pin(self._pixel)
+            self.question_requested.emit()
         else:
             self._session.set_pin(self._pixel)
             self._stepping.step_into(name, *self._pixel)

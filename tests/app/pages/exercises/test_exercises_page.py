@@ -201,7 +201,7 @@ def test_work_survives_leaving_and_the_program(page: Page, qtbot: QtBot) -> None
     paint(shown, frozenset({(2, 2), (3, 2)}))
     QTest.mouseClick(shown.question_view.hint_button, LEFT)
     shown.leave()
-    other = ExercisesPage(shown.exercises)  # type: ignore[arg-type]
+    other = ExercisesPage(shown.session)
     qtbot.addWidget(other)
     other.settle()
     assert other.question is not None

@@ -1,0 +1,101 @@
+"""Ask this: a step or a value of the Step page becomes a question; while it is asked, the Step page hides it."""
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from app.pages.exercises.page import ExercisesPage
+from app.window.main_window import MainWindow
+from core import Settings
+from lessons.exercises.question import ask, judge
+from lessons.exercises.screen import Screen, scene_name, screen_of, screen_template
+from lessons.scenes import make_scene
+
+
+def exercises(window: MainWindow) -> ExercisesPage:
+    page = window.pages.current
+    assert isinstance(page, ExercisesPage)
+    page.settle()
+    return page
+
+
+def test_a_step_is_asked_hidden_and_shown_after_the_check(window: MainWindow, qtbot: QtBot) -> None:
+    session = window.session
+    session.set_stage("raster", 0)
+    position = session.stage_trace.steps.position_after(5)
+    session.go_to(position)
+    window.run_action("ask_step")
+    page = exercises(window)
+    assert page.question is not None
+    assert page.question.mark == "ask/shared-edge/64x48/fill=bounding-box/raster/step=5 1, seed 0"
+    assert session.is_predicting
+    window.run_action("page_step")
+    assert window.page.pointed_text((3, 3)) == ""
+    window.run_action("page_exercises")
+    page.questions.answer(page.question.draft.answer.reference)
+    page.questions.check()
+    page.settle()
+    assert page.question_view.verdict.text().startswith("1 of 1 point")
+    assert not session.is_predicting
+
+
+def test_ending_prediction_gives_the_question_up(window: MainWindow) -> None:
+    window.session.set_stage("raster", 4000)
+    window.session.set_pin((30, 20))
+    window.run_action("ask_value")
+    page = exercises(window)
+    assert page.questions.is_asked
+    window.run_action("page_step")
+    window.run_action("predict")
+    assert not page.questions.is_asked
+
+
+def test_what_has_no_line_is_refused(window: MainWindow, qtbot: QtBot) -> None:
+    window.session.set_stage("raster", 0)
+    window.run_action("ask_step")
+    assert window.statusBar().currentMessage() == "Take a step first: the step just done is asked about."
+    assert window.pages.current_name == "step"
+
+
+def test_a_name_gives_the_same_question_everywhere_and_a_seed_another() -> None:
+    name = "ask/shared-edge~0.1=9.25,4.5/64x48/fill=bounding-box/raster/step=5"
+    template = screen_template(name)
+    first, again, other = (ask(template, seed) for seed in (0, 0, 3))
+    assert first.draft.text == again.draft.text
+    assert first.draft.given == again.draft.given != other.draft.given
+    assert "(9.25, 4.5)" in first.draft.given
+    assert judge(first, first.draft.answer.reference).verdict.score == 1
+    assert screen_of(name).name == name
+    scene = first.draft.scene
+    assert scene is not None
+    assert scene_name(scene, "Two triangles sharing an edge") == "shared-edge~0.1=9.25,4.5"
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "ask/",
+        "ask/nothing/16x12/-/raster/step=1",
+        "ask/shared-edge/999x1/-/raster/step=1",
+        "ask/shared-edge/16x12/fill=no/raster/step=1",
+        "ask/shared-edge/16x12/-/raster/step=x",
+        "ask/shared-edge~9.9=1,2/16x12/-/raster/step=1",
+        "ask/cube~0.1=1,2/16x12/-/raster/step=1",
+        "ask/shared-edge/16x12/-/raster/step=" + "1" * 300,
+    ],
+)
+def test_a_wrong_name_is_one_sentence(name: str) -> None:
+    with pytest.raises(ValueError, match=r"expected|must be"):
+        screen_template(name)
+
+
+def test_a_scene_from_a_file_has_no_name() -> None:
+    with pytest.raises(ValueError, match="built-in scene"):
+        scene_name(make_scene("cube"), "bunny")
+
+
+def test_a_value_is_asked_with_its_channels() -> None:
+    screen = Screen("shared-edge", (64, 48), {}, "blend", buffer="color", pixel=(30, 20), rows_done=10**6)
+    draft = ask(screen_template(screen.name), 0).draft
+    assert draft.answer.names[:3] == ("red", "green", "blue")  # type: ignore[attr-defined]
+    assert Settings() == draft.settings
+    assert screen_of(Screen("cube", (8, 6), {}, "interpolate", buffer="1/w").name).buffer == "1/w"
