@@ -78,6 +78,13 @@ def display_image(pixels: NDArray[np.uint8]) -> QImage:
     return image.convertToFormat(QImage.Format.Format_RGB32)
 
 
+def transparent_image(pixels: NDArray[np.uint8]) -> QImage:
+    """Return (H, W, 4) uint8 sRGB with straight alpha, row 0 at the bottom, as a W x H image."""
+    flipped = np.ascontiguousarray(pixels[::-1])
+    rows, columns, _ = flipped.shape
+    return QImage(flipped.data, columns, rows, 4 * columns, QImage.Format.Format_RGBA8888).copy()
+
+
 def mask_image(mask: NDArray[np.bool_]) -> QImage:
     """Return an (H, W) bool mask as a W x H image: opaque black where it is true, else transparent."""
     return _to_image(np.where(mask, np.uint32(_OPAQUE), np.uint32(_TRANSPARENT)))

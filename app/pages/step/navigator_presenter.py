@@ -1,21 +1,26 @@
-"""The navigator over the grid: the whole picture, and which part of it the grid magnifies."""
+"""The navigator over the grid: the scene in small, and which part of it the grid magnifies.
+
+Until the run is done it shows the outline of the scene alone: its colours are still to come.
+"""
 
 from dataclasses import replace
 from functools import partial
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QTimer, Signal, Slot
-from PySide6.QtGui import QPolygonF
+from PySide6.QtGui import QImage, QPolygonF
 
 from app.session.document import Document
 from app.session.latest_call import LatestCall
 from app.session.session import Session
 from app.views.scene_worker import SceneWorker
-from core.fast_path import Picture, draw_picture
+from core import STAGES
+from core.fast_path import draw_picture
+from core.framebuffer.display import Bytes
 from core.records.arrays import Floats
 from core.scene import AnyScene
 from core.settings import Settings
-from widgets.basics.image import display_image
+from widgets.basics.image import display_image, transparent_image
 from widgets.grid.navigator import Navigator
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
@@ -25,6 +30,12 @@ LONGER_SIDE = 320
 DRAWN_AFTER_MS = 150
 """The picture is drawn anew when nothing has changed for so long: not at every move of a drag."""
 MARGIN = 8
+AXIS = 32
+"""Width and height of the numbers beside the raster, in logical pixels."""
+OUTLINE = (128, 128, 128)
+"""Colour of the outline, 3 : 1 on both themes."""
+INSIDE = 0.25
+"""How much of this colour the inside has."""
 PART_OF_GRID = 0.3
 """Part of the grid's shorter side that the navigator takes at most."""
 
@@ -43,6 +54,8 @@ class NavigatorPresenter(QObject):
         self._is_wanted = True
         self._gestures = 0
         self._drawn: tuple[AnyScene, Settings] | None = None
+        self._pictures: tuple[QImage, QImage] | None = None
+        """The outline and the finished picture."""
         self._worker = SceneWorker(self)
         self._worker.done.connect(self._take_picture)
         self._pause = QTimer(self)
@@ -57,7 +70,7 @@ class NavigatorPresenter(QObject):
         grid.view_changed.connect(self.refresh)
         session.document_changed.connect(self.refresh)
         session.predicting_changed.connect(self.refresh)
-        session.cursor_changed.connect(self._keep_off_the_step)
+        session.cursor_changed.connect(self._follow_step)
 
     def set_wanted(self, is_wanted: bool) -> None:
         """Show it where there is something to navigate, or never."""
@@ -148,18 +161,27 @@ class NavigatorPresenter(QObject):
         if corners is not None:
             own = corners * self._session.document.traced_scene.size - np.array(placement.origin)
             triangle = QPolygonF([placement.to_widget(*corner) for corner in own.tolist()])
+        raster = placement.seen_raster
         places = [
-            QPoint(x, y)
-            for x in (inside.right() - box.width() + 1, inside.left())
-            for y in (inside.top(), inside.bottom() - box.height() + 1)
+            QPoint(round(x), round(y))
+            for x in (inside.right() - box.width() + 1, inside.left(), raster.left() + MARGIN)
+            for y in (
+                inside.top(),
+                inside.bottom() - box.height() + 1,
+                raster.bottom() - MARGIN - box.height(),
+            )
         ]
-
+        axes = (
+            QRectF(raster.left() - AXIS, raster.top(), AXIS, raster.height()),
+            QRectF(raster.left(), raster.bottom(), raster.width(), AXIS),
+        )
         step = self._step_cell()
 
-        def hidden(place: QPoint) -> tuple[bool, int, float]:
+        def hidden(place: QPoint) -> tuple[bool, int, int, float]:
             own = QRectF(place, box.size())
             part = triangle.intersected(QPolygonF(own))
-            return own.intersects(step), sum(map(own.contains, triangle.toList())), _area(part)
+            corners = sum(map(own.contains, triangle.toList()))
+            return own.intersects(step), corners, sum(map(own.intersects, axes)), _area(part)
 
         navigator.move(min(places, key=hidden))
         navigator.raise_()
@@ -174,8 +196,9 @@ class NavigatorPresenter(QObject):
         return self._grid.placement().cells_rect(column, line)
 
     @Slot()
-    def _keep_off_the_step(self) -> None:
-        """Go to another corner where the step just done would be hidden."""
+    def _follow_step(self) -> None:
+        """Show no more than is done, and go to another corner where the step just done would be hidden."""
+        self._show_picture()
         if self._navigator.isVisible() and self._step_cell().intersects(QRectF(self._navigator.geometry())):
             self._place()
 
@@ -186,12 +209,22 @@ class NavigatorPresenter(QObject):
         width, height = (max(round(side * min(scale, 1.0)), 1) for side in document.scene.size)
         self._drawn = document.scene, document.settings
         self._worker.start(
-            partial(draw_picture, replace(document.scene, size=(width, height)), document.settings)
+            partial(_draw_both, replace(document.scene, size=(width, height)), document.settings)
         )
 
     @Slot(object)
-    def _take_picture(self, picture: Picture) -> None:
-        self._navigator.show_picture(display_image(picture.pixels))
+    def _take_picture(self, drawn: tuple[Bytes, Bytes]) -> None:
+        outline, finished = drawn
+        self._pictures = transparent_image(outline), display_image(finished)
+        self._show_picture()
+
+    def _show_picture(self) -> None:
+        """Show the finished picture at the end of the run, and before that the outline."""
+        cursor, pictures = self._session.cursor, self._pictures
+        if pictures is not None and self._navigator.isVisible():
+            is_done = cursor.stage == STAGES[-1]
+            is_done = is_done and cursor.position == self._session.stage_trace.steps.count
+            self._navigator.show_picture(pictures[is_done])
 
     # Acting.
 
@@ -222,6 +255,19 @@ class NavigatorPresenter(QObject):
             if not region.intersects(QRectF(QPointF(*low), QPointF(*high))):
                 triangle = self._session.document.triangle
                 self.message_sent.emit(f"Triangle {triangle} is not in this region. F goes back to it.")
+
+
+def _draw_both(scene: AnyScene, settings: Settings) -> tuple[Bytes, Bytes]:
+    """Return the outline (H, W, 4) uint8 of what is drawn, transparent elsewhere, and the picture, sRGB."""
+    bare = draw_picture(replace(scene, background=np.zeros(4)), settings).pixels
+    finished = bare if not np.any(scene.background) else draw_picture(scene, settings).pixels
+    inside = np.pad(bare[..., 3] > 0, 1)
+    middle = inside[1:-1, 1:-1]
+    around = inside[:-2, 1:-1] & inside[2:, 1:-1] & inside[1:-1, :-2] & inside[1:-1, 2:]
+    outline = np.zeros_like(bare)
+    outline[..., :3] = OUTLINE
+    outline[..., 3] = np.where(middle, np.where(around, round(255 * INSIDE), 255), 0)
+    return outline, finished
 
 
 def _area(polygon: QPolygonF) -> float:

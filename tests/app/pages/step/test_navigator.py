@@ -147,3 +147,31 @@ def test_the_navigator_hides_no_vertex_where_a_corner_is_free(window: MainWindow
     window = vertices.window[vertices.corners[document.triangle], :2] - np.array(placement.origin)
     box = page.navigator.geometry()
     assert not any(box.contains(placement.to_widget(*place).toPoint()) for place in window.tolist())
+
+
+def test_the_navigator_shows_the_outline_until_the_run_is_done(window: MainWindow, qtbot: QtBot) -> None:
+    page, session = window.page, window.session
+    page.grid.zoom_by(2.0)
+    qtbot.waitUntil(lambda: not page.navigation.is_drawing)
+
+    def colors() -> set[int]:
+        image = page.navigator._image
+        assert image is not None
+        return {image.pixelColor(x, y).rgb() for x in range(image.width()) for y in range(image.height())}
+
+    outline = colors()
+    assert {color & 0xFFFFFF for color in outline} <= {0x808080, 0}
+    session.set_stage("resolve", session.trace.stage("resolve").steps.count)
+    assert len(colors() - outline) >= 2, "the colours of both triangles"
+    session.step(-1)
+    assert colors() == outline
+
+
+def test_the_navigator_leaves_the_numbers_beside_the_raster(window: MainWindow) -> None:
+    page, session = window.page, window.session
+    session.open(open_document(built_in_scene("teapot").make(), "Teapot"))
+    session.set_stage("edges", 11)
+    page.settle()
+    raster = page.grid.placement().seen_raster
+    assert page.navigator.isVisible()
+    assert raster.left() <= page.navigator.geometry().left()
