@@ -116,6 +116,9 @@ class FileActions(QObject):
             page.stepping.set_places()
             session.set_stage(STAGES[0], 0)
             page.show_own_view()
+            # As at first, also where the same scene was magnified before.
+            page.grid.fit()
+            page.views.look_from({})
             return
         page.stepping.set_places(state.bookmarks, state.breakpoints)
         session.set_level(Level(state.level))

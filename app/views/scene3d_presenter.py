@@ -55,6 +55,8 @@ class Scene3dPresenter(QObject):
     """A triangle that was clicked."""
     refused = Signal(str)
     """Why a drag did nothing, or a picture could not be drawn."""
+    message_sent = Signal(str)
+    """What a click found."""
 
     def __init__(self, session: Session, view: SceneView, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -362,6 +364,8 @@ class Scene3dPresenter(QObject):
     @Slot(object)
     def _take_picked(self, triangle: int) -> None:
         if triangle < 0:
+            said = "No triangle is here: a click on one chooses it, a drag turns the scene."
+            self.message_sent.emit(of_kind(said, self._session.document.scene.corner_count))
             return
         is_model = self._session.document.triangle_count > LARGEST_WITH_CAMERA
         self._entered = triangle if is_model else None

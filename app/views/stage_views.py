@@ -29,6 +29,8 @@ class StageViews(QObject):
     """A triangle of the scene was clicked in the 3D view."""
     refused = Signal(str)
     """Why a drag in a view did nothing."""
+    message_sent = Signal(str)
+    """What a click in a view found."""
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -42,6 +44,7 @@ class StageViews(QObject):
         self._scene_presenter = Scene3dPresenter(session, self._scene, self)
         self._scene_presenter.triangle_picked.connect(self.triangle_picked)
         self._scene_presenter.refused.connect(self.refused)
+        self._scene_presenter.message_sent.connect(self.message_sent)
         for widget in self._views.values():
             widget.installEventFilter(self)
         session.document_changed.connect(self._refresh_visible)

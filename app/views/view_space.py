@@ -26,6 +26,9 @@ FIELD_OF_VIEW = 0.7
 """Vertical opening angle of the viewing camera, radians."""
 LARGEST_WITH_CAMERA = 100
 """Triangles of a scene that is first seen together with its camera; a larger one is a model, which fills the view."""
+CAMERA_ASIDE, MODEL_ASIDE = 0.9, -0.7
+"""Angles from the camera's direction to where a scene is first seen from, in radians: with its camera at the side, or
+a model in a three-quarter view of the front, which looks along +z as mesh files have it."""
 EYE_REACH = 25.0
 """An eye farther away than so many radii of the meshes is left out of the whole view."""
 
@@ -95,7 +98,8 @@ def make_space(scene: AnyScene, vertices: VertexStage) -> ViewSpace:
         size = float(np.linalg.norm(high - low)) / 2
     x, y, z = ((low + high) / 2).tolist()
     back = camera.eye - camera.target
-    azimuth = float(np.arctan2(back[0], back[2])) + 0.9
+    aside = MODEL_ASIDE if scene_triangle_count(scene) > LARGEST_WITH_CAMERA else CAMERA_ASIDE
+    azimuth = float(np.arctan2(back[0], back[2])) + aside
     return ViewSpace(scene, vertices, matrix, (x, y, z), max(size, 1e-9), Orbit(azimuth, 0.4))
 
 

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt, Signal, Slot
-from PySide6.QtGui import QColor, QPainter
+from PySide6.QtGui import QColor, QPainter, QResizeEvent
 from PySide6.QtWidgets import (
     QListWidget,
     QListWidgetItem,
@@ -68,7 +68,8 @@ class FamilyList(QListWidget):
         self._entries: tuple[FamilyEntry, ...] = ()
         self.setAccessibleName("Families of methods")
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        self.setTextElideMode(Qt.TextElideMode.ElideRight)
+        self.setWordWrap(True)
+        self.setResizeMode(QListWidget.ResizeMode.Adjust)
         self.setItemDelegate(_GroupLines(self))
         self.currentRowChanged.connect(self._choose)
         theme_notifier().theme_changed.connect(self._refresh)
@@ -97,6 +98,15 @@ class FamilyList(QListWidget):
                 mark.fill("transparent")
             item.setIcon(mark)
             item.setData(_ENDS_GROUP, entry.ends_group)
+        self._fit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Wrap long titles again."""
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        """Take no more height than the rows need."""
         rows = sum(self.sizeHintForRow(row) for row in range(self.count()))
         self.setMaximumHeight(max(rows + 2 * self.frameWidth(), self.minimumSizeHint().height()))
 

@@ -74,14 +74,18 @@ def paint_pale_edges(
     cells: tuple[int, int, int, int],
 ) -> None:
     """Draw a line between cells that have a value and empty ones of nearly the same colour: white on a light grid."""
-    if buffer.known is None or buffer.kind == "bool" or placement.cell < OUTLINED_CELL:
+    holds_value = buffer.known
+    if buffer.kind == "color" and buffer.channels == 4:
+        is_seen = buffer.values[..., 3] > 0
+        holds_value = is_seen if holds_value is None else is_seen & holds_value
+    if holds_value is None or buffer.kind == "bool" or placement.cell < OUTLINED_CELL:
         return
     column0, row0, column1, row1 = cells
     shown = image.copy(column0, placement.rows - row1, column1 - column0, row1 - row0)
     pixels = np.frombuffer(shown.constBits(), np.uint8).reshape(shown.height(), -1, 4)[::-1, : shown.width()]
     light = linear_light(pixels[..., 2::-1] / 255.0) @ LUMINANCE + 0.05
     empty = relative_luminance(theme.empty) + 0.05
-    known = buffer.known[row0:row1, column0:column1]
+    known = holds_value[row0:row1, column0:column1]
     pale = known & (np.maximum(light, empty) < LEAST_CONTRAST * np.minimum(light, empty))
     if not pale.any():
         return

@@ -108,6 +108,7 @@ class StepPage(Page):
         self.stepping.stepped_alone = self.comparing.steps_alone
         self.stepping.message_sent.connect(self.message_sent)
         self.comparing.message_sent.connect(self.message_sent)
+        self.views.message_sent.connect(self.message_sent)
         self.main_area.view_chosen.connect(self.look_changed)
         self.grids.look_changed.connect(self.look_changed)
         self.comparing.look_changed.connect(self.look_changed)

@@ -7,6 +7,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.files.open_any import open_any
 from app.session.document import open_document
 from app.views.scene_picture import fractions
 from app.window.main_window import MainWindow
@@ -175,3 +176,23 @@ def test_the_navigator_leaves_the_numbers_beside_the_raster(window: MainWindow) 
     raster = page.grid.placement().seen_raster
     assert page.navigator.isVisible()
     assert raster.left() <= page.navigator.geometry().left()
+
+
+def test_a_mesh_opens_large_from_its_front_also_when_it_opens_again(window: MainWindow) -> None:
+    opened, page = open_any("torus"), window.page
+    window.files.show_opened(opened)
+    page.settle()
+    view = page.main_view()
+    first = view.orbit()  # type: ignore[attr-defined]
+    assert np.abs(first.azimuth) < np.pi / 3, "a face that looks along +z is seen"
+    view.zoom_by(8.0)  # type: ignore[attr-defined]
+    page.grid.zoom_by(4.0)
+    window.files.show_opened(open_any("torus"))
+    page.settle()
+    assert view.orbit() == first  # type: ignore[attr-defined]
+    assert page.grid.view().zoom == 1
+
+
+def test_a_click_beside_the_model_says_so(model: MainWindow) -> None:
+    model.page.views.scene_presenter._take_picked(-1)
+    assert "No triangle is here" in model.statusBar().currentMessage()
