@@ -6,7 +6,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any, Protocol
 
-from PySide6.QtCore import Qt, Slot
+from PySide6.QtCore import QEvent, Qt, Slot
 from PySide6.QtWidgets import QPushButton, QSplitter, QWidget
 
 from app.background.background_task import BackgroundTask
@@ -51,7 +51,7 @@ class WorkPage(Page):
         self, left: QWidget, above: Sequence[tuple[QWidget, int]], below: QWidget, spacing: int = 4
     ) -> None:
         """Put ``left`` beside the widgets ``above``, each with its stretch, and ``below``."""
-        top = QWidget(self)
+        top = _WrappingPane(self)
         layout = column_layout(top, spacing)
         for widget, stretch in above:
             layout.addWidget(widget, stretch)
@@ -78,6 +78,17 @@ class WorkPage(Page):
     def stop(self) -> None:
         """End all work."""
         self._jobs.shut_down()
+
+
+class _WrappingPane(QWidget):
+    """A pane of a splitter, never lower than its wrapped rows: a splitter does not ask for a height by the width."""
+
+    def event(self, event: QEvent) -> bool:
+        """Ask for the height that the rows have at this width, whenever they are laid out."""
+        layout = self.layout()
+        if layout is not None and event.type() in (QEvent.Type.Resize, QEvent.Type.LayoutRequest):
+            self.setMinimumHeight(layout.minimumHeightForWidth(self.width()))
+        return super().event(event)
 
 
 def splitter(

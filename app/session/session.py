@@ -235,7 +235,7 @@ class Session(QObject):
         document, stage = self._history.neighbour(direction), self._cursor.stage
         if document is None:
             return
-        if document.estimated_seconds > QUICK_SECONDS:
+        if document.estimated_seconds > RESTING_SECONDS:
             self.tracing.start(Order(document, "", stage, direction, self._trace))
             return
         self.tracing.cancel()

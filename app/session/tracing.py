@@ -13,7 +13,7 @@ from core.trace.incremental.draft import draft
 QUICK_SECONDS = 0.3
 """What is estimated to take longer is traced off the GUI thread."""
 RESTING_SECONDS = 0.05
-"""The same for what a drag has left out: what was dragged is seen already, so that nobody waits for the rest."""
+"""The same for what a drag has left out, and for undo and redo: nobody follows those with the pointer."""
 
 
 @dataclass(frozen=True, eq=False)

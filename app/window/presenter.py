@@ -24,7 +24,7 @@ CLICKER = {
 HINT_ROOM = 32
 """Width of a hint around its text, in logical pixels."""
 PRESENTED_PANES = ("inspector",)
-"""Panes that are shown at first."""
+"""Panes that are shown at first, but beside A | B: each of its pictures has a sentence of its own."""
 
 
 @dataclass(frozen=True)
@@ -45,6 +45,7 @@ class Presenter(QObject):
     def __init__(self, window: "MainWindow") -> None:
         super().__init__(window)
         self._desk: _Desk | None = None
+        self._is_comparing = False
         self._blank = QWidget(window)
         self._blank.setStyleSheet("background: #000000")
         self._blank.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -55,6 +56,7 @@ class Presenter(QObject):
         self.hint.setWordWrap(True)
         self.hint.hide()
         window.statusBar().messageChanged.connect(self._show_hint)
+        window.page.main_area.view_changed.connect(self._follow_view)
 
     @property
     def _window(self) -> "MainWindow":
@@ -84,10 +86,19 @@ class Presenter(QObject):
         window.menuBar().hide()
         window.pages.show_bar(False)
         page.set_presenting(True)
-        page.show_panes(PRESENTED_PANES)
+        self._is_comparing = page.current_view() == "compare"
+        page.show_panes(() if self._is_comparing else PRESENTED_PANES)
         window.appearance.set_theme("presenter-dark" if current_theme().is_dark else "presenter")
         the_application().installEventFilter(self)
         self.presenting_changed.emit(True)
+
+    @Slot(str)
+    def _follow_view(self, name: str) -> None:
+        """Give A | B the whole width, and the step its words again beside another view."""
+        is_comparing = name == "compare"
+        if self.is_presenting and is_comparing != self._is_comparing:
+            self._is_comparing = is_comparing
+            self._window.page.show_panes(() if is_comparing else PRESENTED_PANES)
 
     def leave(self) -> None:
         """Go back to the desk: the window as it was."""

@@ -107,6 +107,8 @@ class CompareView(QWidget):
         theme_notifier().theme_changed.connect(self._show_again)
 
     def _lay_out(self) -> None:
+        self._choices = QWidget(self)
+        choices = column_layout(self._choices, 8)
         row = row_layout(spacing=8)
         row.addWidget(QLabel("Compare", self))
         row.addWidget(self.buffer_box, 1)
@@ -134,8 +136,9 @@ class CompareView(QWidget):
         buttons.addWidget(self.flip_button)
         buttons.addStretch(1)
         layout = column_layout(self, 8, margins=(0, 4, 0, 0))
-        layout.addLayout(row)
-        layout.addLayout(buttons)
+        choices.addLayout(row)
+        choices.addLayout(buttons)
+        layout.addWidget(self._choices)
         layout.addWidget(self.figure, 1)
         figure = column_layout(self.figure, 8)
         figure.addWidget(self.linked, 1)
@@ -145,6 +148,10 @@ class CompareView(QWidget):
             notes.addWidget(note, 1)
         figure.addLayout(notes)
         self.summary = self.notes[2]
+
+    def show_choices(self, is_shown: bool) -> None:
+        """Offer buffers, methods and buttons, or leave all the room to the pictures."""
+        self._choices.setVisible(is_shown)
 
     def show_buffers(self, names: Sequence[tuple[str, str]], current: str) -> None:
         """Offer buffers (name, title) for comparison."""

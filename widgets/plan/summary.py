@@ -111,7 +111,7 @@ class PlanSummary(QWidget):
 
 
 class PlanFindings(QScrollArea):
-    """Findings in the scene and how fine its meshes are, each folded away until it is opened."""
+    """Findings in the scene and how fine its meshes are; each can be folded away."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -127,7 +127,8 @@ class PlanFindings(QScrollArea):
         self.setWidgetResizable(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setAccessibleName("Findings in the scene")
-        self.advice.set_open(True)
+        for fold in (self.findings, self.advice):
+            fold.set_open(True)
         self.show_record(None)
 
     def show_record(self, record: SummaryRecord | None) -> None:

@@ -193,8 +193,8 @@ class PlanPresenter(BackgroundTask):
         else:
             self._replaced = document.settings
             self.refresh()
-            said = applied_text(document.settings, shown.plan.settings)
-            self.message_sent.emit(f"{said} Ctrl+Z restores the old settings.")
+            # What has changed stands in the summary: the hint must fit beside the names of the pages.
+            self.message_sent.emit("Applied the plan. Ctrl+Z restores the old settings.")
 
     @Slot()
     def take_back(self) -> None:

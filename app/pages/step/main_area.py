@@ -132,6 +132,7 @@ class MainArea(QWidget):
         """Leave out the row of views and buffers, or bring it back."""
         self._row.setVisible(not is_presenting)
         self._views.show_figures(not is_presenting)
+        self.compare_view.show_choices(not is_presenting)
 
     def eventFilter(self, watched: object, event: QEvent) -> bool:
         """Put the control of the range below its button when it opens."""

@@ -188,7 +188,7 @@ def test_a_scene_that_cannot_be_drawn_whole_goes_back_to_that_before_the_drag(
     monkeypatch.setattr(app.session.session, "RESTING_SECONDS", limit)
     with qtbot.waitSignal(session.edit_failed):
         session.come_to_rest()
-    assert session.document is before
+    qtbot.waitUntil(lambda: session.document is before)
     assert_traced_as_from_nothing(session)
 
 

@@ -182,3 +182,17 @@ def test_undoing_to_a_long_trace_waits_for_it(qtbot: QtBot) -> None:
     session.redo()
     assert session.document is quick
     session.tracing.shut_down()
+
+
+def test_undo_of_what_takes_a_while_is_traced_off_the_gui_thread(
+    qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session = Session(open_document(make_scene("cube"), "Cube"))
+    before = session.document
+    session.set_setting("fill", "blocks")
+    monkeypatch.setattr("app.session.session.RESTING_SECONDS", 0.0)
+    session.undo()
+    assert session.tracing.is_busy
+    wait_for(session, qtbot)
+    assert session.document is before
+    session.tracing.shut_down()

@@ -164,3 +164,14 @@ def test_hints_are_seen_although_their_bar_is_not(window: MainWindow) -> None:
     assert window.presenter.hint.isVisible()
     assert window.presenter.hint.text() == "Pin a pixel first: click it."
     assert window.page.main_view().geometry() == picture
+
+
+def test_a_b_has_the_whole_width(window: MainWindow) -> None:
+    present(window, (1280, 720))
+    assert "inspector" in window.page.shown_panes()
+    window.page.show_view("compare")
+    window.page.settle()
+    raster = window.page.compare_view.grids[0].placement().seen_raster
+    assert raster.width() >= 0.25 * window.width()
+    window.page.show_view("pixels")
+    assert "inspector" in window.page.shown_panes()

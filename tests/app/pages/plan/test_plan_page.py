@@ -108,11 +108,11 @@ def test_the_tolerance_is_the_one_that_was_set(page: PlanPage, qtbot: QtBot) -> 
     assert "exact" in page.summary.about.text()
 
 
-def test_findings_are_unfolded(page: PlanPage, qtbot: QtBot) -> None:
+def test_findings_are_read_and_folded_away(page: PlanPage, qtbot: QtBot) -> None:
     report = looked(page, qtbot)
-    assert not page.findings.findings.text.isVisible()
-    QTest.keyClick(page.window(), Qt.Key.Key_I)
     assert page.findings.findings.text.isVisible()
+    QTest.keyClick(page.window(), Qt.Key.Key_I)
+    assert not page.findings.findings.text.isVisible()
     for fact in report.plan.findings.facts:
         assert fact.title in page.findings.findings.text.text()
 
@@ -123,6 +123,8 @@ def test_applying_is_one_step_that_undo_takes_back(window: MainWindow, page: Pla
     QTest.mouseClick(page.controls.apply_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: window.session.document is not before, timeout=60000)
     assert window.session.document.settings == report.plan.settings
+    hint = window.statusBar().currentMessage()
+    assert window.statusBar().fontMetrics().horizontalAdvance(hint) < window.statusBar().width(), "whole"
     assert not page.plans.is_stale
     window.pages.show_page("step")
     window.page.toggle_pane("methods")
