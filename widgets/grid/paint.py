@@ -76,7 +76,7 @@ def paint_pale_edges(
     """Draw a line between cells that have a value and empty ones of nearly the same colour: white on a light grid."""
     holds_value = buffer.known
     if buffer.kind == "color" and buffer.channels == 4:
-        is_seen = buffer.values[..., 3] > 0
+        is_seen = buffer.values[..., 3].astype(bool)
         holds_value = is_seen if holds_value is None else is_seen & holds_value
     if holds_value is None or buffer.kind == "bool" or placement.cell < OUTLINED_CELL:
         return
