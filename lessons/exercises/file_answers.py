@@ -212,9 +212,10 @@ def _cheapest_answer(part: CheapestPart, scene: AnyScene, settings: Settings) ->
     families = tuple(
         Family(family, tuple(costs), tuple(costs.values())) for family, costs in part.costs.items()
     )
-    return CheapestAnswer(families, part.tolerance, partial(byte_error, scene, settings), settings)
+    return CheapestAnswer(families, part.tolerance, byte_error(scene, settings), settings)
 
 
-def byte_error(scene: AnyScene, reference: Settings, settings: Settings) -> Fraction:
-    """Return the largest difference of a colour channel, of 255, from the picture of ``reference``."""
-    return Fraction(int(difference(shown(scene, settings), shown(scene, reference)).max(initial=0)))
+def byte_error(scene: AnyScene, reference: Settings) -> Callable[[Settings], Fraction]:
+    """Return what finds how far a channel is off at most, of 255, with settings other than ``reference``."""
+    right = shown(scene, reference)
+    return lambda settings: Fraction(int(difference(shown(scene, settings), right).max(initial=0)))

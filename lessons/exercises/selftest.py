@@ -9,8 +9,8 @@ from lessons.exercises.answers.answer import Response
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Question, Template, ask, judge
 
-GUESSES = 100
-"""Random answers to a question."""
+GUESSES, LEAST_GUESSES, MOST_GUESSES = 2000, 10, 100
+"""Random answers to all questions of a template together, and to each question at least and at most."""
 GUESS_LIMIT = 0.05
 """Most that random answers earn on average above the stated score of chance, and three times its spread."""
 NAMED_LIMIT = 0.01
@@ -42,7 +42,8 @@ def check_template(template: Template, seeds: range) -> Findings:
     problems: list[str] = []
     equal: set[tuple[str, str]] = set()
     guessed = chance = named = 0.0
-    is_many = True
+    is_many, count = True, len(seeds)
+    guesses = min(max(GUESSES // count, LEAST_GUESSES), MOST_GUESSES)
     digest = sha256()
     for seed in seeds:
         question = ask(template, seed)
@@ -51,15 +52,14 @@ def check_template(template: Template, seeds: range) -> Findings:
         for name, wrong in question.draft.mistakes.items():
             equal.update((name, other) for other in judge(question, wrong).mistakes if other > name)
         draws = Draws(seed)
-        judged = [judge(question, answer.random(draws)) for _ in range(GUESSES)]
-        guessed += sum(one.verdict.score for one in judged) / GUESSES
-        named += sum(bool(one.mistakes) for one in judged) / GUESSES
+        judged = [judge(question, answer.random(draws)) for _ in range(guesses)]
+        guessed += sum(one.verdict.score for one in judged) / guesses
+        named += sum(bool(one.mistakes) for one in judged) / guesses
         chance += answer.chance
         is_many = is_many and answer.is_many
         digest.update(question_text(question).encode())
-    count = len(seeds)
     guessed, chance, named = guessed / count, chance / count, named / count
-    spread = sqrt(chance * (1 - chance) / (count * GUESSES))
+    spread = sqrt(chance * (1 - chance) / (count * guesses))
     if guessed > chance + GUESS_LIMIT + 3 * spread:
         problems.append(f"random answers earn {guessed:.1%}, stated {chance:.1%}")
     if is_many and named > NAMED_LIMIT:

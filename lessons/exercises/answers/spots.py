@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from core.records.frame import Frame
+from core.records.words import counted
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
 from lessons.exercises.answers.choices import CHOICE_LIMIT, read_names
 from lessons.exercises.answers.pixels import Pixel, PixelAnswer, Pixels
@@ -95,7 +96,7 @@ class SpotAnswer(Answer):
         right, extra = response.pixels & self.wrong, response.pixels - self.wrong
         is_named = bool(self.options) and response.option == self.right
         score = self._share * self._has_place(response) + (1 - self._share) * is_named
-        words = [f"{len(right)} pixels that differ, {len(extra)} that do not"]
+        words = [f"{counted(len(right), 'pixel')} of the mistake, {len(extra)} other"]
         if self.options:
             words.append(
                 "no mistake named"

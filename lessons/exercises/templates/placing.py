@@ -83,6 +83,6 @@ def draw_corner(draws: Draws) -> Draft | None:
 
 
 TEMPLATES = (
-    Template("clip-ends", 1, "Ends of a clipped segment", "clip", 4, draw_ends),
+    Template("clip-ends", 1, "Ends of a clipped segment", "raster", 4, draw_ends),
     Template("corner-from-pixels", 1, "The corner behind the pixels", "raster", 3, draw_corner),
 )

@@ -151,7 +151,7 @@ def draw_cheapest(draws: Draws) -> Draft | None:
     )
     base = Settings()
     try:
-        answer = CheapestAnswer(families, limit, partial(byte_error, scene, base), base)
+        answer = CheapestAnswer(families, limit, byte_error(scene, base), base)
     except ValueError:
         return None
     text = (
