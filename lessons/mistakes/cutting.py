@@ -98,6 +98,18 @@ def rejected_by_one_corner(edges: Sequence[Edge], blocks: int, size: int) -> fro
     )
 
 
+def owned_edges(corners: Sequence[Vector]) -> frozenset[int]:
+    """Return the edges of a counter-clockwise triangle that own their centres: left ones, level bottom ones."""
+    edges = enumerate(zip(corners, [*corners[1:], corners[0]], strict=True))
+    return frozenset(k for k, ((x0, y0), (x1, y1)) in edges if y0 > y1 or (y0 == y1 and x1 > x0))
+
+
+def edges_at_leftmost(corners: Sequence[Vector]) -> frozenset[int]:
+    """Take the two edges at the vertex with the smallest x for the left ones."""
+    leftmost = min(range(len(corners)), key=lambda k: corners[k][0])
+    return frozenset({leftmost, (leftmost - 1) % len(corners)})
+
+
 def doubled_area(width: int, height: int) -> Vector:
     """Return twice the area of a right triangle in units of 1/256 x 1/256 pixel."""
     return (Fraction(256 * width * 256 * height),)
@@ -159,6 +171,14 @@ RULES = (
         rejected_by_one_corner,
         (SLANTED, 3, 4),
         ([(-1.0, -1.0, 8.0, True)], 3, 4),
+    ),
+    WrongRule(
+        "leftmost-vertex",
+        "The edges at the leftmost vertex were taken for left edges. An edge is left if the inside is on its right.",
+        owned_edges,
+        edges_at_leftmost,
+        (((1, 1), (9, 5), (3, 9)),),
+        (((1, 1), (9, 1), (8, 5)),),
     ),
     WrongRule(
         "product-overflows",

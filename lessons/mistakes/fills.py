@@ -8,13 +8,14 @@ from math import floor
 
 import numpy as np
 
+from core import Settings
 from core.records.arrays import Flags, Floats
 from core.records.frame import Frame
 from core.scene import ClipScene
 from lessons.mistakes.coverage import FREE, SQUARE, in_window, with_places
 from lessons.mistakes.transforms import Vector
 from lessons.mistakes.twin import Case, Twin, WrongRule
-from lessons.scenes import assembled
+from lessons.scenes import assembled, polygon_of_rings
 from lessons.small_scenes import triangle_scene
 
 
@@ -45,6 +46,12 @@ def column_wrapped(frame: Frame, scene: ClipScene) -> Frame:
 def truncated_to_zero(scene: ClipScene) -> ClipScene:
     """Find the pixels of points by int(x), which turns -1 < x < 0 into 0."""
     return with_places(scene, np.trunc(in_window(scene)) + 0.5)
+
+
+def other_rule(settings: Settings) -> Settings:
+    """Fill polygons by the other one of the two rules."""
+    other = {"even-odd": "non-zero", "non-zero": "even-odd"}[settings.polygon_fill]
+    return replace(settings, polygon_fill=other)
 
 
 def edge_crossing(start: Vector, end: Vector, row: int) -> Vector:
@@ -79,6 +86,7 @@ def closed_crossing_count(polygon: Sequence[Vector], y: int) -> Vector:
 
 EDGE = ((Fraction(6, 5), Fraction(19, 10)), (Fraction(12, 5), Fraction(87, 10)), 4)
 LEVEL_EDGE = ((Fraction(3), Fraction(1, 2)), (Fraction(3), Fraction(9, 2)), 2)
+STAR = np.array([(2.3, 1.2), (6.1, 8.6), (9.7, 1.4), (1.2, 5.8), (10.9, 5.7)])
 HOUSE = ((0, 0), (6, 3), (4, 8), (0, 8))
 
 TWINS = (
@@ -95,6 +103,13 @@ TWINS = (
         Case(triangle_scene([[(1, 1), (7, 1), (4, 6)]], (8, 8))),
         Case(triangle_scene([[(20, 1), (27, 2), (24, 6)]], (8, 8))),
         change_settings=lambda settings: replace(settings, fill="scanline-lecture"),
+    ),
+    Twin(
+        "winding-ignored",
+        "The two rules are exchanged. Even-odd counts edges, non-zero adds their directions.",
+        Case(polygon_of_rings([STAR], (12, 9)), Settings(polygon_fill="non-zero")),
+        Case(polygon_of_rings([np.array(HOUSE)], (12, 9)), Settings(polygon_fill="non-zero")),
+        change_settings=other_rule,
     ),
     Twin(
         "column-wrapped",

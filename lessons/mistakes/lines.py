@@ -1,16 +1,19 @@
 """Mistakes in Bresenham's algorithm as printed (LMU): D > 0, ends in order, the last pixel drawn."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 from math import nan
 
 import numpy as np
 
-from core import Settings
+from core import Settings, draw_lines
 from core.raster.lines.bresenham import Listed
 from core.raster.lines.records import LineRun, Segments
-from lessons.mistakes.twin import Case, Twin, line_pixels
-from lessons.small_scenes import Point, pixel_segments
+from core.raster.lines.smooth import wu
+from core.scene import ClipScene
+from lessons.mistakes.twin import Case, Twin, line_pixels, segment_ends
+from lessons.small_scenes import Point, pixel_segments, segment_scene
 
 LECTURE = Settings(line="bresenham-lecture")
 
@@ -61,6 +64,20 @@ def faulty_lines(fault: str, segments: Segments, last_pixel: bool) -> LineRun:
     decision = steps[4]
     moved = (np.diff(column, prepend=0) != 0) & (np.diff(row, prepend=0) != 0) & (index > 0)
     return LineRun(owner, index, column, row, decision, moved, decision == 0)
+
+
+def ends_at_full(segments: Segments, last_pixel: bool) -> LineRun:
+    """Draw Wu's lines with all of both intensities in the columns of the ends, too."""
+    run = wu(segments, last_pixel)
+    assert run.intensity is not None
+    assert run.share is not None
+    return replace(run, intensity=run.intensity / run.share)
+
+
+def intensities(scene: ClipScene, settings: Settings) -> list[float]:
+    """Return the intensities of the pixels of lines."""
+    drawn: list[float] = draw_lines(segment_ends(scene), *scene.size, settings.line).intensities.tolist()
+    return drawn
 
 
 def with_fault(fault: str) -> Callable[[Settings], Settings]:
@@ -140,6 +157,13 @@ TWINS = (
         GENTLE,
         OUT_OF_SIGHT,
         change_settings=with_fault("first-pixel-lost"),
+    ),
+    Twin(
+        "ends-at-full",
+        "The columns of the ends have all of their intensity. They have the share of the column that the line spans.",
+        Case(segment_scene([((1.8, 2.1), (8.9, 4.7))], (16, 12)), Settings(line="wu"), intensities),
+        Case(segment_scene([((1, 2.1), (9, 4.7))], (16, 12)), Settings(line="wu"), intensities),
+        change_settings=lambda settings: settings.replaced(line=ends_at_full),
     ),
     Twin(
         "row-truncated",

@@ -93,3 +93,53 @@ def test_a_faulty_line_can_be_stepped() -> None:
     last = traced.state(traced.steps.count)["overdraw"]
     np.testing.assert_array_equal(last, render(lines.GENTLE.scene, faulty).cover_count)
     assert (last != render(lines.GENTLE.scene, lines.LECTURE).cover_count).any()
+
+
+ROWS = {
+    "transforms": (
+        "factors-reversed matrix-transposed ones-missing turned-clockwise degrees-for-radians eye-not-turned "
+        "camera-not-inverted near-far-signs angle-not-halved aspect-inverted clip-for-ndc y-down window-one-less "
+        "rows-and-columns weights-not-normalized"
+    ),
+    "normals and shading": (
+        "normal-as-position normal-untransformed normal-by-projection normal-not-renormalized light-unclamped "
+        "light-reversed highlight-at-light phong-at-vertices shininess-inverted byte-overflows"
+    ),
+    "culling and clipping": (
+        "facing-exchanged view-direction-fixed dropped-at-border planes-after-divide attribute-copied quad-as-triangle "
+        "window-clockwise cut-once crossings-rounded ends-clamped parallel-kept top-and-bottom"
+    ),
+    "lines": (
+        "one-octant ends-not-ordered slope-always-up start-not-doubled ties-step last-pixel-lost row-truncated "
+        "from-other-end ends-at-full"
+    ),
+    "coverage": (
+        "corner-for-center all-edges-inclusive all-edges-exclusive level-edges-never leftmost-vertex vertices-rounded "
+        "box-truncated column-wrapped truncated-to-zero weights-permuted product-overflows block-by-one-corner"
+    ),
+    "scanline fill": (
+        "attributes-not-sorted crossing-from-vertex height-plus-one flat-sides-lost right-end-drawn both-ends-crossed"
+    ),
+    "interpolation": (
+        "affine-for-perspective not-divided-back multiplied-by-w w-overwritten depth-corrected-twice distance-linear"
+    ),
+    "textures": (
+        "texture-upside-down half-texel-missing negative-repeat texels-of-one-less window-for-uv level-without-size "
+        "level-of-area border-repeated"
+    ),
+    "depth": "farther-wins cleared-to-near last-wins-ties near-plane-tiny painted-by-mean",
+    "blending": "order-reversed glass-writes-depth not-multiplied alpha-squared blended-in-srgb",
+    "antialiasing": "one-depth-a-pixel one-sample-filled",
+}
+"""What people do wrong, as collected from courses and reports: one of our names for each.
+
+Not here, since no method of the program can make them: clipping in place, the third weight tested in floats in each
+triangle's own order of vertices, active edges that leave too late, level edges of polygons without their pixels, and
+lines that are written to one sample of several.
+"""
+
+
+def test_the_mistakes_that_people_make_are_on_the_shelf() -> None:
+    names = " ".join(ROWS.values()).split()
+    assert len(names) == len(set(names)) == 90
+    assert set(names) <= set(MISTAKES)

@@ -2,12 +2,18 @@
 
 from collections.abc import Callable, Sequence
 from fractions import Fraction
+from math import inf, isinf
+
+import numpy as np
 
 from core import Settings, render
+from core.depth_tables import table_scene
 from core.framebuffer.depth_formats import unsigned_depth
+from core.records.arrays import Floats
+from core.records.depth_table import DepthTable, text_of_depths
 from core.scene import ClipScene
 from lessons.exercises.answers.choices import OrderAnswer
-from lessons.exercises.answers.tables import Cell, Follow, Row
+from lessons.exercises.answers.tables import Cell, Column, Follow, Row, Rows, TableAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
@@ -117,6 +123,42 @@ def draw_inverse(draws: Draws) -> Draft | None:
     return table(text, given, ("1/w",), labels, stored(max), hints, wrong, follow, settings=settings)
 
 
+GRID = 4
+
+
+def draw_grid(draws: Draws) -> Draft:
+    """A z-buffer of whole numbers, cell by cell."""
+    empty = float("nan")
+    first = [[float(draws.whole(3, 6)) if i + j < GRID else empty for i in range(GRID)] for j in range(GRID)]
+    second = [[float(draws.whole(1, 9)) if i >= j else empty for i in range(GRID)] for j in range(GRID)]
+    both = np.array([first, second])
+    scene = table_scene(DepthTable(both, np.ones((2, 4))))
+    drawn = ~np.isnan(both)
+
+    def cells(found: Floats) -> Rows:
+        rows = [[("", inf if isinf(z) else Fraction(z)) for z in row] for row in found.tolist()]
+        return tuple(tuple(row) for row in rows[::-1])
+
+    last = np.where(drawn[1], both[1], np.where(drawn[0], both[0], inf))
+    farthest = np.where(drawn.any(axis=0), np.where(drawn, both, -inf).max(axis=0), inf)
+    right = np.where(drawn, both, inf).min(axis=0)
+    wrong = {"no-depth-test": cells(last), "farther-wins": cells(farthest)}
+    columns = tuple(Column(f"column {i}") for i in range(GRID))
+    labels = tuple(f"row {j}" for j in reversed(range(GRID)))
+    text = (
+        "Two triangles of whole-number depths are drawn, one after the other. What does the z-buffer hold then? It "
+        "begins with inf in every cell, smaller is nearer, and a tie keeps what is there. Write inf for infinity."
+    )
+    grids = [text_of_depths(patch).replace("\t", "  ") for patch in both]
+    given = f"First triangle, top row first (– where it has no fragment):\n{grids[0]}\nSecond triangle:\n{grids[1]}"
+    hints = (
+        "Take one cell at a time.",
+        "Where neither has a fragment, nothing changes.",
+        "Else the smaller number stays.",
+    )
+    return Draft(text, given, TableAnswer(columns, labels, cells(right)), hints, wrong, scene)
+
+
 def draw_painter(draws: Draws) -> Draft | None:
     """An order by the farthest vertex."""
     depths = [tuple(draws.whole(1, 30) for _ in range(3)) for _ in NAMES]
@@ -171,6 +213,7 @@ TEMPLATES = (
     Template("depth-steps", 1, "A depth buffer of 16 bits", "depth", 2, draw_steps),
     Template("fighting-pairs", 1, "Surfaces that fight", "depth", 3, draw_fighting),
     Template("inverse-w-table", 1, "A buffer of 1/w", "depth", 4, draw_inverse),
+    Template("z-buffer-grid", 1, "A z-buffer of whole numbers", "depth", 4, draw_grid),
     Template("painter-order", 1, "A painter's order", "depth", 2, draw_painter),
     Template("equal-depths", 1, "Cards at equal depths", "depth", 1, draw_ties),
 )

@@ -155,6 +155,9 @@ def draw_owned(draws: Draws) -> Draft | None:
         "With E = a x + b y + c: a > 0, or a = 0 and b > 0.",
     )
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"
+    rule = RULES["leftmost-vertex"]
+    assert frozenset(right) == rule.right(corners)
+    wrong["leftmost-vertex"] = sorted(rule.wrong(corners))
     shown = {"all-edges-inclusive": [0, 1, 2]} | {name: r for name, r in wrong.items() if r and r != right}
     return several(text, given, NAMES, right, hints, shown, triangle_scene(np.array([corners], float), SIZE))
 

@@ -8,6 +8,7 @@ import numpy as np
 from core import Settings, render
 from core.records.frame import Frame
 from core.scene import ClipScene
+from core.settings import DEFAULTS
 from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer
 from lessons.exercises.drawn_scene import seen_pixels
 from lessons.exercises.draws import Draws
@@ -16,7 +17,7 @@ from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text
 from lessons.exercises.templates.drafting import numbers, one_of, place_text, table
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.shelf import RULES, SHELF
-from lessons.scenes import assembled
+from lessons.scenes import assembled, polygon_of_rings
 from lessons.small_scenes import triangle_scene
 
 HALF = Fraction(1, 2)
@@ -26,10 +27,14 @@ SORTED_EDGES = ((0, 1), (1, 2), (0, 2))
 
 
 def marked(
-    text: str, given: str, scene: ClipScene, names: tuple[str, ...], hints: tuple[str, ...]
+    text: str,
+    given: str,
+    scene: ClipScene,
+    names: tuple[str, ...],
+    hints: tuple[str, ...],
+    settings: Settings = DEFAULTS,
 ) -> Draft | None:
     """Ask for the pixels of a scene; ``None`` where there are none, or where it covers all."""
-    settings = Settings()
     try:
         answer = PixelAnswer(SIZE, seen_pixels(render(scene, settings)))
     except NothingToMarkError:
@@ -119,6 +124,33 @@ def draw_points(draws: Draws) -> Draft | None:
     hints = ("The column of a point is floor(x).", "What is floor(x) for x between -1 and 0?")
     given = f"{WINDOW}\n" + ", ".join(map(place_text, places))
     return marked(text, given, scene, ("truncated-to-zero",), hints)
+
+
+def draw_star(draws: Draws) -> Draft | None:
+    """A polygon that crosses itself, or turns around a part twice."""
+    corners = [(tenths(draws, 0, 12), tenths(draws, 0, 9)) for _ in range(5)]
+    around = sorted(corners, key=lambda p: atan2(p[1] - Fraction(9, 2), p[0] - 6))
+    star = [around[2 * k % 5] for k in range(5)]
+    if min(abs(p[0] - 6) + abs(p[1] - Fraction(9, 2)) for p in corners) < 3:
+        return None
+    rule, said = draws.item(
+        (
+            ("even-odd", "an odd number of edges lies to its left in its row"),
+            ("non-zero", "the directions of the edges to its left in its row, up or down, do not cancel"),
+        )
+    )
+    text = (
+        f"Which pixels does this polygon cover by the {rule} rule? A centre (i + 1/2, j + 1/2) is inside if {said}. "
+        "The polygon is closed, and crosses itself."
+    )
+    scene, settings = polygon_of_rings([np.array(star, float)], SIZE), Settings(polygon_fill=rule)
+    hints = (
+        "Sketch the polygon: a star around a middle part.",
+        "Go along a row from the left, and count what you cross.",
+        "The rules differ in the middle, which the polygon runs around twice.",
+    )
+    given = f"{WINDOW}\nPolygon: {', '.join(map(place_text, star))}"
+    return marked(text, given, scene, ("winding-ignored",), hints, settings)
 
 
 def draw_ends(draws: Draws) -> Draft | None:
@@ -266,5 +298,6 @@ TEMPLATES = (
     Template("row-crossings", 1, "Where edges cross rows", "raster", 4, draw_rows),
     Template("crossing-count", 1, "Crossings at vertices", "raster", 2, draw_crossings),
     Template("fourth-vertex", 1, "The vertex that splits a triangle", "raster", 2, draw_fourth),
+    Template("star-polygon", 1, "A polygon that crosses itself", "raster", 4, draw_star),
     Template("fan-count", 1, "How often a centre is drawn", "raster", 2, draw_fan),
 )

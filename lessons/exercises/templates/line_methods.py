@@ -10,13 +10,13 @@ from lessons.exercises.answers.tables import Cell, Row
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.drafting import numbers, table
+from lessons.exercises.templates.drafting import numbers, place_text, table
 from lessons.exercises.templates.lines import RULE, SIZE, Ends, gentle_ends
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.twin import line_pixels
 from lessons.printed.catalogue import printed_listing
-from lessons.small_scenes import pixel_segments
+from lessons.small_scenes import pixel_segments, segment_scene
 
 HALF = Fraction(1, 2)
 WINDOW = f"Window of {SIZE[0]} x {SIZE[1]} pixels, row 0 at the bottom."
@@ -166,6 +166,40 @@ def draw_wu(draws: Draws) -> Draft | None:
     return numbers(text, given, [1 - share, share], hints, None, ("lower", "upper"), None, scene, settings)
 
 
+def draw_end(draws: Draws) -> Draft:
+    """Two intensities of the first column of a line that begins inside of it."""
+    x0, y0 = (
+        draws.whole(1, 3) + Fraction(draws.whole(6, 9), 10),
+        draws.whole(1, 3) + Fraction(draws.whole(1, 9), 10),
+    )
+    x1 = draws.whole(9, 12) + HALF
+    m = Fraction(draws.whole(1, 3), 4)
+    segment = ((float(x0), float(y0)), (float(x1), float(y0 + m * (x1 - x0))))
+    column = floor(x0)
+    y = y0 + m * (column + HALF - x0) - HALF
+    above, share = y - floor(y), column + 1 - x0
+    if not above:
+        return draw_end(draws)
+    text = (
+        f"What are the intensities of the lower and of the upper pixel of column {column} of Wu's line? The line spans "
+        "only a part of this column: both are multiplied by that part. The two are weighed by the line's y at the "
+        "column's centre, in units where pixel centres are whole numbers."
+    )
+    given = (
+        f"From {place_text((x0, y0))}, slope {number_text(m)}, to the right. Pixel (i, j) has its centre at (i + "
+        "1/2, j + 1/2)."
+    )
+    hints = (
+        "Which part of the column does the line span?",
+        "y at the centre: y0 + m (column + 1/2 - x0), less 1/2.",
+        "The upper pixel has y - floor(y), the lower one the rest.",
+    )
+    wrong = {"ends-at-full": [1 - above, above]}
+    scene, names = segment_scene([segment], SIZE), ("lower", "upper")
+    right = [(1 - above) * share, above * share]
+    return numbers(text, given, right, hints, wrong, names, None, scene, Settings(line="wu"))
+
+
 def draw_value(draws: Draws) -> Draft:
     """A parameter along a line."""
     ends = gentle_ends(draws)
@@ -192,5 +226,6 @@ TEMPLATES = (
     Template("error-table", 1, "The error of Bresenham's line", "raster", 3, draw_error),
     Template("printed-line", 1, "A listing with a slip", "raster", 4, draw_printed),
     Template("wu-column", 1, "Two intensities of a column", "raster", 2, draw_wu),
+    Template("wu-end", 1, "The first column of Wu's line", "raster", 3, draw_end),
     Template("line-value", 1, "A value along a line", "interpolate", 1, draw_value),
 )
