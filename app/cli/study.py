@@ -15,6 +15,7 @@ from app.cli.commands import UsageError, add_allow_outside, output_folder
 from app.cli.window import load_qt
 from app.files.open_any import open_any
 from app.pages.words import (
+    best_sentences,
     digits,
     interval_text,
     machine_sentence,
@@ -36,6 +37,7 @@ EXAMPLES = """FAMILY is a setting such as fill or depth, or pipeline: a whole sc
 examples:
   rasterscope study --list
   rasterscope study fill --dial size=64
+  rasterscope study fill --work block-size --dial size=128
   rasterscope study line --work pixel-ends -o results
   rasterscope study orientation --work pivot-q
   rasterscope study pipeline --scene teapot.obj --set cull=back -o results
@@ -196,7 +198,7 @@ def table_text(study: Study) -> list[str]:
     reasons = dict.fromkeys(
         f"{name}: {reason}" for point in study.points for name, reason in point.reasons.items()
     )
-    lines += [*reasons, "", *count_lines(study)]
+    lines += [*reasons, *best_sentences(study), "", *count_lines(study)]
     units = ", ".join(f"{measure.name} in {measure.unit}" for measure in study.measures if measure.unit)
     lines += [f"* on the Pareto front of time and {study.measures[0].name}. Errors: {units}."]
     lines += ["Time: the median. The order of methods whose places overlap is undecided."]

@@ -40,6 +40,7 @@ class DialRecord(Record):
     values: Annotated[tuple[float, ...], Field(min_length=1)]
     default: float
     is_cost: bool
+    setting: str = ""
 
 
 class WorkRecord(Record):

@@ -3,8 +3,9 @@
 from collections.abc import Mapping
 from math import floor, isnan, log10
 
+from core.records.words import joined
 from core.settings import Settings
-from core.study.accuracy.record import Study
+from core.study.accuracy.record import Study, best_values
 
 TIME_UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 
@@ -47,6 +48,20 @@ def work_sentence(study: Study) -> str:
         unit = f" {dial.unit}" if dial.unit else ""
         parts.append(f"{dial.title.lower()} {study.dials[dial.name]:g}{unit}")
     return "; ".join(parts)
+
+
+def best_sentences(study: Study) -> list[str]:
+    """Return at which value of the setting that was turned each method was fastest, and on what that depends."""
+    found = best_values(study)
+    if not found:
+        return []
+    dial = next(dial for dial in study.work.dials if dial.is_cost)
+    lines = []
+    for best in found:
+        others = joined([f"{value:g}" for value in sorted(best.others)])
+        rest = f"; its time at {others} is not told apart from it" if others else ""
+        lines.append(f"{best.title}: fastest at {dial.title.lower()} {best.value:g} {dial.unit}{rest}.")
+    return [*lines, "This depends on the machine, and on the size of the triangles."]
 
 
 def machine_sentence(study: Study) -> str:

@@ -2,12 +2,14 @@
 
 from core.study.accuracy.families import study_families, study_family
 from core.study.accuracy.record import (
+    BestValue,
     ErrorMeasure,
     Opening,
     Pictures,
     Point,
     Study,
     WorkKind,
+    best_values,
     machine,
     pareto_front,
 )
@@ -27,6 +29,7 @@ from core.study.planner import (
 )
 
 __all__ = [
+    "BestValue",
     "Decision",
     "ErrorMeasure",
     "Findings",
@@ -39,6 +42,7 @@ __all__ = [
     "StudyCancelledError",
     "Tolerance",
     "WorkKind",
+    "best_values",
     "check_plan",
     "look_at",
     "machine",

@@ -228,16 +228,19 @@ class Chart(ChartCanvas):
                 painter.restore()
 
     def _paint_rings(self, painter: QPainter, picture: ChartPicture) -> None:
-        """Ring what is pointed at and chosen, and twice what stands out: of a line its last point."""
+        """Ring what is pointed at and chosen, and twice what stands out: of a line its best or last point."""
         theme = current_theme()
         reach = 0.9 * self.mark_size()
         painter.setBrush(Qt.BrushStyle.NoBrush)
         for series in picture.series:
             at = self.place_of(series.key, self._index if series.key == self._pointed else -1)
-            if at is not None and series.key in picture.ringed:
+            stands_out = at if series.key in picture.ringed else None
+            if series.best >= 0:
+                stands_out = self.place_of(series.key, series.best)
+            if stands_out is not None:
                 painter.setPen(QPen(QColor(theme.text), 2.0))
                 for share in (1.0, 1.4):
-                    painter.drawEllipse(at, share * reach, share * reach)
+                    painter.drawEllipse(stands_out, share * reach, share * reach)
             if at is not None and (series.key in self._marks or series.key == self._pointed):
                 painter.setPen(QPen(QColor(theme.text), 2.0 if series.key in self._marks else 1.4))
                 painter.drawEllipse(at, reach, reach)

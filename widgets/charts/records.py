@@ -41,6 +41,8 @@ class ChartSeries:
     """(N, 2) float64, ends of the horizontal bars; ``None``: no bars."""
     y_spread: Floats | None = None
     """(N, 2) float64, ends of the vertical bars."""
+    best: int = -1
+    """The point of a line that stands out, whatever is pointed at: where its cost is least; -1: none."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,12 +1,13 @@
 """From a study to its two charts: error against cost, and how cost grows with the work."""
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
 from core.explain.stage_texts import family_title
 from core.methods import table
-from core.study.accuracy.record import Dial, ErrorMeasure, Point, Study, pareto_front
+from core.study.accuracy.record import Dial, ErrorMeasure, Point, Study, best_values, pareto_front
 from core.study.accuracy.speed_accuracy import cost_dial
 from widgets.charts.records import MOST_NAMED, ChartAxis, ChartEmpty, ChartPicture, ChartSeries
 
@@ -114,10 +115,15 @@ def growth_of(study: Study, cost: str, numbers: Mapping[str, int]) -> ChartPictu
         return ChartEmpty(f"“{study.work.title}” has no size that could grow. Choose another work.")
     if len(study.growth) < 2:
         return ChartEmpty(f"How cost grows with “{dial.title.lower()}” has not been measured.")
+    best = {each.method: each.value for each in best_values(study)} if cost == TIME else {}
     series = tuple(
         found
         for point in study.points
         if (found := _growing(study.growth, point, title_of(point, numbers), numbers, cost)) is not None
+    )
+    series = tuple(
+        replace(each, best=int(np.flatnonzero(each.x == best[each.key])[0])) if each.key in best else each
+        for each in series
     )
     if not series:
         return ChartEmpty("Every method refused this work. The figures on the left give the reasons.")

@@ -6,6 +6,7 @@ from math import isinf, isnan
 
 from app.pages.compare.charts import costs_of, title_of
 from app.pages.words import (
+    best_sentences,
     digits,
     interval_text,
     machine_sentence,
@@ -97,6 +98,7 @@ def study_text(study: Study, path: str = "") -> str:
         parts += [f"<b>{escape(title_of(point, names))}</b>. {escape(point.refused)}" for point in refused]
     reasons = dict.fromkeys(reason for point in study.points for reason in point.reasons.values())
     parts += [escape(reason) for reason in reasons]
+    parts += [escape(sentence) for sentence in best_sentences(study)]
     parts.append(f"{escape(settings_sentence(study))}.")
     if study.machine:
         parts.append(f"{escape(machine_sentence(study))}.")

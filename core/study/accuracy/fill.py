@@ -1,5 +1,8 @@
 """Study of fills, number formats and fill rules: which pixels triangles cover, against rational arithmetic."""
 
+from collections.abc import Callable
+from dataclasses import replace
+
 import numpy as np
 
 from core.raster.pixel_runs import make_raster
@@ -12,7 +15,7 @@ from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 from core.study.accuracy.family import Assignment, Errors, StudyFamily
 from core.study.accuracy.frame_task import MILLION, FrameTask, per_million, scalar_pictures
-from core.study.accuracy.record import Dial, ErrorMeasure, Pictures, WorkKind
+from core.study.accuracy.record import Dial, ErrorMeasure, Opening, Pictures, WorkKind
 from core.study.accuracy.workloads import (
     clip_of_window,
     flat_scene,
@@ -30,6 +33,16 @@ CRACKS = ErrorMeasure("cracks", "Pixels of a mesh not covered exactly once", "pe
 NO_MESH = "Only a mesh without gaps defines how often each pixel must be covered."
 
 SIZES = Dial("size", "Triangle size", "pixels", (2, 4, 8, 16, 32, 64, 128, 256), 16, is_cost=True)
+CHOSEN_SIZES = replace(SIZES, is_cost=False, default=64)
+BLOCK_SIZES = Dial(
+    "block-size",
+    "Block size",
+    "pixels",
+    (1, 2, 4, 8, 16, 32, 64, 128, 256),
+    8,
+    is_cost=True,
+    setting="block_size",
+)
 ANGLES = Dial("angle", "Angle of the tip", "degrees", (0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8), 1)
 CELLS = Dial("cells", "Cells along a side", "", (4, 8, 16, 32, 64), 16, is_cost=True)
 WORKS = (
@@ -38,6 +51,10 @@ WORKS = (
     WorkKind("mesh", "Mesh without gaps", "triangle", (CELLS,)),
     WorkKind("ties", "Mesh with corners on pixel centres", "triangle", (CELLS,)),
 )
+BLOCKS = WorkKind(
+    "block-size", "Random triangles, by the size of blocks", "triangle", (BLOCK_SIZES, CHOSEN_SIZES)
+)
+"""Zwicker's question: which size of blocks is the best? It is found by experiment."""
 
 
 class CoverageTask(FrameTask):
@@ -50,6 +67,15 @@ class CoverageTask(FrameTask):
         clip = clip_of_window(window, SIZE, 0.5 * level, level)
         super().__init__(flat_scene(clip, SIZE), len(clip), stages)
         self._clip, self._is_snapped = clip, is_snapped
+        self._block_size = int(assignment.dials.get("block-size", assignment.settings.block_size))
+
+    def start(self, settings: Settings) -> Callable[[], Frame]:
+        """Prepare the drawing, with blocks of the size that is measured."""
+        return super().start(replace(settings, block_size=self._block_size))
+
+    def opening(self, settings: Settings, made: Frame) -> Opening | None:
+        """Return the scene, drawn with these blocks."""
+        return super().opening(replace(settings, block_size=self._block_size), made)
 
     @cached_property
     def reference(self) -> Integers:
@@ -70,6 +96,7 @@ class CoverageTask(FrameTask):
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
         """Return the counts of the frame, and how many blocks or rows the fill looked at in place of pixels."""
         counts = super().counts(settings, made)
+        settings = replace(settings, block_size=self._block_size)
         geometry = process_geometry(self.scene, settings, {stage: StageCount() for stage in STAGES})
         _, runs = schedule(geometry.edges, settings, make_raster(SIZE, settings.pixel_center))
         counts["blocks tested"] = 0 if runs.blocks is None else len(runs.blocks.triangle)
@@ -96,7 +123,7 @@ def window_triangles(assignment: Assignment) -> Floats:
     """Return the window corners (T, 3, 2) of the work."""
     dials, seed = assignment.dials, assignment.seed
     match assignment.work:
-        case "triangles":
+        case "triangles" | "block-size":
             return random_triangles(SIZE, COUNT, dials["size"], seed)
         case "slivers":
             return sliver_triangles(SIZE, SLIVERS, dials["angle"], seed)
@@ -115,7 +142,9 @@ def make_coverage(assignment: Assignment) -> CoverageTask:
     return CoverageTask(assignment, (), is_snapped=False)
 
 
-FILL = StudyFamily("fill", "Fills of triangles", ("fill",), WORKS, (MISCLASSIFIED, CRACKS), make_fill)
+FILL = StudyFamily(
+    "fill", "Fills of triangles", ("fill",), (*WORKS, BLOCKS), (MISCLASSIFIED, CRACKS), make_fill
+)
 COVERAGE = StudyFamily(
     "coverage",
     "Number formats and fill rules of coverage",

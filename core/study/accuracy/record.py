@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from core.methods import table
 from core.records.arrays import Floats
 from core.records.cached import cached_property
 from core.scene import AnyScene
@@ -40,6 +41,8 @@ class Dial:
     default: float
     is_cost: bool = False
     """Whether the second chart shows how cost grows with it; one dial of a work at most."""
+    setting: str = ""
+    """The setting that it turns, of methods that take it: the value of least cost is looked for. Empty: none."""
 
 
 @dataclass(frozen=True)
@@ -190,6 +193,38 @@ def pareto_front(points: tuple[Point, ...], measure: str, count: str = "") -> tu
         ):
             front.append(point)
     return tuple(sorted(front, key=cost))
+
+
+@dataclass(frozen=True)
+class BestValue:
+    """The value of a setting at which a method was fastest, on the machine that measured."""
+
+    method: str
+    title: str
+    value: float
+    others: tuple[float, ...]
+    """Values at which its time is not told apart from the least."""
+
+
+def best_values(study: Study) -> tuple[BestValue, ...]:
+    """Return the best value of the setting that the work's cost dial turns, for every method that takes it."""
+    setting = next((dial.setting for dial in study.work.dials if dial.is_cost), "")
+    found = []
+    for point in study.points:
+        family, _, name = point.method.partition("=")
+        measured = {
+            value: each
+            for value, points in study.growth.items()
+            for each in points
+            if each.method == point.method and each.is_measured
+        }
+        is_taken = family in table.families and name in table.names(family)
+        if not setting or not is_taken or setting not in table.get(family, name).takes or not measured:
+            continue
+        best = min(measured, key=lambda value: measured[value].median)
+        others = [v for v in measured if v != best and not is_faster(measured[best], measured[v])]
+        found.append(BestValue(point.method, point.title, best, tuple(others)))
+    return tuple(found)
 
 
 def machine(program_version: str) -> dict[str, str]:
