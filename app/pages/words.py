@@ -59,7 +59,7 @@ def best_sentences(study: Study) -> list[str]:
     lines = []
     for best in found:
         others = joined([f"{value:g}" for value in sorted(best.others)])
-        rest = f"; its time at {others} is not told apart from it" if others else ""
+        rest = f"; the difference at {others} is within the noise" if others else ""
         lines.append(f"{best.title}: fastest at {dial.title.lower()} {best.value:g} {dial.unit}{rest}.")
     return [*lines, "This depends on the machine, and on the size of the triangles."]
 

@@ -34,7 +34,7 @@ def test_the_best_size_is_the_fastest_and_equals_are_named() -> None:
     (best,) = best_values(measured())
     assert (best.method, best.value, best.others) == ("fill=blocks", 8, (16,))
     assert best_sentences(measured()) == [
-        "Blocks: fastest at block size 8 pixels; its time at 16 is not told apart from it.",
+        "Blocks: fastest at block size 8 pixels; the difference at 16 is within the noise.",
         "This depends on the machine, and on the size of the triangles.",
     ]
 
