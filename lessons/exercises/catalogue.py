@@ -29,8 +29,10 @@ from lessons.exercises.templates import (
     reading,
     running,
     stepping,
+    stepping_numbers,
     textures,
     transforms,
+    wrong_lines,
 )
 
 _MODULES = (
@@ -57,6 +59,8 @@ _MODULES = (
     beliefs_space,
     beliefs_pixels,
     beliefs_looks,
+    wrong_lines,
+    stepping_numbers,
 )
 
 TEMPLATES: dict[str, Template] = {

@@ -10,13 +10,16 @@ from lessons.exercises.answers.tables import ENTERS, LEAVES
 from lessons.exercises.drawn_scene import DrawnScene
 from lessons.exercises.draws import Draws
 from lessons.exercises.file_answers import NoQuestionError, corner_answer
+from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.clipping import PARAMETERS, SIZE, Ends, parameter_rows
-from lessons.exercises.templates.coverage import RULE, twice_area
+from lessons.exercises.templates.coverage import RULE, corner_text, twice_area
+from lessons.exercises.templates.fragments import NAMES
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import segment_scene, triangle_scene
 
 TOLERANCE = 0.1
+WEIGHT_TOLERANCE = 0.25
 
 
 def clipped_places(ends: Ends) -> Places:
@@ -82,7 +85,55 @@ def draw_corner(draws: Draws) -> Draft | None:
     return Draft(text, given, answer, hints)
 
 
+def draw_ndc(draws: Draws) -> Draft | None:
+    """Three points of NDC in the window."""
+    points = [(Fraction(draws.whole(-4, 4), 4), Fraction(draws.whole(-4, 4), 4)) for _ in range(3)]
+    if len({y for _, y in points}) < 3 or any(y == 0 for _, y in points):
+        return None
+    columns, rows = SIZE
+    right = tuple(((x + 1) / 2 * columns, (y + 1) / 2 * rows) for x, y in points)
+    down = tuple((x, rows - y) for x, y in right)
+    text = "Place these points of NDC in the window. Row 0 is the bottom row."
+    given = f"Window of {columns} x {rows} pixels. " + ", ".join(
+        f"{name}: {corner_text([point])}" for name, point in zip("ABC", points, strict=True)
+    )
+    hints = (
+        "-1 is the left and the lower border, 1 the right and the upper one.",
+        "The window is (NDC + 1)/2.",
+    )
+    answer = PlaceAnswer(SIZE, tuple("ABC"), right, step=Fraction(1, 4), tolerance=TOLERANCE)
+    return Draft(text, given, answer, hints, {"y-down": down})
+
+
+def draw_weights(draws: Draws) -> Draft | None:
+    """The point that some weights mean."""
+    corners = [(Fraction(draws.whole(0, 12)), Fraction(draws.whole(0, 9))) for _ in range(3)]
+    beta, gamma = Fraction(draws.whole(1, 5), 8), Fraction(draws.whole(1, 5), 8)
+    weights = (1 - beta - gamma, beta, gamma)
+    if twice_area(corners) < 24 or weights[0] <= 0 or len(set(weights)) < 2:
+        return None
+    place, turned = (
+        (
+            sum((weight * x for weight, (x, _) in zip(order, corners, strict=True)), Fraction(0)),
+            sum((weight * y for weight, (_, y) in zip(order, corners, strict=True)), Fraction(0)),
+        )
+        for order in (weights, (*weights[1:], weights[0]))
+    )
+    shown = ", ".join(f"{name} = {number_text(weight)}" for name, weight in zip(NAMES, weights, strict=True))
+    text = "Place the point with these barycentric weights; alpha belongs to vertex 0."
+    given = f"Window of {CORNER_SIZE[0]} x {CORNER_SIZE[1]} pixels. Vertices 0, 1, 2: {corner_text(corners)}\n{shown}"
+    hints = (
+        "With equal weights the point is in the middle; it moves towards the vertex that weighs more.",
+        "The point is the sum of weight times vertex.",
+    )
+    answer = PlaceAnswer(CORNER_SIZE, ("point",), (place,), step=Fraction(1, 4), tolerance=WEIGHT_TOLERANCE)
+    scene = triangle_scene(np.array([corners], float), CORNER_SIZE)
+    return Draft(text, given, answer, hints, {"weights-permuted": (turned,)}, scene)
+
+
 TEMPLATES = (
     Template("clip-ends", 1, "Ends of a clipped segment", "raster", 4, draw_ends),
+    Template("place-ndc", 1, "Points of NDC in the window", "transform", 2, draw_ndc),
+    Template("place-weights", 1, "The point behind the weights", "interpolate", 2, draw_weights),
     Template("corner-from-pixels", 1, "The corner behind the pixels", "raster", 3, draw_corner),
 )

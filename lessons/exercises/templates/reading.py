@@ -10,6 +10,7 @@ from lessons.exercises.answers.pixels import PixelAnswer, Pixels
 from lessons.exercises.drawn_scene import DrawnScene
 from lessons.exercises.draws import Draws
 from lessons.exercises.file_answers import NoQuestionError, spot_answer
+from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import RULE, twice_area
 from lessons.mistakes.lines import LECTURE, faulty_listing
@@ -136,8 +137,41 @@ def draw_picture(draws: Draws) -> Draft | None:
     return Draft(text, given, answer, hints, {}, drawn.scene)
 
 
+DEPTH_PICTURES = ("farther-wins", "no-depth-test", "painted-by-mean", "last-wins-ties")
+
+
+def draw_depth_picture(draws: Draws) -> Draft | None:
+    """The picture of three triangles with a mistake in what is seen."""
+    corners = [[(draws.whole(0, 11), draws.whole(0, 8)) for _ in range(3)] for _ in range(3)]
+    depth = [[Fraction(draws.whole(1, 9), 10) for _ in range(3)] for _ in corners]
+    places = tuple(tuple((Fraction(x), Fraction(y)) for x, y in one) for one in corners)
+    if min(abs(twice_area(list(one))) for one in places) < 24:
+        return None
+    scene = triangle_scene(corners, (12, 9), depth=np.array(depth, float))
+    try:
+        answer, given = spot_answer(
+            draws.shuffled(DEPTH_PICTURES)[:3], DrawnScene(scene, places), Settings(), draws
+        )
+    except NoQuestionError:
+        return None
+    depths = "\n".join(
+        f"Depths of triangle {k}: {', '.join(number_text(z) for z in one)}" for k, one in enumerate(depth)
+    )
+    text = (
+        "What is wrong with this picture? Click where, and say which mistake made it. A, B and C are triangles 0, 1 "
+        "and 2, drawn in this order; the nearest is seen, and smaller is nearer."
+    )
+    hints = (
+        "Only pixels that lie in two triangles can be wrong.",
+        "Compare the depths there: which triangle should be seen?",
+        "Is the wrong one always the farther one, always the later one, or the one with the nearer middle?",
+    )
+    return Draft(text, f"{given}\n{depths}", answer, hints, {}, scene)
+
+
 TEMPLATES = (
     Template("wrong-line", 1, "The wrong line of Bresenham", "raster", 2, draw_line),
     Template("lecture-slip", 1, "A slip in a lecture's listing", "raster", 2, draw_slip),
+    Template("wrong-depth-picture", 1, "What is wrong with what is seen", "depth", 4, draw_depth_picture),
     Template("wrong-picture", 1, "What is wrong with this picture", "raster", 4, draw_picture),
 )

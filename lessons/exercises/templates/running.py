@@ -179,8 +179,81 @@ def draw_cheapest(draws: Draws) -> Draft | None:
     return Draft(text, given, answer, hints, {}, scene, base)
 
 
+def hides_nearer(scene: ClipScene, settings: Settings) -> bool:
+    """Return whether triangle 0, the farther one, is seen where triangle 1 is nearer."""
+    return bool((render(scene, settings).primitive == 0).any())
+
+
+def draw_depth_format(draws: Draws) -> Draft | None:
+    """Two depths that a format cannot tell apart."""
+    base = Fraction(draws.whole(20, 80), 100)
+    step = Fraction(1, 400_000)
+    dials = (Dial("gap", Fraction(0), 20 * step, step),)
+    everywhere = [(-20, -20), (40, -20), (-20, 40)]
+
+    def scene_of(values: Values) -> ClipScene:
+        depth = [[float(base)] * 3, [float(base - values[0])] * 3]
+        return triangle_scene([everywhere] * 2, (2, 2), depth=depth)
+
+    weak, robust = Settings(depth="z-16"), Settings()
+    rule = "triangle 0 is seen"
+    start = (dials[0].high,)
+    answer = breaking(draws, dials, start, scene_of, weak, robust, hides_nearer, rule)
+    if answer is None:
+        return None
+    text = (
+        "Two triangles cover the window. Triangle 0 is drawn first; triangle 1 is nearer by a gap. Choose the gap so "
+        "that a depth buffer of 16 bits shows the wrong triangle and one of float32 the right one."
+    )
+    given = (
+        f"Depth of triangle 0: {number_text(base)}; of triangle 1: that less the gap. The gap is 0 to 1/20000 in "
+        "steps of 1/400000. 16 bits hold whole multiples of 1/65535."
+    )
+    hints = (
+        "When do both depths round to one multiple?",
+        "With a gap of 0 both formats see a tie, which keeps triangle 0.",
+        "How fine is a multiple of 1/65535, in steps of the gap?",
+    )
+    return Draft(text, given, answer, hints, {}, None, robust)
+
+
+SAMPLES = {"none": 2, "msaa-4": 5, "ssaa-4": 8, "ssaa-16": 32}
+"""Coverage tests and shader runs at a pixel."""
+
+
+def draw_samples(draws: Draws) -> Draft | None:
+    """Samples of a pixel."""
+    corners = [(draws.whole(1, 44) / 4, draws.whole(1, 32) / 4) for _ in range(3)]
+    if abs(np.linalg.det(np.diff(np.array(corners), axis=0))) < 24:
+        return None
+    scene = triangle_scene([corners], SIZE, attributes=[[[1.0, 1.0, 1.0, 1.0]] * 3])
+    limit, base = Fraction(draws.whole(6, 30) * 5), Settings(antialiasing="ssaa-16")
+    family = Family("antialiasing", tuple(SAMPLES), tuple(map(Fraction, SAMPLES.values())))
+    try:
+        answer = CheapestAnswer((family,), limit, byte_error(scene, base), base)
+    except ValueError:
+        return None
+    text = (
+        "Choose the cheapest antialiasing with which no pixel of this white triangle on black is off by more than "
+        f"{number_text(limit)} of 255 from 16 samples."
+    )
+    costs = ", ".join(f"{name} {cost}" for name, cost in SAMPLES.items())
+    places = ", ".join(f"({x:g}, {y:g})" for x, y in corners)
+    given = (
+        f"Window of {SIZE[0]} x {SIZE[1]} pixels. Corners: {places}.\nCoverage tests and shader runs: {costs}"
+    )
+    hints = (
+        "Only pixels on the rim differ.",
+        "One sample is all or nothing: how far is it off at a pixel that is half covered?",
+        "Bytes are sRGB: a quarter of the light is more than a quarter of the byte.",
+    )
+    return Draft(text, given, answer, hints, {}, scene, base)
+
+
 TEMPLATES = (
     Template("break-inclusive", 1, "Break the rule E >= 0", "raster", 3, draw_shared_corner),
     Template("break-affine", 1, "Break affine interpolation", "interpolate", 3, draw_affine),
+    Template("break-depth-format", 1, "Break 16 bits of depth", "depth", 3, draw_depth_format),
+    Template("cheapest-samples", 1, "No more samples than needed", "resolve", 3, draw_samples),
     Template("cheapest-methods", 1, "No more than needed", "interpolate", 4, draw_cheapest),
 )

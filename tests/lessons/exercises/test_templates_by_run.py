@@ -1,5 +1,6 @@
 """Templates of places, listings, pictures, steps and runs: what they say is what the pipeline does."""
 
+import math
 from fractions import Fraction
 
 import numpy as np
@@ -9,7 +10,7 @@ from core import Settings, clip_lines, render
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import ask, judge
-from lessons.exercises.templates import placing, reading, stepping
+from lessons.exercises.templates import placing, reading, stepping, wrong_lines
 from lessons.exercises.templates.lines import d_values
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.shelf import SHELF
@@ -105,3 +106,59 @@ def test_any_corner_that_covers_the_same_is_right() -> None:
     moved = question.draft.answer.read([[str(x - Fraction(1, 64)), str(y)]])
     assert judge(question, moved).verdict.score in (0, 1)
     assert question.draft.scene is None, "its outline would show the corner"
+
+
+INPUTS = {
+    "viewport-line": [{"x": x, "y": y, "w": 2, "W": 8, "H": 6} for x in (-2, -1, 1) for y in (-1.5, -0.5, 1)],
+    "coverage-line": [{"rows": 5, "columns": 6, "edges": [(-3, -4, 17.1), (3, -1, -1.2), (0.1, 5, -3.3)]}],
+    "liang-barsky-line": [
+        {"borders": borders}
+        for borders in (
+            [(-10, -1), (10, 9), (-9, -2), (9, 8)],
+            [(-4, -2), (4, 6), (0, 8), (0, -2)],
+            [(-4, 2), (4, 6), (0, 8), (0, 2)],
+            [(8, 3), (-8, -2), (4, 1), (-4, -3)],
+        )
+    ],
+    "perspective-line": [
+        {"alpha": 0.5, "beta": 0.3, "gamma": 0.2, "w0": 2, "w1": 4, "w2": 1, "u0": 3, "u1": 0, "u2": 8}
+    ],
+    "depth-line": [{"background": "-", "fragments": [(5, "a"), (3, "b"), (3, "c"), (4, "d")]}],
+    "over-line": [{"background": 1.0, "layers": [(0.5, 0.25), (0.0, 0.5), (1.0, 0.125)]}],
+}
+SHOWN = {
+    "viewport-line": lambda found: (found["column"], found["row"], found["x_window"], found["y_window"]),
+    "coverage-line": lambda found: tuple(found["covered"]),
+    "liang-barsky-line": lambda found: (found["t_in"], found["t_out"]) if found["kept"] else (1, 0),
+    "perspective-line": lambda found: found["u"],
+    "depth-line": lambda found: found["shown"],
+    "over-line": lambda found: found["shown"],
+}
+RIGHT = {
+    "liang-barsky-line": (2 / 9, 8 / 9),
+    "perspective-line": (0.25 * 3 + 0.2 * 8) / (0.25 + 0.075 + 0.2),
+    "depth-line": "b",
+    "over-line": (0.25 * 0.5 + 0.75) * 0.5 * 0.875 + 0.125,
+}
+"""What the first input must give."""
+
+
+def outcomes(name: str, lines: list[str]) -> list[object]:
+    """Run a listing on all inputs."""
+    found = []
+    for values in INPUTS[name]:
+        names = {"inf": float("inf"), "floor": math.floor, "ceil": math.ceil, **values}
+        exec("\n".join(lines), names)
+        found.append(SHOWN[name](names))
+    return found
+
+
+@pytest.mark.parametrize("listed", wrong_lines.LISTINGS, ids=lambda listed: listed.name)
+def test_each_wrong_line_of_a_listing_gives_something_else(listed: wrong_lines.Listed) -> None:
+    lines = listed.text.split("\n")
+    right = outcomes(listed.name, lines)
+    if listed.name in RIGHT:
+        assert right[0] == pytest.approx(RIGHT[listed.name])
+    for number, faults in listed.faults.items():
+        for fault in faults:
+            assert outcomes(listed.name, [*lines[:number], fault, *lines[number + 1 :]]) != right, fault

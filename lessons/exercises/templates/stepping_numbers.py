@@ -1,0 +1,123 @@
+"""Be the rasterizer in numbers: a vertex through the spaces, weights at a pixel, layers one after the other."""
+
+from fractions import Fraction
+
+import numpy as np
+
+from lessons.exercises.answers.steps import Run, Step, StepsAnswer, first_tries
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.coverage import corner_text, twice_area
+from lessons.exercises.templates.fragments import COLORS, NAMES, TOLERANCE, WITHIN
+from lessons.small_scenes import triangle_scene
+
+HALF = Fraction(1, 2)
+
+
+def number_steps(names: tuple[str, ...], values: tuple[Fraction, ...]) -> tuple[Step, ...]:
+    """Return a step for each number."""
+    return tuple(
+        Step(name, "number", value, tolerance=TOLERANCE) for name, value in zip(names, values, strict=True)
+    )
+
+
+SPACES = ("w", "x in NDC", "y in NDC", "x in the window", "y in the window")
+SIZE = (8, 6)
+
+
+def spaces_of(x: Fraction, y: Fraction, z: Fraction) -> tuple[Fraction, ...]:
+    """Return w, NDC and window of an eye point, with a field of view of 90 degrees both ways."""
+    w = -z
+    ndc = x / w, y / w
+    return w, *ndc, *((n + 1) / 2 * side for n, side in zip(ndc, SIZE, strict=True))
+
+
+def draw_spaces(draws: Draws) -> Draft | None:
+    """A vertex from the eye to the window."""
+    d = draws.whole(2, 8)
+    x, y = (Fraction(draws.whole(-d + 1, d - 1)) for _ in range(2))
+    if x == 0 or y == 0:
+        return None
+    right = spaces_of(x, y, Fraction(-d))
+    steps = number_steps(SPACES, right)
+    down: Run = first_tries((*right[:4], SIZE[1] - right[4]), steps)
+    no_w: Run = first_tries((Fraction(1), *right[1:]), steps)
+    text = (
+        "Be the transform: give w after the perspective matrix, the point in NDC, and the point in the window, y up. "
+        f"The camera looks along -z, 90 degrees wide and high. {WITHIN}"
+    )
+    given = f"Eye point ({x}, {y}, -{d}), window of {SIZE[0]} x {SIZE[1]} pixels."
+    hints = (
+        "With 90 degrees the matrix keeps x and y.",
+        "NDC is x/w and y/w.",
+        "The window is (NDC + 1)/2, times its width or height.",
+    )
+    return Draft(text, given, StepsAnswer(steps, SIZE), hints, {"y-down": down, "w-is-one": no_w})
+
+
+def draw_weights(draws: Draws) -> Draft | None:
+    """Edge functions and weights at a centre."""
+    corners = [(Fraction(draws.whole(0, 10)), Fraction(draws.whole(0, 8))) for _ in range(3)]
+    pixel = draws.whole(2, 8), draws.whole(2, 6)
+    center = (pixel[0] + HALF, pixel[1] + HALF)
+    area = twice_area(corners)
+    if area < 20:
+        return None
+    values = tuple(twice_area([corners[(k + 1) % 3], corners[(k + 2) % 3], center]) for k in range(3))
+    if min(values) <= 0:
+        return None
+    names = ("twice the area", *(f"E{k}" for k in range(3)), *NAMES)
+    right = (area, *values, *(value / area for value in values))
+    steps = number_steps(names, right)
+    turned = first_tries((*right[:4], *right[5:], right[4]), steps)
+    text = (
+        f"Be the interpolation at the centre of pixel {pixel}: twice the area of the triangle, then twice the area of "
+        f"the centre with the edge opposite to each vertex, then the weights. {WITHIN}"
+    )
+    hints = (
+        "The determinant (x1 - x0)(y2 - y0) - (y1 - y0)(x2 - x0) is twice the area.",
+        "E0 belongs to the edge from vertex 1 to vertex 2.",
+        "Each weight is its E over twice the area.",
+    )
+    scene = triangle_scene(np.array([corners], float), (11, 9))
+    given = f"Vertices 0, 1, 2: {corner_text(corners)}"
+    return Draft(
+        text, given, StepsAnswer(steps, (11, 9)), hints, {"weights-permuted": turned}, scene, pixel=pixel
+    )
+
+
+def draw_layers(draws: Draws) -> Draft | None:
+    """Red after each of four layers."""
+    names = [draws.item(tuple(COLORS)) for _ in range(4)]
+    alphas = [Fraction(draws.whole(1, 3), 4) for _ in names]
+    red, values, exchanged = Fraction(0), [], []
+    for name, alpha in zip(names, alphas, strict=True):
+        new = Fraction(COLORS[name][0])
+        exchanged.append((1 - alpha) * new + alpha * red)
+        red = alpha * new + (1 - alpha) * red
+        values.append(red)
+    if len(set(values)) < 3:
+        return None
+    steps = number_steps(tuple(f"red after layer {k}" for k in range(4)), tuple(values))
+    given = "Background: black, opaque.\n" + "\n".join(
+        f"Layer {k}: {name}, alpha = {number_text(alpha)}"
+        for k, (name, alpha) in enumerate(zip(names, alphas, strict=True))
+    )
+    text = (
+        "Be the blending: each layer is blended with over on what is there. What is the red of the pixel after each, "
+        f"linear? Red, yellow and white have red 1, green and blue have red 0. {WITHIN}"
+    )
+    hints = (
+        "over: alpha times the new red plus (1 - alpha) times what is there.",
+        "A layer without red only weakens what is there.",
+    )
+    wrong = {"factors-exchanged": first_tries(exchanged, steps)}
+    return Draft(text, given, StepsAnswer(steps), hints, wrong)
+
+
+TEMPLATES = (
+    Template("space-steps", 1, "Be the transform", "transform", 4, draw_spaces),
+    Template("weight-steps", 1, "Be the interpolation", "interpolate", 4, draw_weights),
+    Template("layer-steps", 1, "Be the blending", "blend", 3, draw_layers),
+)
