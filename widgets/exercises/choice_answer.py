@@ -21,13 +21,14 @@ class ChoiceAnswerView(AnswerView):
         make = QCheckBox if form.is_several else QRadioButton
         self.buttons: list[QAbstractButton] = [make(option, self) for option in form.options]
         self._marks = [QLabel(self) for _ in form.options]
-        self._group = QButtonGroup(self)
-        self._group.setExclusive(not form.is_several)
+        # Qt lets Tab stop at one button of a group only, whether it is exclusive or not.
+        self._group = None if form.is_several else QButtonGroup(self)
         layout = column_layout(self, 4)
         how = "Choose all that are right." if form.is_several else "Choose one."
         layout.addWidget(text_label(how, self, role="muted"))
         for button, mark in zip(self.buttons, self._marks, strict=True):
-            self._group.addButton(button)
+            if self._group is not None:
+                self._group.addButton(button)
             button.clicked.connect(self._chosen)
             row = row_layout(spacing=8)
             row.addWidget(button)
@@ -42,11 +43,12 @@ class ChoiceAnswerView(AnswerView):
 
     def show_given(self, given: Any) -> None:
         """Choose options."""
-        # Qt lets no button of an exclusive group go otherwise.
-        self._group.setExclusive(False)
+        if self._group is not None:
+            self._group.setExclusive(False)  # Else the last chosen one stays.
         for option, button in zip(self._form.options, self.buttons, strict=True):
             button.setChecked(option in (given or ()))
-        self._group.setExclusive(not self._form.is_several)
+        if self._group is not None:
+            self._group.setExclusive(True)
 
     def show_marks(self, marks: AnswerMarks | None) -> None:
         """Mark the options that are chosen rightly or wrongly, and those that are missing."""

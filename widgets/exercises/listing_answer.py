@@ -29,21 +29,23 @@ class ListingAnswerView(AnswerView):
             self.list.item(number - 1).setData(
                 Qt.ItemDataRole.AccessibleTextRole, f"line {number}: {line.strip()}"
             )
-        self.list.setCurrentRow(-1)
-        self.list.currentRowChanged.connect(self._chosen)
+        # Not the current line: Qt makes the first one that as soon as the list has the keyboard.
+        self.list.itemSelectionChanged.connect(self._chosen)
         layout = column_layout(self, 8)
         layout.addWidget(text_label(HOW, self, role="muted", wraps=True))
         layout.addWidget(self.list)
 
     def given(self) -> str:
         """Return the number of the line, from 1; empty: none is chosen."""
-        row = self.list.currentRow()
-        return "" if row < 0 else str(row + 1)
+        rows = [self.list.row(item) for item in self.list.selectedItems()]
+        return str(rows[0] + 1) if rows else ""
 
     def show_given(self, given: Any) -> None:
         """Choose a line."""
         self.list.blockSignals(True)
-        self.list.setCurrentRow(int(given) - 1 if given else -1)
+        self.list.clearSelection()
+        if given:
+            self.list.setCurrentRow(int(given) - 1)
         self.list.blockSignals(False)
 
     def show_marks(self, marks: AnswerMarks | None) -> None:

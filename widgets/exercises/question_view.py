@@ -177,6 +177,11 @@ class QuestionView(QWidget):
         self.answer = make_view(form, self._grid, self._content)
         self.answer.note_changed.connect(self.show_note)
         self._answer_place.addWidget(self.answer)
+        # At once, not with the next turn of events: it may be given the keyboard now.
+        self.answer.show()
+        column = self._content.layout()
+        assert column is not None
+        column.activate()
         self.show_note("")
         self.show_feedback(None)
         self.scroll_area.verticalScrollBar().setValue(0)
@@ -233,13 +238,12 @@ class QuestionView(QWidget):
         theme = current_theme()
         for part in (self._content, self._foot):
             part.setMaximumWidth(WIDEST * theme.text_px // 13)
-        set_role(self.given, "" if self._has_art else "strong")
+        font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont) if self._has_art else QFont()
         if self._has_art:
-            font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
             font.setPixelSize(theme.code_px)
-            self.given.setFont(font)
-        else:
-            self.given.setFont(QFont())
+        set_role(self.given, "")
+        self.given.setFont(font)
+        set_role(self.given, "" if self._has_art else "strong")
         if self._feedback is not None:
             mark = Mark.RIGHT if self._feedback.is_right else Mark.WRONG
             self._icon.setPixmap(mark_pixmap(mark, theme.text_px + 4, self.devicePixelRatioF()))

@@ -64,6 +64,8 @@ class CataloguePresenter(QObject):
         self._attempts: Attempts = ()
         self._choice: Choice | None = None
         self._current = ""
+        self._shown: list[str] = []
+        """Names of all exercises in the order of the catalogue."""
         self._reading, self._choosing = Job(self), Job(self)
         self._reading.succeeded.connect(self._take_found)
         self._reading.failed.connect(self._refuse)
@@ -155,7 +157,7 @@ class CataloguePresenter(QObject):
 
     def open_neighbour(self, direction: int) -> None:
         """Open the next exercise (1) or the previous one (-1)."""
-        names = list(self.templates)
+        names = self._shown
         place = names.index(self._current) + direction if self._current in names else 0
         self._open(names[place % len(names)])
 
@@ -219,7 +221,8 @@ class CataloguePresenter(QObject):
                 ),
             )
 
-        shipped = [each for each in self.templates.values() if each.name in TEMPLATES]
+        order = dict.fromkeys(name for name in (*FIRST_COURSE, *self.templates) if name in TEMPLATES)
+        shipped = [self.templates[name] for name in order]
         groups = [
             group(stage, stage_of(stage).short_title, (each for each in shipped if each.stage == stage))
             for stage in STAGES
@@ -228,6 +231,7 @@ class CataloguePresenter(QObject):
         groups = [
             each for each in (*groups, group("own", "Own, and from the Step page", own)) if each.entries
         ]
+        self._shown = [entry.name for each in groups for entry in each.entries]
         choice = self._choice
         to_try = "" if choice is None else f"{choice.question.template.title}. {choice.reason}"
         self._view.show_exercises(groups, self._current, to_try)

@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
 from PySide6.QtGui import QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QPushButton, QSplitter, QWidget
+from PySide6.QtWidgets import QApplication, QPushButton, QSplitter, QWidget
 
 from app.pages.exercises.asked_scene import AskedScene
 from app.pages.exercises.catalogue_presenter import FIRST_COURSE, CataloguePresenter
@@ -15,11 +15,13 @@ from app.pages.side_columns import SideColumns
 from app.session.session import Session
 from lessons.exercises.question import Template
 from widgets.basics.controls import column_layout
+from widgets.basics.focus_order import give_focus, tab_stops
 from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.exercises.catalogue import Catalogue
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.pixel_answer import PixelAnswerView
+from widgets.exercises.place_answer import PlaceAnswerView
 from widgets.exercises.question_view import QuestionView
 
 if TYPE_CHECKING:
@@ -59,6 +61,7 @@ class ExercisesPage(Page):
         theme_notifier().theme_changed.connect(self._make_room)
         self.exercises.question_chosen.connect(self._open)
         self.questions.asked.connect(self.exercises.show_question)
+        self.questions.asked.connect(self._focus_answer)
         self.questions.checked.connect(self.exercises.take_attempt)
         self.questions.message_sent.connect(self.message_sent)
         self.questions.step_requested.connect(self.step_requested)
@@ -99,6 +102,19 @@ class ExercisesPage(Page):
     def open_line(self, line: str) -> None:
         """Ask the question of a line that was handed out."""
         self.exercises.open_line(line)
+
+    @Slot()
+    def _focus_answer(self) -> None:
+        """Let the next key answer: on the picture, or in the first field."""
+        answer = self.question_view.answer
+        if answer is None or not self.isVisible():
+            return
+        stops = [self.grid] if isinstance(answer, PixelAnswerView | PlaceAnswerView) else tab_stops([answer])
+        if stops:
+            by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
+            give_focus(
+                stops[0], Qt.FocusReason.MouseFocusReason if by_mouse else Qt.FocusReason.TabFocusReason
+            )
 
     @Slot(object, object)
     def _open(self, template: Template, seed: int | None) -> None:
@@ -170,8 +186,12 @@ class ExercisesPage(Page):
         return self.panes
 
     def focus_panes(self) -> list[QWidget]:
-        """Return what F6 goes through after question and picture: the catalogue, and the borders."""
-        return [self.catalogue, self]
+        """Return what F6 goes through after the question: the picture, the catalogue, and the borders."""
+        return [self.grid, self.catalogue, self]
+
+    def take_focus(self) -> None:
+        """Give the keyboard to the answer."""
+        self._focus_answer()
 
     def caption(self) -> Caption:
         """Return the question."""
