@@ -1,6 +1,7 @@
 """All templates that ship with the program, and how one is found."""
 
 from collections.abc import Mapping
+from difflib import get_close_matches
 from pathlib import Path
 
 from core import STAGES
@@ -24,6 +25,7 @@ from lessons.exercises.templates import (
     lines,
     mixing,
     next_steps,
+    on_picture,
     placing,
     polygons,
     reading,
@@ -36,6 +38,7 @@ from lessons.exercises.templates import (
 )
 
 _MODULES = (
+    on_picture,
     transforms,
     faces,
     polygons,
@@ -81,5 +84,6 @@ def template_named(name: str, templates: Mapping[str, Template] = TEMPLATES) -> 
     if name.endswith(".toml"):
         return read_exercise(Path(name))
     if name not in templates:
-        raise ValueError(f"expected a .toml file or one of {', '.join(templates)}, got {name!r:.60}")
+        near = get_close_matches(name, templates) or ["triangle-coverage"]
+        raise ValueError(f"expected a .toml file or an exercise such as {', '.join(near)}, got {name!r:.60}")
     return templates[name]

@@ -87,7 +87,7 @@ def test_attempts_of_a_user_are_kept_exported_and_imported(
         (2, ["show", "facing", "--seed", "-1"], "", "--seed"),
         (2, ["show", "facing", "--seed", "\u0661"], "", "a whole number from 0"),
         (2, ["selftest", "--seeds", "0"], "", "must be 1 or more"),
-        (1, ["show", "'; DROP TABLE"], "", "expected a .toml file or one of"),
+        (1, ["show", "'; DROP TABLE"], "", "expected a .toml file or an exercise such as"),
         (1, ["validate", "missing.toml"], "", "missing.toml cannot be read or written"),
         (1, ["check", "perspective-u"], 'answer = ""', "not checked yet: "),
         (1, ["check", "perspective-u"], "answer = nan", "line 1: answer: expected a number such as"),

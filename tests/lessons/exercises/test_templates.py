@@ -231,7 +231,7 @@ def test_a_template_that_cannot_draw_its_question_says_so() -> None:
 
     with pytest.raises(ValueError, match="order-reversed gives the right answer, or none"):
         ask(Template("hides", 1, "Hides", "depth", 1, hides), 0)
-    with pytest.raises(ValueError, match=r"expected a .toml file or one of turn-and-move"):
+    with pytest.raises(ValueError, match=r"or an exercise such as triangle-coverage, got"):
         template_named("'; DROP TABLE exercises")
 
 

@@ -1,0 +1,330 @@
+"""One question on the picture for each stage: which pixels."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from math import floor
+
+import numpy as np
+
+from core import Settings, Texture, render
+from core.records.arrays import Flags
+from core.records.frame import Frame
+from core.scene import ClipScene
+from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer, Pixels
+from lessons.exercises.drawn_scene import seen_pixels
+from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.coverage import RULE, Corner, corner_text, twice_area
+from lessons.exercises.templates.drafting import place_text
+from lessons.exercises.templates.edges import coefficients
+from lessons.mistakes.coverage import in_window
+from lessons.mistakes.shelf import SHELF
+from lessons.small_scenes import rectangle_corners, triangle_scene
+
+SIZE = (12, 9)
+HALF = Fraction(1, 2)
+WINDOW = f"Window of {SIZE[0]} x {SIZE[1]} pixels, row 0 at the bottom."
+
+
+def marked(is_marked: Flags) -> Pixels:
+    """Return the pixels that are set in an array of rows and columns."""
+    return frozenset((column, row) for row, column in np.argwhere(is_marked).tolist())
+
+
+def ask_pixels(
+    text: str,
+    given: Iterable[str],
+    right: Pixels,
+    wrong: Mapping[str, Pixels],
+    hints: tuple[str, ...],
+    scene: ClipScene,
+    settings: Settings,
+) -> Draft | None:
+    """Ask for pixels; ``None`` where there are none, or where all must be marked."""
+    try:
+        answer = PixelAnswer(SIZE, right)
+    except NothingToMarkError:
+        return None
+    return Draft(text, "\n".join([WINDOW, *given]), answer, hints, wrong, scene, settings)
+
+
+def halves(draws: Draws) -> list[Corner] | None:
+    """Draw a counter-clockwise triangle with corners on half pixels; ``None`` where it is small."""
+    corners = [(draws.step(HALF, Fraction(11), HALF), draws.step(HALF, Fraction(8), HALF)) for _ in range(3)]
+    area = twice_area(corners)
+    return None if abs(area) < 24 else corners if area > 0 else corners[::-1]
+
+
+def draw_vertices(draws: Draws) -> Draft | None:
+    """Pixels of three vertices given in NDC."""
+    ndc = [(Fraction(draws.whole(-11, 11), 12), Fraction(draws.whole(-8, 8), 9)) for _ in range(3)]
+    places = [((x + 1) * SIZE[0] / 2, (y + 1) * SIZE[1] / 2) for x, y in ndc]
+    if any(c.denominator == 1 for place in places for c in place) or abs(twice_area(places)) < 8:
+        return None
+    scene = triangle_scene(np.array([places], float), SIZE)
+
+    def pixels(of: ClipScene) -> Pixels:
+        return frozenset((floor(x), floor(y)) for x, y in in_window(of)[0].tolist())
+
+    wrong = {name: pixels(SHELF[name].change_scene(scene)) for name in ("y-down", "window-one-less")}
+    text = "In which pixels do these vertices lie? Pixel (i, j) reaches from i to i + 1 and from j to j + 1."
+    hints = (
+        "NDC run from -1 to 1 over the window.",
+        "(x + 1) W/2 and (y + 1) H/2, then cut off the fraction.",
+    )
+    given = [f"Vertex {k} in NDC: {place_text(place)}" for k, place in enumerate(ndc)]
+    return ask_pixels(text, given, pixels(scene), wrong, hints, scene, Settings())
+
+
+def draw_culled(draws: Draws) -> Draft | None:
+    """What is left of two triangles when back faces are culled."""
+    triangles = [
+        [(6 * k + draws.whole(0, 10) * HALF, draws.whole(0, 16) * HALF) for _ in range(3)] for k in range(2)
+    ]
+    areas = [twice_area(corners) for corners in triangles]
+    if areas[0] * areas[1] >= 0 or min(map(abs, areas)) < 8:
+        return None
+    scene, settings = triangle_scene(np.array(triangles, float), SIZE), Settings(cull="back")
+    wrong = {
+        name: seen_pixels(SHELF[name].draw(scene, settings))
+        for name in ("facing-exchanged", "all-edges-inclusive")
+    }
+    text = f"Back faces are culled: counter-clockwise is the front. Which pixels are drawn? {RULE}"
+    hints = ("Go round each triangle in its order.", "Only one of the two is drawn.")
+    given = [f"Triangle {k}: {corner_text(corners)}" for k, corners in enumerate(triangles)]
+    return ask_pixels(text, given, seen_pixels(render(scene, settings)), wrong, hints, scene, settings)
+
+
+def draw_clipped(draws: Draws) -> Draft | None:
+    """What the near plane leaves of a triangle."""
+    corners, border = halves(draws), draws.whole(3, 8)
+    if corners is None:
+        return None
+    # Depth is linear over the window: 0 at the border, and 1 at twelve pixels to the right of it.
+    depth = [[(float(x) - border) / 12 for x, _ in corners]]
+    scene = triangle_scene(np.array([corners], float), SIZE, depth=depth)
+    settings = Settings(clipping="sutherland-hodgman")
+    right = seen_pixels(render(scene, settings))
+    wrong = {
+        name: seen_pixels(SHELF[name].draw(scene, settings))
+        for name in ("corner-for-center", "all-edges-inclusive")
+    }
+    if right == seen_pixels(render(replace(scene, clip=scene.clip * [1, 1, 0, 1]))):
+        return None
+    text = f"Window depth is 0 at the near plane. What lies in front of it is clipped. Which pixels are drawn? {RULE}"
+    given = [f"Triangle: {corner_text(corners)}", f"Window depth at (x, y): (x - {border}) / {SIZE[0]}"]
+    hints = ("Where is the depth 0?", "The near plane cuts the triangle along a vertical line.")
+    return ask_pixels(text, given, right, wrong, hints, scene, settings)
+
+
+def draw_side(draws: Draws) -> Draft | None:
+    """The inner side of one edge."""
+    corners = halves(draws)
+    if corners is None:
+        return None
+    a, b, c = coefficients(corners[0], corners[1])
+
+    def inner(shift: Fraction, owns: bool) -> Pixels:
+        values = {
+            (i, j): a * (i + shift) + b * (j + shift) + c for i in range(SIZE[0]) for j in range(SIZE[1])
+        }
+        return frozenset(pixel for pixel, value in values.items() if value > 0 or (owns and value == 0))
+
+    owns = a > 0 or (a == 0 and b > 0)
+    wrong = {"corner-for-center": inner(Fraction(0), owns)}
+    other = "all-edges-exclusive" if owns else "all-edges-inclusive"
+    wrong[other] = inner(HALF, not owns)
+    text = (
+        "Which pixels are inside of the edge from vertex 0 to vertex 1? Inside is where E > 0 at the centre "
+        "(i + 1/2, j + 1/2), on the left of the edge; where E = 0, a step to the right, then up, decides."
+    )
+    hints = (
+        "Draw the line of the edge across the whole window.",
+        "E = (y0 - y1)(x - x0) + (x1 - x0)(y - y0).",
+        "Are centres on the line inside? Move them a little to the right.",
+    )
+    scene = triangle_scene(np.array([corners], float), SIZE)
+    return ask_pixels(
+        text,
+        [f"Vertices 0, 1, 2: {corner_text(corners)}"],
+        inner(HALF, owns),
+        wrong,
+        hints,
+        scene,
+        Settings(),
+    )
+
+
+def draw_box(draws: Draws) -> Draft | None:
+    """Pixels of a bounding box."""
+    corners = [(Fraction(draws.whole(2, 118), 10), Fraction(draws.whole(2, 88), 10)) for _ in range(3)]
+    if abs(twice_area(corners)) < 20:
+        return None
+    low, high = (
+        np.array([float(pick(c[axis] for c in corners)) for axis in range(2)]) for pick in (min, max)
+    )
+
+    def box(first: np.ndarray, end: np.ndarray) -> Pixels:
+        return frozenset(
+            (i, j) for i in range(int(first[0]), int(end[0])) for j in range(int(first[1]), int(end[1]))
+        )
+
+    right = box(np.ceil(low - 0.5), np.floor(high - 0.5) + 1)
+    wrong = {"box-truncated": box(np.floor(low), np.floor(high))}
+    text = (
+        "Which pixels does a fill by bounding box test? A pixel belongs to the box of the triangle where its centre "
+        "(i + 1/2, j + 1/2) does."
+    )
+    hints = (
+        "The box reaches from the least to the greatest x and y.",
+        "Look at centres, not at whole pixels.",
+    )
+    scene, settings = triangle_scene(np.array([corners], float), SIZE), Settings(fill="bounding-box")
+    return ask_pixels(text, [f"Triangle: {corner_text(corners)}"], right, wrong, hints, scene, settings)
+
+
+def draw_below_half(draws: Draws) -> Draft | None:
+    """Where an attribute is below 1/2, with perspective."""
+    near = draws.whole(0, 1)
+    left, right = HALF, Fraction(23, 2)
+    corners = rectangle_corners(float(left), 0.5, float(right), 8.5)
+    w_of = {float(left): (1, 4)[near], float(right): (4, 1)[near]}
+    w = [[w_of[x] for x, _ in triangle] for triangle in corners]
+    u = [[[float(x > 1)] for x, _ in triangle] for triangle in corners]
+    scene = triangle_scene(corners, SIZE, w=w, attributes=u)
+
+    def below(frame: Frame) -> Pixels:
+        return marked((frame.primitive >= 0) & (frame.attributes[..., 0] < 0.5))
+
+    names = ("affine-for-perspective", "not-divided-back", "multiplied-by-w")
+    wrong = {name: below(SHELF[name].draw(scene, Settings())) for name in names}
+    text = (
+        "A rectangle carries u from 0 at its left side to 1 at its right side, in perspective. At which of its pixels "
+        f"is u below 1/2? {RULE}"
+    )
+    given = [
+        f"Left side: x = {number_text(left)}, w = {w_of[float(left)]}. Right side: x = {number_text(right)}, "
+        f"w = {w_of[float(right)]}.",
+        "It reaches from y = 1/2 to y = 8 + 1/2.",
+    ]
+    hints = (
+        "Which side is nearer?",
+        "u/w and 1/w are linear in the window.",
+        "Solve (u/w) / (1/w) = 1/2 for x.",
+    )
+    return ask_pixels(text, given, below(render(scene)), wrong, hints, scene, Settings())
+
+
+def draw_texels(draws: Draws) -> Draft | None:
+    """Pixels that show a dark texel."""
+    texels = np.array([[draws.whole(0, 1) for _ in range(3)] for _ in range(3)], float)
+    across = draws.whole(1, 2)
+    if not 2 <= texels.sum() <= 7:
+        return None
+    corners = rectangle_corners(0, 0, *map(float, SIZE))
+    uv = np.array(corners) / SIZE * [across, 1]
+    scene = triangle_scene(corners, SIZE, attributes=uv)
+    scene = replace(scene, texture=Texture(np.repeat(texels[..., None], 3, axis=2).astype(np.float32)))
+    settings = Settings(texture_filter="nearest")
+
+    def dark(frame: Frame) -> Pixels:
+        return marked(frame.color[..., 0] < 0.5)
+
+    names = ("texture-upside-down", "window-for-uv") if across > 1 else ("texture-upside-down",)
+    wrong = {name: dark(SHELF[name].draw(scene, settings)) for name in names}
+    text = (
+        "A rectangle over the whole window shows this texture by the nearest texel; beyond u = 1 it starts again. "
+        "Which pixels show a dark texel (#)? (u, v) = (0, 0) is the lower left corner of texture and window."
+    )
+    art = ["".join("#."[int(texel)] for texel in row) for row in texels[::-1]]
+    given = [
+        f"u runs from 0 to {across} across the window, v from 0 to 1 upwards.",
+        "Texture, top row first:",
+        *art,
+    ]
+    hints = (
+        "How many pixels wide and high is a texel in the window?",
+        "The lowest row of texels is in the lowest rows.",
+    )
+    return ask_pixels(text, given, dark(render(scene, settings)), wrong, hints, scene, settings)
+
+
+def draw_nearer(draws: Draws) -> Draft | None:
+    """Pixels of a triangle that runs through another one."""
+    corners = [halves(draws), halves(draws)]
+    border = draws.whole(3, 9)
+    if corners[0] is None or corners[1] is None:
+        return None
+    triangles = [corner for corner in corners if corner is not None]
+    depth = [[0.5] * 3, [0.5 + (float(x) - border) / 40 for x, _ in triangles[1]]]
+    scene = triangle_scene(np.array(triangles, float), SIZE, depth=depth)
+    names = ("farther-wins", "no-depth-test", "corner-for-center")
+    wrong = {name: seen_pixels(SHELF[name].draw(scene, Settings()), 1) for name in names}
+    right = seen_pixels(render(scene), 1)
+    if any(not pixels or pixels == right for pixels in wrong.values()):
+        return None
+    text = (
+        "Triangle 0 is drawn first, then triangle 1. Which pixels show triangle 1? Smaller depths are nearer. "
+        f"{RULE}"
+    )
+    given = [
+        f"Triangle 0: {corner_text(triangles[0])}, depth 1/2",
+        f"Triangle 1: {corner_text(triangles[1])}, depth 1/2 + (x - {border}) / 40 at (x, y)",
+    ]
+    hints = ("Where do both cover the same pixels?", "On which side of a vertical line is triangle 1 nearer?")
+    return ask_pixels(text, given, right, wrong, hints, scene, Settings())
+
+
+def draw_overlap(draws: Draws) -> Draft | None:
+    """Pixels that are blended twice."""
+    first, second = halves(draws), halves(draws)
+    if first is None or second is None:
+        return None
+    glass = [[(1.0, 1.0, 1.0, 0.5)] * 3] * 2
+    scene = triangle_scene(np.array([first, second], float), SIZE, attributes=glass)
+    settings = Settings(blend="over", visibility="last-drawn")
+
+    def twice(frame: Frame) -> Pixels:
+        return marked(frame.cover_count == 2)
+
+    names = ("all-edges-inclusive", "corner-for-center")
+    wrong = {name: twice(SHELF[name].draw(scene, settings)) for name in names}
+    text = f"Two panes of glass are blended with over, whatever their depth. Which pixels show both? {RULE}"
+    given = [f"Pane {k}: {corner_text(corners)}" for k, corners in enumerate((first, second))]
+    hints = ("Find the pixels of each pane.", "Which belong to both?")
+    return ask_pixels(text, given, twice(render(scene, settings)), wrong, hints, scene, settings)
+
+
+def draw_mixed(draws: Draws) -> Draft | None:
+    """Pixels of which only some samples are covered."""
+    corners = [(Fraction(draws.whole(0, 48), 4), Fraction(draws.whole(0, 36), 4)) for _ in range(3)]
+    if twice_area(corners) < 30:
+        return None
+    white = [[(1.0, 1.0, 1.0, 1.0)] * 3]
+    scene = triangle_scene(np.array([corners], float), SIZE, attributes=white)
+    scene = replace(scene, background=np.array([0.0, 0.0, 0.0, 1.0]))
+    settings = Settings(antialiasing="ssaa-4")
+    color = render(scene, settings).color[..., 0]
+    right = marked((color > 0.01) & (color < 0.99))
+    text = (
+        "A white triangle is drawn over black with 2 x 2 samples a pixel, at 1/4 and 3/4 of its width and height. "
+        "Which pixels are neither black nor white? A sample on an edge belongs to left edges and to level bottom edges."
+    )
+    hints = ("Follow the edges.", "A pixel is grey if an edge runs between its samples.")
+    return ask_pixels(text, [f"Triangle: {corner_text(corners)}"], right, {}, hints, scene, settings)
+
+
+TEMPLATES = (
+    Template("vertex-pixels", 1, "Pixels of the vertices", "transform", 2, draw_vertices),
+    Template("front-pixels", 1, "Pixels of front faces", "cull", 3, draw_culled),
+    Template("pixels-beyond-near", 1, "Pixels beyond the near plane", "clip", 3, draw_clipped),
+    Template("inner-side", 1, "The inner side of an edge", "edges", 3, draw_side),
+    Template("box-pixels", 1, "Pixels in the bounding box", "bin", 3, draw_box),
+    Template("below-half", 1, "Where u is below 1/2", "interpolate", 4, draw_below_half),
+    Template("texel-pixels", 1, "Pixels of dark texels", "shade", 3, draw_texels),
+    Template("nearer-pixels", 1, "Pixels of the nearer triangle", "depth", 4, draw_nearer),
+    Template("blended-twice", 1, "Pixels that are blended twice", "blend", 3, draw_overlap),
+    Template("grey-pixels", 1, "Pixels between black and white", "resolve", 4, draw_mixed),
+)
