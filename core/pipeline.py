@@ -31,6 +31,7 @@ from core.antialiasing.sample_rasters import (
     resolve_frame,
 )
 from core.antialiasing.sampling import ROTATED_GRID, grid_positions
+from core.families import suited
 from core.framebuffer.depth import Stored
 from core.framebuffer.nearest import NearestFragments
 from core.framebuffer.resolve import filter_weights, reach_of
@@ -80,7 +81,9 @@ def render(scene: AnyScene, settings: Settings | None = None) -> Frame:
      [ 0  0 -1 -1]
      [ 0  0  0 -1]]
     """
-    resolved = resolve(settings or DEFAULTS)
+    settings = settings or DEFAULTS
+    # A table of depths has no samples and no other place of the pixels.
+    resolved = resolve(suited(settings, scene) if scene.corner_count == 0 else settings)
     # Its settings, which are those it is kept by: looked up again by every stage, they need not be compared.
     return draw(scene, resolved.settings, Raster(*scene.size, resolved.center))
 

@@ -20,18 +20,19 @@ OPERATIONS: dict[str, tuple[Operation, ...]] = {
         Operation("compare", "compare", ("before", "passes")),
         Operation("write", Either("passes", "store", "reject"), ("after",)),
     ),
-    "cell": (
-        Operation("depth", "", ("stored",)),
-        Operation("compare", "compare", ("before", "passes")),
-        Operation("write", Either("passes", "store", "reject"), ("after",)),
-    ),
     "out-of-range": (Operation("range", "range", ("depth", "passes")),),
     "store": (
         Operation("depth", "", ("depth", "stored")),
         Operation("write", "store", ("before", "after", "passes")),
     ),
 }
-"""Kind of row to what it does; a ``cell`` is that of a table of depths."""
+"""Kind of row to what it does."""
+CELL = (
+    Operation("depth", "", ("stored",)),
+    Operation("compare", "compare", ("before", "passes")),
+    Operation("write", Either("passes", "store", "reject"), ("after",)),
+)
+"""What a row of a table of depths does, which is of the kind ``cell``."""
 
 
 def trace_depth(source: TraceSource) -> StageTrace:
@@ -60,12 +61,13 @@ def trace_depth(source: TraceSource) -> StageTrace:
     operations = _operations(source)
     listings = {
         "test": listing(depth_test),
-        "cell": listing(source.depth_format.listing),
         "out-of-range": listing(depth_in_range),
         "store": listing(store_depth),
     }
     columns |= value_columns(source)
     listings |= value_listings(source)
+    if not source.depth_format.keeps_nearest:
+        listings["cell"] = listing(source.depth_format.listing)
     if source.depth_format.is_planar:
         columns |= plane_columns(source)
         operations, listings = operations | PLANAR_OPERATIONS, listings | _planar_listings()
@@ -112,6 +114,8 @@ def _test_constants(source: TraceSource) -> dict[str, str]:
 
 def _operations(source: TraceSource) -> dict[str, tuple[Operation, ...]]:
     """Return what the rows do; most depth methods make the value that is stored in steps of their own."""
+    if not source.depth_format.keeps_nearest:
+        return {**OPERATIONS, "cell": CELL}
     made = value_operations(source)
     if not made:
         return OPERATIONS

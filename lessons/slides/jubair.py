@@ -1,20 +1,20 @@
 """Numbers of Jubair's lecture: barycentric coordinates, Cyrus-Beck with its table, z-buffer, box filter, culling."""
 
 from functools import partial
-from math import inf
 
 import numpy as np
 
-from core import Camera, Mesh, Scene, Settings, clip_lines, render
+from core import Camera, Mesh, Scene, Settings, clip_lines, render, trace
 from core.framebuffer.depth import depth_test
 from core.framebuffer.resolve import weighted_mean
 from core.geometry.line_clipping.cyrus_beck import cyrus_beck_listing
 from core.geometry.line_clipping.records import ParameterRows, rectangle_window
 from core.methods import table
 from core.raster.number_formats.inverse import inverse_coefficients
+from lessons.depth_tables import two_triangles, two_triangles_turned
 from lessons.printed.clipping import WINDOW
 from lessons.printed.records import slide_number
-from lessons.slides.small_scenes import rounded, triangles
+from lessons.slides.small_scenes import cells_unlike, rounded, triangles
 
 SEGMENT = (-2.0, -1.0, 10.0, 8.0)
 """Crosses the lines of all four edges of the window 8 x 6."""
@@ -82,8 +82,8 @@ def point_is_kept(x: float, y: float) -> bool:
 
 
 def infinite_cells() -> int:
-    """Return how many of the slide's 8 x 7 cells a first fragment of any depth passes."""
-    return sum(depth_test(float(z), inf, larger_is_nearer=False)[1] for z in range(8 * 7))
+    """Return how many cells of the slide's 8 x 8 a first fragment of any depth passes."""
+    return int(np.count_nonzero(np.isposinf(trace(two_triangles()).stage("depth").state(0)["depth"])))
 
 
 def culled(turned: bool) -> tuple[bool, bool]:
@@ -195,7 +195,13 @@ NUMBERS = (
     _number("Cyrus-Beck Algorithm (1/1)", "a point inside is kept", True, point_is_kept, 3.0, 2.0),
     _number("Cyrus-Beck Algorithm (1/1)", "a point outside is kept", False, point_is_kept, 9.0, 2.0),
     _number(
-        "A Minimal 3D Pipeline (11/16)", "cells at infinity that any fragment passes", 56, infinite_cells
+        "A Minimal 3D Pipeline (11/16)", "cells at infinity, which any fragment passes", 64, infinite_cells
+    ),
+    _number(
+        "A Minimal 3D Pipeline (7/16)",
+        "cells that do not hold the distance of the closest triangle, in either order",
+        (0, 0),
+        lambda: tuple(cells_unlike(make(), np.fmin) for make in (two_triangles, two_triangles_turned)),
     ),
     _number(
         "A Minimal 3D Pipeline (7/16)",

@@ -11,11 +11,13 @@ from core.geometry.matrices import projection, scaling, transform
 from core.methods import table
 from core.raster.fills.scanline_lecture import draw_triangle
 from core.scene import Camera
+from lessons.depth_tables import equal_depths
 from lessons.printed.clipping import WINDOW
 from lessons.printed.projection import printed_depth_of
 from lessons.printed.records import slide_number
 from lessons.shapes import linear_color
 from lessons.slides.scenes import VERTICES, three_js_triangle
+from lessons.slides.small_scenes import cells_unlike
 
 SEGMENT = (-2.0, 1.0, 6.0, 5.0)
 LIANG_BARSKY, THREE_JS = "Liang-Barsky Algorithm", "Task 2 g) three.js construction"
@@ -90,6 +92,12 @@ NUMBERS = (
     _number(LIANG_BARSKY, "t1 to t4 = q/p", (0.25, 1.25, -0.25, 1.25), p_or_q, "t"),
     _number(LIANG_BARSKY, "p = 0 and q < 0, (2, 8)-(6, 8): kept", False, outcome, 2.0, 8.0, 6.0, 8.0),
     _number(LIANG_BARSKY, "t_max > t_min, (-2, 5)-(2, 9): kept", False, outcome, -2.0, 5.0, 2.0, 9.0),
+    _number(
+        "Frame and Depth Buffers",
+        "cells that do not hold the current minimum z-value, two patches of one depth",
+        0,
+        lambda: cells_unlike(equal_depths(), np.fmin),
+    ),
     _number(
         "Task 1 d) Z-fighting: Case 1 - Depth values are very close",
         "0.1 + 0.2",

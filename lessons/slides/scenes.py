@@ -53,6 +53,21 @@ def two_cubes() -> Scene:
     return Scene(tuple(meshes), camera, (), (64, 48))
 
 
+def degenerate() -> ClipScene:
+    """Return points and segments parallel to a border: inside, on the border and outside, in the same clip window."""
+    ends = [
+        ((1, 2), (7, 2)),
+        ((0, 0), (8, 0)),
+        ((2, 8), (6, 8)),
+        ((-2, 1), (-2, 5)),
+        ((4, 4), (4, 4)),
+        ((8, 6), (8, 6)),
+        ((10, 3), (10, 3)),
+    ]
+    lying = segment_scene([((a + 4, b + 3), (c + 4, d + 3)) for (a, b), (c, d) in ends], (16, 12))
+    return replace(lying, clip_region=np.array([-0.5, -0.5, 0.5, 0.5]))
+
+
 def frustum_segments() -> ClipScene:
     """Return a segment that loses a quarter to the near plane, and one that lies right of the frustum."""
     clip = np.array(
@@ -141,6 +156,13 @@ LECTURE_SCENES = {
             "The segment (2, 8)-(6, 8) lies above the window; the printed algorithm keeps it.",
             clipped(2, 8, 6, 8),
             line_clipping="cyrus-beck-lecture",
+        ),
+        _scene(
+            "jubair-degenerate",
+            "Cyrus-Beck, points and parallel segments",
+            "Segments parallel to a border and points, inside, on the border and outside: N . D is 0 at every one.",
+            degenerate,
+            line_clipping="cyrus-beck",
         ),
         _scene(
             "jubair-backfaces",

@@ -44,3 +44,14 @@ def clipped_corner_count(clip: ArrayLike, plane: int) -> int:
 def distance(point: ArrayLike, plane: int) -> float:
     """Return the signed distance of a clip position (4,) from one plane of the view volume."""
     return float(distance_from(np.asarray(point, float), plane))
+
+
+def cells_unlike(scene: ClipScene, closest: np.ufunc) -> int:
+    """Return how many cells of the final buffer differ from the ``closest`` depth of all patches there.
+
+    The closest is ``np.fmin`` where smaller is nearer, ``np.fmax`` where larger is; an empty cell is as cleared.
+    """
+    assert scene.table is not None
+    wanted = closest.reduce(scene.table.depths, axis=0)
+    buffer = render(scene).depth
+    return int(np.count_nonzero(buffer != np.where(np.isnan(wanted), scene.table.cleared, wanted)))

@@ -11,8 +11,9 @@ from core.framebuffer.depth import depth_test
 from core.geometry.matrices import transform, viewport
 from core.raster.edges.edge_functions import covers
 from core.raster.number_formats.inverse import inverse_coefficients
+from lessons.depth_tables import larger_is_nearer
 from lessons.printed.records import slide_number
-from lessons.slides.small_scenes import SPLIT_SQUARE, pixel_count, rounded, triangles
+from lessons.slides.small_scenes import SPLIT_SQUARE, cells_unlike, pixel_count, rounded, triangles
 
 CORNERS = ((1.0, 0.0, 1.0), (6.0, 2.0, 2.0), (6.0, 15.0, 3.0))
 """x, y, w of a triangle, not divided."""
@@ -201,5 +202,11 @@ NUMBERS = (
         1 / 4,
         1 / 3,
         True,
+    ),
+    _number(
+        "Z-buffering",
+        "cells that do not hold the largest 1/w of three patches",
+        0,
+        lambda: cells_unlike(larger_is_nearer(), np.fmax),
     ),
 )

@@ -1,5 +1,7 @@
 """Tables of depths: a plain loop over cells leaves what render, trace and history have; bad cells are refused."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -73,6 +75,24 @@ def test_one_patch_is_stepped_over_what_the_earlier_ones_left():
     assert set(found.triangle.tolist()) == {1}
     assert np.array_equal(found.state(0)["depth"], drawn_by_hand(depth_table(LEVEL))[0])
     assert np.array_equal(found.state(found.steps.count)["depth"], render(scene).depth)
+
+
+def test_settings_of_triangles_and_of_samples_change_nothing():
+    scene, choice = (
+        two_triangles(),
+        Settings(antialiasing="ssaa-4", depth="inverse-w", pixel_center="integer"),
+    )
+    for settings in (choice, replace(choice, antialiasing="msaa-4", clipping="after-divide")):
+        assert np.array_equal(render(scene, settings).color, render(scene).color)
+        assert np.array_equal(draw_picture(scene, settings).pixels, draw_picture(scene).pixels)
+        assert np.array_equal(trace(scene, settings).source.picture.depth, render(scene).depth)
+
+
+def test_drawn_in_order_without_a_test_the_last_patch_stays():
+    frame = render(two_triangles(), Settings(visibility="last-drawn"))
+    table = depth_table(LEVEL, SLOPING)
+    wanted = np.where(np.isnan(table.depths[1]), table.depths[0], table.depths[1])
+    assert np.array_equal(frame.depth, np.where(np.isnan(wanted), np.inf, wanted))
 
 
 def test_hidden_surfaces_do_not_depend_on_the_order():

@@ -9,7 +9,7 @@ import numpy as np
 from core.explain.step_tables import FilledColumn, filled_table, tabulates
 from core.explain.step_values import StepValues
 from core.explain.subjects.clipping import CASES, PLANE_SIGNS
-from core.explain.subjects.line_clipping import borders_of, code_text
+from core.explain.subjects.line_clipping import borders_of, code_text, is_point
 from core.geometry.culling import PLANES
 from core.methods import table
 from core.records.arrays import Flags, Integers
@@ -26,6 +26,14 @@ _WAYS = {
     "clip-outside": ("parallel, outside", "parallel, outside"),
 }
 """What an edge does at a border: in words of Liang-Barsky, and of Cyrus-Beck."""
+
+
+def _way(step: StepValues, symbols: int) -> str:
+    """Return what an edge does at a border, in words (0) or as PE and PL (1)."""
+    way = _WAYS[step.kind][symbols]
+    return way.replace("parallel", "point") if is_point(step) else way
+
+
 _BOUNDS = (
     FilledColumn("tE", "Latest entry so far: at least 0.", lambda step: step.number("t_enter")),
     FilledColumn("tL", "Earliest exit so far: at most 1.", lambda step: step.number("t_leave")),
@@ -37,7 +45,7 @@ _LIANG_BARSKY = (
     FilledColumn(
         "q", "Room inside at the first end: below 0 is outside.", lambda step: step.number("room"), "room"
     ),
-    FilledColumn("case", "What the sign of p says.", lambda step: _WAYS[step.kind][0], "room"),
+    FilledColumn("case", "What the sign of p says.", lambda step: _way(step, 0), "room"),
     FilledColumn(
         "t = q/p", "Where the border is crossed.", lambda step: step.number("crossing_t"), "crossing_t"
     ),
@@ -58,7 +66,7 @@ _CYRUS_BECK = (
         "room",
     ),
     FilledColumn(
-        "PE/PL", "Potentially entering, or potentially leaving.", lambda step: _WAYS[step.kind][1], "room"
+        "PE/PL", "Potentially entering, or potentially leaving.", lambda step: _way(step, 1), "room"
     ),
     FilledColumn("t", "Where the border is crossed.", lambda step: step.number("crossing_t"), "crossing_t"),
     *_BOUNDS,

@@ -39,6 +39,8 @@ def plane(step: StepValues) -> Said:
     inside = sum(not value < 0 for value in distances)
     number = "all" if inside == len(distances) else ("no", "one", "two")[inside]
     corners = f"{number} of its corners {'are' if inside > 1 else 'is'} inside"
+    if not any(distances):
+        corners = "all of its corners lie on it, which counts as inside"
     verdict = f"is not outside the {name} plane: {corners}"
     if step.flag("applies"):
         verdict = f"is dropped: all its corners are outside the {name} plane"

@@ -50,6 +50,11 @@ def edge_name(step: StepValues) -> str:
     return f"edge {step.whole('edge')} of triangle {step.triangle}"
 
 
+def is_point(step: StepValues) -> bool:
+    """Return whether both ends of an edge are the same: N . D, or p, is 0 at every border."""
+    return step.vector("window_start") == step.vector("window_end")
+
+
 @explains("raster.clip-enter|clip-leave|clip-parallel|clip-outside.room")
 def room(step: StepValues) -> Said:
     """How fast an edge runs outwards, and how much room its first end has."""
@@ -59,6 +64,7 @@ def room(step: StepValues) -> Said:
     beginning = f"{border.capitalize()} border, {edge_name(step)}"
     if uses_normals(step):
         way = "PE, it may enter" if along < 0 else "PL, it may leave" if along > 0 else "parallel"
+        way = "a point (P₀ = P₁)" if is_point(step) else way
         text = (
             f"{beginning}: N · D = {spoken(along)}, so it is {way}, "
             f"and N · (P₀ − Pₑ) = {spoken(-distance)} shows that it starts {side}."
@@ -68,9 +74,10 @@ def room(step: StepValues) -> Said:
         offset = (r"(P_0 - P_E)", vector_latex([a - b for a, b in zip(start, point, strict=True)]))
         approach: list[Part] = [(r"N \cdot D", along), "=", normal, r"\cdot", reach]
         return text, equation(*beside(approach, [(_FROM_BORDER, -distance), "=", normal, r"\cdot", offset]))
-    way = "inwards" if along < 0 else "outwards" if along > 0 else "parallel"
+    way = "runs inwards" if along < 0 else "runs outwards" if along > 0 else "runs parallel"
+    way = "is a point" if is_point(step) else way
     text = (
-        f"{beginning}: p = {spoken(along)}, so it runs {way}, "
+        f"{beginning}: p = {spoken(along)}, so it {way}, "
         f"and q = {spoken(distance)} shows that it starts {side}."
     )
     axis = 0 if border in ("left", "right") else 1
@@ -138,6 +145,8 @@ def parallel(step: StepValues) -> Said:
     """A parallel edge that is kept, for now."""
     border = step.text("border")
     text = f"The edge is parallel to the {border} border and not outside it, so it is not cut there."
+    if is_point(step):
+        text = f"The edge is a point, which is not outside the {border} border: there is nothing to cut."
     if step.number("room") < 0:
         text = f"As printed, a parallel edge is ignored although it lies outside the {border} border: it is kept."
     return text, _side(step)
@@ -146,7 +155,8 @@ def parallel(step: StepValues) -> Said:
 @explains("raster.clip-outside.drop")
 def outside(step: StepValues) -> Said:
     """A parallel edge outside."""
-    text = f"The edge is parallel to the {step.text('border')} border and outside it: nothing of it is drawn."
+    how = "a point" if is_point(step) else "parallel to the border"
+    text = f"The edge is {how} and lies outside {step.text('border')}: nothing of it is drawn."
     return text, _side(step)
 
 

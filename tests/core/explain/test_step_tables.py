@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, trace
+from core.explain import sentence
 from core.explain.step_tables import has_tables, step_table
 from core.geometry.line_clipping.cohen_sutherland import cohen_sutherland_listing
 from core.geometry.line_clipping.liang_barsky import liang_barsky_listing
 from core.records.tables import StepTable
 from core.trace import StageTrace
-from lessons.slides.scenes import clipped, frustum_segments
+from lessons.slides.scenes import clipped, degenerate, frustum_segments
 
 WINDOW = (4.0, 3.0, 12.0, 9.0)
 """Borders of the clip window that the lectures' scenes have, in pixels."""
@@ -116,3 +117,28 @@ def test_a_point_inside_and_one_outside_are_clipped_as_points():
         )
         assert "drawn" in inside
         assert "nothing of it is drawn" in outside
+
+
+@pytest.mark.parametrize("clipper", ["cohen-sutherland", "liang-barsky", "cyrus-beck"])
+def test_points_and_parallel_segments_are_kept_inside_and_on_the_border(clipper):
+    found = trace(degenerate(), Settings(line_clipping=clipper)).stage("raster")
+    ends = [int(found.steps.starts[end]) for end in found.steps.group_ends]
+    tables = [step_table(found, position) for position in ends]
+    kept = ["nothing of it is drawn" not in table.note for table in tables if table is not None]
+    assert kept == [True, True, False, False, True, True, False]
+    said = " ".join(table.text() for table in tables[4:] if table is not None)
+    assert ("point" in said) == (clipper != "cohen-sutherland")
+    assert "parallel" not in said
+
+
+def test_corners_that_all_lie_on_a_plane_are_inside_it():
+    corners = np.array([[[-0.5, -0.5, -1, 1], [0.5, -0.5, -1, 1], [0.0, 0.5, -1, 1]]])
+    found = trace(ClipScene(corners, size=(8, 8)), Settings(clipping="sutherland-hodgman")).stage("cull")
+    table = step_table(found, found.steps.count)
+    assert table is not None
+    assert texts(table)[1] == ["0", "0", "0", "inside"]
+    assert table.note == "Accepted without clipping: the outcodes have no bit (or = 000000)."
+    explanation = found.explain(2)
+    assert explanation is not None
+    said = sentence(explanation, 0, None)
+    assert "all of its corners lie on it, which counts as inside" in said
