@@ -92,7 +92,9 @@ def plan(
     miss, are not chosen there: without clipping, 23 of 60 pictures of random triangles around the eye changed.
     """
     if scene.corner_count == 0:
-        raise ValueError("a table of depths has nothing to plan: it begins at the depth test, and has its own")
+        raise ValueError(
+            "a table of depths has nothing to plan: it begins at the depth test, and has its own"
+        )
     tolerance = tolerance or Tolerance()
     everything = reference_settings(scene, base)
     step = (0.0, "Analysing the scene")
