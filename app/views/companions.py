@@ -37,6 +37,10 @@ class Companion(StageView):
         """Return whether it has something to show at the stage of the cursor."""
         return True
 
+    def wanted_width(self) -> int:
+        """Return the width, in pixels, that it needs to be read as a whole; 0: any. A step does not change it."""
+        return 0
+
     def made_from(self) -> object:
         """Return trace and cursor."""
         return self.session.trace, self.session.cursor
@@ -78,6 +82,11 @@ class FillingTable(Companion):
     def is_wanted(self) -> bool:
         """Return whether some row of the stage stands in a table."""
         return has_tables(self.session.stage_trace)
+
+    def wanted_width(self) -> int:
+        """Return the width of the first table of the stage, with a number in every cell."""
+        table = step_table(self.session.stage_trace, 0)
+        return 0 if table is None else self._view.width_of(table)
 
     def draw(self) -> None:
         """Show the table as far as it is filled."""

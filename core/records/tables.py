@@ -11,7 +11,7 @@ class TableColumn:
     """One column."""
 
     symbol: str
-    """Its heading: the symbol of formulas and variables."""
+    """Its heading: the symbol of formulas and variables, which may have two lines."""
     meaning: str
     """One sentence for the tooltip."""
     vertex: int | None = None
@@ -51,7 +51,7 @@ class StepTable:
 
     def text(self) -> str:
         """Return the table as text: cells apart by tabs, numbers with all digits, then the note."""
-        lines = ["\t".join([self.row_title, *(column.symbol for column in self.columns)])]
+        lines = ["\t".join([self.row_title, *(" ".join(column.symbol.split()) for column in self.columns)])]
         for label, cells in zip(self.rows, self.cells, strict=True):
             lines.append("\t".join([label, *("" if cell is None else cell.full for cell in cells)]))
         return "\n".join([self.title, *lines, *([self.note] if self.note else [])]) + "\n"

@@ -81,6 +81,7 @@ QAbstractItemView::item { border: 1px solid transparent; border-width: 1px 0; }
 QAbstractItemView::item:selected { background: $selection; color: $text; border-color: $text; }
 QHeaderView::section { background: $panel; color: $muted_text; border: none; padding: ${u}px; }
 QTableView { gridline-color: $window; }
+QTableCornerButton::section { background: $panel; border: none; }
 
 QMenuBar, QMenu { background: $panel; color: $text; }
 QMenuBar::item { padding: ${u}px ${uu}px; background: transparent; border: 1px solid transparent; }

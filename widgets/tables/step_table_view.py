@@ -32,6 +32,8 @@ EMPTY = "The numbers of each step appear here."
 _POSITION = int(Qt.ItemDataRole.UserRole)
 _FULL, _MADE, _HERE = _POSITION + 1, _POSITION + 2, _POSITION + 3
 _MARK_WIDTH = 4
+NUMBER, PADDING = "−0.0000", 8
+"""A number of usual length, and pixels around each."""
 
 
 class _CellDelegate(QStyledItemDelegate):
@@ -148,6 +150,13 @@ class StepTableView(QWidget):
         self.cells.setAccessibleName(shown.title or "Table")
         self.cells.setAccessibleDescription(shown.note)
         self.cells.show_cells(shown)
+
+    def width_of(self, table: StepTable) -> int:
+        """Return how wide a table is, in pixels, with a number of usual length in every cell."""
+        metrics = self.cells.fontMetrics()
+        columns = [max(metrics.horizontalAdvance(text) for text in (c.symbol, NUMBER)) for c in table.columns]
+        labels = max((metrics.horizontalAdvance(label) for label in table.rows), default=0)
+        return sum(columns) + labels + PADDING * (len(columns) + 1)
 
     def table(self) -> StepTable | None:
         """Return what is shown."""

@@ -60,7 +60,7 @@ _CYRUS_BECK = (
         "room",
     ),
     FilledColumn(
-        "N · (P₀ − Pₑ)",
+        "N ·\n(P₀ − Pₑ)",
         "Above 0 the first end is outside.",
         lambda step: 0.0 - step.number("room"),
         "room",
@@ -237,8 +237,8 @@ _EDGES = (
     ),
     FilledColumn("case", "Where its start and its end lie.", _ends, "end_distance"),
     FilledColumn("t", "Where the edge crosses the plane.", lambda step: step.number("t"), "t"),
-    FilledColumn("new corner", "x, y, z and w where it crosses.", _corner, "corner"),
     FilledColumn("hands on", "The corners that go on to the next plane.", _hands_on),
+    FilledColumn("new corner", "x, y, z and w where it crosses.", _corner, "corner"),
 )
 
 

@@ -11,9 +11,10 @@ from app.session.session import Session
 from app.views.companions import COMPANIONS, entered_diagram, new_depths
 from app.window.main_window import MainWindow
 from core import Settings
+from core.settings import settings_from_texts
 from core.trace.geometry_progress import SPACES, spaces_reached
 from lessons.scenes import make_scene
-from lessons.slides.scenes import LECTURE_SCENES
+from lessons.slides.scenes import ALL_SCENES, LECTURE_SCENES
 from widgets.space.diagram import CUBE, Diagram
 from widgets.space.view import SpaceView
 from widgets.tables.step_table_view import StepTableView
@@ -141,3 +142,18 @@ def test_a_clipper_fills_its_table_beside_the_pixels(window: MainWindow) -> None
     view.cells.clicked.emit(view.cells.model().index(1, 0))
     assert session.explanation is not None
     assert session.explanation.values["border"] == "right"
+
+
+@pytest.mark.parametrize(("scene", "is_below"), [("jubair-cyrus-beck", True), ("lmu-clipped", False)])
+def test_a_table_too_wide_for_half_the_area_stands_below(
+    window: MainWindow, scene: str, is_below: bool
+) -> None:
+    row = ALL_SCENES[scene]
+    window.session.open(open_document(row.make(), row.title, settings=settings_from_texts(row.settings)))
+    session, area = window.session, window.page.main_area
+    places = set()
+    for position in range(0, session.trace.stage("raster").steps.count, 4):
+        session.set_stage("raster", position)
+        QApplication.processEvents()
+        places.add((area.beside.x() > 0, area.beside.y() > 0))
+    assert places == {(not is_below, is_below)}

@@ -99,7 +99,7 @@ def test_edges_are_in_or_out_of_each_plane():
     found = trace(ClipScene(corners, size=(8, 8)), Settings(clipping="sutherland-hodgman")).stage("clip")
     plane = next(table for table in tables_of(found) if table.title.startswith("left") and table.note)
     assert [row[2] for row in texts(plane)] == ["IN → OUT", "OUT → IN", "IN → IN"]
-    assert [row[5] for row in texts(plane)] == ["new", "new, end", "end"]
+    assert [row[4] for row in texts(plane)] == ["new", "new, end", "end"]
     assert plane.note == "3 corners in, 4 out."
     assert not has_tables(trace(ClipScene(corners, size=(8, 8))).stage("clip"))
 
