@@ -183,3 +183,39 @@ def test_figures_of_an_edge_with_w_1_and_4(name: str, value: float) -> None:
     )
     assert float(SHELF[name].draw(scene, Settings()).attributes[0, 4, 0]) == pytest.approx(value, abs=1e-6)
     assert float(render(scene).attributes[0, 4, 0]) == pytest.approx(1 / 5, abs=1e-6)
+
+
+def test_figures_of_shared_edges_and_rows() -> None:
+    half = F(1, 2)
+    places = [(i, j) for i in range(12) for j in range(10)]
+
+    def covered(corners, owned) -> set[tuple[int, int]]:
+        edges = list(zip(corners, [*corners[1:], corners[0]], strict=True))
+        values = {
+            (i, j): [
+                (y0 - y1) * (i + half - x0) + (x1 - x0) * (j + half - y0) for (x0, y0), (x1, y1) in edges
+            ]
+            for i, j in places
+        }
+        return {
+            p for p, e in values.items() if all(v > 0 or (v == 0 and k in owned) for k, v in enumerate(e))
+        }
+
+    far = (F(17, 2), F(9, 2))
+    pair = (((half, half), far, (F(5, 2), F(17, 2))), ((half, half), (F(19, 2), half), far))
+    rule = RULES["leftmost-vertex"]
+    assert not set.intersection(*(covered(corners, rule.right(corners)) for corners in pair))
+    twice = set.intersection(*(covered(corners, rule.wrong(corners)) for corners in pair))
+    assert sorted(twice) == [(0, 0), (2, 1), (4, 2), (6, 3)]
+
+    corners = [(F(6, 5), F(19, 10)), (F(73, 10), F(31, 10)), (F(12, 5), F(87, 10))]
+
+    def filled(crossing) -> set[tuple[int, int]]:
+        spans = {}
+        for row in range(10):
+            edges = [(corners[a], corners[b]) for a, b in ((0, 1), (1, 2), (0, 2))]
+            spans[row] = sorted(crossing(a, b, row)[0] for a, b in edges if a[1] <= row + half < b[1])
+        return {(i, j) for i, j in places if len(spans[j]) == 2 and spans[j][0] <= i + half < spans[j][1]}
+
+    rule = RULES["crossing-from-vertex"]
+    assert (len(filled(rule.right)), len(filled(rule.right) ^ filled(rule.wrong))) == (20, 6)
