@@ -9,10 +9,7 @@ from app.cli import attempts, exercise_folders
 from app.cli.commands import UsageError
 from app.cli.exercise_coverage import coverage_lines
 from app.cli.exercise_folders import known_templates
-from lessons.exercises.answers.amounts import NumberAnswer
-from lessons.exercises.answers.answer import Answer, NotCheckedError
-from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
-from lessons.exercises.answers.tables import TableAnswer
+from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.draws import SEED_LIMIT
 from lessons.exercises.exercise_file import read_exercise
@@ -135,9 +132,8 @@ def shown_question(question: Question, has_hints: bool) -> list[str]:
     lines = [f"{template.title} ({question.mark})", "", draft.text]
     if draft.given:
         lines += ["", draft.given]
-    offered = offered_lines(draft.answer)
-    if offered:
-        lines += ["", *offered]
+    if draft.answer.offered:
+        lines += ["", draft.answer.offered]
     lines += ["", f"{points_text(template.points)}. {draft.answer.credit}"]
     if has_hints:
         count = len(draft.hints)
@@ -152,18 +148,6 @@ def shown_answers(question: Question) -> list[str]:
     for name, response in draft.mistakes.items():
         lines += ["", f"{name}:", draft.answer.text(response)]
     return lines
-
-
-def offered_lines(answer: Answer) -> list[str]:
-    """Return what there is to choose from, to put in order or to fill in, as lines of text."""
-    if isinstance(answer, ChoiceAnswer | OrderAnswer):
-        options = answer.shown if isinstance(answer, OrderAnswer) else answer.options
-        return [f"- {option}" for option in options]
-    if isinstance(answer, TableAnswer):
-        return answer.text(answer.extremes()[0]).splitlines()
-    if isinstance(answer, NumberAnswer) and answer.names:
-        return [f"Numbers: {', '.join(answer.names)}"]
-    return []
 
 
 def _check(question: Question, path: Path, user: str | None) -> int:

@@ -68,8 +68,7 @@ def answer_of(
         return OrderAnswer(tuple(part.items), draws.shuffled(part.items)), given
     if isinstance(part, LinePart):
         lines, also = part.listing.strip("\n").split("\n"), frozenset(line - 1 for line in part.also)
-        answer = LineAnswer(tuple(lines), part.wrong - 1, also)
-        return answer, "\n".join(filter(None, (given, answer.listing)))
+        return LineAnswer(tuple(lines), part.wrong - 1, also), given
     if isinstance(part, StepsPart):
         size = (1, 1) if drawn is None else drawn.scene.size
         return StepsAnswer(tuple(map(_step, part.steps)), size), given

@@ -84,7 +84,7 @@ def question_problems(question: Question) -> list[str]:
             problems.append(f"{name} is not recognised")
         if found.verdict.score == 1:
             problems.append(f"{name} earns all points")
-    shown = numbers_in(question.draft.text, question.draft.given) | RULE_NUMBERS
+    shown = numbers_in(question.draft.text, question.draft.given, answer.offered) | RULE_NUMBERS
     for hint in question.draft.hints:
         for number in sorted(numbers_in(hint) - shown):
             problems.append(f"a hint holds {number}, which the question does not show")
@@ -100,7 +100,7 @@ def question_text(question: Question) -> str:
     """Return a question with all its answers as text, to record and to compare."""
     draft = question.draft
     answers: dict[str, Response] = {"right": draft.answer.reference, **draft.mistakes}
-    lines = [question.mark, draft.text, draft.given]
+    lines = [question.mark, draft.text, draft.given, draft.answer.offered]
     for name, response in answers.items():
         lines += [f"{name}:", draft.answer.text(response)]
     return "\n".join([*lines, ""])

@@ -7,7 +7,7 @@ from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
 from lessons.exercises.answers.listings import LineAnswer
 from lessons.exercises.answers.tables import TableAnswer, cell_text
 from lessons.exercises.numbers import Number, number_text
-from lessons.exercises.question import Draft, Question
+from lessons.exercises.question import Question
 from widgets.exercises.records import (
     ChoiceForm,
     FieldForm,
@@ -139,9 +139,3 @@ class LineKind(AnswerKind):
         del question, response
         marks = verdict.marks
         return ItemMarks(marks.get("right", frozenset()), marks.get("wrong", frozenset()))
-
-    def numbers(self, draft: Draft) -> str:
-        """Return what the question gives beside the listing."""
-        answer = draft.answer
-        assert isinstance(answer, LineAnswer)
-        return draft.given.replace(answer.listing, "").strip("\n")

@@ -56,6 +56,11 @@ class NumberAnswer(Answer):
     kind: ClassVar[str] = "numbers"
 
     @property
+    def offered(self) -> str:
+        """The names of the numbers."""
+        return f"Numbers: {', '.join(self.names)}" if self.names else ""
+
+    @property
     def credit(self) -> str:
         """How points are given."""
         within = f" within {self.tolerance:g}" if self.tolerance else ""

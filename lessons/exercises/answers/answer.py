@@ -50,6 +50,11 @@ class Answer(ABC):
         """How points are given, as the question states it."""
 
     @property
+    def offered(self) -> str:
+        """What there is to choose from, to put in order or to fill in, as text; may be empty."""
+        return ""
+
+    @property
     def chance(self) -> float:
         """Mean score of random answers; 0: nothing to speak of."""
         return 0.0

@@ -65,6 +65,11 @@ class OrderAnswer(Answer):
         return tuple(range(len(self.options)))
 
     @property
+    def offered(self) -> str:
+        """The things as the question lists them."""
+        return "\n".join(f"- {one}" for one in self.shown)
+
+    @property
     def credit(self) -> str:
         """How points are given."""
         return "The longest run of right neighbours earns points, less what chance gives."
@@ -142,6 +147,11 @@ class ChoiceAnswer(Answer):
         if not 0 < len(self.reference) < count or not (self.is_several or len(self.reference) == 1):
             wanted = "some but not all options" if self.is_several else "one option"
             raise ValueError(f"expected {wanted} to be right, got {len(self.reference)} of {count}")
+
+    @property
+    def offered(self) -> str:
+        """The options."""
+        return "\n".join(f"- {option}" for option in self.options)
 
     @property
     def credit(self) -> str:

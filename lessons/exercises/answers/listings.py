@@ -47,7 +47,7 @@ class LineAnswer(Answer):
         return [k for k, line in enumerate(self.lines) if any(mark.isalnum() for mark in line)]
 
     @property
-    def listing(self) -> str:
+    def offered(self) -> str:
         """The lines with their numbers, from 1."""
         return "\n".join(f"{k:>2}  {line}" for k, line in enumerate(self.lines, 1))
 

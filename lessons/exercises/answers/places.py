@@ -47,6 +47,11 @@ class PlaceAnswer(Answer):
             raise ValueError(f"the places {self.text(self.reference)} are not right")
 
     @property
+    def offered(self) -> str:
+        """The names of the points."""
+        return f"Points: {', '.join(self.names)}"
+
+    @property
     def credit(self) -> str:
         """How points are given."""
         if self.is_right is not None:

@@ -53,6 +53,11 @@ class SpotAnswer(Answer):
         return 0.5 if self.options else 1.0
 
     @property
+    def offered(self) -> str:
+        """The mistakes to choose from."""
+        return "\n".join(f"- {option}" for option in self.options)
+
+    @property
     def credit(self) -> str:
         """How points are given."""
         place = "one or more pixels that differ from the right picture, and no other,"

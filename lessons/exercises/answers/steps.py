@@ -101,6 +101,15 @@ class StepsAnswer(Answer):
         return tuple((step.right,) for step in self.steps)
 
     @property
+    def offered(self) -> str:
+        """The steps with their numbers, and what each wants."""
+        wanted = (", ".join(step.options) or f"a {step.kind}" for step in self.steps)
+        return "\n".join(
+            f"{number}. {step.prompt} ({want})"
+            for number, (step, want) in enumerate(zip(self.steps, wanted, strict=True), 1)
+        )
+
+    @property
     def credit(self) -> str:
         """How points are given."""
         return (

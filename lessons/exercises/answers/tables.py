@@ -89,6 +89,11 @@ class TableAnswer(Answer):
     kind: ClassVar[str] = "table"
 
     @property
+    def offered(self) -> str:
+        """The empty table."""
+        return self.text(self.extremes()[0])
+
+    @property
     def credit(self) -> str:
         """How points are given."""
         count = len(self.labels) * len(self.columns)

@@ -69,6 +69,15 @@ class BreakAnswer(Answer):
             raise ValueError("expected numbers with which the weak method alone fails")
 
     @property
+    def offered(self) -> str:
+        """The dials, and what they begin with."""
+        return "\n".join(
+            f"{dial.name}: {number_text(dial.low)} to {number_text(dial.high)} in steps of {number_text(dial.step)}, "
+            f"at first {number_text(value)}"
+            for dial, value in zip(self.dials, self.start, strict=True)
+        )
+
+    @property
     def credit(self) -> str:
         """How points are given."""
         return (
@@ -239,6 +248,18 @@ class CheapestAnswer(Answer):
         """The first of the cheapest choices within the tolerance."""
         within = [choices for choices in self.combinations if self.error(choices) <= self.limit]
         return min(within, key=self.cost)
+
+    @property
+    def offered(self) -> str:
+        """The methods with their costs."""
+        return "\n".join(
+            f"{family.name}: "
+            + ", ".join(
+                f"{method} {number_text(cost)}"
+                for method, cost in zip(family.methods, family.costs, strict=True)
+            )
+            for family in self.families
+        )
 
     @property
     def credit(self) -> str:

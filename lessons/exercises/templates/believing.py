@@ -38,7 +38,7 @@ def believed(
         return None
     answer = ChoiceAnswer(options, frozenset({options.index(choice_text(right))}))
     refutations = {frozenset({options.index(belief)}): refutation for belief in wrong}
-    return Draft(text, "\n".join(options), answer, hints, reveal=refutation.sentence, refutations=refutations)
+    return Draft(text, "", answer, hints, reveal=refutation.sentence, refutations=refutations)
 
 
 def eye_scene(

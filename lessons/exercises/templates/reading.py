@@ -72,7 +72,7 @@ def draw_line(draws: Draws) -> Draft | None:
         "last pixel is drawn. One line is wrong. Which?"
     )
     art = PixelAnswer(SIZE, right).text(drawn)
-    given = f"{answer.listing}\n\nFrom pixel {ends[0]} to pixel {ends[1]} it draws:\n{art}"
+    given = f"From pixel {ends[0]} to pixel {ends[1]} the listing draws:\n{art}"
     hints = (
         "Where does the drawn line first leave the right one?",
         "Follow D by hand for the first pixels, and compare with the listing.",
@@ -102,7 +102,7 @@ def draw_slip(draws: Draws) -> Draft:
         "Ask of every line what it changes, and whether that is declared.",
         f"Which line has to care that {rule}?",
     )
-    return Draft(text, answer.listing, answer, hints)
+    return Draft(text, "", answer, hints)
 
 
 PICTURES = (

@@ -77,10 +77,8 @@ def draw_shared_corner(draws: Draws) -> Draft | None:
         "Two triangles share an edge. Move its lower corner so that the rule E >= 0 on all edges draws a pixel twice, "
         "and the rule that gives each centre to one triangle does not."
     )
-    given = (
-        f"Window of {SIZE[0]} x {SIZE[1]} pixels. Triangle A: {corner_text(first)}. Triangle B: {corner_text(second)}. "
-        "The corner moves in steps of 1/4, x from 3 to 9 and y from 0 to 2."
-    )
+    window = f"Window of {SIZE[0]} x {SIZE[1]} pixels."
+    given = f"{window} Triangle A: {corner_text(first)}. Triangle B: {corner_text(second)}."
     hints = (
         "Only centres that lie exactly on the common edge are in both triangles.",
         "Where must both ends of an edge lie so that it runs through centres?",
@@ -123,9 +121,7 @@ def draw_affine(draws: Draws) -> Draft | None:
         "Choose w of vertex 1 so that affine interpolation fails and affine interpolation that is corrected every 8 "
         "pixels does not. Both are compared with perspective."
     )
-    given = (
-        f"u is {span} at vertex 1 and 0 at the others, whose w is 1. {dials[0].name}: 1 to 8 in steps of 1/4."
-    )
+    given = f"u is {span} at vertex 1 and 0 at the others, whose w is 1."
     hints = (
         "With equal w nothing is wrong.",
         "The farther the values of w are apart, the larger is the error of both.",
@@ -158,19 +154,7 @@ def draw_cheapest(draws: Draws) -> Draft | None:
         "Choose the cheapest methods with which no colour channel of any pixel is off by more than "
         f"{number_text(limit)} of 255 from the reference picture (perspective, float32 depth)."
     )
-    costs = [
-        f"{family.name}: "
-        + ", ".join(
-            f"{method} {number_text(cost)}" for method, cost in zip(family.methods, family.costs, strict=True)
-        )
-        for family in families
-    ]
-    given = "\n".join(
-        [
-            f"Scene near-plane, {columns} x {scene.size[1]} pixels. Costs at a pixel (operations; bytes of depth):",
-            *costs,
-        ]
-    )
+    given = f"Scene near-plane, {columns} x {scene.size[1]} pixels. Costs: operations, and bytes of depth, at a pixel."
     hints = (
         "What does each family change in this scene: colours, or what is seen?",
         "Begin with the cheapest of all, and make dearer what the error comes from.",
@@ -206,8 +190,8 @@ def draw_depth_format(draws: Draws) -> Draft | None:
         "that a depth buffer of 16 bits shows the wrong triangle and one of float32 the right one."
     )
     given = (
-        f"Depth of triangle 0: {number_text(base)}; of triangle 1: that less the gap. The gap is 0 to 1/20000 in "
-        "steps of 1/400000. 16 bits hold whole multiples of 1/65535."
+        f"Depth of triangle 0: {number_text(base)}; of triangle 1: that less the gap. "
+        "16 bits hold whole multiples of 1/65535."
     )
     hints = (
         "When do both depths round to one multiple?",
@@ -237,11 +221,9 @@ def draw_samples(draws: Draws) -> Draft | None:
         "Choose the cheapest antialiasing with which no pixel of this white triangle on black is off by more than "
         f"{number_text(limit)} of 255 from 16 samples."
     )
-    costs = ", ".join(f"{name} {cost}" for name, cost in SAMPLES.items())
     places = ", ".join(f"({x:g}, {y:g})" for x, y in corners)
-    given = (
-        f"Window of {SIZE[0]} x {SIZE[1]} pixels. Corners: {places}.\nCoverage tests and shader runs: {costs}"
-    )
+    window = f"Window of {SIZE[0]} x {SIZE[1]} pixels."
+    given = f"{window} Corners: {places}.\nCosts: coverage tests and shader runs at a pixel."
     hints = (
         "Only pixels on the rim differ.",
         "One sample is all or nothing: how far is it off at a pixel that is half covered?",

@@ -98,13 +98,12 @@ def draw_depth(draws: Draws) -> Draft | None:
         "Be the depth test: does each fragment pass? Smaller is nearer, the buffer begins at infinity, and a tie keeps "
         "what is there."
     )
-    given = "\n".join(step.prompt for step in steps)
     hints = (
         "The first fragment of every pixel passes.",
         "A fragment passes only where its z is smaller than what its pixel holds.",
         "What a pixel holds is the z of the last fragment that passed there.",
     )
-    return Draft(text, given, StepsAnswer(steps), hints, wrong, card_scene(fragments))
+    return Draft(text, "", StepsAnswer(steps), hints, wrong, card_scene(fragments))
 
 
 OUTPUTS = ("nothing", "the crossing", "the end", "the crossing, then the end")

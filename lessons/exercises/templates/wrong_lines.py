@@ -163,9 +163,8 @@ def draw_listing(listed: Listed, draws: Draws) -> Draft:
     wrong = draws.item(listed.faults[number])
     lines = listed.text.split("\n")
     answer = LineAnswer((*lines[:number], wrong, *lines[number + 1 :]), number)
-    return Draft(
-        f"{listed.purpose} One line of this listing is wrong. Which?", answer.listing, answer, listed.hints
-    )
+    text = f"{listed.purpose} One line of this listing is wrong. Which?"
+    return Draft(text, "", answer, listed.hints)
 
 
 TEMPLATES = tuple(
