@@ -9,12 +9,13 @@ G. H. Meisters, "Polygons have ears", American Mathematical Monthly 82, 1975.
 from collections.abc import Callable, Mapping
 from fractions import Fraction
 from functools import partial
-from itertools import combinations, pairwise
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
+from core.geometry.ring_clipping.exact import sides_that_meet, turn
 from core.records.arrays import Integers, checked
 from core.scene import CORNER_COUNTS, ClipScene
 
@@ -86,7 +87,7 @@ def polygon(corners: ArrayLike) -> Integers:
     points = [(Fraction(x), Fraction(y)) for x, y in checked("corners", corners, ("V", 2)).tolist()]
     _need(len(points), 3, "polygon")
     _check_simple(points)
-    area = sum(_doubled_area(points[0], a, b) for a, b in pairwise(points))
+    area = sum(turn(points[0], a, b) for a, b in pairwise(points))
     sign = 1 if area > 0 else -1
     left, found = list(range(len(points))), []
     while len(left) > 2:
@@ -102,11 +103,11 @@ def _find_ear(points: list[Point], left: list[int], sign: int) -> int:
     for place, corner in enumerate(left):
         before, after = left[place - 1], left[(place + 1) % len(left)]
         triangle = [points[before], points[corner], points[after]]
-        turn = sign * _doubled_area(*triangle)
-        if turn == 0:
+        bend = sign * turn(points[before], points[corner], points[after])
+        if bend == 0:
             flat = place
         others = (points[k] for k in left if k not in (before, corner, after))
-        if turn > 0 and not any(_contains(triangle, other, sign) for other in others):
+        if bend > 0 and not any(_contains(triangle, other, sign) for other in others):
             return place
     return flat
 
@@ -114,37 +115,17 @@ def _find_ear(points: list[Point], left: list[int], sign: int) -> int:
 def _contains(triangle: list[Point], point: Point, sign: int) -> bool:
     """Return whether a point lies in a triangle or on its border."""
     a, b, c = triangle
-    return all(sign * _doubled_area(p, q, point) >= 0 for p, q in ((a, b), (b, c), (c, a)))
+    return all(sign * turn(p, q, point) >= 0 for p, q in ((a, b), (b, c), (c, a)))
 
 
 def _check_simple(points: list[Point]) -> None:
     """Refuse a polygon whose sides have more in common than the corner between two neighbours."""
-    count = len(points)
-    sides = [(points[k], points[(k + 1) % count]) for k in range(count)]
-    for (k, (a, b)), (m, (c, d)) in combinations(enumerate(sides), 2):
-        if a == b or c == d:
-            raise ValueError("a polygon must have no two equal corners in turn")
-        if m == k + 1 or (k, m) == (0, count - 1):
-            shared, one, other = (b, a, d) if m == k + 1 else (a, b, c)
-            along = sum((p - s) * (q - s) for p, q, s in zip(one, other, shared, strict=True))
-            if _doubled_area(shared, one, other) != 0 or along < 0:
-                continue
-        elif not _meet(a, b, c, d):
-            continue
+    if any(point == points[k - 1] for k, point in enumerate(points)):
+        raise ValueError("a polygon must have no two equal corners in turn")
+    meeting = sides_that_meet([points])
+    if meeting is not None:
+        (_, k), (_, m) = meeting
         raise ValueError(f"a polygon must not cross or touch itself, but side {k} meets side {m}")
-
-
-def _meet(a: Point, b: Point, c: Point, d: Point) -> bool:
-    """Return whether the segments from a to b and from c to d have a point in common."""
-    sides = [_doubled_area(*three) for three in ((a, b, c), (a, b, d), (c, d, a), (c, d, b))]
-    if not any(sides):
-        boxes = zip(zip(a, b, strict=True), zip(c, d, strict=True), strict=True)
-        return all(max(one) >= min(other) and max(other) >= min(one) for one, other in boxes)
-    return sides[0] * sides[1] <= 0 and sides[2] * sides[3] <= 0
-
-
-def _doubled_area(a: Point, b: Point, c: Point) -> Fraction:
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
 
 
 def _need(count: int, least: int, name: str) -> None:
@@ -153,7 +134,7 @@ def _need(count: int, least: int, name: str) -> None:
 
 
 _INDICES: Mapping[str, tuple[str, Callable[[int], Integers]]] = {
-    **{kind: (kind, partial(groups, size=size)) for kind, size in CORNER_COUNTS.items()},
+    **{kind: (kind, partial(groups, size=size)) for kind, size in CORNER_COUNTS.items() if size},
     "line-strip": ("segments", line_strip),
     "line-loop": ("segments", line_loop),
     "triangle-strip": ("triangles", triangle_strip),

@@ -114,6 +114,11 @@ class ResolvedSettings:
         return self.is_outlined and not is_registered(self.settings.line_clipping, "none")
 
     @cached_property
+    def clips_polygons(self) -> bool:
+        """Whether polygons are cut to the clip window of the scene before they are filled."""
+        return not is_registered(self.settings.polygon_clipping, "none")
+
+    @cached_property
     def polygon_fill(self) -> Callable[..., Any]:
         """What of a row that crosses a polygon is inside, see `core.raster.polygon_fills.active_edges.Rule`."""
         return self.method("polygon_fill").function

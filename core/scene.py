@@ -353,6 +353,8 @@ class ClipScene:
             return
         region = checked_polygon_region(self.clip_region)
         object.__setattr__(self, "clip_region", region)
+        if region.ndim == 1 and self.region_rings is not None:
+            raise ValueError("a rectangle has no region_rings")
         if region.ndim == 2:
             object.__setattr__(
                 self, "region_rings", checked_rings("region_rings", self.region_rings, len(region))

@@ -113,6 +113,16 @@ class Settings:
         otherwise="Only wireframes draw lines.",
         classical=("cohen-sutherland", "liang-barsky", "cyrus-beck"),
     )
+    polygon_clipping: str = choice(
+        "none",
+        "Polygon clipping",
+        "clip",
+        "core.geometry.ring_clipping.records",
+        "core.geometry.ring_clipping.sutherland_hodgman",
+        "core.geometry.ring_clipping.weiler_atherton",
+        reason=has_no_polygons,
+        classical=("sutherland-hodgman", "weiler-atherton"),
+    )
     polygon_fill: str = choice(
         "even-odd",
         "Polygon fill",

@@ -1,6 +1,6 @@
 """The built-in scenes: small cases for one idea each, where every pixel can be read, and whole meshes."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -10,6 +10,7 @@ from core.assembly import assemble
 from core.records.arrays import Floats, checked
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, Scene
 from lessons.depth_tables import two_triangles
+from lessons.polygons import connecting_edges, pentagram, polygon_with_holes, weiler_atherton
 from lessons.shapes import FACE_COLORS, cube, floor, knot, linear_color, plates, sphere, torus
 from lessons.teapot import teapot
 
@@ -19,8 +20,6 @@ TEACHING_SIZE = (64, 48)
 PICTURE_SIZE = (512, 512)
 """Raster of the meshes."""
 
-Ring = Sequence[Sequence[float]]
-"""Corners of a ring of a polygon, x and y in pixels."""
 RED_GREEN_BLUE = np.array([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 1.0], [0.0, 0.0, 1.0, 1.0]])
 
 
@@ -164,32 +163,6 @@ def polygon() -> ClipScene:
     return assembled("polygon", x, y, TEACHING_SIZE)
 
 
-def polygon_of_rings(
-    rings: Sequence[Ring | Floats], size: tuple[int, int], color: str = FACE_COLORS[0]
-) -> ClipScene:
-    """Return one polygon with rings (K, 2) in pixels, y up: the outline, then holes."""
-    places = [np.asarray(ring, float) for ring in rings]
-    corners = np.concatenate(places)
-    clip = np.concatenate([2 * corners / size - 1, np.tile([0.0, 1.0], (len(corners), 1))], axis=1)
-    colors = np.tile(linear_color(color), (1, len(corners), 1))
-    starts = np.cumsum([0, *map(len, places)])[:-1]
-    return ClipScene(clip[None], colors, size, kind="polygons", rings=starts)
-
-
-def polygon_with_holes() -> ClipScene:
-    """A concave polygon with two holes, which run the other way round."""
-    outline: Ring = [[3, 3], [29, 2.5], [30, 12], [22, 14.5], [29, 21], [12, 22], [2.5, 16]]
-    square: Ring = [[6, 6], [7, 13], [14, 12.5], [13, 5.5]]
-    return polygon_of_rings([outline, square, [[19, 6], [20, 11], [26, 8]]], (32, 24))
-
-
-def pentagram() -> ClipScene:
-    """A polygon of five corners that crosses itself five times."""
-    angle = np.pi / 2 + np.arange(5) * 4 * np.pi / 5
-    corners = np.rint(4 * np.stack([16 + 15 * np.cos(angle), 11 + 12 * np.sin(angle)], axis=1)) / 4
-    return polygon_of_rings([corners], (32, 24), FACE_COLORS[1])
-
-
 def near_plane() -> Scene:
     """One triangle that reaches from far in front of the camera to behind it."""
     triangle = Mesh(
@@ -317,6 +290,22 @@ CATALOGUE = (
         "Polygon with holes",
         "One polygon of three rings: step its edge table in the stage Raster, and drag a hole out of its outline.",
         polygon_with_holes,
+    ),
+    BuiltInScene(
+        "weiler-atherton",
+        "Polygon and concave clip window",
+        "Weiler-Atherton walks along the polygon and along a window with a hole: step it in the stage Clip.",
+        weiler_atherton,
+        {"polygon_clipping": "weiler-atherton"},
+        {"polygon_clipping": "weiler-atherton"},
+    ),
+    BuiltInScene(
+        "connecting-edges",
+        "Comb and clip window",
+        "Sutherland-Hodgman leaves three teeth joined along the window's border, Weiler-Atherton leaves three rings.",
+        connecting_edges,
+        {"polygon_clipping": "sutherland-hodgman"},
+        {"polygon_clipping": "sutherland-hodgman"},
     ),
     BuiltInScene(
         "pentagram",

@@ -20,6 +20,7 @@ SHOWN_BY = {
     "texture_filter": "textured-floor",
     "wrap": "textured-floor",
     "shading": "cube",
+    "polygon_clipping": "weiler-atherton",
     "polygon_fill": "pentagram",
 }
 """Families to the scene in which their methods do something; ``single-triangle`` for the others."""

@@ -17,6 +17,13 @@ POLYGON = 4
 """Polygons of so many corners and more have the same words."""
 _WORDS = {
     POLYGON: (
+        (r"cut triangles at the view volume", "cut polygons at the clip window"),
+        (r"makes every w positive.*", "leaves the part of every polygon that lies in the clip window."),
+        (
+            r"triangles in clip space, some of which cross a plane.*",
+            "polygons and the clip window, in pixels.",
+        ),
+        (r"triangles wholly inside: each cut.*", "the rings of what is left of every polygon."),
         (
             r"extends the values of three corners over the triangle.*",
             "gives every pixel the colour of corner 0.",

@@ -227,6 +227,8 @@ def polygon_link(candidates: PixelCandidates, rings: Rings, k: int) -> Link:
             bool(found.is_inside[last]),
         )
     own = np.flatnonzero(rings.polygon_of_corner == k)
+    if not len(own):
+        return Link("raster", "clipped-polygon", {"distance": float("nan")})
     sides = np.stack([rings.corners[own], rings.corners[rings.following[own]]], axis=1)
     away = distance_to_segments(sides, *candidates.center)
     edge = int(np.argmin(away))

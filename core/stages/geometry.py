@@ -31,6 +31,7 @@ from core.settings import Settings
 if TYPE_CHECKING:
     from core.raster.lines.wireframe import Outlines
     from core.stages.clipped_outlines import OutlineClip
+    from core.stages.clipped_polygons import PolygonClip
     from core.visibility.ray_planes import RayPlanes
 
 
@@ -216,7 +217,21 @@ class Geometry:
         if self.vertices.rings is None:
             return None
         with self.count:
-            return self.vertices.rings_of(self.primitives.triangle).moved(*self.shift)
+            clip = self.polygon_clip
+            rings = self.vertices.rings_of(self.primitives.triangle) if clip is None else clip.rings
+            return rings.moved(*self.shift)
+
+    @cached_property
+    def polygon_clip(self) -> "PolygonClip | None":
+        """What clipping did to the polygons; ``None``: they are filled as they are."""
+        if self.vertices.rings is None or not resolve(self.settings).clips_polygons:
+            return None
+        from core.stages.clipped_polygons import clip_polygons
+
+        vertices, method = self.vertices, self.settings.polygon_clipping
+        whole, center = vertices.rings_of(self.primitives.triangle), resolve(self.settings).center
+        region, rings = vertices.clip_region, vertices.region_rings
+        return clip_polygons(whole, len(self.primitives), method, vertices.size, center, region, rings)
 
     @property
     def is_cut_to_pixels(self) -> bool:

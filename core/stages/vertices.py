@@ -134,7 +134,8 @@ def _process(
         primitives, clipped, inserted = clip(kept, outcode, settings, vertices.corner_count)
         piece_count = kept_count if primitives is kept else kept_count + len(primitives) - len(kept)
         counts["clip"].incoming, counts["clip"].outgoing = kept_count, piece_count
-        counts["clip"].note = inserted if inserted else ("" if clipped else "not-chosen")
+        is_clipped = clipped or (vertices.rings is not None and resolve(settings).clips_polygons)
+        counts["clip"].note = inserted if inserted else ("" if is_clipped else "not-chosen")
 
     with counts["edges"]:
         counts["edges"].incoming = counts["edges"].outgoing = piece_count

@@ -9,6 +9,7 @@ from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
 from core.resolved import resolve
 from core.trace.clip_divide import with_division
+from core.trace.polygon_clip import trace_polygon_clip
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
@@ -28,6 +29,8 @@ CROSSING_IN_ORDER = (
 def trace_clip(source: TraceSource) -> StageTrace:
     """Return one row for every edge and plane; a triangle that no plane crosses has one row that says so."""
     geometry = source.geometry
+    if geometry.polygon_clip is not None:
+        return trace_polygon_clip(source, geometry.polygon_clip)
     clipped = geometry.clipped
     kept = geometry.kept
     crossed = clipped.clipped if clipped is not None else np.empty(0, np.int64)

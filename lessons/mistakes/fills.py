@@ -15,7 +15,8 @@ from core.scene import ClipScene
 from lessons.mistakes.coverage import FREE, SQUARE, in_window, with_places
 from lessons.mistakes.transforms import Vector
 from lessons.mistakes.twin import Case, Twin, WrongRule
-from lessons.scenes import assembled, polygon_of_rings
+from lessons.polygons import polygon_of_rings
+from lessons.scenes import assembled
 from lessons.small_scenes import triangle_scene
 
 

@@ -29,14 +29,16 @@ TEXTURED = ClipScene(
     TRIANGLE, TRIANGLE[..., :2] * 3, (9, 7), texture=Texture(np.eye(4, dtype=np.float32)[..., None])
 )
 POLYGON = ClipScene(
-    [[[-0.9, -0.8, 0, 1], [0.9, -0.8, 0, 1], [-0.8, 0.6, 0, 1], [0.1, 0.9, 0, 1], [0.7, 0.3, 0, 1]]],
+    [[[-0.9, -0.8, 0, 1], [0.9, -0.8, 0, 1], [0.7, 0.3, 0, 1], [0.1, 0.9, 0, 1], [-0.8, 0.6, 0, 1]]],
     size=(9, 7),
     kind="polygons",
+    clip_region=[-0.5, -0.9, 0.5, 0.5],
 )
 SHOWN_BY = {
     "texture_filter": TEXTURED,
     "wrap": TEXTURED,
     "shading": SCENES["lit"],
+    "polygon_clipping": POLYGON,
     "polygon_fill": POLYGON,
 }
 """Families to a scene in which their methods differ; `PLAIN` for the others."""
@@ -95,7 +97,7 @@ def test_methods_are_complete(family: str) -> None:
     assert {name: problems for name, problems in found.items() if problems} == {}
 
 
-def test_a_first_course_has_two_or_three_methods_of_twelve_families() -> None:
+def test_a_first_course_has_two_or_three_methods_of_thirteen_families() -> None:
     first = {name: family.classical for name, family in FAMILIES.items() if family.classical}
     assert set(first) - {"polygon_mode"} == {
         "cull",
@@ -103,6 +105,7 @@ def test_a_first_course_has_two_or_three_methods_of_twelve_families() -> None:
         "fill",
         "line",
         "line_clipping",
+        "polygon_clipping",
         "polygon_fill",
         "interpolation",
         "texture_filter",

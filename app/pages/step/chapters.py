@@ -125,6 +125,8 @@ def _state_and_reason(
         return state if place == present else ChapterState.SKIPPED, False, skipped
     if count.note == "not-chosen":
         reason = "Nothing is clipped: homogeneous rasterization needs no clipping."
+        if source.geometry.vertices.rings is not None:
+            reason = "Nothing is clipped: choose a method of polygon clipping."
         return state if place == present else ChapterState.SKIPPED, False, reason
     if count.note and stage == "raster":
         return state, True, replaced_fill(count.note, source.settings.coverage)

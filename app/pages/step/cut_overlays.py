@@ -23,7 +23,7 @@ def clip_overlays(stage: StageTrace, source: TraceSource, position: int) -> list
     origin = np.array([first_column, first_row], float)
     if clip is not None:
         corners = clip.lines.window.corners
-    elif vertices.clip_region is not None and stage.stage == "raster":
+    elif vertices.clip_region is not None and vertices.rings is None and stage.stage == "raster":
         region = region_in_window(vertices.clip_region, vertices.size)
         corners = (rectangle_window(*region) if region.ndim == 1 else polygon_window(region)).corners
     else:

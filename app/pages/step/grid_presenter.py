@@ -17,6 +17,7 @@ from app.pages.step.grid_records import (
 )
 from app.pages.step.guesses import Guesses
 from app.pages.step.main_area import MainArea
+from app.pages.step.polygon_overlays import polygon_overlays
 from app.pages.step.step_mark import step_mark
 from app.pages.step.vertex_drags import VertexDrags
 from app.session.session import Session
@@ -32,7 +33,10 @@ OUTLINING = ("transform", "cull")
 DEFAULT_OVERLAYS = {
     "edges": frozenset({"edge lines"}),
     "bin": frozenset({"blocks"}),
-    "raster": frozenset({"rejected", "tie", "nan", "spans", "clip window", "clipped lines"}),
+    "clip": frozenset({"clip window", "clipped polygon"}),
+    "raster": frozenset(
+        {"rejected", "tie", "nan", "spans", "clip window", "clipped lines", "clipped polygon"}
+    ),
     "depth": frozenset({"failed", "nan"}),
     "resolve": frozenset({"nan", "cutting edge", "cut polygon"}),
 }
@@ -224,6 +228,7 @@ class GridPresenter(QObject):
             found.append(spans)
         found += area_overlays(trace, session.trace.source.raster, position)
         found += clip_overlays(trace, session.trace.source, position)
+        found += polygon_overlays(trace, session.trace.source, position)
         lines = edge_overlay(self._geometry, trace, position)
         if lines is not None:
             found.append(lines)

@@ -188,7 +188,7 @@ class MainArea(QWidget):
         """Return whether the stage is shown in its own view, with another side, in an area wide enough for both."""
         stage = self._session.cursor.stage
         companion = self.companions.get(stage)
-        is_own = self.current_view() == stage_of(stage).view
+        is_own = self.current_view() == self._own_view(stage)
         if companion is None or not is_own or not companion.is_wanted():
             return False
         room = max(self.width(), self.height()) if self._are_stacked(companion) else self.width()
@@ -251,7 +251,13 @@ class MainArea(QWidget):
     def show_own_view(self) -> None:
         """Show the stage at hand in the view that was chosen for it, or else in its own."""
         stage = self._session.cursor.stage
-        self.show_view(self.views_by_hand.get(stage, stage_of(stage).view))
+        self.show_view(self.views_by_hand.get(stage, self._own_view(stage)))
+
+    def _own_view(self, stage: str) -> str:
+        """Return the view that shows the work of a stage: polygons are clipped in the window, among pixels."""
+        if stage == "clip" and self._session.document.scene.corner_count > 3:
+            return "pixels"
+        return stage_of(stage).view
 
     def next_view(self) -> None:
         """Show the next main view, as the user."""

@@ -60,6 +60,8 @@ def _geometry_mark(
         rows = len(stage.triangle) // max(len(reached), 1)
         is_placed = reached[row // rows] == WINDOW
         return no_lines, _corners(trace, triangle)[[int(columns["corner"][row])]] if is_placed else no_points
+    if "region_edge" in columns:
+        return _clipped_edge(trace, stage, row)
     if stage.stage == "bin" and kind != "behind":
         left, low, right, high = (
             float(columns[name][row]) for name in ("column", "row", "column_end", "row_end")
@@ -81,6 +83,23 @@ def _geometry_mark(
         edge = edges[[int(columns["edge"][row])]]
         return edge if np.isfinite(edge).all() else edges, no_points
     return edges, no_points
+
+
+def _clipped_edge(trace: Trace, stage: StageTrace, row: int) -> tuple[Floats, Floats]:
+    """Return what a step of polygon clipping is about: the ring, or the edges and the place that it has found."""
+    columns, clip = stage.columns, trace.source.geometry.polygon_clip
+    assert clip is not None
+    if stage.kind_of(row) in ("wa-ring", "wa-whole"):
+        polygon = int(np.flatnonzero(trace.source.geometry.primitives.triangle == stage.triangle[row])[0])
+        rings = clip.region if columns["of_region"][row] else clip.whole.rings_of(polygon)
+        corners = rings[int(columns["ring"][row])]
+        return np.stack([corners, np.roll(corners, -1, axis=0)], axis=1), np.empty((0, 2))
+    ends = [
+        np.stack([columns[f"{which}start"][row], columns[f"{which}end"][row]]) for which in ("", "region_")
+    ]
+    points = columns["point"][row][None]
+    lines = np.stack(ends)
+    return lines[np.isfinite(lines).all(axis=(1, 2))], points[np.isfinite(points).all(axis=1)]
 
 
 def _box(left: float, low: float, right: float, high: float) -> Floats:

@@ -145,7 +145,7 @@ class SteppingPresenter(QObject):
             fill = effective_fill(settings.fill, settings.coverage)
             label = "Line" if is_wireframe else fill_traits(fill).group_label
             return names | {Level.GROUP: label if corner_count <= 3 else declared.group_label}
-        names[Level.GROUP] = declared.group_label
+        names[Level.GROUP] = "Ring" if stage == "clip" and corner_count > 3 else declared.group_label
         return names | ({Level.PIXEL: declared.row_label} if declared.row_label else {})
 
     @Slot()

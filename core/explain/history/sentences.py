@@ -312,6 +312,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("raster", "outside-polygon"): lambda v: (
         f"outside: {_crossed(v)} to its left, and edge {v['edge']} is {_pixels(v['distance'])} away"
     ),
+    ("raster", "clipped-polygon"): "clipped away: nothing of it lies in the clip window",
     ("raster", "on-outline"): lambda v: (
         f"on edge {v['edge']}, the pixel centre {_pixels(v['distance'])} from the exact line"
     ),

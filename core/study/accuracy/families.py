@@ -14,7 +14,7 @@ from core.study.accuracy.interpolated import INTERPOLATION
 from core.study.accuracy.line_clippers import LINE_CLIPPING
 from core.study.accuracy.lines import LINE
 from core.study.accuracy.orientation import ORIENTATION
-from core.study.accuracy.polygons import POLYGON_FILL
+from core.study.accuracy.polygons import POLYGON_CLIPPING, POLYGON_FILL
 from core.study.accuracy.visible import CLIPPING, CULL, DEPTH, VISIBILITY
 from core.study.accuracy.whole_picture import PIPELINE, standing_in
 
@@ -25,6 +25,7 @@ OWN = (
     ORIENTATION,
     LINE_CLIPPING,
     POLYGON_FILL,
+    POLYGON_CLIPPING,
     CLIPPING,
     INTERPOLATION,
     TEXTURE_FILTER,

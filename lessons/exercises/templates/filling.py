@@ -17,7 +17,8 @@ from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text
 from lessons.exercises.templates.drafting import numbers, one_of, place_text, table
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.shelf import RULES, SHELF
-from lessons.scenes import assembled, polygon_of_rings
+from lessons.polygons import polygon_of_rings
+from lessons.scenes import assembled
 from lessons.small_scenes import triangle_scene
 
 HALF = Fraction(1, 2)

@@ -13,7 +13,7 @@ from app.files.study_files import load_study
 from core.pipeline import render
 
 EARLIER = Path(__file__).parent / "earlier"
-NEWER = {"polygon_fill": "even-odd"}
+NEWER = {"polygon_clipping": "none", "polygon_fill": "even-odd"}
 """What settings of families have that are younger than the files: their defaults."""
 
 

@@ -72,6 +72,7 @@ def test_methods_that_compute_something_have_a_listing() -> None:
         "blend=opaque",
         "clipping=homogeneous",
         "line_clipping=none",
+        "polygon_clipping=none",
         "polygon_mode=wireframe",
     }
 

@@ -122,6 +122,10 @@ def traces() -> dict[str, list[Trace]]:
     for number, settings in enumerate([Settings()] * len(scenes) + choices):
         scene, triangle, window = scenes[number % len(scenes)]
         windows.append(trace(scene, settings, triangle, window, before="cleared"))
+    # Polygons are clipped in scenes of their own.
+    comb = make_scene("connecting-edges")
+    clippers = table.names("polygon_clipping")[1:]
+    windows += [trace(comb, Settings(polygon_clipping=name), 0, (0, 8, 8, 4)) for name in clippers]
     together = ClipScene(np.array([*RARE_CLIP.values(), RARE_CLIP["grid-ties"]], float), size=(8, 8))
     # Covered by its snapped corners only: the exact determinant is 0.
     edge_on = [[-0.5, -0.5, 0, 1], [0.5, 0.5005, 0.5, 1], [1.5, 1.501, 1, 1]]

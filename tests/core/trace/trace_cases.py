@@ -101,11 +101,14 @@ SCENES = {name: small_scene(name) for name in scene_names() if name not in LEFT_
 }
 """Scenes of few triangles, to be traced as a whole."""
 
+_OF_OUTLINES = {"line", "line_clipping"}
+_OF_POLYGONS = {"polygon_clipping", "polygon_fill"}
+
 CHOICES = [{}] + [
     {family: name}
     for family in families()
     for name in table.names(family)
-    if name != getattr(Settings(), family) and family not in ("line", "line_clipping", "polygon_fill")
+    if name != getattr(Settings(), family) and family not in _OF_OUTLINES | _OF_POLYGONS
 ]
 """Every method of triangles once, beside the defaults of the other families."""
 
@@ -167,8 +170,6 @@ def _met(families: set[str], scenes: Sequence[str], **numbers: tuple[int, ...]) 
     return [(case.pop("scene"), case) for case in covering({"scene": scenes, **methods, **numbers})]
 
 
-_OF_OUTLINES = {"line", "line_clipping"}
-_OF_POLYGONS = {"polygon_fill"}
 _OF_FILLS = {"fill", "fill_rule", "coverage", "pixel_center"}
 
 FILLED = _met(

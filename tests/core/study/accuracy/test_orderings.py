@@ -65,6 +65,17 @@ def test_polygon_fill() -> None:
     assert {point.errors["misclassified"] for point in crossing.values()} == {0}
 
 
+def test_polygon_clipping() -> None:
+    # Both leave the same area; only Sutherland-Hodgman joins its parts by edges along the window. Unclipped, pixels
+    # outside of the window are drawn. New corners are snapped again, so a pixel beside an edge may differ.
+    clippers = run("polygon_clipping", "holes", corners=32)
+    errors = {name: clippers[name].errors for name in table.names("polygon_clipping")}
+    assert errors["none"]["misclassified"] > 50_000
+    assert errors["sutherland-hodgman"]["misclassified"] == errors["weiler-atherton"]["misclassified"] < 1000
+    assert errors["sutherland-hodgman"]["connecting"] > 1
+    assert errors["weiler-atherton"]["connecting"] == 0
+
+
 def test_coverage() -> None:
     # A centre on an edge is drawn more than once with >= 0, never with > 0, once with the rule of shared edges: both
     # wrong rules are wrong on the very same pixels. Where six triangles meet the first is off by 5 and the second by 1.

@@ -1,0 +1,68 @@
+"""What the grid shows of polygons: the clip window, crossings and walks of clipping, and what is left to be filled."""
+
+import numpy as np
+
+from app.pages.step.cut_overlays import cross_segments
+from core import STAGES
+from core.records.arrays import Floats
+from core.records.rings import Rings, join_rings
+from core.stages.clipped_polygons import region_rings_in_window
+from core.trace import StageTrace, TraceSource
+from widgets.grid.overlay import Overlay, SegmentOverlay
+
+
+def polygon_overlays(stage: StageTrace, source: TraceSource, position: int) -> list[Overlay]:
+    """Return what is known of polygon clipping at a position; nothing where there are no polygons."""
+    geometry = source.geometry
+    vertices, place = geometry.vertices, STAGES.index(stage.stage)
+    if vertices.rings is None or place < STAGES.index("clip"):
+        return []
+    clip = geometry.polygon_clip
+    origin = np.array(source.raster.bounds[:2], float)
+    found: list[Overlay] = []
+    if place <= STAGES.index("raster") and (clip is not None or vertices.clip_region is not None):
+        region = region_rings_in_window(
+            vertices.clip_region, vertices.region_rings, vertices.size, source.raster.center
+        )
+        lines = ring_sides(join_rings([region])) - origin
+        found.append(SegmentOverlay("clip window", lines, title="clip window"))
+    if clip is None:
+        return found
+    lines = clipped_lines(stage, position) if stage.stage == "clip" else ring_sides(clip.rings)
+    if len(lines):
+        found.append(SegmentOverlay("clipped polygon", lines - origin, title="clipped polygon"))
+    return found
+
+
+def ring_sides(rings: Rings) -> Floats:
+    """Return (S, 2, 2) the sides of rings."""
+    return np.stack([rings.corners, rings.corners[rings.following]], axis=1)
+
+
+def clipped_lines(stage: StageTrace, position: int) -> Floats:
+    """Return (L, 2, 2): what the method has kept by now, and crosses where edges cross."""
+    done = stage.steps.rows_done(position)
+    columns = stage.columns
+    if not done:
+        return np.empty((0, 2, 2))
+    points, starts, ends = (columns[name][:done] for name in ("point", "start", "end"))
+    if "wa-ring" in stage.steps.kinds:
+        # The walks, and crosses on the crossings that lie on none yet.
+        walked = columns["result_ring"][:done] >= 0
+        is_crossing = np.isfinite(columns["t"][:done])
+        crosses = cross_segments(points[is_crossing])
+        steps = np.flatnonzero(walked & np.isfinite(starts[:, 0]))
+        return np.concatenate([np.stack([starts[steps], ends[steps]], axis=1), crosses])
+    # Of Sutherland-Hodgman the ring as this side of the window leaves it.
+    same = (columns["ring"][:done] == columns["ring"][done - 1]) & (
+        columns["region_edge"][:done] == columns["region_edge"][done - 1]
+    )
+    # Rows of one side stand together; an earlier polygon may have the same numbers.
+    first = int(np.flatnonzero(~same)[-1]) + 1 if not same.all() else 0
+    own = slice(first, done)
+    is_first_in, is_last_in = columns["start_side"][own] >= 0, columns["end_side"][own] >= 0
+    kept = np.flatnonzero(is_first_in | is_last_in)
+    start = np.where(is_first_in[:, None], starts[own], points[own])[kept]
+    end = np.where(is_last_in[:, None], ends[own], points[own])[kept]
+    made = points[own][np.isfinite(points[own, 0])]
+    return np.concatenate([np.stack([start, end], axis=1), cross_segments(made)])

@@ -1,0 +1,171 @@
+"""Polygon clipping in the window: the crossings and walks of Weiler-Atherton, the sides of Sutherland-Hodgman."""
+
+from core.explain.digits import number_latex, signed_latex, spoken, vector_text
+from core.explain.equation import Part, beside, difference, equation, fraction
+from core.explain.records import Asked, Formula, choice
+from core.explain.rows import Said, explains
+from core.explain.step_values import StepValues
+from core.explain.variable_text import VariableText, hides, shows
+
+SH = "sh-in-in|sh-out-out|sh-in-out|sh-out-in"
+_WALK = "wa-corner|wa-switch|wa-close"
+
+
+def _owner(step: StepValues) -> str:
+    """Return which of the two a ring is of."""
+    return "clip window" if step.flag("of_region") else "polygon"
+
+
+@explains("clip.wa-ring.direction")
+def direction(step: StepValues) -> Said:
+    """Whether a ring is a hole, and which way it runs."""
+    is_hole = step.flag("is_hole")
+    what = "a hole, inside an odd number of others" if is_hole else "an outline"
+    way = "clockwise" if is_hole else "counter-clockwise"
+    turned = "is turned to run" if step.flag("is_turned") else "runs"
+    name = f"Ring {step.whole('ring')} of the {_owner(step)}"
+    return f"{name} is {what}; it {turned} {way}, so the interior lies to its left."
+
+
+@explains("clip.wa-crossing.place")
+def crossing(step: StepValues) -> Said:
+    """Where two sides cross."""
+    text = (
+        f"Edge {step.whole('edge')} of ring {step.whole('ring')} crosses edge {step.whole('region_edge')} of ring "
+        f"{step.whole('region_ring')} of the clip window at {vector_text(step.vector('point'))}: at t = "
+        f"{spoken(step.number('t'))} of its length, and at {spoken(step.number('region_t'))} of the window's."
+    )
+    return text, _on_edge(step)
+
+
+def _on_edge(step: StepValues) -> Formula:
+    """Return the place at t of the edge of a step."""
+    (x0, y0), (x1, y1) = step.vector("start"), step.vector("end")
+    point, t = step.vector("point"), step.number("t")
+    parts: list[list[Part]] = []
+    for name, value, first, last in zip("xy", point, (x0, y0), (x1, y1), strict=True):
+        symbols = rf"{name}_0 + t \cdot ({name}_1 - {name}_0)"
+        along = f"({number_latex(last)} - {signed_latex(first)})"
+        parts.append(
+            [(name, value), "=", (symbols, rf"{number_latex(first)} + {number_latex(t)} \cdot {along}")]
+        )
+    return equation(*beside(*parts))
+
+
+def entering(step: StepValues) -> Asked:
+    """Ask whether the polygon enters at a crossing."""
+    enters = step.flag("is_entering")
+    place = vector_text(step.vector("point"))
+    return choice(
+        f"Does the polygon enter the clip window at {place}?",
+        0 if enters else 1,
+        f"{'Yes' if enters else 'No'}: it goes on {'inside' if enters else 'outside'} the window's edge.",
+    )
+
+
+@explains("clip.wa-crossing.way", asks=entering)
+def way(step: StepValues) -> Said:
+    """Whether the polygon enters or leaves."""
+    if step.flag("is_entering"):
+        return "The polygon enters here: the end of its edge lies to the left of the window's edge, inside."
+    return "The polygon leaves here: the end of its edge lies to the right of the window's edge, outside."
+
+
+@explains("clip.wa-whole.verdict")
+def verdict(step: StepValues) -> Said:
+    """What becomes of a ring without crossings."""
+    other = "polygon" if step.flag("of_region") else "clip window"
+    found = "inside the {}: it is kept" if step.flag("is_kept") else "outside the {}: it is dropped"
+    return f"Ring {step.whole('ring')} of the {_owner(step)} crosses nothing and lies {found.format(other)}."
+
+
+@explains("clip.wa-start.start")
+def start(step: StepValues) -> Said:
+    """Where a ring of the result begins."""
+    return (
+        f"Ring {step.whole('result_ring')} of the result starts at crossing {step.whole('crossing')}, "
+        f"{vector_text(step.vector('point'))}, where the polygon enters."
+    )
+
+
+@explains("clip.wa-corner|wa-switch.next")
+def follow(step: StepValues) -> Said:
+    """One step along the polygon or the clip window."""
+    along = "clip window" if step.flag("on_region") else "polygon"
+    what = f"crossing {step.whole('crossing')}" if step.whole("crossing") >= 0 else "its next corner"
+    return f"Along the {along} to {what}, {vector_text(step.vector('point'))}."
+
+
+@explains("clip.wa-switch.switch")
+def switch(step: StepValues) -> Said:
+    """From one polygon to the other."""
+    if step.flag("on_region"):
+        return "The polygon enters here: the walk goes on along the polygon."
+    return "The polygon leaves here: the walk goes on along the clip window, inside the polygon."
+
+
+@explains("clip.wa-close.close")
+def close(step: StepValues) -> Said:
+    """The end of a walk."""
+    along = "clip window" if step.flag("on_region") else "polygon"
+    return (
+        f"Along the {along} back to the start: ring {step.whole('result_ring')} has "
+        f"{step.whole('corner_count')} corners."
+    )
+
+
+@explains(f"clip.{SH}.sides")
+def sides(step: StepValues) -> Said:
+    """On which side of a window's edge both ends of an edge lie."""
+    first, last = step.number("start_side"), step.number("end_side")
+    where = ["inside" if value >= 0 else "outside" for value in (first, last)]
+    text = (
+        f"Ring {step.whole('ring')}, edge {step.whole('edge')}, against edge {step.whole('region_edge')} of the clip "
+        f"window: its start is {where[0]} (d0 = {spoken(first)}), its end {where[1]} (d1 = {spoken(last)})."
+    )
+    a, b = step.vector("region_start"), step.vector("region_end")
+    found = [_side("d_0", first, a, b, step.vector("start")), _side("d_1", last, a, b, step.vector("end"))]
+    return text, equation(*beside(*found))
+
+
+def _side(symbol: str, value: float, a: list[float], b: list[float], place: list[float]) -> list[Part]:
+    """Return the cross product that says on which side of the line from a to b a place lies."""
+    symbols = r"(x_b - x_a) \cdot (y - y_a) - (y_b - y_a) \cdot (x - x_a)"
+    one, other = (f"({number_latex(b[k])} - {signed_latex(a[k])})" for k in (0, 1))
+    across, along = (f"({number_latex(place[k])} - {signed_latex(a[k])})" for k in (1, 0))
+    return [(symbol, value), "=", (symbols, rf"{one} \cdot {across} - {other} \cdot {along}")]
+
+
+@explains("clip.sh-in-out|sh-out-in.crossing")
+def corner(step: StepValues) -> Said:
+    """The new corner where an edge crosses."""
+    first, last, t = step.number("start_side"), step.number("end_side"), step.number("t")
+    verb = "leaves" if step.kind == "sh-in-out" else "enters"
+    text = f"It {verb} at t = d0 / (d0 − d1) = {spoken(t)}: the new corner is {vector_text(step.vector('point'))}."
+    return text, equation(("t", t), "=", fraction(("d_0", first), difference(("d_0", first), ("d_1", last))))
+
+
+@explains("clip.sh-in-in|sh-out-out|sh-out-in.keep")
+def keep(step: StepValues) -> Said:
+    """What becomes of the end of an edge."""
+    return "Its end is kept." if step.flag("is_kept") else "Both ends are outside: nothing of it is kept."
+
+
+hides(f"clip.wa-ring|wa-whole|wa-start|{_WALK}", ("edge", "number", "clip"))
+hides(f"clip.wa-crossing|{SH}", ("number", "clip"))
+shows(
+    "clip",
+    {
+        "region_t": VariableText(
+            "t of window", "Where the crossing lies on the edge of the clip window, from 0 to 1."
+        ),
+        "point": VariableText("place", "Where the crossing or corner lies, in pixels."),
+        "is_hole": VariableText("hole", "Whether the ring lies inside an odd number of others."),
+        "is_turned": VariableText("turned", "Whether the ring is turned round."),
+        "is_entering": VariableText("entering", "Whether the polygon comes into the clip window."),
+        "is_kept": VariableText("kept", "Whether it belongs to the result."),
+        "start_side": VariableText("d0", "Side of the edge's start: above 0 inside the window's edge."),
+        "end_side": VariableText("d1", "Side of the edge's end: above 0 inside the window's edge."),
+        "corner_count": VariableText("corners", "Corners of the ring."),
+    },
+)
