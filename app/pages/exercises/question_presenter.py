@@ -1,5 +1,7 @@
 """Asks one question: takes the answer, checks it, shows hints, marks, the mistake, and the runs behind them."""
 
+from collections.abc import Callable
+from functools import partial
 from random import SystemRandom
 from time import monotonic
 from typing import Any
@@ -11,13 +13,20 @@ from PySide6.QtWidgets import QMenu
 from app.background.workers import JobGroup
 from app.pages.exercises.answer_kind import Live
 from app.pages.exercises.answer_kinds import KINDS
-from app.pages.exercises.runs import faulty_run, is_stepped, right_run
+from app.pages.exercises.runs import (
+    faulty_picture,
+    faulty_run,
+    is_pictured,
+    is_stepped,
+    refuting_step,
+    right_run,
+)
 from app.pages.exercises.unfinished import Unfinished, UnfinishedFile
 from app.pages.exercises.work import Asked, Checked, asking, checking, drawing
+from app.pages.page_bar import StepRequest
 from core.records.words import counted
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Question, Template
-from lessons.mistakes.shelf import SHELF
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
 from widgets.exercises.records import Feedback, QuestionRecord
@@ -25,6 +34,7 @@ from widgets.exercises.records import Feedback, QuestionRecord
 VARIANTS = 10_000
 """Seeds that new variants are drawn from: short ones, to be read out."""
 SURE = "The model answer ends this question without points. Choose Model answer again to show it."
+BACK, SEVERAL = "Back to my answer", "Show those runs"
 SHOWN = "The model answer was shown before, so this earns nothing."
 
 
@@ -57,6 +67,8 @@ class QuestionPresenter(QObject):
         """What the last check found; ``None``: nothing was checked since the question was asked."""
         self._hints = 0
         self._has_answer = self._is_shown = self._is_sure = False
+        self._pictured = False
+        """Whether the picture of a mistake stands in place of the raster."""
         self._begun = monotonic()
         self._jobs = JobGroup(self)
         self._asking, self._checking, self._drawing = (self._jobs.add_job() for _ in range(3))
@@ -122,7 +134,8 @@ class QuestionPresenter(QObject):
         kept = self._unfinished.answers.answers.get(template.name)
         if kept is None or (kept.version, kept.seed) != (template.version, question.seed):
             kept = Unfinished(version=template.version, seed=question.seed)
-        self._checked, self._is_sure, self._has_answer = None, False, kept.given is not None
+        self._checked, self._pictured, self._is_sure = None, False, False
+        self._has_answer = kept.given is not None
         self._hints, self._is_shown = min(kept.hints, len(draft.hints)), kept.is_shown
         self._begun = monotonic()
         kind = KINDS[draft.answer.kind]
@@ -164,6 +177,7 @@ class QuestionPresenter(QObject):
     def _change(self) -> None:
         """Keep the answer at once; what was found of an earlier one holds no longer."""
         self._has_answer = True
+        self._end_picture()
         self._checking.cancel()  # It is about an earlier answer.
         if self._checked is not None:
             assert self._view.answer is not None
@@ -265,31 +279,77 @@ class QuestionPresenter(QObject):
         assert self.question is not None
         hints = self._all_hints()
         self._view.show_hints(hints[: self._hints], len(hints))
-        mistakes = self._checked.judgement.mistakes if self._checked else ()
-        stepped = [name for name in mistakes if is_stepped(self.question, name)]
+        shown = self._shown()
         has_run = self.question.draft.scene is not None
         self._view.show_choices(
-            twin="" if not stepped else "Show that run" if len(stepped) == 1 else "Show those runs",
+            twin=BACK
+            if self._pictured
+            else ""
+            if not shown
+            else next(iter(shown))
+            if len(shown) == 1
+            else SEVERAL,
             model="Model answer" if not self._is_shown else "Step the right run" if has_run else "",
             step="Step it, hidden" if has_run and self.is_asked else "",
         )
         self.state_changed.emit()
 
+    def _shown(self) -> dict[str, Callable[[], None]]:
+        """Return what can be shown of the mistakes behind the answer, by what it is called."""
+        if self._checked is None or self.question is None:
+            return {}
+        question, judgement = self.question, self._checked.judgement
+        shown: dict[str, Callable[[], None]] = {}
+        for name in judgement.mistakes:
+            words = f": {name.replace('-', ' ')}" if len(judgement.mistakes) > 1 else ""
+            if is_stepped(question, name):
+                shown[f"Show that run{words}"] = partial(self._step, partial(faulty_run, question, name))
+            elif is_pictured(question, name):
+                shown[f"Show that picture{words}"] = partial(self._show_picture, name)
+        if judgement.refutation is not None:
+            title = question.template.title
+            shown["Show the step"] = partial(self._step, partial(refuting_step, judgement.refutation, title))
+        return shown
+
     @Slot()
     def show_twin(self) -> None:
-        """Step the right run beside the one with the mistake; of several mistakes, ask which."""
-        if self.question is None or self._checked is None:
-            return
-        names = [name for name in self._checked.judgement.mistakes if is_stepped(self.question, name)]
-        if len(names) == 1:
-            self._step_twin(names[0])
-        elif names:
+        """Show the run, the picture or the step behind a wrong answer; of several, ask which."""
+        shown = self._shown()
+        if self._pictured:
+            self._end_picture()
+        elif len(shown) == 1:
+            next(iter(shown.values()))()
+        elif shown:
             menu = QMenu(self._view)
-            for name in names:
-                menu.addAction(SHELF[name].sentence).setData(name)
+            for text in shown:
+                menu.addAction(text)
             chosen = menu.exec(self._view.twin_button.mapToGlobal(self._view.twin_button.rect().bottomLeft()))
             if chosen is not None:
-                self._step_twin(chosen.data())
+                shown[chosen.text()]()
+
+    def _step(self, make: Callable[[], StepRequest | None]) -> None:
+        try:
+            request = make()
+        except ValueError as problem:
+            self.refused.emit(f"This cannot be stepped: {problem}.")
+            return
+        if request is not None:
+            self.step_requested.emit(request)
+
+    def _show_picture(self, name: str) -> None:
+        """Show the picture that the mistake makes, until the learner goes back to the answer."""
+        assert self.question is not None
+        self._show_live(faulty_picture(self.question, name))
+        self._pictured = True
+        self._view.show_note("The picture shows what this mistake makes of the scene.")
+        self._show_state()
+
+    def _end_picture(self) -> None:
+        if self._pictured:
+            self._pictured = False
+            self._grid.show_picture(None)
+            self._view.show_note("")
+            self._show_state()
 
     @Slot()
     def step_hidden(self) -> None:
@@ -309,10 +369,6 @@ class QuestionPresenter(QObject):
             self.message_sent.emit(
                 "The Step page shows what was asked for. The question earns nothing any more."
             )
-
-    def _step_twin(self, name: str) -> None:
-        assert self.question is not None
-        self.step_requested.emit(faulty_run(self.question, name))
 
     @Slot()
     def show_model(self) -> None:

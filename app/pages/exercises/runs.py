@@ -1,11 +1,17 @@
 """The runs behind a question, for the Step page: the right one, and beside it the one with a mistake."""
 
-from app.pages.exercises.scene_outline import document_of
+from app.pages.exercises.answer_kind import Live
+from app.pages.exercises.marked_kinds import picture_of
+from app.pages.exercises.scene_outline import document_of, scene_outline
 from app.pages.page_bar import StepRequest
 from core.scene import ClipScene
 from core.study.accuracy.record import Opening
 from lessons.exercises.question import Question
+from lessons.exercises.refutation import Refutation
 from lessons.mistakes.shelf import SHELF
+
+PICTURED = ("numbers", "table", "choice", "order", "line")
+"""Types of answers beside which a picture may stand."""
 
 
 def right_run(question: Question, *, is_asked: bool = False) -> StepRequest | None:
@@ -20,7 +26,26 @@ def right_run(question: Question, *, is_asked: bool = False) -> StepRequest | No
 
 def is_stepped(question: Question, mistake: str) -> bool:
     """Return whether the run with a mistake can be stepped beside the right one."""
-    return isinstance(question.draft.scene, ClipScene) and SHELF[mistake].is_run
+    return isinstance(question.draft.scene, ClipScene) and mistake in SHELF and SHELF[mistake].is_run
+
+
+def is_pictured(question: Question, mistake: str) -> bool:
+    """Return whether only the picture with a mistake can be shown; of marked pixels the answer is that picture."""
+    has_scene = isinstance(question.draft.scene, ClipScene) and question.draft.answer.kind in PICTURED
+    return has_scene and mistake in SHELF and not SHELF[mistake].is_run
+
+
+def faulty_picture(question: Question, mistake: str) -> Live:
+    """Return the picture with a mistake."""
+    scene = question.draft.scene
+    assert isinstance(scene, ClipScene)
+    return Live(scene_outline(scene), picture_of(SHELF[mistake].draw(scene, question.draft.settings)))
+
+
+def refuting_step(refutation: Refutation, title: str) -> StepRequest:
+    """Return what shows the step that refutes a belief."""
+    opening = Opening(refutation.scene, refutation.settings, refutation.stage)
+    return StepRequest(opening, title, position=refutation.position(), is_asked=False)
 
 
 def faulty_run(question: Question, mistake: str) -> StepRequest | None:

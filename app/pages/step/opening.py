@@ -64,13 +64,13 @@ class StepOpening(QObject):
             self.hiding_wanted.emit(ready.request.is_asked)
         self._session.open(ready.document, ready.trace)
         self._page.stepping.set_places()
-        self._session.set_stage(opening.stage, 0)
+        self._session.set_stage(opening.stage, ready.request.position or 0)
         pixel = opening.pixel if opening.pixel and self._session.has_pixel(opening.pixel) else None
         if pixel is not None:
             self._session.set_pin(pixel)
         if other is None:
             self._page.show_view("pixels")
-            if pixel is not None and not ready.request.is_asked:
+            if pixel is not None and not ready.request.is_asked and ready.request.position is None:
                 self._page.stepping.step_into(opening.stage, *pixel)
         else:
             scene = ready.request.other_scene

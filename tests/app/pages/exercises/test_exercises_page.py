@@ -310,6 +310,29 @@ def check_that_the_cheapest_methods_are_chosen(page: Page) -> None:
     assert check(shown).startswith("4 of 4 points")
 
 
+def test_a_belief_is_refuted_by_a_step_and_a_mistake_by_its_picture(
+    page: Page, window: MainWindow, qtbot: QtBot
+) -> None:
+    shown = page("blend-over")
+    assert shown.question is not None
+    shown.questions.answer(shown.question.draft.mistakes["order-reversed"])
+    check(shown)
+    button = shown.question_view.twin_button
+    assert button.text() == "Show that picture"
+    QTest.mouseClick(button, LEFT)
+    assert shown.grid.buffer() is not None
+    assert shown.grid.buffer().label == "the picture"  # type: ignore[union-attr]
+    QTest.mouseClick(button, LEFT)
+    assert shown.grid.buffer().label == "your marks"  # type: ignore[union-attr]
+    page("belief-w-is-one")
+    shown.questions.answer(frozenset({2}))
+    check(shown)
+    assert button.text() == "Show the step"
+    with qtbot.waitSignal(window.opening.opened):
+        QTest.mouseClick(button, LEFT)
+    assert (window.session.cursor.stage, window.session.cursor.position) == ("transform", 12)
+
+
 def test_every_form_takes_every_answer_of_its_questions() -> None:
     """What a form holds for an answer is read as that answer."""
     for template in list(TEMPLATES.values())[::4]:
