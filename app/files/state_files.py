@@ -185,6 +185,11 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
         title=record.title,
         path=mesh_path,
     )
+    if record.look.printed:
+        from app.session.printed_run import settings_of  # Few states need the listings.
+
+        with in_field("look.printed"):
+            settings_of(record.look.printed, document)
     with in_field("triangle and raster"):
         document.make_trace()
     return State(

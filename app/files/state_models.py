@@ -249,6 +249,8 @@ class Look(Record):
     """From where views in space are seen, where the user has turned them."""
     other: dict[str, str | int] = {}
     """Family to method: what B does otherwise than A."""
+    printed: str = ""
+    """Name of the listing as printed that B runs; empty: none."""
     other_buffer: str = "color"
     """Buffer in which A and B are compared."""
     panes: list[str] | None = None

@@ -165,6 +165,7 @@ class HelpPane(QObject):
             "view": self._show_view,
             "scene": self._open_scene,
             "use": self._use,
+            "printed": self.window.show_printed,
             "compare": lambda name: self._show_result("compare", name),
             "stability": lambda name: self._show_result("stability", name),
         }

@@ -4,6 +4,7 @@ from html import escape
 
 import core  # noqa: F401  (its modules register the methods)
 from app.help.markup import HelpPage, bullets, facts, link, linked, sentence
+from app.session.printed_run import runnable
 from core import Settings, trace
 from core.families import Family
 from core.methods import Method, table
@@ -84,12 +85,19 @@ def method_page(name: str, method_name: str) -> HelpPage:
         ("Settings", escape(takes)),
         ("Chart", _chart(name)),
         ("Map", _maps(name, method_name)),
+        ("As printed", _printed(name, method_name)),
         ("Command", f"<code>--set {name}={method_name}</code>"),
     ]
     use = f"<p>{link(f'do:use/{name}/{method_name}', 'Use this method')} on the open scene.</p>"
     listings = "".join(f"<pre>{escape(source)}</pre>" for source in listings_of(method))
     shown = listings or f"<p>{NO_LISTING}</p>"
     return HelpPage(method.title, f"{about(method)}{use}{facts(rows)}<h2>Listing</h2>{shown}")
+
+
+def _printed(family: str, method: str) -> str:
+    """Return links that show the listings of slides beside the method, where they first differ."""
+    found = [each for each in runnable() if (each.family, each.right) == (family, method)]
+    return ", ".join(link(f"do:printed/{each.name}", f"{each.title} ({each.lecture})") for each in found)
 
 
 def about(method: Method) -> str:

@@ -119,6 +119,7 @@ class MainWindow(QMainWindow):
         menus.action_chosen.connect(self.run_action)
         menus.scene_chosen.connect(self.open_path)
         menus.recent_chosen.connect(self.open_path)
+        menus.printed_chosen.connect(self.show_printed)
         menus.raster_chosen.connect(self.edits.choose_raster)
         menus.theme_chosen.connect(self.appearance.set_theme)
         self.presenter.presenting_changed.connect(self._show_presenting)
@@ -503,6 +504,17 @@ class MainWindow(QMainWindow):
             self.tell(f"One file at a time: opening {Path(paths[0]).name}.")
         if paths:
             self.open_path(paths[0])
+
+    @Slot(str)
+    def show_printed(self, name: str) -> None:
+        """Show the right method in A, and a listing as a slide prints it in B, where they first differ."""
+        self.pages.show_page("step")
+        try:
+            self.page.comparing.show_printed(name)
+        except ValueError as error:
+            self.refuse(error)
+            return
+        self.page.show_view("compare")
 
     @Slot(str)
     def open_path(self, path: str, allows_outside: bool = False) -> None:

@@ -59,6 +59,8 @@ class Menus(QObject):
     """Name of a built-in scene."""
     recent_chosen = Signal(str)
     """Path of a file."""
+    printed_chosen = Signal(str)
+    """Name of a listing as a slide prints it."""
     raster_chosen = Signal(int, int)
     """Columns and rows for the whole view."""
     theme_chosen = Signal(str)
@@ -74,6 +76,7 @@ class Menus(QObject):
         self.earlier_menu = QMenu("Earlier &windows", window)
         self.scene_menu = QMenu("Built-in &scenes", window)
         self.lecture_menu = QMenu("Scenes of the &lectures", window)
+        self.printed_menu = QMenu("As &printed, beside the right method", window)
         self.scale_group = QActionGroup(self)
         self.bookmark_menu = QMenu("Boo&kmarks", window)
         self.theme_group, self.text_size_group = QActionGroup(self), QActionGroup(self)
@@ -98,6 +101,10 @@ class Menus(QObject):
                 menus[entry.menu].addSeparator()
         self._fill_scenes()
         self._add_rasters(menus["Raster"])
+        menus["Raster"].addMenu(self.printed_menu)
+        self.printed_menu.setToolTipsVisible(True)
+        self.printed_menu.aboutToShow.connect(self._fill_printed)
+        self.printed_menu.triggered.connect(self._choose_printed)
         self._add_themes(menus["View"])
         self._add_text_sizes(menus["View"])
         for menu in (self.recent_menu, self.earlier_menu):
@@ -135,6 +142,23 @@ class Menus(QObject):
             made = sizes.addAction(f"{columns} × {rows}")
             made.setData((columns, rows))
         sizes.triggered.connect(self._choose_raster)
+
+    @Slot()
+    def _fill_printed(self) -> None:
+        """List the listings when they are first asked for: the window opens without them."""
+        if self.printed_menu.actions():
+            return
+        from app.session.printed_run import runnable
+
+        for printed in runnable():
+            made = self.printed_menu.addAction(f"{printed.lecture}: {printed.title}")
+            made.setToolTip(printed.slide)
+            made.setStatusTip(f"A | B: the right method beside the listing as printed on “{printed.slide}”")
+            made.setData(printed.name)
+
+    @Slot(QAction)
+    def _choose_printed(self, action: QAction) -> None:
+        self.printed_chosen.emit(action.data())
 
     def _add_scales(self, menu: QMenu) -> None:
         scales = menu.addMenu("Picture scale")

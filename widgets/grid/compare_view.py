@@ -16,6 +16,10 @@ from widgets.grid.geometry import GridGeometry
 from widgets.grid.linked_grids import LinkedGrids
 from widgets.grid.marks import StepMark
 from widgets.grid.overlay import Overlay
+from widgets.inspector.listing import ListingText, ListingView
+
+CODE_LINES = 10
+"""Lines of text that the listings of A and B are high at least, where they are shown."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +43,10 @@ class Side:
     """Its triangles."""
     step: StepMark = field(default_factory=StepMark)
     """What its last step was about."""
+    listing: ListingText | None = None
+    """The listing of its last step, where both are shown."""
+    line: int = 0
+    """The line of it that has just run, from 1; 0: none."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -82,6 +90,8 @@ class CompareView(QWidget):
         self.linked = LinkedGrids(("A", "B", "Difference"), self.figure)
         self.grids, self.titles = self.linked.grids, self.linked.titles
         self.buffer_box, self.family_box, self.value_box = (ChoiceBox(self) for _ in range(3))
+        self.listings = (ListingView(self.figure), ListingView(self.figure))
+        """Those of A and B, where what runs is compared line by line."""
         self.notes = tuple(text_label("", self.figure, role="muted", wraps=True) for _ in self.grids)
         self._settings: tuple[Setting, ...] = ()
         self._comparison: Comparison | None = None
@@ -147,6 +157,13 @@ class CompareView(QWidget):
             note.setAlignment(Qt.AlignmentFlag.AlignTop)
             notes.addWidget(note, 1)
         figure.addLayout(notes)
+        self._code = QWidget(self.figure)
+        code = row_layout(self._code, 8)
+        for name, listing in zip("AB", self.listings, strict=True):
+            listing.setAccessibleName(f"Listing of {name}")
+            code.addWidget(listing, 1)
+        figure.addWidget(self._code, 1)
+        self._code.hide()
         self.summary = self.notes[2]
 
     def show_choices(self, is_shown: bool) -> None:
@@ -185,6 +202,8 @@ class CompareView(QWidget):
         sides = [comparison.first, comparison.second]
         if self._is_flipped:
             sides.reverse()
+        has_code = any(side.listing is not None for side in sides)
+        lines = 3 if has_code else 5
         for number, side in enumerate(sides):
             grid, note = self.grids[number], self.notes[number]
             grid.empty_text = side.reason
@@ -193,14 +212,20 @@ class CompareView(QWidget):
             grid.show_geometry(side.geometry)
             grid.show_step(side.step)
             self._write(self.titles[number], f"{side.title}\n{side.place}", 3)
-            self._write(note, side.sentence, 5)
+            self._write(note, side.sentence, lines)
+        self._code.setVisible(has_code)
+        self._code.setMinimumHeight(CODE_LINES * self.fontMetrics().lineSpacing())
+        for view, side in zip(self.listings, sides, strict=True):
+            if side.listing is None or view.toPlainText() != side.listing.source.rstrip("\n"):
+                view.show_listing(side.listing)
+            view.show_line(side.line or None)
         name = self.buffer_box.currentText()
         self.grids[2].empty_text = comparison.summary
         self.grids[2].show_buffer(comparison.difference)
         self.grids[2].show_overlays(comparison.marks)
         self.grids[2].show_geometry(comparison.first.geometry)
         self._write(self.titles[2], f"Difference, {name}" if name else "Difference", 3)
-        self._write(self.summary, comparison.summary, 5)
+        self._write(self.summary, comparison.summary, lines)
 
     def show_flipped(self, is_flipped: bool) -> None:
         """Show B in the place of A and A in the place of B, or both in their own places."""

@@ -15,6 +15,7 @@ from widgets.grid.buffer import GridBuffer, number_text
 from widgets.grid.compare_view import Comparison, Side
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.overlay import Mark, MaskOverlay
+from widgets.inspector.listing import ListingText
 
 OTHER = "read them at a pixel, or choose a buffer that both share."
 SHOWN_MARKS = ("rejected", "tie", "nan", "failed")
@@ -57,9 +58,18 @@ def _hold_the_same(a: GridBuffer, b: GridBuffer) -> bool:
 
 
 def side_of(
-    name: str, settings: str, place: Place, geometry: GridGeometry, buffer: GridBuffer | None, wanted: str
+    name: str,
+    settings: str,
+    place: Place,
+    geometry: GridGeometry,
+    buffer: GridBuffer | None,
+    wanted: str,
+    has_listing: bool = False,
 ) -> Side:
-    """Return one picture: ``name`` is A or B, ``settings`` what it draws with, ``wanted`` the buffer compared."""
+    """Return one picture: ``name`` is A or B, ``settings`` what it draws with, ``wanted`` the buffer compared.
+
+    With ``has_listing``, its listing comes along, with the line that has just run.
+    """
     cursor = place.cursor
     stage = place.trace.stage(cursor.stage)
     counted = "" if place.done is None else f"step {place.done:,} of {place.steps:,}"
@@ -71,6 +81,8 @@ def side_of(
     reason = "" if buffer is not None else f"{name} has no buffer “{wanted}” in this stage."
     if buffer is not None and place.steps and place.done == place.steps and _is_empty(buffer):
         counted += "; it gives no pixel a value"
+    explanation = stage.explain(cursor.position) if has_listing and cursor.position else None
+    listing = None if explanation is None else explanation.listing
     overlays = mask_overlays(stage, place.trace.source.raster, cursor.position)
     return Side(
         name=name,
@@ -82,6 +94,8 @@ def side_of(
         overlays=tuple(overlay for overlay in overlays if overlay.key in SHOWN_MARKS),
         geometry=geometry,
         step=step_mark(place.trace, cursor),
+        listing=None if listing is None else ListingText(listing.function.__name__, listing.source),
+        line=explanation.line if explanation is not None else 0,
     )
 
 

@@ -18,9 +18,11 @@ from app.pages.step.vertex_drags import VertexDrags
 from app.session.session import Cursor, Session
 from app.session.tracing import QUICK_SECONDS
 from core import STAGES, Settings, Trace
+from core.methods import ReplacedName
 from core.records.steps import Level
 from core.scene import AnyScene
 from core.settings import WHOLE_NUMBERS
+from widgets.basics.settings_panel import SettingChoice
 from widgets.grid.compare_view import CompareView, Comparison, Side
 from widgets.grid.geometry import GridGeometry
 
@@ -71,6 +73,8 @@ class ComparePresenter(QObject):
         """The run with a mistake that B is; ``None``: it is one that the settings can name."""
         self._seeks = False
         """Whether both runs go to their first divergence when B is drawn."""
+        self._printed = ""
+        """Name of the listing as printed that B runs; empty: none."""
         self._steps: LockStep | None = None
         self._job, self._search = Job(self), Job(self)
         self._job.succeeded.connect(self._take)
@@ -129,12 +133,40 @@ class ComparePresenter(QObject):
         if is_active and self._differences:
             self._view.show_family(next(iter(self._differences)))
 
+    @property
+    def printed(self) -> str:
+        """Name of the listing as printed that B runs; empty: none."""
+        return self._printed if self._faulty() is not None else ""
+
+    def show_printed(self, name: str, *, seeks: bool = True) -> None:
+        """Let A run the right method, and B a listing as a slide prints it, see `lessons.printed`.
+
+        Both go to the first step in which they differ, where ``seeks`` is set.
+
+        Raises
+        ------
+        ValueError
+            If the listing does not run in the pipeline, or not on this scene.
+        """
+        from app.session.printed_run import settings_of, title_of  # Wanted by few, long after the start.
+
+        scene = self._session.latest.scene
+        mine, other = settings_of(name, self._session.latest)
+        if mine != self._session.latest.settings:
+            self._session.edit(replace(self._session.latest, settings=mine))
+        self._compare(mine.differences(other), OtherRun(scene, scene, title_of(name)), name, seeks)
+
     def set_differences(self, differences: Mapping[str, str | int], run: OtherRun | None = None) -> None:
         """Choose what B does otherwise than the page; nothing: something that shows in the stage at hand.
 
         With the ``run`` of a mistake, both go to the first step in which they differ.
         """
-        self._run, self._seeks = run, run is not None
+        self._compare(differences, run, "", run is not None)
+
+    def _compare(
+        self, differences: Mapping[str, str | int], run: OtherRun | None, printed: str, seeks: bool
+    ) -> None:
+        self._run, self._seeks, self._printed = run, seeks, printed
         mine = self._session.document.settings
         self._differences = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
         self._is_chosen = bool(differences) or run is not None
@@ -150,8 +182,11 @@ class ComparePresenter(QObject):
 
     @Slot(str, str)
     def _choose(self, family: str, value: str) -> None:
+        if not value:
+            return  # What is printed stays as it is.
         chosen: str | int = int(value) if family in WHOLE_NUMBERS else value
-        self.set_differences({**self._differences, family: chosen})
+        named = {name: of for name, of in self._differences.items() if not isinstance(of, ReplacedName)}
+        self.set_differences({**named, family: chosen})
 
     @Slot()
     def _reset(self) -> None:
@@ -205,7 +240,16 @@ class ComparePresenter(QObject):
             self._differences = first_difference(document, session.trace, self._stage)
         run = self._faulty()
         other = replace(document, settings=self.other, scene=document.scene if run is None else run.scene)
-        self._view.show_settings(settings_records(other), frozenset(self._differences))
+        shown = settings_records(other)
+        if self.printed and run is not None:
+            label = SettingChoice("", run.title)
+            shown = [
+                replace(each, choices=(label, *each.choices), current="")
+                if each.family in self._differences
+                else each
+                for each in shown
+            ]
+        self._view.show_settings(shown, frozenset(self._differences))
         if not self._is_chosen and self._differences:
             self._view.show_family(next(iter(self._differences)))
         self._view.set_pixel_center(document.settings.pixel_center)
@@ -229,7 +273,20 @@ class ComparePresenter(QObject):
         self._meet(second)
         if self._seeks:
             self._seeks = False
+            if self._printed and self._land_where_pixels_differ(second):
+                return
             self.go_to_divergence()
+
+    def _land_where_pixels_differ(self, second: Trace) -> bool:
+        """Put both runs at the first step that draws another pixel; return whether there is one."""
+        from app.session.printed_run import first_other_pixel
+
+        found = first_other_pixel(self._session.trace.stage("raster"), second.stage("raster"))
+        if found is not None:
+            rows, said = found
+            self._put_at("raster", *rows)
+            self.message_sent.emit(f"{said} Ctrl+[ goes back.")
+        return found is not None
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
@@ -343,8 +400,15 @@ class ComparePresenter(QObject):
         names = {name: buffer.label for each in reversed(buffers) for name, buffer in each.items()}
         chosen = self._buffer if self._buffer in names else first_comparable(buffers)
         self._view.show_buffers(tuple(names.items()), chosen)
+        has_listings = bool(self.printed)
         first = side_of(
-            "A", "current settings", mine, self._outlines(mine), buffers[0].get(chosen), names[chosen]
+            "A",
+            "current settings",
+            mine,
+            self._outlines(mine),
+            buffers[0].get(chosen),
+            names[chosen],
+            has_listings,
         )
         run = self._faulty()
         title = settings_difference(session.document.settings, self.other) or "the same settings"
@@ -354,7 +418,7 @@ class ComparePresenter(QObject):
             comparison = Comparison(first, blank, None, self._refusal)
         else:
             picture = buffers[1].get(chosen)
-            other = side_of("B", title, theirs, self._outlines(theirs), picture, names[chosen])
+            other = side_of("B", title, theirs, self._outlines(theirs), picture, names[chosen], has_listings)
             comparison = compare(first, other)
         self._view.show_comparison(comparison)
         self.refresh_pointing()

@@ -13,6 +13,7 @@ def look_of(page: StepPage, text_size: TextSize) -> Look:
         grid=page.grids.look(),
         orbits={name: OrbitRecord(**vars(orbit)) for name, orbit in page.views.chosen_orbits().items()},
         other=dict(page.comparing.differences),
+        printed=page.comparing.printed,
         other_buffer=page.comparing.buffer,
         panes=page.shown_panes(),
         text_size=text_size,
@@ -25,6 +26,8 @@ def show_look(page: StepPage, look: Look) -> None:
     page.main_area.views_by_hand = dict(look.views)
     page.comparing.set_buffer(look.other_buffer)
     page.comparing.set_differences(look.other)
+    if look.printed:
+        page.comparing.show_printed(look.printed, seeks=False)
     page.choose_event(look.event)
     if look.panes is not None:
         page.show_panes(look.panes)

@@ -8,6 +8,7 @@ import pytest
 from app.help.library import find_page, guide_page, page
 from app.help.places import occurrences, places
 from app.help.reference import NEEDS, listings_of
+from app.session.printed_run import runnable
 from app.views.stage_views import VIEWS
 from app.window.keys import ACTIONS
 from core.methods import table
@@ -52,6 +53,7 @@ def test_no_link_is_dead() -> None:
         "use": {f"{method.family}/{method.name}" for method in table},
         "compare": {family.name for family in study_families()},
         "stability": {experiment.info.name for experiment in experiments},
+        "printed": {printed.name for printed in runnable()},
     }
     dead = [link for link in crawled()[1] if link.partition("/")[2] not in known[link.partition("/")[0]]]
     assert dead == []
