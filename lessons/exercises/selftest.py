@@ -6,7 +6,7 @@ from hashlib import sha256
 from math import sqrt
 
 from lessons.exercises.answers.answer import Response
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import SEED_LIMIT, Draws
 from lessons.exercises.question import Question, Template, ask, judge
 
 GUESSES, LEAST_GUESSES, MOST_GUESSES = 2000, 10, 100
@@ -51,7 +51,8 @@ def check_template(template: Template, seeds: range) -> Findings:
         problems += [f"seed {seed}: {problem}" for problem in question_problems(question)]
         for name, wrong in question.draft.mistakes.items():
             equal.update((name, other) for other in judge(question, wrong).mistakes if other > name)
-        draws = Draws(seed)
+        # Of another seed than the question: its first draw would be the first draw of the question, too.
+        draws = Draws(SEED_LIMIT - seed)
         judged = [judge(question, answer.random(draws)) for _ in range(guesses)]
         guessed += sum(one.verdict.score for one in judged) / guesses
         named += sum(bool(one.mistakes) for one in judged) / guesses
