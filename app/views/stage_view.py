@@ -8,6 +8,7 @@ from app.views.pointed_pixel import pointed_pixels, shown_triangle
 from app.views.pyramid_diagram import pyramid_diagram
 from app.views.texture_footprint import texture_pictures
 from core import STAGES
+from core.trace.geometry_progress import CLIP, spaces_reached
 from widgets.space.texture_levels import TextureLevels
 from widgets.space.view import SpaceView
 
@@ -45,6 +46,19 @@ class StageView:
             self.draw()
 
 
+NOT_YET = "The vertices come to clip space here, at the end of Transform."
+
+
+def is_in_clip_space(session: Session) -> bool:
+    """Return whether the triangle shown has come to clip space: before that the views of it would show what comes."""
+    cursor, trace = session.cursor, session.trace
+    if cursor.stage != STAGES[0]:
+        return True
+    assembled = trace.source.geometry.assembled.triangle
+    reached = spaces_reached(trace, cursor.stage, cursor.position)
+    return bool((reached[assembled == shown_triangle(session)] >= CLIP).all())
+
+
 class ClipView(StageView):
     """Triangles and planes in clip space, up to the step of the clipping that the cursor is at."""
 
@@ -54,14 +68,19 @@ class ClipView(StageView):
         """Return the drawing in space."""
         self._space = SpaceView()
         self._space.setAccessibleName("Clip space")
+        self._space.empty_text = NOT_YET
         return self._space
 
     def made_from(self) -> object:
         """Return trace, triangle and how much is clipped."""
-        return (self.session.trace, shown_triangle(self.session), self._position())
+        is_there = is_in_clip_space(self.session)
+        return (self.session.trace, shown_triangle(self.session), self._position(), is_there)
 
     def draw(self) -> None:
         """Draw the triangle and what clipping leaves of it."""
+        if not is_in_clip_space(self.session):
+            self._space.show_diagram(None)
+            return
         state = clip_state(self.session.trace, shown_triangle(self.session), self._position())
         self._space.show_diagram(clip_diagram(state))
 
@@ -82,14 +101,19 @@ class PyramidView(StageView):
         """Return the drawing in space."""
         self._space = SpaceView()
         self._space.setAccessibleName("Homogeneous rasterization: triangle in (x, y, w)")
+        self._space.empty_text = NOT_YET
         return self._space
 
     def made_from(self) -> object:
         """Return trace, triangle and the first pixel that is pointed at."""
-        return (self.session.trace, shown_triangle(self.session), pointed_pixels(self.session)[:1])
+        pixels, is_there = pointed_pixels(self.session)[:1], is_in_clip_space(self.session)
+        return (self.session.trace, shown_triangle(self.session), pixels, is_there)
 
     def draw(self) -> None:
         """Draw the triangle, and the ray of the pixel."""
+        if not is_in_clip_space(self.session):
+            self._space.show_diagram(None)
+            return
         pixels = pointed_pixels(self.session)
         pixel = pixels[0] if pixels else None
         triangle = shown_triangle(self.session)

@@ -195,6 +195,8 @@ def paint_numbers(
             if (hidden is not None and hidden[row, column]) or not buffer.is_known(column, row):
                 continue
             color = image.pixelColor(column, placement.rows - 1 - row)
+            if buffer.kind == "color" and color.alpha() == 0:
+                continue  # cleared: four zeros in every cell would hide what is drawn over them
             painter.setPen(dark if _is_light(color, backdrop) else light)
             rect = placement.cells_rect(column, row)
             lines = buffer.lines_at(column, row, 4, width)

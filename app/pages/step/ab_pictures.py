@@ -118,8 +118,8 @@ def compare(first: Side, second: Side) -> Comparison:
         scale = _common_range(a, b)
         a, b = replace(a, range=scale), replace(b, range=scale)
         first, second = replace(first, buffer=a), replace(second, buffer=b)
-    amount = b.values.astype(float) - a.values.astype(float)
     with np.errstate(invalid="ignore"):
+        amount = b.values.astype(float) - a.values.astype(float)
         changed = (a.values != b.values) & ~(np.isnan(amount) & ~_is_one_nan(a, b))
     if amount.ndim == 3:
         changed = changed.any(axis=2)

@@ -337,7 +337,7 @@ def test_a_view_that_has_grown_unseen_is_drawn_again(show, qtbot):
 
 
 def test_the_wheel_goes_all_the_way_to_what_is_under_the_pointer(show, qtbot):
-    _, views, widget = show("scene", "torus", 700)
+    _, views, widget = show("scene", "torus", 500)
     space, shot = views.scene_presenter.space, views.scene_presenter.drawn.shot
     # A place of the picture where something is seen, and the point there.
     x, y = next((h.x, h.y) for h in widget.picture().handles)
@@ -356,7 +356,7 @@ def test_the_wheel_goes_all_the_way_to_what_is_under_the_pointer(show, qtbot):
         QApplication.sendEvent(widget, event)
         rested(qtbot, views)
     eye = widget.orbit().eye(viewing_camera(space, widget.orbit()).field_of_view)
-    world = space.corners(700)
+    world = space.corners(500)
     assert np.linalg.norm(world - eye, axis=1).min() < 0.01 * space.radius
 
 

@@ -139,3 +139,16 @@ def test_an_edge_has_its_line_when_it_is_set_up(window: MainWindow) -> None:
             sum(len(overlay.segments) for overlay in grid.overlays() if overlay.key == "edge lines")
         )
     assert counts == [0, 0, 0, 0, 0, 1, 2, 3]
+
+
+@pytest.mark.parametrize("view", ["clip", "pyramid"])
+def test_no_view_of_clip_space_shows_it_before_the_vertices_are_there(window: MainWindow, view: str) -> None:
+    open_scene(window, "near-plane", Settings())
+    session = window.session
+    session.set_stage("transform", 0)
+    window.page.show_view(view)
+    space = window.page.main_view()
+    assert isinstance(space, SpaceView)
+    assert space.diagram() is None
+    session.go_to(session.stage_trace.steps.count)
+    assert space.diagram() is not None
