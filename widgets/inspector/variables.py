@@ -243,7 +243,8 @@ class VariablesView(QTreeWidget):
 
     def _cells(self, variable: Variable) -> "tuple[_Cell, _Cell, _Cell]":
         theme, font, is_changed = current_theme(), self.font().key(), variable.is_changed()
-        name_color = theme.text if variable.vertex is None else theme.vertex_text[variable.vertex]
+        # A polygon has more corners than there are colours: they begin anew.
+        name_color = theme.text if variable.vertex is None else theme.vertex_text[variable.vertex % 3]
         texts, full = (
             [value_text(value, **how) for value in (variable.now, variable.before)]
             for how in ({"is_fraction": self._is_fraction, "digits": variable.digits}, {"is_full": True})

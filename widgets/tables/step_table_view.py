@@ -88,7 +88,7 @@ class _Cells(QTableView):
                 _fill(item, cell, (row, place) in table.made, row == table.row)
                 vertex = table.columns[place].vertex
                 if vertex is not None:
-                    item.setForeground(QColor(current_theme().vertex_text[vertex]))
+                    item.setForeground(QColor(current_theme().vertex_text[vertex % 3]))
                 if item.model() is None:
                     items.setItem(row, place, item)
         self._fit()

@@ -191,8 +191,8 @@ def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverla
     if stage.stage not in ("bin", "raster"):
         return None
     bins = trace.stage("bin")
-    if "sample" in bins.columns:
-        # Every sample has blocks of its own: over each other they would show nothing.
+    if "sample" in bins.columns or "column" not in bins.columns:
+        # Every sample has blocks of its own: over each other they would show nothing. Typed depths have none.
         return None
     done = bins.steps.rows_done(position) if stage.stage == "bin" else bins.steps.row_count
     first_column, first_row, end_column, end_row = trace.source.raster.bounds

@@ -18,7 +18,7 @@ from core.records.tables import StepTable, TableCell
 from core.records.words import counted, joined, noun_of
 from core.trace import StageTrace
 
-_DIGITS = "₀₁₂"
+_DIGITS = str.maketrans("0123456789", "₀₁₂₃₄₅₆₇₈₉")
 _WAYS = {
     "clip-enter": ("enters", "PE"),
     "clip-leave": ("leaves", "PL"),
@@ -147,7 +147,7 @@ def _distance(corner: int) -> FilledColumn:
         return step.vector("w" if step.kind == "behind" else "distances")[corner]
 
     meaning = f"Signed distance of corner {corner} from the plane: below 0 is outside."
-    return FilledColumn(f"d{_DIGITS[corner]}", meaning, value, "applies", vertex=corner)
+    return FilledColumn(f"d{str(corner).translate(_DIGITS)}", meaning, value, "applies", vertex=corner)
 
 
 def _side(step: StepValues) -> str:
