@@ -123,7 +123,7 @@ def draw_determinant(draws: Draws) -> Draft | None:
 
 TEMPLATES = (
     Template("face-order", 1, "Vertex orders that face away", "cull", 2, draw_order),
-    Template("faces-from-eye", 1, "N . V with perspective", "cull", 3, draw_eye),
+    Template("faces-from-eye", 1, "Faces that face away from the eye", "cull", 3, draw_eye),
     Template("outside-one-border", 1, "Triangles outside of one border", "cull", 3, draw_outside),
     Template("bounding-box", 1, "An axis-aligned bounding box", "cull", 1, draw_box),
     Template("homogeneous-determinant", 1, "The determinant of (x, y, w)", "cull", 3, draw_determinant),

@@ -84,12 +84,12 @@ def draw_culled(draws: Draws) -> Draft | None:
         [(6 * k + draws.whole(0, 10) * HALF, draws.whole(0, 16) * HALF) for _ in range(3)] for k in range(2)
     ]
     areas = [twice_area(corners) for corners in triangles]
-    if areas[0] * areas[1] >= 0 or min(map(abs, areas)) < 8:
+    if areas[0] * areas[1] >= 0 or min(map(abs, areas)) < 9:
         return None
     scene, settings = triangle_scene(np.array(triangles, float), SIZE), Settings(cull="back")
     wrong = {
         name: seen_pixels(SHELF[name].draw(scene, settings))
-        for name in ("facing-exchanged", "all-edges-inclusive")
+        for name in ("facing-exchanged", "corner-for-center")
     }
     text = f"Back faces are culled: counter-clockwise is the front. Which pixels are drawn? {RULE}"
     hints = ("Go round each triangle in its order.", "Only one of the two is drawn.")
@@ -236,13 +236,14 @@ def draw_texels(draws: Draws) -> Draft | None:
     wrong = {name: dark(SHELF[name].draw(scene, settings)) for name in names}
     text = (
         "A rectangle over the whole window shows this texture by the nearest texel; beyond u = 1 it starts again. "
-        "Which pixels show a dark texel (#)? (u, v) = (0, 0) is the lower left corner of texture and window."
+        "Which pixels show a dark texel? (u, v) = (0, 0) is the lower left corner of texture and window."
     )
-    art = ["".join("#."[int(texel)] for texel in row) for row in texels[::-1]]
+    rows = [
+        f"Row {j} of texels: {', '.join(('dark', 'light')[int(c)] for c in texels[j])}" for j in (2, 1, 0)
+    ]
     given = [
         f"u runs from 0 to {across} across the window, v from 0 to 1 upwards.",
-        "Texture, top row first:",
-        *art,
+        *rows,
     ]
     hints = (
         "How many pixels wide and high is a texel in the window?",

@@ -249,10 +249,10 @@ def draw_factors(draws: Draws) -> Draft:
 
 
 TEMPLATES = (
-    Template("turn-and-move", 1, "T R p", "transform", 2, draw_order),
+    Template("turn-and-move", 1, "A point turned and moved", "transform", 2, draw_order),
     Template("turn-about-pivot", 1, "A turn about a point", "transform", 2, draw_pivot),
     Template("turn-by-degrees", 1, "A turn by degrees", "transform", 2, draw_degrees),
-    Template("scale-and-move", 1, "T S as a matrix", "transform", 3, draw_scaling),
+    Template("scale-and-move", 1, "Scaling and moving as a matrix", "transform", 3, draw_scaling),
     Template("translation-product", 1, "Translation with four coordinates", "transform", 2, draw_translation),
     Template("matrix-of-images", 1, "The matrix from three images", "transform", 3, draw_map),
     Template("camera-space", 1, "A point in camera space", "transform", 3, draw_camera),
