@@ -3,7 +3,9 @@
 The files that open are OBJ (with MTL and texture), PLY, STL, OFF, GLB and glTF. All of their triangles are
 there in the order of the file, and triangles of one polygon know it (``Mesh.faces``). An OBJ file that names
 no material file takes an image beside it, ``<stem>_texture.png`` or ``<stem>.png``, as its texture. What a
-file names but does not have, such as a texture, is a warning; anything else that is wrong is an error.
+file names but does not have, such as a texture, is a warning; anything else that is wrong is an error. Of a file
+without faces, OBJ's lines and points and PLY's edges and vertices open as segments and points, with a sentence that
+says so.
 """
 
 from collections.abc import Callable
@@ -19,11 +21,13 @@ from app.files.mesh_formats import (
     MeshFileError,
     OutsideMeshError,
     Report,
+    Wires,
     read_file,
 )
 from app.files.mesh_process import OpeningCancelledError, read_in_process
+from core.geometry.matrices import projection, transform, world_to_camera
 from core.records.arrays import Floats
-from core.scene import Camera, DirectionalLight, Mesh, Scene
+from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, Scene
 
 __all__ = [
     "EXTENSIONS",
@@ -48,7 +52,8 @@ MARGIN = 1.08
 class OpenedFile:
     """A scene from a mesh file, and what of the file could not be had."""
 
-    scene: Scene
+    scene: AnyScene
+    """Meshes with a camera; of a file without faces, its segments or points in clip space."""
     warnings: tuple[str, ...]
     """One sentence each; empty: everything that the file names is there."""
 
@@ -83,7 +88,7 @@ def open_mesh(
         If ``is_cancelled()``.
     """
     loaded = load_meshes(path, progress, is_cancelled, allows_outside)
-    scene = frame_meshes(loaded.meshes, size)
+    scene = frame_meshes(loaded.meshes, size) if loaded.wires is None else frame_wires(loaded.wires, size)
     if is_cancelled is not None and is_cancelled():
         raise OpeningCancelledError(f"opening {Path(path).name} was cancelled")
     return OpenedFile(scene, loaded.warnings)
@@ -124,7 +129,26 @@ def frame_meshes(meshes: tuple[Mesh, ...], size: tuple[int, int] = (512, 512)) -
     size : (width, height)
         Raster in pixels.
     """
-    clouds = [world_positions(mesh) for mesh in meshes]
+    camera = frame_clouds([world_positions(mesh) for mesh in meshes], size)
+    lights = (
+        DirectionalLight(np.array([0.4, -0.8, -0.7]), np.full(3, 0.75)),
+        DirectionalLight(np.array([-0.9, -0.1, -0.3]), np.full(3, 0.2)),
+    )
+    return Scene(meshes=meshes, camera=camera, lights=lights, size=size)
+
+
+def frame_wires(wires: Wires, size: tuple[int, int] = (512, 512)) -> ClipScene:
+    """Return points or segments in the clip space of a camera as that of `frame_meshes`; white where uncoloured."""
+    camera = frame_clouds([wires.positions[np.unique(wires.index)].T], size)
+    matrix = projection(camera, size[0] / size[1]) @ world_to_camera(camera)
+    clip = transform(matrix, np.column_stack([wires.positions, np.ones(len(wires.positions))]))
+    colors = np.ones((len(clip), 4)) if wires.colors is None else wires.colors
+    kind = "segments" if wires.index.shape[1] == 2 else "points"
+    return ClipScene(clip[wires.index], colors[wires.index], size, shared=wires.index, kind=kind)
+
+
+def frame_clouds(clouds: list[Floats], size: tuple[int, int]) -> Camera:
+    """Return the camera of `frame_meshes` for the world positions (3, N) of several meshes."""
     low = np.min([points.min(axis=1) for points in clouds], axis=0)
     high = np.max([points.max(axis=1) for points in clouds], axis=0)
     target = low / 2 + high / 2
@@ -148,18 +172,13 @@ def frame_meshes(meshes: tuple[Mesh, ...], size: tuple[int, int] = (512, 512)) -
         for plane in planes:
             distance = max(distance, MARGIN * float((plane[0] * x + plane[1] * y + plane[2] * z).max()))
     distance = max(distance, 1.1 * radius)
-    camera = Camera(
+    return Camera(
         eye=target + toward * (distance * scale),
         target=target,
         field_of_view=field_of_view,
         near=max(0.9 * (distance - radius), 0.02 * distance) * scale,
         far=(distance + 1.5 * radius) * scale,
     )
-    lights = (
-        DirectionalLight(np.array([0.4, -0.8, -0.7]), np.full(3, 0.75)),
-        DirectionalLight(np.array([-0.9, -0.1, -0.3]), np.full(3, 0.2)),
-    )
-    return Scene(meshes=meshes, camera=camera, lights=lights, size=size)
 
 
 def world_positions(mesh: Mesh) -> Floats:

@@ -104,7 +104,7 @@ def restored(loaded: LoadedMeshes) -> LoadedMeshes:
         if texture is not None:
             texture = textures.setdefault(id(texture), replace(texture))
         meshes.append(replace(mesh, texture=texture))
-    return LoadedMeshes(tuple(meshes), loaded.warnings)
+    return replace(loaded, meshes=tuple(meshes))
 
 
 def serve() -> None:

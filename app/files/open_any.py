@@ -12,7 +12,7 @@ from app.files.mesh_sources import remember_file
 from app.files.named_files import OutsideWarning
 from app.files.state_files import EXTENSION, State, load_state
 from app.session.document import STEPPED, Document, check_drawing, open_document, shortened
-from core.scene import AnyScene
+from core.scene import AnyScene, Scene
 from core.settings import settings_from_texts
 from lessons.slides.scenes import ALL_SCENES
 
@@ -79,7 +79,8 @@ def open_any(
         return Opened(document, warnings, state, str(path))
     opened = open_mesh(target, progress, is_cancelled, allows_outside=allows_outside)
     check_memory(path, opened.scene)
-    remember_file(path, opened.scene.meshes, allows_outside)
+    if isinstance(opened.scene, Scene):
+        remember_file(path, opened.scene.meshes, allows_outside)
     return Opened(
         open_document(opened.scene, shown_name(path.stem), str(path)), opened.warnings, None, str(path)
     )

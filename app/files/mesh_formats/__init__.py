@@ -21,6 +21,7 @@ from app.files.mesh_formats.reading import (
     OutsideMeshError,
     Reader,
     Report,
+    Wires,
     check_positions,
 )
 from app.files.mesh_formats.stl import read_stl
@@ -63,6 +64,7 @@ __all__ = [
     "OutsideMeshError",
     "Reader",
     "Report",
+    "Wires",
     "read_file",
 ]
 
@@ -85,7 +87,8 @@ def read_file(path: Path, report: Report, allows_outside: bool = False) -> Loade
         if path.stat().st_size == 0:
             raise MeshFileError(f"{path.name} is empty")
         loaded = reader(path, report, NamedFiles(path, allows_outside))
-        check_meshes(path, loaded.meshes)
+        if loaded.wires is None:
+            check_meshes(path, loaded.meshes)
         loaded = replace(loaded, warnings=first_warnings(loaded.warnings))
     except MeshFileError:
         raise

@@ -1,5 +1,6 @@
 """OBJ, the Wavefront text format: polygons over positions, texture coordinates and normals numbered apart."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,13 +13,16 @@ from app.files.mesh_formats.reading import (
     LoadedMeshes,
     MeshFileError,
     Report,
+    Wires,
     check_memory,
     check_positions,
     check_text,
+    load_wires,
 )
 from app.files.named_files import NamedFiles
 from core.geometry.vertex_stage import vertex_normals
 from core.records.arrays import Floats, Integers
+from core.records.words import counted
 from core.scene import Mesh
 
 MEMORY_PER_BYTE = 16
@@ -33,12 +37,12 @@ def read_obj(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     Each run of faces with one material is a mesh, so that triangles stay in the order of the file. Where
     the file names no material library and has texture coordinates, an image that stands beside it as
     ``<stem>_texture.png`` or ``<stem>.png`` (or ``.jpg``) is its texture. Vertex colours, ``v x y z r g b``,
-    count as sRGB.
+    count as sRGB. Of a file without faces, ``l`` lines are segments, and without those ``p`` lines are points.
 
     Raises
     ------
     MeshFileError
-        If a line cannot be read, a number names something that is not there, or there are no faces.
+        If a line cannot be read, a number names something that is not there, or there are no faces, lines and points.
     OSError
         If ``path`` cannot be read.
     """
@@ -48,11 +52,31 @@ def read_obj(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     report(None, "joining corners")
     if not found.positions:
         raise MeshFileError(f"{path.name} has no vertices: it is empty or no OBJ file")
+    points, segments = np.array(found.points, np.int64), np.array(found.segments, np.int64).reshape(-1, 2)
     if not found.sizes:
-        raise MeshFileError(f"{path.name} has no faces")
+        if not len(points) and not len(segments):
+            raise MeshFileError(f"{path.name} has no faces")
+        return read_wires(path, found, points, segments)
     numbers = np.array(found.corners).reshape(-1, 3)
     check_numbers(path, found, numbers)
-    return build_meshes(path, found, numbers - 1, TextureReader(files), report)
+    loaded = build_meshes(path, found, numbers - 1, TextureReader(files), report)
+    if not len(points) and not len(segments):
+        return loaded
+    said = f"{counted(len(segments), 'segment')} and {counted(len(points), 'point')} beside the faces are left out"
+    return replace(loaded, warnings=(*loaded.warnings, said))
+
+
+def read_wires(path: Path, found: ObjLines, points: Integers, segments: Integers) -> LoadedMeshes:
+    """Return the segments (K, 2) of a file without faces, or else its points (K,); both count from 1."""
+    positions = np.array(found.positions).reshape(-1, 3)
+    colors = None
+    if found.colors:
+        colors = vertex_colors(np.array(found.colors).reshape(-1, 3), np.arange(len(positions)), None)
+    warnings = []
+    if len(points) and len(segments):
+        warnings.append(f"{counted(len(points), 'point')} beside the segments are left out")
+    index = segments if len(segments) else points[:, None]
+    return load_wires(path, Wires(positions, index - 1, colors), warnings)
 
 
 def check_numbers(path: Path, found: ObjLines, numbers: Integers) -> None:

@@ -3,6 +3,7 @@
 from array import array
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import Path
 
 from app.files.input_files import open_input
@@ -33,6 +34,10 @@ class ObjLines:
     materials: list[tuple[int, str]] = field(default_factory=list)
     """First face and name of each ``usemtl``."""
     libraries: list[str] = field(default_factory=list)
+    segments: "array[int]" = field(default_factory=lambda: array("q"))
+    """Two a segment of ``l`` lines: numbers of positions from 1."""
+    points: "array[int]" = field(default_factory=lambda: array("q"))
+    """Numbers of positions of ``p`` lines, from 1."""
 
     def vertex(self, numbers: Sequence[float]) -> None:
         """Add a ``v`` line: x y z, x y z w, x y z r g b or x y z r g b a."""
@@ -55,6 +60,14 @@ class ObjLines:
             self.corners.extend(self.corner(word))
         self.sizes.append(len(words))
         self.lines.append(line)
+
+    def line(self, words: list[str]) -> None:
+        """Add an ``l`` line: a strip of segments."""
+        if len(words) < 2:
+            raise ValueError(f"a line needs at least 2 vertices, got {len(words)}")
+        numbers = [self.corner(word)[0] for word in words]
+        for ends in pairwise(numbers):
+            self.segments.extend(ends)
 
     def corner(self, word: str) -> list[int]:
         """Return the three numbers of ``v``, ``v/vt``, ``v//vn`` or ``v/vt/vn``; negative ones count back from here."""
@@ -132,17 +145,21 @@ def read_lines(path: Path, report: Report) -> ObjLines:
 
 
 def read_line(found: ObjLines, line: str, number: int) -> None:
-    """Put what one line says into ``found``; keywords that draw no triangles are passed over."""
+    """Put what one line says into ``found``; keywords that draw nothing are passed over."""
     words = line.split()
     if not words:
         return
     keyword = words[0]
-    if "#" in line and keyword in ("v", "vt", "vn", "f"):
+    if "#" in line and keyword in ("v", "vt", "vn", "f", "l", "p"):
         words = line.partition("#")[0].split()
     if keyword == "v":
         found.vertex([float(word) for word in words[1:]])
     elif keyword == "f":
         found.face(words[1:], number)
+    elif keyword == "l":
+        found.line(words[1:])
+    elif keyword == "p":
+        found.points.extend(found.corner(word)[0] for word in words[1:])
     elif keyword == "vt":
         if len(words) < 2:
             raise ValueError("a texture coordinate needs 1 number or more, got 0")

@@ -9,7 +9,15 @@ from app.files.input_files import open_input
 from app.files.mesh_formats.images import TextureReader, linear_from_srgb
 from app.files.mesh_formats.ply_body import Column, Element, Property, Rows, read_body
 from app.files.mesh_formats.polygons import check_polygons, share_vertices, triangulate_polygons
-from app.files.mesh_formats.reading import LoadedMeshes, MeshFileError, Report, check_memory, check_positions
+from app.files.mesh_formats.reading import (
+    LoadedMeshes,
+    MeshFileError,
+    Report,
+    Wires,
+    check_memory,
+    check_positions,
+    load_wires,
+)
 from app.files.named_files import NamedFileError, NamedFiles, left_out
 from core.geometry.vertex_stage import vertex_normals
 from core.records.arrays import Floats
@@ -79,12 +87,12 @@ def read_ply(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     """Read a PLY file: text or binary of either byte order, polygons of any size.
 
     Positions, normals, colours of vertices or faces, and texture coordinates of vertices or corners are read.
-    Colours count as sRGB.
+    Colours count as sRGB. Without faces, the element ``edge`` is read as segments; without it, vertices are points.
 
     Raises
     ------
     MeshFileError
-        If the file is cut short, names a vertex that it does not have, or has no faces.
+        If the file is cut short, names a vertex that it does not have, or has no vertices.
     OSError
         If ``path`` cannot be read.
     """
@@ -96,9 +104,17 @@ def read_ply(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
         raise MeshFileError(f"{path.name} has no vertices")
     corners = face.lists.get("vertex_indices", face.lists.get("vertex_index"))
     if corners is None or not len(corners.sizes):
-        raise MeshFileError(f"{path.name} has no faces")
+        return read_wires(path, vertex, body.get("edge", Rows(0, {}, {})))
     report(None, "joining corners")
     return build_mesh(path, header, vertex, face, corners, TextureReader(files), report)
+
+
+def read_wires(path: Path, vertex: Rows, edge: Rows) -> LoadedMeshes:
+    """Return the edges of a file without faces as segments, or else its vertices as points."""
+    index = np.arange(vertex.count)[:, None]
+    if edge.count and all(name in edge.columns for name in ("vertex1", "vertex2")):
+        index = np.stack([edge.columns[name].astype(np.int64) for name in ("vertex1", "vertex2")], axis=1)
+    return load_wires(path, Wires(stacked(vertex, "xyz"), index, read_colors(vertex)), [])
 
 
 def build_mesh(

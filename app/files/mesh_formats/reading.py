@@ -9,7 +9,8 @@ import numpy as np
 from app.files.input_files import open_input
 from app.files.memory import amounts, free_memory
 from app.files.named_files import NamedFiles
-from core.records.arrays import Floats
+from core.records.arrays import Floats, Integers
+from core.records.words import counted
 from core.scene import Mesh
 
 LARGEST = float(np.finfo(np.float32).max)
@@ -35,12 +36,44 @@ class OutsideMeshError(MeshFileError):
 
 
 @dataclass(frozen=True, eq=False)
+class Wires:
+    """Points or segments of a file without faces."""
+
+    positions: Floats
+    """(N, 3) float64."""
+    index: Integers
+    """(K, 1) int64 vertices of points, (K, 2) of segments."""
+    colors: Floats | None = None
+    """(N, 4) float64, linear."""
+
+    @property
+    def text(self) -> str:
+        """What they are, with their number."""
+        return counted(len(self.index), "segment" if self.index.shape[1] == 2 else "point")
+
+
+@dataclass(frozen=True, eq=False)
 class LoadedMeshes:
     """The meshes of a file, in its order, and what of it could not be had."""
 
     meshes: tuple[Mesh, ...]
     warnings: tuple[str, ...] = ()
     """One sentence for each thing that is missing though the file names it, as a texture."""
+    wires: Wires | None = None
+    """What the file has in place of faces; ``meshes`` is empty then."""
+
+
+def load_wires(path: Path, wires: Wires, warnings: list[str]) -> LoadedMeshes:
+    """Return the points or segments of a file, and say what was read; raise MeshFileError for a wrong vertex."""
+    check_positions(path, wires.positions)
+    count = len(wires.positions)
+    wrong = (wires.index < 0) | (wires.index >= count)
+    if wrong.any():
+        raise MeshFileError(
+            f"{path.name}: a line or point names vertex {int(wires.index[wrong][0]) + 1} of {count}, counted from 1"
+        )
+    said = f"{path.name} has no faces: {wires.text} {'is' if len(wires.index) == 1 else 'are'} drawn"
+    return LoadedMeshes((), (said, *warnings), wires)
 
 
 Reader = Callable[[Path, Report, NamedFiles], LoadedMeshes]

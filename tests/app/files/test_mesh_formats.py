@@ -150,7 +150,6 @@ def test_a_missing_texture_of_a_ply_is_a_warning(tmp_path):
         ("ply\nformat ascii 1.0\nelement vertex 1\nproperty quad x\nend_header\n", "property quad x"),
         ("ply\nformat squeezed 1.0\nend_header\n", "format squeezed"),
         ("ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nend_header\n", "no vertices"),
-        (ply_text(LINES, []), "no faces"),
         (ply_text(LINES, ["3 0 1 6"]), "face 0 names vertex 6, the file has 6, counted from 0"),
         (ply_text(LINES, ["3 0 1 2", "3 0 1 -1"]), "face 1 names vertex -1"),
         (ply_text(LINES, ["3 0 1 2.5"]), "face 0 names vertex 2.5"),
