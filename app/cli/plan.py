@@ -17,6 +17,7 @@ from app.cli.arguments import (
 from app.cli.commands import UsageError, add_allow_outside
 from app.cli.study import aligned
 from core import Settings
+from core.explain.kinds import of_kind
 from core.study import PlanReport, Tolerance, plan_and_check
 from core.study.planner.corpus import corpus_scene
 from core.study.planner.measuring import ROUNDS
@@ -105,7 +106,8 @@ def run(options: argparse.Namespace) -> int:
 def report_text(report: PlanReport) -> list[str]:
     """Return what is printed of one plan: what was seen, chosen, predicted and measured."""
     chosen = report.plan
-    lines = [f"{fact.title}: {fact.text}" for fact in chosen.findings.facts]
+    corners = chosen.findings.corner_count
+    lines = [of_kind(f"{fact.title}: {fact.text}", corners) for fact in chosen.findings.facts]
     measured = {outcome.decision.setting: outcome for outcome in report.outcomes}
     rows = [["setting", "chosen", "instead of", "predicted", "measured"]]
     for decision in chosen.decisions:
@@ -118,7 +120,7 @@ def report_text(report: PlanReport) -> list[str]:
         else:
             rows.append([decision.setting, decision.chosen, "kept" if decision.is_needed else "", "", ""])
     lines += ["", *aligned(rows), ""]
-    lines += [f"{decision.setting}: {decision.reason}" for decision in chosen.decisions]
+    lines += [f"{decision.setting}: {of_kind(decision.reason, corners)}" for decision in chosen.decisions]
     lines += ["", *(each.text for each in chosen.tessellations)]
     lines += [
         f"{outcome.decision.setting} {outcome.decision.chosen}: {outcome.text}."

@@ -166,7 +166,7 @@ class PlanPresenter(BackgroundTask):
             stale=stale,
             findings=findings_html(plan.findings),
             findings_note=f"({len(facts)})",
-            advice=advice_html(plan.tessellations),
+            advice=advice_html(plan.tessellations, plan.findings.corner_count),
             can_draw=report is not None,
         )
 

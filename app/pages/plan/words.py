@@ -1,10 +1,12 @@
 """A plan in words: its rows, what it comes to, and what was seen in the scene."""
 
+from dataclasses import replace
 from html import escape
 
 import numpy as np
 
 from app.pages.words import digits, time_text
+from core.explain.kinds import of_kind
 from core.explain.stage_texts import family_title
 from core.methods import table
 from core.records.words import counted, joined
@@ -37,7 +39,11 @@ def tolerance_text(tolerance: Tolerance) -> str:
 def rows_of(plan: Plan, report: PlanReport | None) -> tuple[PlanRow, ...]:
     """Return a row for every decision; without a report nothing has been measured yet."""
     outcomes = {} if report is None else {outcome.decision.setting: outcome for outcome in report.outcomes}
-    return tuple(_row(each, outcomes.get(each.setting), report) for each in plan.decisions)
+    corners = plan.findings.corner_count
+    return tuple(
+        replace(row, reason=of_kind(row.reason, corners))
+        for row in (_row(each, outcomes.get(each.setting), report) for each in plan.decisions)
+    )
 
 
 def _row(decision: Decision, outcome: Outcome | None, report: PlanReport | None) -> PlanRow:
@@ -138,14 +144,15 @@ def _method_title(family: str, value: str | int) -> str:
 def findings_html(findings: Findings) -> str:
     """Return the facts as a table, as rich text."""
     rows = (
-        f"<tr><td>{escape(fact.title)}&nbsp;&nbsp;</td><td align='right'>{escape(fact.text)}</td></tr>"
+        f"<tr><td>{escape(of_kind(fact.title, findings.corner_count))}&nbsp;&nbsp;</td>"
+        f"<td align='right'>{escape(of_kind(fact.text, findings.corner_count))}</td></tr>"
         for fact in findings.facts
     )
     return f"<table width='100%' cellspacing='2'>{''.join(rows)}</table>"
 
 
-def advice_html(tessellations: tuple[Tessellation, ...]) -> str:
+def advice_html(tessellations: tuple[Tessellation, ...], corner_count: int) -> str:
     """Return the advice on how fine meshes are, as rich text."""
     if not tessellations:
-        return "Separate triangles do not describe a smooth surface."
+        return of_kind("Separate triangles do not describe a smooth surface.", corner_count)
     return "".join(f"<p style='margin:2px 0'>{escape(each.text)}</p>" for each in tessellations)

@@ -58,6 +58,8 @@ class Seen:
     """Whether some alpha is below 1."""
     closed: str
     """How many meshes are closed."""
+    corner_count: int
+    """Of the scene's primitives."""
 
 
 def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, int, int], ...]) -> Seen:
@@ -84,6 +86,7 @@ def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, i
         highlight=_highlight(scene) if "normal" in primitives.layout else None,
         is_translucent=_is_translucent(geometry, scene),
         closed=_closed(scene),
+        corner_count=scene.corner_count,
     )
 
 
@@ -103,6 +106,9 @@ def facts_of(seen: Seen) -> tuple[Fact, ...]:
         Fact("layers", "Fragments in a pixel, at most", f"{seen.layers:,}"),
         Fact("depth-range", "Window depth", _depth_range(seen)),
     ]
+    if seen.corner_count < 3:
+        # Without an area nothing faces away, and nothing is closed.
+        facts = [fact for fact in facts if fact.name not in ("backs", "closed")]
     if seen.texels is not None:
         facts.append(Fact("texels", "Longest step of a pixel in a texture", f"{figure(seen.texels)} texels"))
     if seen.lean is not None:

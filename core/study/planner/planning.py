@@ -139,7 +139,7 @@ def _look(scene: AnyScene, everything: Settings, trials: Trials) -> tuple[Seen, 
     tried = Fact(
         "tried", "Rows of pixels that settings are tried on", f"{trials.rows:,} of {scene.size[1]:,}"
     )
-    return seen, Findings((*facts_of(seen), tried), perf_counter() - start)
+    return seen, Findings((*facts_of(seen), tried), perf_counter() - start, seen.corner_count)
 
 
 def _choose(
@@ -154,6 +154,8 @@ def _choose(
 ) -> Choice:
     """Return the first cheaper method of a family that is within the tolerance and takes no longer."""
     dearest = getattr(before, family)
+    if family == "cull" and seen.corner_count < 3:
+        return Choice(family, dearest, dearest)
     if (family == "cull" and dearest != "none") or dearest == "additive" or dearest == CHEAPER[family][0]:
         return Choice(family, dearest, dearest)
     if has_no_effect(family, before, seen):

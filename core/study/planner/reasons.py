@@ -60,6 +60,8 @@ def change_text(trial: Trial) -> str:
 def _fact(choice: Choice, seen: Seen, is_compared: bool) -> str:
     """Return what of the scene bears on a family."""
     match choice.family:
+        case "cull" if seen.corner_count < 3:
+            return "Without an area nothing faces away."
         case "cull" if choice.dearest != "none":
             return "The settings leave out front faces."
         case "cull" if not seen.backs:

@@ -68,6 +68,8 @@ class Findings:
     """In pipeline order, to be read."""
     seconds: float
     """How long the looking took."""
+    corner_count: int = 3
+    """Of the scene's primitives: less than 3 of segments and points, see ``core.scene``."""
 
 
 @dataclass(frozen=True)
