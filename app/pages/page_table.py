@@ -64,7 +64,7 @@ PAGE_KINDS = (
         b'"rasterscope stress"',
     ),
     PageKind("plan", "Plan", "Find the cheapest methods that this scene needs (Alt+4)", _make_plan),
-    PageKind("exercises", "Exercises", "Answer on the picture, learn from it (Alt+5)", _make_exercises),
+    PageKind("exercises", "Exercises", "Answer on the picture (Alt+5)", _make_exercises, (".toml",)),
 )
 HEAD = 256
 """Bytes at the beginning of a file that name the program it is of."""

@@ -241,6 +241,8 @@ ACTIONS: tuple[KeyAction, ...] = (
             "answer_rows", ("Ctrl+L",), "Answer row by row instead of on the picture", ANSWERING, "Exercises"
         ),
         KeyAction("try_next", ("Ctrl+Shift+N",), "Exercise to try next", ANSWERING, "Exercises"),
+        KeyAction("show_progress", ("Ctrl+I",), "Progress, and who answers", ANSWERING, "Exercises"),
+        KeyAction("add_exercises", (), "Add a folder of exercises…", ANSWERING, "Exercises"),
         KeyAction("next_exercise", ("Ctrl+PgDown",), "Next exercise", ANSWERING, "Exercises"),
         KeyAction("previous_exercise", ("Ctrl+PgUp",), "Previous exercise", ANSWERING, "Exercises"),
     ),

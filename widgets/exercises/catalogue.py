@@ -6,7 +6,7 @@ from PySide6.QtCore import QSize, Qt, Signal, Slot
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QAbstractItemView, QLineEdit, QTreeWidget, QTreeWidgetItem, QWidget
 
-from widgets.basics.controls import button_with_tip, column_layout
+from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.labels import text_label
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
@@ -29,6 +29,7 @@ class Catalogue(QWidget):
     """Name of an exercise."""
     next_requested = Signal()
     """What to try next is wanted."""
+    progress_requested = Signal()
     line_entered = Signal(str)
     """A line that gives a question, as it is handed out."""
 
@@ -40,6 +41,8 @@ class Catalogue(QWidget):
         self.setAccessibleName("Exercises by stage")
         self.next_button = button_with_tip("Try next", "Open the exercise that suits you now", self)
         self.next_button.clicked.connect(self.next_requested)
+        self.progress_button = button_with_tip("Progress", "Points, mistakes, and who answers (Ctrl+I)", self)
+        self.progress_button.clicked.connect(self.progress_requested)
         self.next_label = text_label("", self, role="muted", wraps=True)
         self.tree = QTreeWidget(self)
         self.tree.setAccessibleName("Exercises")
@@ -64,7 +67,10 @@ class Catalogue(QWidget):
         self.line.setToolTip("Type or paste a line that was handed out, then press Return")
         self.line.returnPressed.connect(self._enter)
         layout = column_layout(self, 8, margins=(0, 4, 8, 8))
-        layout.addWidget(self.next_button)
+        buttons = row_layout(spacing=8)
+        buttons.addWidget(self.next_button, 1)
+        buttons.addWidget(self.progress_button)
+        layout.addLayout(buttons)
         layout.addWidget(self.next_label)
         layout.addWidget(self.tree, 1)
         layout.addWidget(text_label("Open a question by its line", self, role="muted"))

@@ -61,7 +61,8 @@ class CataloguePresenter(QObject):
         self.user = DEFAULT_USER
         self.templates: dict[str, Template] = dict(TEMPLATES)
         """By name, stage by stage."""
-        self._attempts: Attempts = ()
+        self.attempts: Attempts = ()
+        """Of the learner, in the order of time."""
         self._choice: Choice | None = None
         self._current = ""
         self._shown: list[str] = []
@@ -94,6 +95,11 @@ class CataloguePresenter(QObject):
         self._reading.start(work)
         self.refresh()
 
+    def set_user(self, user: str) -> None:
+        """Let somebody else answer."""
+        self.user, self.attempts, self._choice = user, (), None
+        self.begin()
+
     def stop(self) -> None:
         """End all work."""
         self._reading.shut_down()
@@ -101,7 +107,7 @@ class CataloguePresenter(QObject):
 
     @Slot(object)
     def _take_found(self, found: Found) -> None:
-        self.templates, self._attempts = {**self.templates, **found.templates}, found.attempts
+        self.templates, self.attempts = {**self.templates, **found.templates}, found.attempts
         if found.trouble:
             self.refused.emit(found.trouble)
         self._choose()
@@ -110,12 +116,12 @@ class CataloguePresenter(QObject):
     @Slot(object)
     def take_attempt(self, attempt: Attempt) -> None:
         """Take one more attempt, which is kept already."""
-        self._attempts = (*self._attempts, attempt)
+        self.attempts = (*self.attempts, attempt)
         self._choose()
 
     def _choose(self) -> None:
         """Choose what to try next."""
-        attempts, user = self._attempts, self.user
+        attempts, user = self.attempts, self.user
         templates = {
             name: self.templates[name] for name in dict.fromkeys((*FIRST_COURSE, *self._practised()))
         }
@@ -200,8 +206,8 @@ class CataloguePresenter(QObject):
     @Slot()
     def refresh(self) -> None:
         """Show all exercises and how far the learner is."""
-        solved = {attempt.template for attempt in self._attempts if attempt.score == 1}
-        tried = {attempt.template for attempt in self._attempts}
+        solved = {attempt.template for attempt in self.attempts if attempt.score == 1}
+        tried = {attempt.template for attempt in self.attempts}
         begun = self._unfinished.answers.answers
 
         def standing(name: str) -> Standing:

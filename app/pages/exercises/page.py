@@ -1,18 +1,29 @@
 """The Exercises page: the catalogue, a question with its picture, the check, and the runs behind an answer."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
 from PySide6.QtGui import QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QApplication, QPushButton, QSplitter, QWidget
+from PySide6.QtWidgets import (
+    QApplication,
+    QFileDialog,
+    QPushButton,
+    QSplitter,
+    QStackedWidget,
+    QWidget,
+)
 
+from app.files.exercise_folders import add_folder
 from app.pages.exercises.asked_scene import AskedScene
 from app.pages.exercises.catalogue_presenter import FIRST_COURSE, CataloguePresenter
+from app.pages.exercises.progress_presenter import ProgressPresenter
 from app.pages.exercises.question_presenter import QuestionPresenter
 from app.pages.exercises.unfinished import UnfinishedFile
 from app.pages.page_bar import Caption, Handlers, Page
 from app.pages.side_columns import SideColumns
 from app.session.session import Session
+from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Template
 from widgets.basics.controls import column_layout
 from widgets.basics.focus_order import give_focus, tab_stops
@@ -22,6 +33,7 @@ from widgets.exercises.catalogue import Catalogue
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.pixel_answer import PixelAnswerView
 from widgets.exercises.place_answer import PlaceAnswerView
+from widgets.exercises.progress_view import ProgressView
 from widgets.exercises.question_view import QuestionView
 
 if TYPE_CHECKING:
@@ -45,13 +57,17 @@ class ExercisesPage(Page):
         self.unfinished = UnfinishedFile(self)
         self.questions = QuestionPresenter(self.question_view, self.grid, self.unfinished, self)
         self.exercises = CataloguePresenter(self.catalogue, self.unfinished, self)
-        self.questions.user = self.exercises.user
+        self.progress_view = ProgressView(self)
+        self.progress = ProgressPresenter(self.progress_view, self)
         self.panes = PaneSplitter(Qt.Orientation.Horizontal, self)
         for pane, stretch in ((self.question_view, 2), (self.grid, 3)):
             self.panes.addWidget(pane)
             self.panes.setStretchFactor(self.panes.count() - 1, stretch)
         self.panes.setSizes([400, 600])
-        self.columns = SideColumns(self.catalogue, self.panes, self)
+        self.stack = QStackedWidget(self)
+        self.stack.addWidget(self.panes)
+        self.stack.addWidget(self.progress_view)
+        self.columns = SideColumns(self.catalogue, self.stack, self)
         self.columns.setSizes([CATALOGUE_WIDTH, 1000])
         layout = column_layout(self, margins=(8, 4, 8, 8))
         layout.addWidget(self.columns)
@@ -65,7 +81,18 @@ class ExercisesPage(Page):
         self.questions.checked.connect(self.exercises.take_attempt)
         self.questions.message_sent.connect(self.message_sent)
         self.questions.step_requested.connect(self.step_requested)
-        for source in (self.questions.refused, self.exercises.refused, self.unfinished.failed):
+        self.catalogue.progress_requested.connect(self.toggle_progress)
+        self.progress_view.closed.connect(self.toggle_progress)
+        self.progress.user_changed.connect(self._set_user)
+        self.progress.attempts_added.connect(self.exercises.begin)
+        self.progress.message_sent.connect(self.message_sent)
+        self.exercises.found.connect(self._show_progress)
+        for source in (
+            self.questions.refused,
+            self.exercises.refused,
+            self.unfinished.failed,
+            self.progress.refused,
+        ):
             source.connect(self.edit_refused)
         self.hiding = AskedScene(session, self.questions, self)
         self.hiding.hiding_toggled.connect(self._toggle_hiding)
@@ -81,6 +108,7 @@ class ExercisesPage(Page):
         trouble = self.unfinished.read()
         if trouble:
             self.edit_refused.emit(trouble)
+        self.exercises.user = self.questions.user = self.unfinished.answers.user
         self.exercises.found.connect(self._open_last)
         self.exercises.begin()
         if not self.unfinished.answers.current or self._last() is not None:
@@ -107,6 +135,9 @@ class ExercisesPage(Page):
     def _focus_answer(self) -> None:
         """Let the next key answer: on the picture, or in the first field."""
         answer = self.question_view.answer
+        if self.stack.currentWidget() is self.progress_view:
+            give_focus(self.progress_view.close_button)
+            return
         if answer is None or not self.isVisible():
             return
         stops = [self.grid] if isinstance(answer, PixelAnswerView | PlaceAnswerView) else tab_stops([answer])
@@ -120,6 +151,7 @@ class ExercisesPage(Page):
     def _open(self, template: Template, seed: int | None) -> None:
         self._wants_catalogue = None
         self._make_room()
+        self.stack.setCurrentWidget(self.panes)
         self.questions.open(template, seed)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
@@ -136,6 +168,58 @@ class ExercisesPage(Page):
     def question(self) -> "Question | None":
         """The question that is shown."""
         return self.questions.question
+
+    # Progress.
+
+    @Slot()
+    def toggle_progress(self) -> None:
+        """Show points and mistakes in place of the question, or the question again."""
+        is_shown = self.stack.currentWidget() is self.progress_view
+        self.stack.setCurrentWidget(self.panes if is_shown else self.progress_view)
+        self._show_progress()
+        self.take_focus()
+
+    @Slot()
+    def _show_progress(self) -> None:
+        if self.stack.currentWidget() is self.progress_view:
+            self.progress.show(self.exercises.attempts, self.exercises.user)
+
+    @Slot(str)
+    def _set_user(self, user: str) -> None:
+        self.unfinished.keep_user(user)
+        self.questions.user = user
+        self.exercises.set_user(user)
+        if self.question is not None:
+            self.questions.open(self.question.template, self.question.seed)
+
+    def dismiss(self) -> bool:
+        """Close the progress."""
+        is_shown = self.stack.currentWidget() is self.progress_view
+        if is_shown:
+            self.toggle_progress()
+        return is_shown
+
+    @Slot()
+    def ask_folder(self) -> None:
+        """Ask for a folder of own exercises, and take them into the catalogue."""
+        folder = QFileDialog.getExistingDirectory(self.window(), "Add a folder of exercises")
+        if folder:
+            try:
+                add_folder(folder)
+            except (OSError, ValueError) as problem:
+                self.edit_refused.emit(f"The folder was not added: {problem}.")
+            else:
+                self.exercises.begin()
+
+    def open_path(self, path: str) -> None:
+        """Ask the exercise of a file."""
+        try:
+            template = read_exercise(Path(path))
+        except (OSError, ValueError) as problem:
+            self.edit_refused.emit(f"{problem}. The page is unchanged.")
+        else:
+            self.exercises.templates[template.name] = template
+            self._open(template, None)
 
     # The catalogue takes its room last.
 
@@ -172,6 +256,8 @@ class ExercisesPage(Page):
             "next_exercise": lambda: self.exercises.open_neighbour(1),
             "previous_exercise": lambda: self.exercises.open_neighbour(-1),
             "try_next": self.exercises.open_next,
+            "show_progress": self.toggle_progress,
+            "add_exercises": self.ask_folder,
         }
 
     def _toggle_rows(self) -> None:
@@ -182,8 +268,8 @@ class ExercisesPage(Page):
             self.message_sent.emit("This answer is given in fields already.")
 
     def main_view(self) -> QWidget:
-        """Return what is exported and copied: the question with its picture."""
-        return self.panes
+        """Return what is exported and copied: the question with its picture, or the progress."""
+        return self.stack.currentWidget() or self.stack
 
     def focus_panes(self) -> list[QWidget]:
         """Return what F6 goes through after the question: the picture, the catalogue, and the borders."""

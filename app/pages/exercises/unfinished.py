@@ -11,6 +11,7 @@ from app.background.workers import Job, Progress
 from app.files.data_folder import data_folder
 from app.files.file_writing import make_folder, write_file
 from app.files.input_files import read_input
+from lessons.attempts.record import DEFAULT_USER
 from lessons.exercises.draws import SEED_LIMIT
 
 FILE_NAME = "answers.json"
@@ -43,6 +44,8 @@ class UnfinishedAnswers(BaseModel):
 
     program: Literal["rasterscope answers"] = "rasterscope answers"
     version: Literal[1] = 1
+    user: str = DEFAULT_USER
+    """Who answers."""
     current: str = ""
     """Name of the exercise that was open last."""
     answers: dict[str, Unfinished] = {}
@@ -88,7 +91,13 @@ class UnfinishedFile(QObject):
     def keep(self, name: str, unfinished: Unfinished) -> None:
         """Keep the answer to an exercise, and that it is the one that is open."""
         answers = {**self.answers.answers, name: unfinished}
-        changed = self.answers.model_copy(update={"current": name, "answers": answers})
+        self._change(self.answers.model_copy(update={"current": name, "answers": answers}))
+
+    def keep_user(self, user: str) -> None:
+        """Keep who answers; answers in progress are those of nobody else."""
+        self._change(UnfinishedAnswers(user=user, current=self.answers.current))
+
+    def _change(self, changed: UnfinishedAnswers) -> None:
         if changed != self.answers:
             self.answers, self._is_dirty = changed, True
             self._timer.start()

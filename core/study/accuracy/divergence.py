@@ -79,7 +79,8 @@ def stage_divergence(first: StageTrace, second: StageTrace, by_outcome: bool = F
     """
     if is_same_schedule(first, second):
         outcomes = stage_of(first.stage).outcomes if by_outcome else ()
-        names = outcomes or tuple(
+        # A scene that enters the pipeline later has no columns in the stages before.
+        names = tuple(name for name in outcomes if name in first.columns) or tuple(
             name for name in first.columns if name in second.columns and name not in NAMES
         )
         differs = _differing(first, second, names, np.arange(first.steps.row_count), None)

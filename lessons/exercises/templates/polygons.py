@@ -1,5 +1,6 @@
 """Clipping triangles and segments: planes of the view volume, new corners, what is left."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -163,7 +164,8 @@ def draw_verdict(draws: Draws) -> Draft | None:
         "N . D < 0 enters, N . D > 0 leaves.",
         "Compare the last entry with the first exit.",
     )
-    return one_of(text, given, VERDICTS, verdict, hints, wrong, scene)
+    # Of the right run, too: where nothing is clipped, the mistake would have no listing to be stepped in.
+    return replace(one_of(text, given, VERDICTS, verdict, hints, wrong, scene), settings=settings)
 
 
 def draw_rejected(draws: Draws) -> Draft | None:

@@ -1,6 +1,7 @@
 """The Exercises page, as a learner uses it: on the picture, in fields, by mouse and by keyboard alone."""
 
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -331,6 +332,39 @@ def test_a_belief_is_refuted_by_a_step_and_a_mistake_by_its_picture(
     with qtbot.waitSignal(window.opening.opened):
         QTest.mouseClick(button, LEFT)
     assert (window.session.cursor.stage, window.session.cursor.position) == ("transform", 12)
+
+
+def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path) -> None:
+    """What was missed is counted; somebody else begins anew; answers are exchanged; a file is asked."""
+    shown = page("triangle-coverage")
+    assert shown.question is not None
+    shown.questions.answer(shown.question.draft.mistakes["y-down"])
+    check(shown)
+    QTest.mouseClick(shown.catalogue.progress_button, LEFT)
+    tree = shown.progress_view.tree
+    rows = {tree.topLevelItem(0).child(k).text(0): tree.topLevelItem(0).child(k).text(1) for k in range(5)}  # type: ignore[union-attr]
+    assert rows["y down"] == "1 of 1"
+    assert rows["corner for center"] == "0 of 1"
+    shown.progress.export_to(str(tmp_path / "answers.json"))
+    shown.progress_view.users.setFocus()
+    shown.progress_view.users.setEditText("Ada")
+    QTest.keyClick(shown.progress_view.users.lineEdit(), Qt.Key.Key_Return)
+    shown.settle()
+    assert tree.topLevelItemCount() == 0
+    assert shown.questions.user == "Ada"
+    assert shown.grid.marked() == frozenset()
+    shown.progress.import_from(str(tmp_path / "answers.json"))
+    shown.progress.import_from(str(tmp_path / "nothing.json"))
+    assert shown.dismiss()
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        'version = 1\ntitle = "Mine"\nstage = "raster"\nquestion = "Which?"\n'
+        '[answer]\ntype = "choice"\noptions = ["a", "b"]\nright = ["a"]\n'
+    )
+    shown.open_path(str(path))
+    shown.settle()
+    assert shown.question.template.title == "Mine"
+    assert shown.grid.isHidden()
 
 
 def test_every_form_takes_every_answer_of_its_questions() -> None:

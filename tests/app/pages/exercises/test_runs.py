@@ -1,0 +1,50 @@
+"""The runs behind questions: each faulty run can be stepped beside the right one, up to their first difference."""
+
+from dataclasses import replace
+
+import pytest
+
+from app.pages.exercises.runs import faulty_picture, faulty_run, is_pictured, is_stepped, refuting_step
+from app.pages.exercises.scene_outline import document_of
+from core.study.accuracy.divergence import diverge
+from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.question import Question, ask, judge
+
+
+def compare(question: Question, mistake: str) -> None:
+    """Trace both runs, and search for where they differ."""
+    request = faulty_run(question, mistake)
+    assert request is not None
+    assert request.other is not None
+    assert request.other_scene is not None
+    document = document_of(question.draft, "")
+    other = replace(document, settings=request.other, scene=request.other_scene)
+    diverge(document.make_trace(), other.make_trace(), by_outcome=True)
+
+
+@pytest.mark.parametrize("name", ["cyrus-beck-verdict", "z-buffer-grid"])
+def test_runs_that_once_could_not_be_compared(name: str) -> None:
+    """One had no listing to be stepped in, the other enters the pipeline behind the raster stage."""
+    question = next(
+        found
+        for found in (ask(TEMPLATES[name], seed) for seed in range(20))
+        if any(is_stepped(found, mistake) for mistake in found.draft.mistakes)
+    )
+    for mistake in question.draft.mistakes:
+        compare(question, mistake)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", TEMPLATES)
+def test_every_mistake_can_be_shown(name: str) -> None:
+    question = ask(TEMPLATES[name], 7)
+    for mistake in question.draft.mistakes:
+        if is_stepped(question, mistake):
+            compare(question, mistake)
+        elif is_pictured(question, mistake):
+            assert faulty_picture(question, mistake).picture is not None
+    if question.draft.answer.kind == "choice":
+        for place in range(len(question.draft.answer.options)):  # type: ignore[attr-defined]
+            refutation = judge(question, frozenset({place})).refutation
+            if refutation is not None:
+                assert refuting_step(refutation, "").position
