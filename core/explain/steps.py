@@ -22,6 +22,7 @@ SUBJECTS = (
     *("fills", "polygon_fills", "polygon_clipping"),
     *("line_clipping", "lines", "smooth_lines", "interpolation", "barycentric", "textures", "shading"),
     *("depth", "packed_keys", "rays", "blending", "areas", "resolve", "clip_tables"),
+    "polygon_tables",
 )
 """Modules of ``core.explain.subjects``; the variables of a stage stand in their order."""
 

@@ -60,6 +60,8 @@ def _geometry_mark(
         rows = len(stage.triangle) // max(len(reached), 1)
         is_placed = reached[row // rows] == WINDOW
         return no_lines, _corners(trace, triangle)[[int(columns["corner"][row])]] if is_placed else no_points
+    if "edge_start" in columns:
+        return _filled_part(stage, row), no_points
     if "region_edge" in columns:
         return _clipped_edge(trace, stage, row)
     if stage.stage == "bin" and kind != "behind":
@@ -83,6 +85,15 @@ def _geometry_mark(
         edge = edges[[int(columns["edge"][row])]]
         return edge if np.isfinite(edge).all() else edges, no_points
     return edges, no_points
+
+
+def _filled_part(stage: StageTrace, row: int) -> Floats:
+    """Return (1, 2, 2) the edge, or the interval between two edges, that a step of a polygon's fill is about."""
+    columns = stage.columns
+    if not np.isfinite(columns["interval_left"][row]):
+        return np.stack([columns["lower"][row], columns["upper"][row]])[None]
+    y = float(columns["row"][row]) + float(np.asarray(stage.constants["center"]))
+    return np.array([[[columns["interval_left"][row], y], [columns["interval_right"][row], y]]])
 
 
 def _clipped_edge(trace: Trace, stage: StageTrace, row: int) -> tuple[Floats, Floats]:

@@ -158,7 +158,8 @@ def decides(step: StepValues) -> Said:
         parts: list[Part] = [(r"\mathrm{winding}", winding), (r"\ne", r"\ne" if winding else "="), "0"]
     else:
         crossed = step.whole("crossed")
-        parts = [(r"\mathrm{crossed} \bmod 2", rf"{crossed} \bmod 2"), "=", ("1", crossed % 2)]
+        remainder = r"\; \mathrm{mod} \; 2"
+        parts = [(rf"\mathrm{{crossed}} {remainder}", f"{crossed} {remainder}"), "=", ("1", crossed % 2)]
     return f"{text}.", equation(*parts, *conclusion("inside", found))
 
 

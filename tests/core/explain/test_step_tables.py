@@ -12,6 +12,7 @@ from core.geometry.line_clipping.cohen_sutherland import cohen_sutherland_listin
 from core.geometry.line_clipping.liang_barsky import liang_barsky_listing
 from core.records.tables import StepTable
 from core.trace import StageTrace
+from lessons.scenes import make_scene
 from lessons.slides.scenes import clipped, degenerate, frustum_segments
 
 WINDOW = (4.0, 3.0, 12.0, 9.0)
@@ -142,3 +143,24 @@ def test_corners_that_all_lie_on_a_plane_are_inside_it():
     assert explanation is not None
     said = sentence(explanation, 0, None)
     assert "all of its corners lie on it, which counts as inside" in said
+
+
+def test_tables_of_polygons_fill_with_edges_crossings_and_walks() -> None:
+    raster = trace(make_scene("polygon-holes"), triangle=0).stage("raster")
+    done = raster.steps.rows_done(20)
+    edges = step_table(raster, 20)
+    assert edges is not None
+    assert edges.title == "Edge table of polygon 0"
+    assert len(edges.rows) == 14
+    assert sum(line[0] is not None for line in edges.cells) == done + 1
+    row = step_table(raster, 200)
+    assert row is not None
+    assert row.title == f"Active edges of row {int(raster.columns['row'][raster.steps.row_at(200)[0]])}"
+    assert {line[0].text for line in row.cells if line[0]} == {"moves on", "inside", "outside"}
+    settings = Settings(polygon_clipping="weiler-atherton")
+    clip = trace(make_scene("weiler-atherton"), settings, triangle=0).stage("clip")
+    walk = step_table(clip, clip.steps.count)
+    assert walk is not None
+    assert walk.title == "Walk around ring 0 of the result"
+    assert walk.cells[0][0].text == "start"
+    assert walk.note.startswith("Along the clip window back to the start")
