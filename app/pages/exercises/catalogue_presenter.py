@@ -25,15 +25,19 @@ Attempts = tuple[Attempt, ...]
 FIRST_COURSE = (
     "triangle-coverage",
     "bresenham-pixels",
-    "facing",
-    "clip-ends",
-    "edge-values",
-    "barycentric-weights",
-    "depth-test-steps",
-    "blend-over",
+    "vertex-pixels",
+    "front-pixels",
+    "pixels-beyond-near",
+    "inner-side",
+    "box-pixels",
+    "below-half",
+    "texel-pixels",
+    "nearer-pixels",
+    "blended-twice",
+    "grey-pixels",
     "wrong-picture",
 )
-"""What somebody new is asked first, one or two of each stage, those on the picture before those by numbers."""
+"""What somebody new is asked first: on the picture, one or two of each stage."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -80,7 +80,7 @@ class ExercisesPage(Page):
         self.questions.asked.connect(self._focus_answer)
         self.questions.checked.connect(self.exercises.take_attempt)
         self.questions.message_sent.connect(self.message_sent)
-        self.questions.step_requested.connect(self.step_requested)
+        self.questions.evidence.step_requested.connect(self.step_requested)
         self.catalogue.progress_requested.connect(self.toggle_progress)
         self.progress_view.closed.connect(self.toggle_progress)
         self.progress.user_changed.connect(self._set_user)
@@ -89,6 +89,7 @@ class ExercisesPage(Page):
         self.exercises.found.connect(self._show_progress)
         for source in (
             self.questions.refused,
+            self.questions.evidence.refused,
             self.exercises.refused,
             self.unfinished.failed,
             self.progress.refused,
@@ -249,9 +250,9 @@ class ExercisesPage(Page):
             "next_hint": self.questions.show_hint,
             "new_variant": self.questions.ask_variant,
             "start_again": self.questions.ask_again,
-            "step_mistake": self.questions.show_twin,
+            "step_mistake": self.questions.evidence.show_mistake,
             "model_answer": self.questions.show_model,
-            "step_question": self.questions.step_hidden,
+            "step_question": self.questions.evidence.step_hidden,
             "answer_rows": self._toggle_rows,
             "next_exercise": lambda: self.exercises.open_neighbour(1),
             "previous_exercise": lambda: self.exercises.open_neighbour(-1),

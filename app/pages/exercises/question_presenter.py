@@ -1,29 +1,18 @@
 """Asks one question: takes the answer, checks it, shows hints, marks, the mistake, and the runs behind them."""
 
-from collections.abc import Callable
-from functools import partial
 from random import SystemRandom
 from time import monotonic
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QMenu
 
 from app.background.workers import JobGroup
 from app.pages.exercises.answer_kind import Live
 from app.pages.exercises.answer_kinds import KINDS
-from app.pages.exercises.runs import (
-    faulty_picture,
-    faulty_run,
-    is_pictured,
-    is_stepped,
-    refuting_step,
-    right_run,
-)
+from app.pages.exercises.evidence import Evidence
 from app.pages.exercises.unfinished import Unfinished, UnfinishedFile
 from app.pages.exercises.work import Asked, Checked, asking, checking, drawing
-from app.pages.page_bar import StepRequest
 from core.records.words import counted
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Question, Template
@@ -34,7 +23,6 @@ from widgets.exercises.records import Feedback, QuestionRecord
 VARIANTS = 10_000
 """Seeds that new variants are drawn from: short ones, to be read out."""
 SURE = "The model answer ends this question without points. Choose Model answer again to show it."
-BACK, SEVERAL = "Back to my answer", "Show those runs"
 SHOWN = "The model answer was shown before, so this earns nothing."
 
 
@@ -54,7 +42,6 @@ class QuestionPresenter(QObject):
     """The question may be asked now, or be asked no longer."""
     message_sent = Signal(str)
     refused = Signal(str)
-    step_requested = Signal(object)
 
     def __init__(
         self, view: QuestionView, grid: MarkGrid, unfinished: UnfinishedFile, parent: QObject | None = None
@@ -67,9 +54,8 @@ class QuestionPresenter(QObject):
         """What the last check found; ``None``: nothing was checked since the question was asked."""
         self._hints = 0
         self._has_answer = self._is_shown = self._is_sure = False
-        self._pictured = False
-        """Whether the picture of a mistake stands in place of the raster."""
         self._begun = monotonic()
+        self.evidence = Evidence(view, grid, self)
         self._jobs = JobGroup(self)
         self._asking, self._checking, self._drawing = (self._jobs.add_job() for _ in range(3))
         self._asking.succeeded.connect(self._show)
@@ -82,10 +68,8 @@ class QuestionPresenter(QObject):
         view.hint_requested.connect(self.show_hint)
         view.variant_requested.connect(self.ask_variant)
         view.again_requested.connect(self.ask_again)
-        view.twin_requested.connect(self.show_twin)
         view.model_requested.connect(self.show_model)
         view.copy_requested.connect(self.copy_line)
-        view.step_requested.connect(self.step_hidden)
 
     @property
     def is_working(self) -> bool:
@@ -134,7 +118,7 @@ class QuestionPresenter(QObject):
         kept = self._unfinished.answers.answers.get(template.name)
         if kept is None or (kept.version, kept.seed) != (template.version, question.seed):
             kept = Unfinished(version=template.version, seed=question.seed)
-        self._checked, self._pictured, self._is_sure = None, False, False
+        self._checked, self._is_sure = None, False
         self._has_answer = kept.given is not None
         self._hints, self._is_shown = min(kept.hints, len(draft.hints)), kept.is_shown
         self._begun = monotonic()
@@ -177,7 +161,7 @@ class QuestionPresenter(QObject):
     def _change(self) -> None:
         """Keep the answer at once; what was found of an earlier one holds no longer."""
         self._has_answer = True
-        self._end_picture()
+        self.evidence.end_picture()
         self._checking.cancel()  # It is about an earlier answer.
         if self._checked is not None:
             assert self._view.answer is not None
@@ -279,86 +263,8 @@ class QuestionPresenter(QObject):
         assert self.question is not None
         hints = self._all_hints()
         self._view.show_hints(hints[: self._hints], len(hints))
-        shown = self._shown()
-        has_run = self.question.draft.scene is not None
-        self._view.show_choices(
-            twin=BACK
-            if self._pictured
-            else ""
-            if not shown
-            else next(iter(shown))
-            if len(shown) == 1
-            else SEVERAL,
-            model="Model answer" if not self._is_shown else "Step the right run" if has_run else "",
-            step="Step it, hidden" if has_run and self.is_asked else "",
-        )
+        self.evidence.follow(self.question, self._checked, is_shown=self._is_shown)
         self.state_changed.emit()
-
-    def _shown(self) -> dict[str, Callable[[], None]]:
-        """Return what can be shown of the mistakes behind the answer, by what it is called."""
-        if self._checked is None or self.question is None:
-            return {}
-        question, judgement = self.question, self._checked.judgement
-        shown: dict[str, Callable[[], None]] = {}
-        for name in judgement.mistakes:
-            words = f": {name.replace('-', ' ')}" if len(judgement.mistakes) > 1 else ""
-            if is_stepped(question, name):
-                shown[f"Show that run{words}"] = partial(self._step, partial(faulty_run, question, name))
-            elif is_pictured(question, name):
-                shown[f"Show that picture{words}"] = partial(self._show_picture, name)
-        if judgement.refutation is not None:
-            title = question.template.title
-            shown["Show the step"] = partial(self._step, partial(refuting_step, judgement.refutation, title))
-        return shown
-
-    @Slot()
-    def show_twin(self) -> None:
-        """Show the run, the picture or the step behind a wrong answer; of several, ask which."""
-        shown = self._shown()
-        if self._pictured:
-            self._end_picture()
-        elif len(shown) == 1:
-            next(iter(shown.values()))()
-        elif shown:
-            menu = QMenu(self._view)
-            for text in shown:
-                menu.addAction(text)
-            chosen = menu.exec(self._view.twin_button.mapToGlobal(self._view.twin_button.rect().bottomLeft()))
-            if chosen is not None:
-                shown[chosen.text()]()
-
-    def _step(self, make: Callable[[], StepRequest | None]) -> None:
-        try:
-            request = make()
-        except ValueError as problem:
-            self.refused.emit(f"This cannot be stepped: {problem}.")
-            return
-        if request is not None:
-            self.step_requested.emit(request)
-
-    def _show_picture(self, name: str) -> None:
-        """Show the picture that the mistake makes, until the learner goes back to the answer."""
-        assert self.question is not None
-        self._show_live(faulty_picture(self.question, name))
-        self._pictured = True
-        self._view.show_note("The picture shows what this mistake makes of the scene.")
-        self._show_state()
-
-    def _end_picture(self) -> None:
-        if self._pictured:
-            self._pictured = False
-            self._grid.show_picture(None)
-            self._view.show_note("")
-            self._show_state()
-
-    @Slot()
-    def step_hidden(self) -> None:
-        """Step the scene of the question; the Step page hides what comes next, as while predicting."""
-        if self.question is None or not self.is_asked:
-            return
-        request = right_run(self.question, is_asked=True)
-        if request is not None:
-            self.step_requested.emit(request)
 
     def give_up(self) -> None:
         """Take the question back: the Step page has shown what it asks for."""
@@ -378,9 +284,7 @@ class QuestionPresenter(QObject):
             return
         answer = question.draft.answer
         if self._is_shown:
-            request = right_run(question)
-            if request is not None:
-                self.step_requested.emit(request)
+            self.evidence.step_right()
         elif self._checked is None and not self._is_sure:
             self._is_sure = True
             self._view.show_note(SURE)

@@ -1,0 +1,130 @@
+"""What stands behind an answer: the run or picture of its mistake, the step that refutes it, and the right run."""
+
+from collections.abc import Callable
+from functools import partial
+
+from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtWidgets import QMenu
+
+from app.pages.exercises.runs import (
+    faulty_picture,
+    faulty_run,
+    is_pictured,
+    is_stepped,
+    refuting_step,
+    right_run,
+)
+from app.pages.exercises.work import Checked
+from app.pages.page_bar import StepRequest
+from lessons.exercises.question import Question
+from widgets.exercises.mark_grid import MarkGrid
+from widgets.exercises.question_view import QuestionView
+
+BACK, SEVERAL = "Back to my answer", "Show those runs"
+
+
+class Evidence(QObject):
+    """Offers what can be shown of a question, and shows it when it is wanted."""
+
+    step_requested = Signal(object)
+    """A `StepRequest`."""
+    refused = Signal(str)
+
+    def __init__(self, view: QuestionView, grid: MarkGrid, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._view, self._grid = view, grid
+        self._question: Question | None = None
+        self._checked: Checked | None = None
+        self._is_shown = self._is_pictured = False
+        """Whether the model answer was shown, and whether the picture of a mistake stands in place of the raster."""
+        view.twin_requested.connect(self.show_mistake)
+        view.step_requested.connect(self.step_hidden)
+
+    def follow(self, question: Question, checked: Checked | None, *, is_shown: bool) -> None:
+        """Offer what can be shown of a question: it was checked, or its model answer ``is_shown``, or it is asked."""
+        if question is not self._question:
+            self._is_pictured = False
+        self._question, self._checked, self._is_shown = question, checked, is_shown
+        self._show_buttons()
+
+    def _show_buttons(self) -> None:
+        assert self._question is not None
+        shown, has_run = self._shown(), self._question.draft.scene is not None
+        is_asked = self._checked is None and not self._is_shown
+        mistake = "" if not shown else next(iter(shown)) if len(shown) == 1 else SEVERAL
+        self._view.show_choices(
+            twin=BACK if self._is_pictured else mistake,
+            model="Model answer" if not self._is_shown else "Step the right run" if has_run else "",
+            step="Step it, hidden" if has_run and is_asked else "",
+        )
+
+    def _shown(self) -> dict[str, Callable[[], None]]:
+        """Return what can be shown of the mistakes behind the answer, by what it is called."""
+        if self._checked is None or self._question is None:
+            return {}
+        question, judgement = self._question, self._checked.judgement
+        shown: dict[str, Callable[[], None]] = {}
+        for name in judgement.mistakes:
+            words = f": {name.replace('-', ' ')}" if len(judgement.mistakes) > 1 else ""
+            if is_stepped(question, name):
+                shown[f"Show that run{words}"] = partial(self._step, partial(faulty_run, question, name))
+            elif is_pictured(question, name):
+                shown[f"Show that picture{words}"] = partial(self._show_picture, name)
+        if judgement.refutation is not None:
+            title = question.template.title
+            shown["Show the step"] = partial(self._step, partial(refuting_step, judgement.refutation, title))
+        return shown
+
+    @Slot()
+    def show_mistake(self) -> None:
+        """Show the run, the picture or the step behind a wrong answer; of several, ask which."""
+        shown = self._shown()
+        if self._is_pictured:
+            self.end_picture()
+        elif len(shown) == 1:
+            next(iter(shown.values()))()
+        elif shown:
+            menu = QMenu(self._view)
+            for text in shown:
+                menu.addAction(text)
+            chosen = menu.exec(self._view.twin_button.mapToGlobal(self._view.twin_button.rect().bottomLeft()))
+            if chosen is not None:
+                shown[chosen.text()]()
+
+    def _step(self, make: Callable[[], StepRequest | None]) -> None:
+        try:
+            request = make()
+        except ValueError as problem:
+            self.refused.emit(f"This cannot be stepped: {problem}.")
+            return
+        if request is not None:
+            self.step_requested.emit(request)
+
+    def _show_picture(self, name: str) -> None:
+        """Show the picture that the mistake makes, until the learner goes back to the answer."""
+        assert self._question is not None
+        live = faulty_picture(self._question, name)
+        self._grid.show_geometry(live.outline)
+        self._grid.show_picture(live.picture, live.overlays)
+        self._is_pictured = True
+        self._view.show_note("The picture shows what this mistake makes of the scene.")
+        self._show_buttons()
+
+    def end_picture(self) -> None:
+        """Show the answer again."""
+        if self._is_pictured:
+            self._is_pictured = False
+            self._grid.show_picture(None)
+            self._view.show_note("")
+            self._show_buttons()
+
+    @Slot()
+    def step_hidden(self) -> None:
+        """Step the scene while it is asked about; the Step page hides what comes next, as while predicting."""
+        if self._question is not None and self._checked is None and not self._is_shown:
+            self._step(partial(right_run, self._question, is_asked=True))
+
+    def step_right(self) -> None:
+        """Step the right run."""
+        if self._question is not None:
+            self._step(partial(right_run, self._question))
