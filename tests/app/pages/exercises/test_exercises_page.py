@@ -361,7 +361,7 @@ def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path
         'version = 1\ntitle = "Mine"\nstage = "raster"\nquestion = "Which?"\n'
         '[answer]\ntype = "choice"\noptions = ["a", "b"]\nright = ["a"]\n'
     )
-    shown.open_path(str(path))
+    shown.window().open_path(str(path))  # type: ignore[attr-defined]
     shown.settle()
     assert shown.question.template.title == "Mine"
     assert shown.grid.isHidden()
