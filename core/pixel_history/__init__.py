@@ -61,6 +61,10 @@ def why(
         _check_sample(sample, settings)
         candidates = candidates_at(source, column, row, triangle, sample)
     events, counts, cover_count = list_events(candidates, resolve(settings).depth_format)
+    if scene.corner_count == 0:
+        # A patch without a fragment here is no near miss, and its other fragments are no triangles.
+        events = tuple(event for event in events if event.kind != "missed" or event.triangle == triangle)
+        counts = {}
     if triangle is None:
         verdict = pixel_verdict(events, counts, resolve(settings).blend_name)
     else:

@@ -43,12 +43,13 @@ class Trace:
         if name not in STAGES:
             raise ValueError(f"stage must be one of {', '.join(STAGES)}, got {name}")
         if name not in self._stages:
-            from core.trace.stage_trace import no_steps
+            from core.trace.stage_trace import without_steps
             from core.trace.tracers import trace_stage
 
+            found = trace_stage(self.source, name)
             corner_count = self.source.scene.corner_count
-            is_skipped = corner_count == 0 and STAGES.index(name) < STAGES.index("depth")
-            found = no_steps(name) if is_skipped else trace_stage(self.source, name)
+            if corner_count == 0 and STAGES.index(name) < STAGES.index("depth"):
+                found = without_steps(found)
             self._stages[name] = found if corner_count == 3 else replace(found, corner_count=corner_count)
         return self._stages[name]
 

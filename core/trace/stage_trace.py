@@ -1,7 +1,7 @@
 """What every stage's trace is: rows of numbers, marks, and buffers as they fill."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -176,7 +176,19 @@ def no_pixels(count: int) -> Integers:
     return np.full((count, 2), -1, np.int64)
 
 
-def no_steps(stage: str) -> StageTrace:
-    """Return the trace of a stage that a scene does not go through."""
-    none, ends = np.empty(0, np.int64), np.zeros(1, np.int64)
-    return StageTrace(stage, "", Steps((), none, {}, ends, ends), {}, none, no_pixels(0), {})
+def without_steps(found: StageTrace) -> StageTrace:
+    """Return the trace of a stage that a scene does not go through: nothing was done."""
+    start = np.zeros(1, np.int64)
+    tracks = (
+        replace(track, rows=track.rows[:0], places=track.places[:0], values=track.values[:0])
+        for track in found.buffers
+    )
+    return replace(
+        found,
+        steps=Steps(found.steps.kinds, found.steps.kind[:0], found.steps.operations, start, start),
+        columns={name: column[:0] for name, column in found.columns.items()},
+        triangle=found.triangle[:0],
+        pixel=found.pixel[:0],
+        marks={name: flags[:0] for name, flags in found.marks.items()},
+        buffers=tuple(tracks),
+    )

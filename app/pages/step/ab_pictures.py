@@ -119,7 +119,8 @@ def compare(first: Side, second: Side) -> Comparison:
         a, b = replace(a, range=scale), replace(b, range=scale)
         first, second = replace(first, buffer=a), replace(second, buffer=b)
     with np.errstate(invalid="ignore"):
-        amount = b.values.astype(float) - a.values.astype(float)
+        # Two infinities are equal, and not a number apart.
+        amount = np.where(a.values == b.values, 0.0, b.values.astype(float) - a.values.astype(float))
         changed = (a.values != b.values) & ~(np.isnan(amount) & ~_is_one_nan(a, b))
     if amount.ndim == 3:
         changed = changed.any(axis=2)

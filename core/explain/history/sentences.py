@@ -227,6 +227,8 @@ def _all_rejected(values: Values) -> str:
 
 def _nothing_near(values: Values) -> str:
     count = values["triangle_count"]
+    if not count:
+        return "no triangle covers this pixel"
     boxes = (
         "the bounding box of the only triangle"
         if count == 1

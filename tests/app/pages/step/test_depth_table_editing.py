@@ -1,5 +1,6 @@
 """A table of depths in the Scene pane: cells, order of the patches, test and size; undo, files, what is refused."""
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -11,6 +12,7 @@ from PySide6.QtWidgets import QApplication, QLineEdit
 
 from app.files.open_any import open_any
 from app.files.state_files import EXTENSION, State, StateFileError, load_state, save_state
+from app.pages.step.pixel_stories import story_of
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core.records.depth_table import DepthTable
@@ -166,3 +168,31 @@ def test_a_state_file_keeps_the_table(editing: MainWindow, tmp_path: Path) -> No
     path.write_text(path.read_text(encoding="utf-8").replace("5\\t5\\t5", "5\\tx\\t5", 1), encoding="utf-8")
     with pytest.raises(StateFileError, match=r"scene.patches.0: row \d, cell 2: expected"):
         load_state(path)
+
+
+def test_every_view_shows_a_table_at_every_stage(editing: MainWindow) -> None:
+    session, page = editing.session, editing.page
+    for stage in ("transform", "bin", "raster", "interpolate", "depth", "resolve"):
+        session.set_stage(stage)
+        assert (session.stage_trace.steps.count > 0) == (stage in ("depth", "resolve"))
+        for view in page.view_names():
+            page.show_view(view)
+            QApplication.processEvents()
+    page.show_view("pixels")
+
+
+def test_the_history_of_a_cell_tells_of_patches_alone(editing: MainWindow) -> None:
+    source = editing.session.trace.source
+    story, _ = story_of(source, 1, 4)
+    assert story.verdict == "Patch 0 is visible here; 1 fragment rejected."
+    assert [entry.title for entry in story.entries] == ["Initial value", "Clear", "Patch 0", "Patch 1"]
+    assert story.entries[-1].reason == "Failed the depth test: 6 is not nearer than patch 0 (5)."
+    assert story_of(source, 7, 0)[0].verdict == "No patch covers this pixel."
+
+
+def test_a_dragged_patch_and_a_chosen_one_are_stepped(editing: MainWindow) -> None:
+    session = editing.session
+    session.edit(replace(session.document, triangle=1))
+    assert set(session.trace.stage("depth").triangle.tolist()) == {1}
+    editing.page.depth_tables.remove_button.click()
+    assert session.document.triangle is None
