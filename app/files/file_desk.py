@@ -18,6 +18,7 @@ from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings
 from app.pages.step.looks import look_of, show_look
 from app.pages.step.page import StepPage
+from app.session.session import stage_for
 from app.session.tracing import trace_now
 from app.window.appearance import Appearance
 from app.window.message_words import sentences
@@ -114,7 +115,7 @@ class FileActions(QObject):
         session.open(opened.document, trace)
         if state is None:
             page.stepping.set_places()
-            session.set_stage(STAGES[0], 0)
+            session.set_stage(stage_for(opened.document.scene, STAGES[0]), 0)
             page.show_own_view()
             # As at first, also where the same scene was magnified before.
             page.grid.fit()

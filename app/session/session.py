@@ -407,8 +407,13 @@ class Session(QObject):
         return first_column <= pixel[0] < end_column and first_row <= pixel[1] < end_row
 
 
+def stage_for(scene: AnyScene, stage: str) -> str:
+    """Return a stage, or the next one that a scene goes through, if it skips this one."""
+    later = STAGES[STAGES.index(stage) :]
+    return next(name for name in later if not skipped_because(name, scene.corner_count))
+
+
 def _cursor_for(scene: AnyScene, cursor: Cursor) -> Cursor:
-    """Return the cursor, or the start of the next stage that a scene goes through, if it skips the present one."""
-    later = STAGES[STAGES.index(cursor.stage) :]
-    stage = next(stage for stage in later if not skipped_because(stage, scene.corner_count))
+    """Return the cursor, or the start of the next stage, if a scene skips the present one."""
+    stage = stage_for(scene, cursor.stage)
     return cursor if stage == cursor.stage else replace(cursor, stage=stage, position=0)

@@ -57,6 +57,10 @@ class EnteredSpace(Companion):
         self._space.setAccessibleName("The space that vertices enter: normalized device coordinates")
         return self._space
 
+    def is_wanted(self) -> bool:
+        """Return whether there are corners."""
+        return self.session.stage_trace.steps.row_count > 0
+
     def draw(self) -> None:
         """Draw the corners that have been divided by w, and the triangles of three such corners."""
         self._space.show_diagram(entered_diagram(self.session))
