@@ -54,6 +54,7 @@ _WORDS = {
         (r"corner", "end"),
     ),
     0: (
+        (r": it lies outside the bounding box[^.]*", ""),
         (r"triangles", "patches"),
         (r"a triangle's", "a patch's"),
         (r"triangle", "patch"),

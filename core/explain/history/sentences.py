@@ -227,8 +227,6 @@ def _all_rejected(values: Values) -> str:
 
 def _nothing_near(values: Values) -> str:
     count = values["triangle_count"]
-    if not count:
-        return "no triangle covers this pixel"
     boxes = (
         "the bounding box of the only triangle"
         if count == 1
@@ -353,6 +351,7 @@ COUNTED = {
     "behind-eye": "culled, behind the eye",
     "outside-plane": "culled, outside the view",
     "clipped-away": "clipped away",
+    "no-fragment": "no fragment here",
     "outside-box": "the pixel is outside their bounding box",
     "missed": "the pixel is in their bounding box, but farther from them than from those listed",
 }

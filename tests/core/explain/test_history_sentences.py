@@ -171,5 +171,5 @@ def test_no_key_is_without_a_sentence_and_no_sentence_without_a_key():
     }
     assert set(COUNTED) == {
         *("back-facing", "front-facing", "degenerate", "behind-eye"),
-        *("outside-plane", "clipped-away", "outside-box", "missed"),
+        *("outside-plane", "clipped-away", "outside-box", "missed", "no-fragment"),
     }

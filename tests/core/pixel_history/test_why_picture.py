@@ -13,6 +13,7 @@ from core.methods import table
 from core.pixel_history import PixelHistory, why
 from core.raster.lines.traits import has_intensities
 from core.settings import families
+from core.trace import scene_triangle_count
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
@@ -80,8 +81,7 @@ def check_pixels(scene: ClipScene | Scene, settings: Settings, pixels: list[tupl
         assert frame.depth.dtype.type(history.final.depth) == frame.depth[at], (column, row)
         assert history.cover_count == frame.cover_count[at], (column, row)
         listed = {event.triangle for event in history.events} - {-1}
-        count = len(source.geometry.assembled)
-        assert len(listed) + sum(history.counts.values()) == count
+        assert len(listed) + sum(history.counts.values()) == scene_triangle_count(scene)
 
 
 @pytest.mark.parametrize("line", ["wu", "gupta-sproull"])

@@ -193,7 +193,9 @@ def test_the_history_of_a_cell_tells_of_patches_alone(editing: MainWindow) -> No
     assert story.verdict == "Patch 0 is visible here; 1 fragment rejected."
     assert [entry.title for entry in story.entries] == ["Initial value", "Clear", "Patch 0", "Patch 1"]
     assert story.entries[-1].reason == "Failed the depth test: 6 is not nearer than patch 0 (5)."
-    assert story_of(source, 7, 0)[0].verdict == "No patch covers this pixel."
+    story, _ = story_of(source, 7, 0)
+    assert story.verdict == "No patch covers this pixel."
+    assert story.entries[-1].title == "2 more patches: no fragment here."
 
 
 def test_a_dragged_patch_and_a_chosen_one_are_stepped(editing: MainWindow) -> None:
