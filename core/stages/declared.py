@@ -252,7 +252,7 @@ PHASES = (
     Phase(
         "Fragment processing",
         ("shade",),
-        "with {values}, and textures and lights",
+        "with interpolated {values}",
         "with one colour each, and their depth",
     ),
     Phase(

@@ -86,7 +86,10 @@ def turned_away(step: StepValues) -> Said:
     """Above 0 is turned away; the determinant may say otherwise."""
     value, facing = step.number("product"), step.number("facing")
     verdict, sign = ("culled", "above 0") if step.flag("applies") else ("kept", "below 0")
-    side = "its back faces the eye" if value > 0 else "its front faces the eye"
+    side = f"its {'back' if value > 0 else 'front'} faces the eye"
+    if step.kind == "back-axis":
+        # Which side the eye sees is another question, where rays are not parallel.
+        side = f"it counts as a {'back' if value > 0 else 'front'}"
     if value == 0:
         sign, side = "not above 0", "the eye sees its edge"
     text = f"Triangle {step.triangle} is {verdict}: N · V is {spoken(value)}, {sign}, so {side}"
