@@ -17,6 +17,8 @@ from lessons.exercises.draws import SEED_LIMIT
 FILE_NAME = "answers.json"
 PAUSE = 200
 """Milliseconds after the last change."""
+VERSION: Literal[1] = 1
+"""Of the file; later ones are left alone."""
 SIZE_LIMIT = 1 << 22
 """Most bytes of the file."""
 
@@ -43,7 +45,7 @@ class UnfinishedAnswers(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     program: Literal["rasterscope answers"] = "rasterscope answers"
-    version: Literal[1] = 1
+    version: Literal[1] = VERSION
     user: str = DEFAULT_USER
     """Who answers."""
     current: str = ""
@@ -61,7 +63,8 @@ class UnfinishedFile(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.answers = UnfinishedAnswers()
-        self._has_failed = self._is_dirty = False
+        self._has_failed = self._is_dirty = self._is_foreign = False
+        """The last: the file is of a later version, and is left alone."""
         self._job = Job(self)
         self._job.succeeded.connect(self._succeed)
         self._job.failed.connect(self._fail)
@@ -80,6 +83,9 @@ class UnfinishedFile(QObject):
         except OSError as problem:
             return f"Answers in progress cannot be read: {problem.strerror or problem}."
         except ValidationError:
+            if _is_later(content):
+                self._is_foreign = True
+                return "Answers in progress were kept by a later version of the program. They are left alone."
             broken = _path().with_suffix(".broken")
             try:
                 _path().replace(broken)
@@ -99,8 +105,10 @@ class UnfinishedFile(QObject):
 
     def _change(self, changed: UnfinishedAnswers) -> None:
         if changed != self.answers:
-            self.answers, self._is_dirty = changed, True
-            self._timer.start()
+            self.answers = changed
+            if not self._is_foreign:
+                self._is_dirty = True
+                self._timer.start()
 
     @Slot()
     def _save(self) -> None:
@@ -136,6 +144,19 @@ class UnfinishedFile(QObject):
                 _write(self.answers)
             except OSError as error:
                 self._fail(error)
+
+
+class _Head(BaseModel):
+    program: Literal["rasterscope answers"]
+    version: int
+
+
+def _is_later(content: bytes) -> bool:
+    """Return whether a file was written by a later version."""
+    try:
+        return _Head.model_validate_json(content).version > VERSION
+    except ValidationError:
+        return False
 
 
 def _path() -> Path:

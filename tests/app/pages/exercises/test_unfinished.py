@@ -1,0 +1,61 @@
+"""Answers in progress: kept soon after every change, and nothing lost where the file cannot be read or written."""
+
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from app.pages.exercises.unfinished import FILE_NAME, Unfinished, UnfinishedFile
+
+KEPT = Unfinished(version=1, seed=7, given=[[1, 2]], hints=1)
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """Return the folder of the user's data."""
+    monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path))
+    return tmp_path
+
+
+def test_a_change_is_on_the_disk_soon_and_after_the_end(qtbot: QtBot, folder: Path) -> None:
+    first = UnfinishedFile()
+    first.keep("one", KEPT)
+    qtbot.waitUntil((folder / FILE_NAME).exists)
+    first.keep("two", KEPT)
+    first.finish()
+    second = UnfinishedFile()
+    assert second.read() == ""
+    assert second.answers.answers == {"one": KEPT, "two": KEPT}
+    assert second.answers.current == "two"
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"[]", b'{"answers": {"a": {"seed": -1}}}', b"\xff\x00"])
+def test_a_broken_file_is_set_aside(qtbot: QtBot, folder: Path, content: bytes) -> None:
+    (folder / FILE_NAME).write_bytes(content)
+    file = UnfinishedFile()
+    assert (
+        file.read() == "Answers in progress were broken. They are kept as answers.broken, and none is open."
+    )
+    assert (folder / "answers.broken").read_bytes() == content
+
+
+def test_a_file_of_a_later_version_is_left_alone(qtbot: QtBot, folder: Path) -> None:
+    content = b'{"program": "rasterscope answers", "version": 2, "more": 1}'
+    (folder / FILE_NAME).write_bytes(content)
+    file = UnfinishedFile()
+    assert "later version" in file.read()
+    file.keep("one", KEPT)
+    file.finish()
+    assert (folder / FILE_NAME).read_bytes() == content
+
+
+def test_what_cannot_be_written_is_reported_once(qtbot: QtBot, folder: Path) -> None:
+    (folder / FILE_NAME).mkdir()
+    file = UnfinishedFile()
+    said: list[str] = []
+    file.failed.connect(said.append)
+    file.keep("one", KEPT)
+    file.finish()
+    file.finish()
+    assert len(said) == 1
+    assert said[0].startswith("The answer is not kept for the next start: ")
