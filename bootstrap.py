@@ -435,6 +435,8 @@ def test(root: Path, arguments: Sequence[str]) -> int:
     """
     prepare(root, TEST_PINS, needs_qt=True)
     environment = clean_environment(root)
+    # Compiled once, not again by each of the hundred programs that the tests start.
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)
     *parts, (beside, command) = checks(root, arguments)
     failed = []
     with tempfile.TemporaryFile() as report:
