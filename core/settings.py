@@ -328,8 +328,10 @@ def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> s
     """Return why a setting changes nothing with the others and this scene, as a sentence; empty: it may."""
     declared = FIELDS[name]
     by = declared.taken_by
-    if scene is not None and scene.corner_count > 3 and name in OF_TRIANGLES:
-        return OF_TRIANGLES[name]
+    if scene is not None and scene.corner_count > 3:
+        if name in OF_TRIANGLES:
+            return OF_TRIANGLES[name]
+        settings = suited(settings, scene)
     if scene is not None and scene.corner_count == 0:
         return "" if name in OF_TABLES else "A table of depths begins at the depth test, and has its own."
     if scene is not None and scene.corner_count < 3:

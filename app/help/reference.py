@@ -40,6 +40,7 @@ NEEDS = {
     "mipmaps": "mipmaps of the texture",
     "blending": "blending",
     "rectangle": "a rectangle for each line",
+    "convex-window": "a convex clip window",
 }
 """What a method needs, in words."""
 NO_LISTING = "It has no listing."

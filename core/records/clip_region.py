@@ -78,6 +78,17 @@ def check_convex(points: Floats) -> None:
         raise ValueError("window must have an area, got corners on one line")
 
 
+def is_convex(points: Floats) -> bool:
+    """Return whether a polygon (M, 2) has an area and is convex, in either direction."""
+    for direction in (1, -1):
+        try:
+            check_convex(points[::direction])
+        except ValueError:
+            continue
+        return True
+    return False
+
+
 def region_in_window(region: Floats, size: tuple[int, int]) -> Floats:
     """Return a region, (4,) or (M, 2) in NDC, in pixels of a raster of ``size`` (width, height)."""
     window = (region.reshape(-1, 2) + 1) * (np.array(size) / 2)

@@ -22,6 +22,7 @@ NEEDS = {
     "mipmaps",
     "blending",
     "rectangle",
+    "convex-window",
 }
 TRIANGLE = np.array([[[-0.8, -0.7, 0.1, 1.0], [1.6, -0.9, 0.4, 2.0], [-0.2, 1.2, 0.2, 1.5]]])
 PLAIN = ClipScene(TRIANGLE, np.ones((1, 3, 4)), (9, 7))

@@ -163,4 +163,6 @@ def _choice(document: Document, family: str, name: str) -> SettingChoice:
     region = scene.clip_region if isinstance(scene, ClipScene) else None
     if "rectangle" in found.needs and region is not None and region.ndim == 2:
         refusal = "It needs a rectangle, and the clip window is a polygon."
+    if "convex-window" in found.needs and isinstance(scene, ClipScene) and not scene.has_convex_region:
+        refusal = "It needs a convex clip window."
     return SettingChoice(name, found.title, tooltip, refusal, name not in FAMILIES[family].classical)

@@ -65,6 +65,7 @@ _CORNER = Operation("crossing", "corner", ("t", "point"))
     exact_for="the area inside a convex region, in rational arithmetic",
     breaks_where="a concave polygon that falls apart: its parts stay joined by edges along the border. A region that "
     "is not convex is refused",
+    needs=("convex-window",),
     listing=clip_side_listing,
     operations={
         "sh-in-in": (_DISTANCES, Operation("keep", "keep", ("is_kept",))),

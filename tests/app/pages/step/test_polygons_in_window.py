@@ -7,6 +7,7 @@ import pytest
 
 from app.files.state_files import load_state, save_state
 from app.pages.step.polygon_overlays import polygon_overlays
+from app.pages.step.scene_outline_presenter import settings_records
 from app.pages.step.step_mark import step_mark
 from app.session.document import STEPPED, open_document
 from app.session.scene_edits import outline, set_value
@@ -89,6 +90,10 @@ def test_clipping_is_marked_step_by_step(window: MainWindow) -> None:
 def test_a_window_that_is_not_convex_is_refused_by_sutherland_hodgman(window: MainWindow) -> None:
     open_scene(window, "weiler-atherton")
     before = window.session.document
+    records = {record.family: record for record in settings_records(before)}
+    refused = {choice.value for choice in records["polygon_clipping"].choices if choice.refusal}
+    assert refused == {"sutherland-hodgman"}
+    assert records["fill"].refusal == "Polygons are filled row by row, from an edge table."
     with pytest.raises(ValueError, match="sutherland-hodgman needs a convex clip window"):
         window.session.set_setting("polygon_clipping", "sutherland-hodgman")
     assert window.session.document is before
