@@ -210,9 +210,14 @@ def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
     """
     if isinstance(scene, ClipScene):
         count = len(scene.clip)
+        number = np.arange(count)
+        corners = own_corners(number, max(scene.corner_count, 1))
+        if scene.rings is not None:
+            window = scene.clip[..., :2] / scene.clip[..., 3:] * scene.size
+            corners = scene.corner_count * number + corners_of_planes(window)
         return VertexStage(
             clip=_record(scene.clip.reshape(-1, 4).T),
-            corners=_record(_plane_corners(scene)),
+            corners=_record(corners),
             mesh=np.zeros(count, np.int64),
             size=scene.size,
             corner_count=scene.corner_count,
@@ -240,15 +245,6 @@ def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
         projection=project,
         view_range=view_range(scene),
     )
-
-
-def _plane_corners(scene: ClipScene) -> Integers:
-    """Return (3, T): the corners that a primitive's plane is set up from, which are all that a triangle has."""
-    number = np.arange(len(scene.clip))
-    if scene.rings is None:
-        return own_corners(number, max(scene.corner_count, 1))
-    window = scene.clip[..., :2] / scene.clip[..., 3:] * scene.size
-    return scene.corner_count * number + corners_of_planes(window)
 
 
 def corners_of_planes(window: Floats) -> Integers:

@@ -108,6 +108,6 @@ def filled(geometry: Geometry, raster: Raster, counts: Counts) -> Iterator[Fragm
 
 def fragments_of(geometry: Geometry, raster: Raster, counts: Counts) -> Iterator[Fragments]:
     """Bin and raster what the scene has: areas, outlines or polygons; yield the fragments in batches."""
-    if geometry.polygons is not None:
+    if geometry.vertices.rings is not None:
         return filled(geometry, raster, counts)
     return (covered if geometry.outlines is None else outlined)(geometry, raster, counts)

@@ -172,7 +172,9 @@ def assemble(
     """Point the ``chosen`` (T,) triangles, or all, to their vertices, which are lit when their values are asked for."""
     values_of = partial(corner_values, scene, vertices, settings, count)
     number = np.arange(len(vertices.corners)) if chosen is None else np.asarray(chosen, np.int64)
-    triangle = scene.numbers.take(number) if isinstance(scene, ClipScene) else number
+    triangle = number
+    if isinstance(scene, ClipScene) and scene.table is not None:
+        triangle = scene.numbers.take(number)
     if chosen is None:
         return IndexedPrimitives(
             vertices.clip_rows, vertices.corner_rows, triangle, vertices.mesh, values_of, number
