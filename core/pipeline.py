@@ -46,7 +46,7 @@ from core.settings import DEFAULTS, Settings
 from core.stages.bin_and_raster import Counts, fragments_of
 from core.stages.declared import STAGES
 from core.stages.fragment_depth import fragment_depth
-from core.stages.fragments import interpolate, owner_of, shade, shade_once
+from core.stages.fragments import fragments_at, interpolate, owner_of, shade, shade_once
 from core.stages.hidden_surfaces import Visible, decide_fragments
 from core.stages.vertices import Geometry, process_geometry
 
@@ -149,7 +149,7 @@ def draw_geometry(scene: AnyScene, geometry: Geometry, raster: Raster, counts: C
     counts["depth"].outgoing = len(pixel)
 
     # Interpolate, texture and shade, blend: of what is seen, or of all that is mixed with what is there.
-    seen = visible.fragments(geometry, raster)
+    seen = fragments_at(geometry, visible.owner, *raster.position(visible.pixel))
     values = interpolate(geometry, raster, seen, counts["interpolate"])
     color = np.empty((len(depth), 4), np.float32)
     color[:] = scene.background
@@ -263,7 +263,7 @@ def draw_multisampled(
     geometry = process_geometry(scene, settings, counts, chosen)
     visible = [find_visible(at_sample(geometry, sample), wide, counts) for sample in range(len(ROTATED_GRID))]
     counts["bin"].incoming //= len(visible)
-    seen = [of_sample.fragments(geometry, wide) for of_sample in visible]
+    seen = [fragments_at(geometry, of_sample.owner, *wide.position(of_sample.pixel)) for of_sample in visible]
     values = interpolate(geometry, wide, seen[0], counts["interpolate"])
 
     # Colours: one for every triangle in a pixel, whichever of its samples it has.

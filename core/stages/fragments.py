@@ -28,7 +28,7 @@ def owner_of(fragments: Fragments) -> Integers:
     return fragments.segment if isinstance(fragments, LineFragments) else fragments.primitive
 
 
-def fragments_of(geometry: Geometry, owner: Integers, column: Integers, row: Integers) -> Fragments:
+def fragments_at(geometry: Geometry, owner: Integers, column: Integers, row: Integers) -> Fragments:
     """Return the fragments of owners (F,), see ``owner_of``, at pixels."""
     if geometry.outlines is None:
         return Fragments(owner, column, row)
@@ -85,7 +85,7 @@ def shade_once(
     keys = [owner_of(of) * pixel_count + raster.index(of.column, of.row) for of in samples]
     every, number = np.unique(np.concatenate(keys), return_inverse=True)
     owner, pixel = np.divmod(every, pixel_count)
-    once = fragments_of(geometry, owner, *raster.position(pixel))
+    once = fragments_at(geometry, owner, *raster.position(pixel))
     values = interpolate(geometry, raster, once, counts["interpolate"])
     colors = shade(scene, geometry, raster, once, values, counts["shade"])
     return colors, np.split(number.reshape(-1), np.cumsum([len(key) for key in keys])[:-1])

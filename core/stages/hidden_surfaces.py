@@ -18,7 +18,7 @@ from core.raster.lines.intensities import writes_depth
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.resolved import resolve
-from core.stages.fragments import fragments_of, owner_of
+from core.stages.fragments import fragments_at, owner_of
 from core.stages.geometry import Geometry
 from core.visibility.ray_casting import RayTests, run_ray_tests
 
@@ -132,10 +132,6 @@ class Visible:
     decided: DecidedFragments | None
     """All of these fragments, where they are blended or rays are cast."""
 
-    def fragments(self, geometry: Geometry, raster: Raster) -> Fragments:
-        """Return the (V,) fragments that are seen."""
-        return fragments_of(geometry, self.owner, *raster.position(self.pixel))
-
 
 def decide_fragments(
     geometry: Geometry, batches: Sequence[tuple[Fragments, Stored]], raster: Raster
@@ -150,7 +146,7 @@ def decide_fragments(
         stored = np.concatenate([part for _, part in batches])
     else:
         none = np.empty(0, np.int64)
-        fragments, stored = fragments_of(geometry, none, none, none), np.empty(0, depth_format.stored_type)
+        fragments, stored = fragments_at(geometry, none, none, none), np.empty(0, depth_format.stored_type)
     owner = owner_of(fragments)
     if (owner[1:] < owner[:-1]).any():
         order = np.argsort(owner, kind="stable")

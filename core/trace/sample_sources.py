@@ -16,7 +16,7 @@ from core.records.arrays import Floats
 from core.records.cached import cached_property
 from core.records.frame import Frame, StageCount
 from core.stages.declared import STAGES
-from core.stages.fragments import fragment_values, fragments_of, owner_of, texture_slopes
+from core.stages.fragments import fragment_values, fragments_at, owner_of, texture_slopes
 from core.stages.vertices import Geometry, process_geometry
 from core.trace.source import TraceSource
 
@@ -86,7 +86,7 @@ class CenterSource(TraceSource):
             )
         )
         once = np.unique(np.stack([owner, row, column], axis=1), axis=0)
-        return fragments_of(self.geometry, once[:, 0], once[:, 2], once[:, 1])
+        return fragments_at(self.geometry, once[:, 0], once[:, 2], once[:, 1])
 
 
 @dataclass(frozen=True, eq=False)
