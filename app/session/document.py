@@ -189,7 +189,9 @@ def open_document(scene: AnyScene, title: str, path: str = "", settings: Setting
 
 
 def same_view(scene: AnyScene, columns: int, rows: int) -> TeachingRaster:
-    """Return the raster of about ``columns`` x ``rows`` pixels that has the picture's aspect."""
+    """Return the raster of about ``columns`` x ``rows`` pixels that has the picture's aspect; of a table its cells."""
+    if scene.corner_count == 0:
+        return TeachingRaster(*scene.size)
     width, height = scene.size
     scale = min(columns / width, rows / height)
     return TeachingRaster(max(round(width * scale), 1), max(round(height * scale), 1))
@@ -237,7 +239,7 @@ def fit_region(document: Document) -> Document:
 
     A triangle that is larger than the largest raster, or reaches behind the eye, is shown in the whole view.
     """
-    if document.triangle is None:
+    if document.triangle is None or document.scene.corner_count == 0:
         return replace(document, raster=same_view(document.scene, *TEACHING_LIMIT))
     corners = window_corners_of(document, document.triangle)
     width, height = document.scene.size

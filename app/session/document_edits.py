@@ -36,6 +36,9 @@ class DocumentEdits(QObject):
         if not isinstance(scene, ClipScene):
             self.edit_pointless.emit("Vertices of a mesh are always shared by its triangles.")
             return
+        if scene.table is not None:
+            self.edit_pointless.emit("A table of depths has no corners to share.")
+            return
         edited = split_shared(scene) if scene.shared is not None else join_shared(scene)
         self.edit(replace(document, scene=edited))
 

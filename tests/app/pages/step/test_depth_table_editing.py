@@ -204,3 +204,19 @@ def test_a_dragged_patch_and_a_chosen_one_are_stepped(editing: MainWindow) -> No
     assert set(session.trace.stage("depth").triangle.tolist()) == {1}
     editing.page.depth_tables.remove_button.click()
     assert session.document.triangle is None
+
+
+def test_the_raster_of_a_table_is_its_cells_whatever_is_asked(editing: MainWindow) -> None:
+    session, before = editing.session, table_of(editing)
+    for action in (
+        "next_triangle",
+        "fit_region",
+        "whole_picture",
+        "toggle_shared",
+        "next_vertex",
+        "vertex_left",
+    ):
+        editing.run_action(action)
+        assert (session.document.raster.columns, session.document.raster.rows) == (8, 8), action
+        assert session.document.raster.origin is None
+        assert table_of(editing) is before
