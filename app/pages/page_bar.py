@@ -39,6 +39,8 @@ class StepRequest:
     """The triangle to be stepped, where there are too many to step all; ``None``: the one that is seen at the pixel."""
     other_scene: "AnyScene | None" = None
     """What B draws, of the same size; ``None``: what A does."""
+    other_title: str = ""
+    """What B is called, where it is a run that no settings can name."""
     position: int | None = None
     """Steps of the stage that are done; ``None``: those up to the pixel, or none."""
     is_asked: bool | None = None

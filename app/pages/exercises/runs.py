@@ -56,8 +56,9 @@ def faulty_run(question: Question, mistake: str) -> StepRequest | None:
     twin = SHELF[mistake]
     return StepRequest(
         request.opening,
-        f"{request.title}: {mistake}",
+        request.title,
         twin.change_settings(request.opening.settings),
         other_scene=twin.change_scene(scene),
+        other_title=f"with the mistake: {mistake.replace('-', ' ')}",
         is_asked=False,
     )

@@ -275,7 +275,7 @@ class ComparePresenter(QObject):
             self._seeks = False
             if self._printed and self._land_where_pixels_differ(second):
                 return
-            self.go_to_divergence()
+            self._go_to_mistake(second)
 
     def _land_where_pixels_differ(self, second: Trace) -> bool:
         """Put both runs at the first step that draws another pixel; return whether there is one."""
@@ -322,6 +322,18 @@ class ComparePresenter(QObject):
         else:
             self._stage = cursor.stage
             self._take(self._second)
+
+    def _go_to_mistake(self, second: Trace) -> None:
+        """Put both runs where they differ first: of other corners, in the stage at hand, since all differ before."""
+        from core.study.accuracy.divergence import stage_divergence
+
+        run, found = self._faulty(), None
+        if run is not None and run.scene is not run.of:
+            found = stage_divergence(self._session.stage_trace, second.stage(self._stage), by_outcome=True)
+        if found is None:
+            self.go_to_divergence()
+        else:
+            self._land(found)
 
     @property
     def is_searching(self) -> bool:

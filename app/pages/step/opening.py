@@ -74,7 +74,7 @@ class StepOpening(QObject):
                 self._page.stepping.step_into(opening.stage, *pixel)
         else:
             scene = ready.request.other_scene
-            run = None if scene is None else OtherRun(opening.scene, scene, ready.request.title)
+            run = None if scene is None else OtherRun(opening.scene, scene, ready.request.other_title)
             self._page.comparing.set_differences(opening.settings.differences(other), run)
             self._page.show_view("compare")
             if pixel is not None:

@@ -331,6 +331,19 @@ def test_a_belief_is_refuted_by_a_step_and_a_mistake_by_its_picture(
     assert button.text() == "Show the step"
     with qtbot.waitSignal(window.opening.opened):
         QTest.mouseClick(button, LEFT)
+    page("triangle-coverage")
+    shown.questions.answer(shown.question.draft.mistakes["vertices-rounded"])
+    check(shown)
+    with qtbot.waitSignal(window.opening.opened):
+        QTest.mouseClick(button, LEFT)
+    assert (
+        window.session.cursor.stage == "raster"
+    )  # Other corners differ before: the question is about this stage.
+    page("belief-w-is-one")
+    shown.questions.answer(frozenset({2}))
+    check(shown)
+    with qtbot.waitSignal(window.opening.opened):
+        QTest.mouseClick(button, LEFT)
     assert (window.session.cursor.stage, window.session.cursor.position) == ("transform", 12)
 
 
