@@ -22,6 +22,8 @@ WINDOW = (4, 3)
 """Columns and rows that are traced of a built-in scene."""
 ROWS = 2
 """Rows of a kind that are explained of a trace, spread over it; with --all twice as many."""
+ALIKE = 40
+"""Steps of one key that are explained of a group of traces, spread over their settings; with --all every one."""
 
 RARE_CLIP = {
     "all-behind": [[0, 0, 0, -1], [1, 0, 0, -2], [0, 1, 0, -1]],
@@ -138,7 +140,18 @@ def traces() -> dict[str, list[Trace]]:
 @cache
 def explained(group: str) -> tuple[Step, ...]:
     """Return the steps of the built-in ``scenes`` or of the ``rare`` triangles."""
-    return tuple(step for traced in traces()[group] for step in steps_of(traced))
+    found = [step for traced in traces()[group] for step in steps_of(traced)]
+    if is_everything():
+        return tuple(found)
+    places: dict[str, list[int]] = {}
+    for place, (explanation, _, _) in enumerate(found):
+        places.setdefault(explanation.key, []).append(place)
+    chosen = {
+        alike[k]
+        for alike in places.values()
+        for k in np.linspace(0, len(alike) - 1, ALIKE).round().astype(int)
+    }
+    return tuple(found[place] for place in sorted(chosen))
 
 
 def all_steps() -> tuple[Step, ...]:

@@ -171,10 +171,12 @@ def _met(families: set[str], scenes: Sequence[str], **numbers: tuple[int, ...]) 
 
 
 _OF_FILLS = {"fill", "fill_rule", "coverage", "pixel_center"}
+_SEGMENTS = {"segment", "clipped-segment", "line-strip"}
+_WITHOUT_SIDES = {"points", "depth-table"}
 
 FILLED = _met(
     set(table.families) - _OF_OUTLINES - _OF_POLYGONS - {"polygon_mode"},
-    list(SCENES),
+    [name for name in SCENES if name not in _SEGMENTS],
     block_size=(8, 1, 3),
     correction_interval=(16, 3),
     samples_across=(3, 1),
@@ -183,9 +185,12 @@ FILLED = _met(
 
 OUTLINED = [
     (name, {"polygon_mode": "wireframe", **choice})
-    for name, choice in _met(set(table.families) - _OF_FILLS - {"polygon_mode"}, list(SCENES))
+    for name, choice in _met(
+        set(table.families) - _OF_FILLS - {"polygon_mode"},
+        [name for name in SCENES if name not in _WITHOUT_SIDES],
+    )
 ]
-"""Wireframes, likewise."""
+"""Wireframes and segments, likewise."""
 
 CASES = [*FILLED, *OUTLINED, *(in_turn(SCENES, [*CHOICES, *MIXES]) if is_everything() else ())]
 """Scenes and choices for a law that holds of every picture."""
