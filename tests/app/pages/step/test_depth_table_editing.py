@@ -43,6 +43,7 @@ def type_cell(window: MainWindow, line: int, column: int, text: str) -> None:
     item.setText(text)
 
 
+@pytest.mark.slow
 def test_it_is_there_for_tables_only_and_opens_at_the_depth_test(editing: MainWindow) -> None:
     session, page = editing.session, editing.page
     assert session.cursor.stage == "depth"
@@ -120,6 +121,7 @@ def test_patches_are_moved_added_and_removed(editing: MainWindow) -> None:
     assert len(table_of(editing).depths) == 2
 
 
+@pytest.mark.slow
 def test_the_test_and_the_size_are_chosen(editing: MainWindow) -> None:
     editor = editing.page.depth_tables
     editor.test_box.setCurrentIndex(2)
@@ -150,6 +152,7 @@ def test_a_patch_is_pasted_as_a_whole_or_not_at_all(editing: MainWindow) -> None
     assert np.array_equal(table_of(editing).depths[0], before.depths[1], equal_nan=True)
 
 
+@pytest.mark.slow
 def test_emptying_the_last_cell_is_refused(editing: MainWindow) -> None:
     editor = editing.page.depth_tables
     editor.remove_button.click()
@@ -176,6 +179,7 @@ def test_a_state_file_keeps_the_table(editing: MainWindow, tmp_path: Path) -> No
         load_state(path)
 
 
+@pytest.mark.slow
 def test_every_view_shows_a_table_at_every_stage(editing: MainWindow) -> None:
     session, page = editing.session, editing.page
     for stage in ("transform", "bin", "raster", "interpolate", "depth", "resolve"):
@@ -198,6 +202,7 @@ def test_the_history_of_a_cell_tells_of_patches_alone(editing: MainWindow) -> No
     assert story.entries[-1].title == "2 more patches: no fragment here."
 
 
+@pytest.mark.slow
 def test_a_dragged_patch_and_a_chosen_one_are_stepped(editing: MainWindow) -> None:
     session = editing.session
     session.edit(replace(session.document, triangle=1))
@@ -206,6 +211,7 @@ def test_a_dragged_patch_and_a_chosen_one_are_stepped(editing: MainWindow) -> No
     assert session.document.triangle is None
 
 
+@pytest.mark.slow
 def test_the_raster_of_a_table_is_its_cells_whatever_is_asked(editing: MainWindow) -> None:
     session, before = editing.session, table_of(editing)
     for action in (
