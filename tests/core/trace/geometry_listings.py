@@ -40,9 +40,12 @@ def check_cull(traced: Trace) -> None:
     starts = [0, *ends[:-1].tolist()]
     for triangle, start, row in zip(assembled.triangle.tolist(), starts, (ends - 1).tolist(), strict=True):
         facing = found.columns["facing"][row]
+        # Culling by N . V goes by its own side, where there is one.
+        seen = -found.columns["product"][row] if "product" in found.columns else facing
+        dropped = drops.get(traced.source.settings.cull, drops["back"])(seen)
         clip = assembled.clip[np.flatnonzero(assembled.triangle == triangle)[0]]
         with lines_that_run() as ran:
-            verdict = cull_verdict(clip, facing, drops[traced.source.settings.cull](facing))
+            verdict = cull_verdict(clip, seen if seen and facing else facing, dropped)
         assert verdict == found.columns["verdict"][row]
         for tested in range(start, row + 1):
             check_marks(found, tested, ran)
