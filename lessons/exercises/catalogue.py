@@ -1,10 +1,10 @@
 """All templates that ship with the program, and how one is found."""
 
+import tomllib
 from collections.abc import Mapping
 from difflib import get_close_matches
 from pathlib import Path
 
-from core import STAGES
 from lessons.exercises import templates
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Template
@@ -66,17 +66,20 @@ _MODULES = (
     stepping_numbers,
 )
 
-TEMPLATES: dict[str, Template] = {
+_FILES = Path(templates.__file__).parent.glob("*.toml")
+_FOUND = {
     template.name: template
-    for template in sorted(
-        [
-            *(each for module in _MODULES for each in module.TEMPLATES),
-            *(read_exercise(path) for path in sorted(Path(templates.__file__).parent.glob("*.toml"))),
-        ],
-        key=lambda each: STAGES.index(each.stage),
-    )
+    for template in [
+        *(each for module in _MODULES for each in module.TEMPLATES),
+        *(read_exercise(path) for path in _FILES),
+    ]
 }
-"""By name, stage by stage."""
+_ORDER: dict[str, list[str]] = tomllib.loads(
+    Path(__file__).with_name("order.toml").read_text(encoding="utf-8")
+)
+
+TEMPLATES: dict[str, Template] = {name: _FOUND[name] for names in _ORDER.values() for name in names}
+"""By name, stage by stage, from easy to hard."""
 
 
 def template_named(name: str, templates: Mapping[str, Template] = TEMPLATES) -> Template:

@@ -108,7 +108,7 @@ ACROSS = segment((-1, -2), (9, 7))
 TWINS = (
     Twin(
         "parallel-kept",
-        "A segment along an edge was kept although it lies outside: where p = 0, q < 0 rejects it.",
+        "A segment parallel to an edge was kept although it lies outside: where p = 0, q < 0 rejects it.",
         segment((2, 8), (6, 8)),
         ACROSS,
         change_settings=with_clipper(partial(walked, parallel_kept)),

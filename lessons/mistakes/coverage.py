@@ -172,7 +172,7 @@ TWINS = (
     ),
     Twin(
         "box-truncated",
-        "The last column and row are missing: the box ended before int(max). It must include that pixel.",
+        "The box ran from int(min) to int(max) - 1. It holds all pixels whose centres lie between min and max.",
         Case(triangle_scene([[(1, 1), (6.9, 1), (6.9, 6)]], (8, 8))),
         Case(WHOLE),
         change_frame=short_box,

@@ -1,7 +1,7 @@
 """Edge functions, who owns an edge, and the part of the raster that a triangle may touch."""
 
 from fractions import Fraction
-from math import ceil, floor
+from math import floor
 from typing import Any
 
 import numpy as np
@@ -187,36 +187,6 @@ def draw_bits(draws: Draws) -> Draft:
     return by_rule(text, given, (width, height), ("product-overflows",), hints)
 
 
-def draw_box(draws: Draws) -> Draft | None:
-    """Columns and rows of the pixels whose centres lie in the bounding box."""
-    corners = [(Fraction(draws.whole(-20, 150), 10), Fraction(draws.whole(-20, 110), 10)) for _ in range(3)]
-    if abs(twice_area(corners)) < 16:
-        return None
-    right, short = [], []
-    for axis in range(2):
-        low, high = (pick(corner[axis] for corner in corners) for pick in (min, max))
-        first, last = ceil(low - Fraction(1, 2)), floor(high - Fraction(1, 2))
-        right += [max(first, 0), min(last, SIZE[axis] - 1)]
-        short += [max(floor(low), 0), min(floor(high), SIZE[axis]) - 1]
-    if right[0] >= right[1] or right[2] >= right[3]:
-        return None
-    beyond = [right[0], right[1] + (right[1] == SIZE[0] - 1), right[2], right[3]]
-    wrong = {"box-truncated": short} | ({"column-wrapped": beyond} if beyond != right else {})
-    text = (
-        "Which columns and rows does the bounding box of this triangle have: first and last column, first and last "
-        "row? A pixel belongs to it where its centre (i + 1/2, j + 1/2) does; the box is limited to the window."
-    )
-    hints = (
-        "Least and greatest x and y of the vertices.",
-        "The first centre at or after x is ceil(x - 1/2), the last one before it floor(x - 1/2).",
-        "The last column of the window is W - 1.",
-    )
-    given = f"Window of {SIZE[0]} x {SIZE[1]} pixels.\nTriangle: {corner_text(corners)}"
-    names = ("first column", "last column", "first row", "last row")
-    scene = triangle_scene(np.array([corners], float), SIZE)
-    return numbers(text, given, right, hints, wrong, names, scene=scene)
-
-
 CASES = (
     "project it and take its bounding box",
     "do not draw it: it lies behind the eye",
@@ -251,7 +221,7 @@ def draw_blocks(draws: Draws) -> Draft | None:
     rule = RULES["block-by-one-corner"]
     text = (
         f"The window is divided into blocks of {BLOCK} x {BLOCK} pixels. Mark the blocks that are discarded because "
-        "all their pixel centres lie outside of one edge. A centre on an edge that owns it is not outside."
+        "all their pixel centres lie outside of one edge. Left edges and level bottom edges own the centres on them."
     )
     right = rule.right(edges, BLOCKS, BLOCK)
     if not LEAST <= len(right) <= BLOCKS * BLOCKS - LEAST:
@@ -318,7 +288,6 @@ TEMPLATES = (
     Template("owned-edges", 1, "Edges that own their centres", "edges", 2, draw_owned),
     Template("snapped-vertex", 1, "A vertex in 256ths", "edges", 1, draw_snapped),
     Template("area-in-bits", 1, "An area in 64 bits", "edges", 2, draw_bits),
-    Template("box-of-pixels", 1, "Pixels of a bounding box", "bin", 3, draw_box),
     Template("binning-case", 1, "The three cases of binning", "bin", 1, draw_case),
     Template("blocks-discarded", 1, "Blocks that are discarded", "bin", 4, draw_blocks),
     Template("deciding-corner", 1, "The corner that decides", "bin", 1, draw_corner),

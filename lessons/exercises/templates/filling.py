@@ -102,17 +102,6 @@ def draw_border(draws: Draws) -> Draft | None:
     return of_triangle(corners, text, ("column-wrapped", "corner-for-center"), hints)
 
 
-def draw_box(draws: Draws) -> Draft | None:
-    """A triangle with its right angle at the far end of its box."""
-    right, top = tenths(draws, 7, 11), tenths(draws, 5, 8)
-    corners = [(tenths(draws, 0, 3), tenths(draws, 0, 2)), (right, tenths(draws, 0, 2)), (right, top)]
-    hints = (
-        "Find the last column whose centre is left of the right side.",
-        "Fractions of a vertex decide whether its column belongs to the triangle.",
-    )
-    return of_triangle(corners, "Which pixels does this triangle cover?", ("box-truncated",), hints)
-
-
 def draw_points(draws: Draws) -> Draft | None:
     """Points, some of them left of the window."""
     places = [(Fraction(draws.whole(-9, 115), 10), tenths(draws, 0, 9)) for _ in range(6)]
@@ -293,7 +282,6 @@ TEMPLATES = (
     Template("flat-side", 1, "A triangle with a level side", "raster", 4, draw_flat),
     Template("thin-triangle", 1, "A thin triangle", "raster", 4, draw_thin),
     Template("right-border", 1, "Beyond the right border", "raster", 3, draw_border),
-    Template("last-column", 1, "The last column of a triangle", "raster", 3, draw_box),
     Template("point-pixels", 1, "Pixels of points", "raster", 3, draw_points),
     Template("row-ends", 1, "First and last pixel of a row", "raster", 2, draw_ends),
     Template("row-crossings", 1, "Where edges cross rows", "raster", 4, draw_rows),

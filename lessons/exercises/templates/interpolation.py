@@ -150,10 +150,12 @@ def draw_edge_middle(draws: Draws) -> Draft:
     return numbers(text, given, [right], hints, wrong)
 
 
-def draw_reciprocal(draws: Draws) -> Draft:
+def draw_reciprocal(draws: Draws) -> Draft | None:
     """1/w between two ends."""
     w = [Fraction(draws.item((1, 2, 4, 5, 8, 10))) for _ in range(2)]
     t = Fraction(draws.whole(1, 7), 8)
+    if w[0] == w[1]:
+        return None
     text = "What is 1/w at this point of an edge? t is its share of the way in the window."
     given = f"w = {w[0]} at t = 0, w = {w[1]} at t = 1.\nThe point: t = {number_text(t)}"
     hints = ("Which of w and 1/w is linear in the window?", "1/w = (1 - t)/w0 + t/w1.")
@@ -227,7 +229,7 @@ TEMPLATES = (
     Template("sorted-attributes", 1, "Values of sorted vertices", "interpolate", 3, draw_sorted),
     Template("flat-value", 1, "The provoking vertex", "interpolate", 1, draw_flat),
     Template("edge-middle", 1, "The middle of an edge", "interpolate", 2, draw_edge_middle),
-    Template("reciprocal-w", 1, "1/w along an edge", "interpolate", 1, draw_reciprocal),
+    Template("reciprocal-w", 2, "1/w along an edge", "interpolate", 1, draw_reciprocal),
     Template("attribute-plane", 1, "u/w over the window", "interpolate", 4, draw_plane),
     Template("depth-along-edge", 1, "Window depth along an edge", "interpolate", 2, draw_depth),
     Template("distance-along-edge", 1, "Distance along an edge", "interpolate", 2, draw_distance),

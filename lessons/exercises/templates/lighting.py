@@ -6,8 +6,9 @@ from typing import Any
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.drafting import by_rule, one_of, place_text
+from lessons.exercises.templates.drafting import by_rule, numbers, one_of, place_text
 from lessons.exercises.templates.transforms import wholes
+from lessons.mistakes.shelf import RULES
 from lessons.mistakes.transforms import dot
 
 VECTORS: tuple[tuple[Any, ...], ...] = (
@@ -20,32 +21,35 @@ VECTORS: tuple[tuple[Any, ...], ...] = (
     (1, 2, 2),
     (-2, 2, 1),
 )
-LIGHT_RULE = "The light is a + (1 - a) max(0, N . L), with N and L of length 1; L points to the light."
 
 
-def draw_lambert(draws: Draws) -> Draft:
-    """Diffuse light on the bright side."""
-    ambient, normal = Fraction(draws.whole(1, 2), 4), draws.item(VECTORS)
-    long = tuple(2 * c for c in normal)
-    to_light = draws.item(VECTORS)
-    hints = ("Make both vectors of length 1.", "N . L is the cosine between them.")
-    given = f"a = {number_text(ambient)}\nNormal: {place_text(long)}\nTo the light: {place_text(to_light)}"
-    names = ("normal-too-long", "light-reversed")
-    return by_rule(
-        f"How bright is this point? {LIGHT_RULE}", given, (float(ambient), long, to_light), names, hints
+def draw_lambert(draws: Draws) -> Draft | None:
+    """Diffuse light at a point that faces the light, and at one that faces away."""
+    ambient = Fraction(draws.whole(1, 3), 4)
+    facing, away, to_light = (draws.item(VECTORS) for _ in range(3))
+    normals = tuple(2 * c for c in facing), tuple(-c for c in away)
+    if dot(facing, to_light) <= 0 or dot(away, to_light) <= 0 or facing == to_light:
+        return None
+    text = (
+        "How bright are the points P and Q? The light is a + (1 - a) max(0, N . L), with N and L of length 1; L points "
+        "to the light."
     )
-
-
-def draw_dark(draws: Draws) -> Draft:
-    """Diffuse light on the dark side."""
-    ambient, normal = Fraction(draws.whole(1, 3), 4), draws.item(VECTORS)
-    to_light = tuple(-c for c in draws.item(VECTORS))
-    hints = ("Which sign does N . L have?", "Light from behind adds nothing, and takes nothing away.")
-    given = f"a = {number_text(ambient)}\nNormal: {place_text(normal)}\nTo the light: {place_text(to_light)}"
-    names = ("light-unclamped", "light-reversed")
-    return by_rule(
-        f"How bright is this point? {LIGHT_RULE}", given, (float(ambient), normal, to_light), names, hints
+    given = (
+        f"a = {number_text(ambient)}\nNormal at P: {place_text(normals[0])}\nNormal at Q: {place_text(normals[1])}\n"
+        f"To the light: {place_text(to_light)}"
     )
+    hints = (
+        "Make N and L of length 1: N . L is the cosine between them.",
+        "Which sign does it have at P, and at Q?",
+        "Light from behind adds nothing, and takes nothing away.",
+    )
+    places = [(float(ambient), normal, to_light) for normal in normals]
+    right = [number for place in places for number in RULES["light-reversed"].right(*place)]
+    wrong = {
+        name: [number for place in places for number in RULES[name].wrong(*place)]
+        for name in ("normal-too-long", "light-unclamped", "light-reversed")
+    }
+    return numbers(text, given, right, hints, wrong, ("P", "Q"))
 
 
 def draw_between(draws: Draws) -> Draft:
@@ -162,7 +166,7 @@ def draw_shading(draws: Draws) -> Draft:
     seen = draws.item(
         (
             ("inside of one large triangle, away from its vertices", 2),
-            ("that is the same in each whole facet", 0),
+            ("that is the same all over a facet", 0),
         )
     )
     text = f"Which shading shows light {seen[0]}?"
@@ -172,8 +176,7 @@ def draw_shading(draws: Draws) -> Draft:
 
 
 TEMPLATES = (
-    Template("lambert", 1, "Diffuse light", "shade", 2, draw_lambert),
-    Template("dark-side", 1, "The dark side", "shade", 1, draw_dark),
+    Template("lambert", 2, "Diffuse light", "shade", 2, draw_lambert),
     Template("normal-between", 1, "An interpolated normal", "shade", 3, draw_between),
     Template("highlight", 1, "The highlight", "shade", 3, draw_highlight),
     Template("scaled-normal", 1, "A normal under scaling", "shade", 3, draw_normal),

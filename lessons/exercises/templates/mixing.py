@@ -55,26 +55,6 @@ def draw_straight(draws: Draws) -> Draft:
     return numbers(text, given, [right], hints, wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
 
 
-def draw_glass(draws: Draws) -> Draft | None:
-    """Glass in front of a wall that is drawn later."""
-    alpha, red, blue = (Fraction(draws.whole(1, 3), 4) for _ in range(3))
-    scene = cards([0.25] * 3, [0.75] * 3)
-    colors = [[(float(red), 0, 0, float(alpha))] * 3, [(0, 0, float(blue), 1)] * 3]
-    scene = replace(scene, attributes=np.array(colors, float)[::-1], clip=scene.clip[::-1])
-    text = (
-        "A wall is drawn first, then glass in front of it, blended with over. What are red and blue of the "
-        "result, linear?"
-    )
-    given = f"Wall: blue {number_text(blue)}, opaque.\nGlass: red {number_text(red)}, alpha = {number_text(alpha)}"
-    twin = SHELF["order-reversed"]
-    wrong = [float(twin.draw(scene, BLENDED).color[0, 0, k]) for k in (0, 2)]
-    hints = ("What lies on top?", "The glass lets 1 - alpha of the wall through.")
-    right = [alpha * red, (1 - alpha) * blue]
-    return numbers(
-        text, given, right, hints, {twin.name: wrong}, ("red", "blue"), scene=scene, settings=BLENDED
-    )
-
-
 def draw_panes(draws: Draws) -> Draft:
     """Two panes of glass, the nearer one first."""
     alpha, red, blue = (Fraction(draws.whole(1, 3), 4) for _ in range(3))
@@ -199,7 +179,6 @@ def draw_cost(draws: Draws) -> Draft:
 TEMPLATES = (
     Template("result-alpha", 1, "The alpha of the result", "blend", 2, draw_alpha),
     Template("straight-color", 1, "A straight colour", "blend", 2, draw_straight),
-    Template("glass-and-wall", 1, "Glass in front of a wall", "blend", 2, draw_glass),
     Template("panes-of-glass", 1, "Glass that is drawn too early", "blend", 2, draw_panes),
     Template("additive-layers", 1, "Lights that add up", "blend", 1, draw_additive),
     Template("samples-of-two", 1, "Two triangles in a pixel", "resolve", 3, draw_samples),

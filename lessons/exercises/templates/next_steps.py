@@ -32,6 +32,14 @@ HINTS = {
     "depth": ("Smaller is nearer.", "A tie keeps what is there."),
 }
 """By the stages that are asked about."""
+RULES = {
+    "transform": "Before the viewport x and y run from -1 to 1; y points up.",
+    "edges": "Edge k lies opposite to corner k; every E is made positive inside of the triangle.",
+    "raster": "Inside all three E = a x + b y + c are positive; where E is 0, the edge decides: does it own ties?",
+    "interpolate": "Edge k lies opposite to corner k, with E = a x + b y + c; all w are 1.",
+    "depth": "Smaller is nearer, and a tie keeps what is there.",
+}
+"""What decides, by stage."""
 
 
 def _corners(draws: Draws) -> list[tuple[int, int]]:
@@ -78,7 +86,7 @@ def draw_step(stage_name: str, draws: Draws) -> Draft | None:
     )
     # Where the corners lie in the window is what the transform finds.
     shown = [f"Window of {SIZE[0]} x {SIZE[1]} pixels.", *([] if stage_name == "transform" else [places])]
-    given = "\n".join([*shown, "Before the step:", known])
+    given = "\n".join([RULES[stage_name], *shown, "Before the step:", known])
     return Draft(
         draft.text,
         given,

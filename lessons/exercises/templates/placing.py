@@ -41,7 +41,7 @@ def draw_ends(draws: Draws) -> Draft | None:
         return None
     right = clipped_places(ends)
     wrong = {}
-    for name in ("ends-clamped", "crossings-rounded"):
+    for name in ("ends-clamped", "crossings-rounded", "cut-once"):
         method = SHELF[name].change_settings(PARAMETERS).line_clipping
         places = clip_lines([ends], (0, 0, *SIZE), method).segments[0].tolist()
         wrong[name] = tuple((Fraction(x), Fraction(y)) for x, y in places)
@@ -132,7 +132,7 @@ def draw_weights(draws: Draws) -> Draft | None:
 
 
 TEMPLATES = (
-    Template("clip-ends", 1, "Ends of a clipped segment", "raster", 4, draw_ends),
+    Template("clip-ends", 2, "Ends of a clipped segment", "raster", 4, draw_ends),
     Template("place-ndc", 1, "Points of NDC in the window", "transform", 2, draw_ndc),
     Template("place-weights", 1, "The point behind the weights", "interpolate", 2, draw_weights),
     Template("corner-from-pixels", 1, "The corner behind the pixels", "raster", 3, draw_corner),

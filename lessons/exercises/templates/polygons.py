@@ -9,9 +9,9 @@ from core import Settings, clip_lines
 from core.geometry.culling import PLANES
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.clipping import SIZE, Ends, code_of, crossing
+from lessons.exercises.templates.clipping import SIZE, Ends, code_of
 from lessons.exercises.templates.coverage import corner_text
-from lessons.exercises.templates.drafting import by_rule, numbers, one_of, place_text, several
+from lessons.exercises.templates.drafting import by_rule, one_of, place_text, several
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.twin import clipped_ends
@@ -98,28 +98,6 @@ def draw_area(draws: Draws) -> Draft | None:
     return by_rule(text, given, tuple(polygons), (rule.name,), hints)
 
 
-def draw_ends(draws: Draws) -> Draft | None:
-    """The ends that are left of a segment."""
-    ends: Ends = ((draws.whole(-6, 2), draws.whole(-5, 2)), (draws.whole(6, 14), draws.whole(4, 11)))
-    scene, settings = segment_scene([ends], SIZE), Settings(line_clipping="liang-barsky")
-    clipped = clip_lines([ends], (0, 0, *SIZE))
-    if not clipped.is_kept[0] or (clipped.cut_by < 0).any():
-        return None
-    right = [c for edge in clipped.cut_by[0].tolist() for c in crossing(ends, edge) or ()]
-    wrong = {
-        name: np.ravel(clipped_ends(scene, SHELF[name].change_settings(settings))).tolist()
-        for name in ("ends-clamped", "crossings-rounded", "cut-once")
-    }
-    text = "What is left of the segment in the window? Both ends, x before y, in its direction."
-    hints = (
-        "Which borders does it cross inside of the window?",
-        "Find t at each border; the last entry and the first exit count.",
-        "A new end lies on the given line.",
-    )
-    given = f"{WINDOW}, segment from {ends[0]} to {ends[1]}."
-    return numbers(text, given, right, hints, wrong, ("x0", "y0", "x1", "y1"), None, scene, settings)
-
-
 VERDICTS = (
     "kept whole",
     "shortened",
@@ -171,6 +149,8 @@ def draw_verdict(draws: Draws) -> Draft | None:
 def draw_rejected(draws: Draws) -> Draft | None:
     """Segments that outcodes reject at once."""
     segments: list[Ends] = [(around(draws), around(draws)) for _ in range(5)]
+    if any(start == end for start, end in segments):
+        return None
     codes = [[code_of(place) for place in ends] for ends in segments]
     right = [k for k, (a, b) in enumerate(codes) if any(x == y == "1" for x, y in zip(a, b, strict=True))]
     text = (
@@ -190,7 +170,6 @@ TEMPLATES = (
     Template("near-crossing", 1, "A new vertex at the near plane", "clip", 2, draw_near),
     Template("triangles-after-clipping", 1, "Triangles after clipping", "clip", 1, draw_count),
     Template("clipped-area", 1, "What a window leaves of a triangle", "clip", 4, draw_area),
-    Template("clipped-ends", 1, "What a window leaves of a segment", "raster", 4, draw_ends),
     Template("cyrus-beck-verdict", 1, "Cyrus-Beck's verdicts", "raster", 2, draw_verdict),
-    Template("rejected-at-once", 1, "Segments rejected at once", "raster", 3, draw_rejected),
+    Template("rejected-at-once", 2, "Segments rejected at once", "raster", 3, draw_rejected),
 )

@@ -86,7 +86,11 @@ SLIPS = (
     ("lmu-with-d", "D=2*dy-x", "D is the part of 2 e dx + 2 dy - dx that stays the same"),
     ("lmu-final", "D = 2*dx", "a step of y lowers D by 2 dx"),
     ("lmu-falling", "D=2*dy-dx", "dy is below 0, and D begins at 2 |dy| - dx"),
-    ("jubair-cyrus-beck", "if Ni . D != 0 then", "a segment along an edge and outside of it is rejected"),
+    (
+        "jubair-cyrus-beck",
+        "if Ni . D != 0 then",
+        "a segment parallel to an edge and outside of it is rejected",
+    ),
 )
 """Printed listings, what their wrong line holds, and what must hold instead."""
 

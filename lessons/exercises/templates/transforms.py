@@ -4,16 +4,12 @@ from fractions import Fraction
 from typing import Any
 
 from core.geometry.matrices import viewport
-from core.raster.edges.snapping import window_position
-from core.scene import ClipScene
 from lessons.exercises.answers.choices import OrderAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.drafting import by_rule, numbers, place_text
-from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.transforms import Turn
-from lessons.small_scenes import triangle_scene
 
 TURNS: tuple[Turn, ...] = tuple(
     (Fraction(c, 5), Fraction(s, 5)) for c, s in ((0, 5), (0, -5), (3, 4), (4, 3), (-3, 4), (3, -4))
@@ -138,28 +134,6 @@ def draw_divide(draws: Draws) -> Draft:
     return by_rule(text, f"Clip position: {place_text(clip)}", (clip,), names, hints, XYZ)
 
 
-def draw_viewport(draws: Draws) -> Draft:
-    """NDC to pixels."""
-    size = draws.item((8, 16, 32)), draws.item((6, 12, 24))
-    ndc = tuple(Fraction(draws.whole(-7, 7), 8) for _ in range(2))
-    scene = _marked(ndc, size)
-    wrong = {
-        name: [float(c) for c in window_position(SHELF[name].change_scene(scene).clip, size)[0, 0]]
-        for name in ("y-down", "window-one-less")
-    }
-    right = [(c + 1) * s / 2 for c, s in zip(ndc, size, strict=True)]
-    text = "Where in the window, in pixels from its lower left corner, does a vertex with these x and y of NDC lie?"
-    given = f"NDC: {place_text(ndc)}\nWindow of {size[0]} x {size[1]} pixels, y up."
-    hints = ("NDC run from -1 to 1.", "(x + 1) W/2, and the same with y and H.")
-    return numbers(text, given, right, hints, wrong, XY, scene=scene)
-
-
-def _marked(ndc: tuple[Fraction, ...], size: tuple[int, int]) -> ClipScene:
-    """Return a triangle of which vertex 0 is the point."""
-    x, y = (float((c + 1) * s / 2) for c, s in zip(ndc, size, strict=True))
-    return triangle_scene([[(x, y), (size[0], 0), (size[0], size[1])]], size)
-
-
 def draw_matrix(draws: Draws) -> Draft:
     """D, filled in."""
     width, height = draws.whole(3, 20) * 2, draws.whole(3, 20) * 2
@@ -258,7 +232,6 @@ TEMPLATES = (
     Template("camera-space", 1, "A point in camera space", "transform", 3, draw_camera),
     Template("clip-position", 1, "The perspective projection", "transform", 4, draw_projection),
     Template("divide-by-w", 1, "The divide by w", "transform", 2, draw_divide),
-    Template("window-position", 1, "From NDC to pixels", "transform", 2, draw_viewport),
     Template("viewport-matrix", 1, "The viewport matrix", "transform", 3, draw_matrix),
     Template("shader-scaling", 1, "A vertex shader that scales", "transform", 2, draw_shader),
     Template("skinning", 1, "Two bones and a vertex", "transform", 2, draw_skinning),

@@ -1,5 +1,6 @@
 """Everything that there is to ask about is asked, or says why not; every name is one that exists."""
 
+import tomllib
 from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
@@ -10,11 +11,13 @@ from app.cli.exercise_coverage import coverage_lines
 from core import STAGES
 from core.settings import families
 from core.study.stability import experiments
-from lessons.exercises import templates
+from lessons.exercises import catalogue, templates
 from lessons.exercises.asked import LECTURES, kinds_by_stage, mistake_topics, topics
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask
 from lessons.mistakes.shelf import MISTAKES
+
+ORDER = Path(catalogue.__file__).with_name("order.toml")
 
 
 def test_every_topic_has_templates_or_a_reason() -> None:
@@ -46,6 +49,14 @@ def test_every_template_of_the_folder_is_found_and_no_name_used_twice() -> None:
     names = [template.name for module in modules for template in getattr(module, "TEMPLATES", ())]
     files = [path.stem for folder in templates.__path__ for path in Path(folder).glob("*.toml")]
     assert sorted([*names, *files]) == sorted(TEMPLATES)
+
+
+def test_the_order_stands_stage_by_stage_and_names_no_template_twice() -> None:
+    order = tomllib.loads(ORDER.read_text(encoding="utf-8"))
+    assert tuple(order) == STAGES
+    assert [(name, stage) for stage, names in order.items() for name in names] == [
+        (template.name, template.stage) for template in TEMPLATES.values()
+    ]
 
 
 @pytest.mark.slow

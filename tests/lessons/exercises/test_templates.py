@@ -22,9 +22,8 @@ from lessons.exercises.templates import (
     interpolation,
     lines,
     mixing,
-    polygons,
+    placing,
     textures,
-    transforms,
 )
 from lessons.exercises.templates.clipping import outcode_table, parameter_table
 from lessons.exercises.templates.lines import d_table
@@ -173,15 +172,13 @@ class Faultless:
         (fragments, fragments.draw_depths),
         (lines, lines.draw_table),
         (clipping, clipping.draw_parameters),
-        (transforms, transforms.draw_viewport),
-        (polygons, polygons.draw_ends),
+        (placing, placing.draw_ends),
         (interpolation, interpolation.draw_color),
         (interpolation, interpolation.draw_sorted),
         (textures, textures.draw_nearest),
         (textures, textures.draw_repeated),
         (mixing, mixing.draw_alpha),
         (mixing, mixing.draw_straight),
-        (mixing, mixing.draw_glass),
         (mixing, mixing.draw_panes),
     ],
 )
