@@ -4,7 +4,6 @@ import csv
 import json
 import math
 from collections.abc import Callable, Iterable, Iterator
-from functools import lru_cache
 from io import StringIO
 from typing import Any
 
@@ -68,10 +67,9 @@ def text_rows(stage: StageTrace, header: Header) -> tuple[str, Callable[[int], s
             lines.append(f"{position:>6}  {sentence}")
             if made is not None:
                 formulas = (line for line in (made.symbolic, made.substituted) if line)
-                lines += [f"          {readable(line)}" for line in formulas]
+                lines += [f"          {plain_text(line)}" for line in formulas]
         return "\n".join([*lines, ""])
 
-    readable = lru_cache(plain_text)
     return (
         f"{header['scene']}, stage {stage.stage}{f', {stage.method}' if stage.method else ''}\n",
         row_text,

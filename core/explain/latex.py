@@ -8,6 +8,7 @@ cache.
 
 import re
 from collections.abc import Sequence
+from functools import lru_cache
 
 _TOKEN = re.compile(r"\\(?:[A-Za-z]+|.)|\s+|.", re.DOTALL)
 _OPENING = {"{", "(", "[", r"\{", r"\left", r"\begin", r"\lfloor", r"\lceil", r"\langle"}
@@ -192,6 +193,7 @@ def without_macros(latex: str) -> str:
     return " ".join(cells)
 
 
+@lru_cache(maxsize=4096)
 def plain_text(latex: str) -> str:
     """Readable text for screen readers, tooltips, and formulas that cannot be typeset."""
     text = _VERTEX_MACRO.sub("", latex)

@@ -83,7 +83,7 @@ def test_error_stays_within_the_bound(seed: int, family: str, is_level: bool) ->
     if is_level:
         # Corners on one plane of little slope: the terms of a sliver's slopes cancel.
         depth = 0.4 + corners @ generator.uniform(-1e-6, 1e-6, 2)
-    assert_within_the_bound(corners, depth, size, 60)
+    assert_within_the_bound(corners, depth, size, 20)
 
 
 def test_error_of_triangles_of_the_least_area_stays_within_the_bound() -> None:
