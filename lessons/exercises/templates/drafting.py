@@ -24,8 +24,8 @@ def place_text(place: Iterable[Any]) -> str:
 
 
 def as_number(value: Any) -> Number:
-    """Return whole numbers and fractions exactly, and floats unchanged."""
-    return float(value) if isinstance(value, float) else Fraction(value)
+    """Return whole numbers and fractions exactly, and floats without the rounding of their last digits."""
+    return round(float(value), 12) + 0.0 if isinstance(value, float) else Fraction(value)
 
 
 def as_numbers(values: Iterable[Any]) -> Numbers:

@@ -250,3 +250,8 @@ def test_malformed_tables_are_not_checked() -> None:
     ):
         with pytest.raises(NotCheckedError, match=wanted):
             table.read(rows)
+
+
+def test_an_answer_of_zero_is_shown_as_zero() -> None:
+    draft = ask(TEMPLATES["turn-by-degrees"], 77).draft
+    assert draft.answer.text(draft.answer.reference).endswith("y = 0")
