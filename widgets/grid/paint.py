@@ -29,6 +29,8 @@ TALLNESS = 0.8
 """Height of digits as a part of the size of their type, with the room that they need between dots."""
 _LEAST_CHARACTERS = 6
 """Values are written only where so many digits fit."""
+_SMALL_WHOLE = 100
+"""Whole numbers below it are written large, over the sample centre if need be: the table is about them."""
 
 
 def paint_image(painter: QPainter, placement: GridPlacement, image: QImage) -> None:
@@ -138,6 +140,8 @@ def _number_size(
 ) -> int | None:
     """Return the text size of the values in logical pixels, or None where cells are too small, or full of dots."""
     cell, least = placement.cell, round(0.73 * theme.small_px)
+    if cell >= NUMBER_CELL and samples is None and _has_small_wholes(buffer):
+        return int(min(0.45 * cell, 2 * theme.text_px))
     room = (cell - 6) / (1.25 * buffer.channels)
     if cell < NUMBER_CELL or room < least + (buffer.channels > 1):
         return None
@@ -148,6 +152,16 @@ def _number_size(
         if size < least:
             return None
     return size if _characters(cell, size, theme) >= _LEAST_CHARACTERS else None
+
+
+def _has_small_wholes(buffer: GridBuffer) -> bool:
+    """Return whether a buffer is a table of whole numbers of two digits, beyond 0 and 1, or infinite."""
+    if buffer.kind != "scalar":
+        return False
+    values = buffer.values[~np.isnan(buffer.values)]
+    finite = values[np.isfinite(values)]
+    is_small = (finite == np.rint(finite)).all() and (np.abs(finite) < _SMALL_WHOLE).all()
+    return bool(is_small and (len(finite) < len(values) or (finite > 1).any()))
 
 
 def _characters(cell: float, size: int, theme: Theme) -> int:

@@ -3,11 +3,17 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtCore import Signal, Slot
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QScrollArea, QSizePolicy, QToolButton, QWidget
 
 from widgets.basics.controls import column_layout
 from widgets.basics.labels import set_role, text_label
+from widgets.basics.theme import current_theme
+
+WIDTH_IN_TYPE = 57
+"""Width that the phases side by side need, in sizes of their type."""
+_LEAST_PX = 11
 
 
 @dataclass(frozen=True)
@@ -116,7 +122,6 @@ class Phases(QScrollArea):
         self.setWidget(self._content)
         self.setWidgetResizable(True)
         self.setFrameShape(QScrollArea.Shape.NoFrame)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
 
     @Slot(object)
     def show_cards(self, cards: Sequence[PhaseCard]) -> None:
@@ -135,6 +140,20 @@ class Phases(QScrollArea):
             column.show_card(card)
             self._first.append(first)
             first += len(card.parts)
+        self._fit_type()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Fit the type to the width."""
+        super().resizeEvent(event)
+        self._fit_type()
+
+    def _fit_type(self) -> None:
+        """Make the type smaller where the phases would not fit side by side in that of the theme."""
+        size = max(self.width() // WIDTH_IN_TYPE, _LEAST_PX)
+        is_narrow = size < current_theme().text_px
+        style = f"QLabel, QToolButton {{ font-size: {size}px; }}" if is_narrow else ""
+        if style != self._content.styleSheet():
+            self._content.setStyleSheet(style)
 
     @Slot(int)
     def _choose(self, part: int) -> None:

@@ -5,7 +5,10 @@ from core.explain.equation import Part, all_of, comparison, conclusion, equation
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows
-from core.records.words import joined, numbered
+from core.records.words import counted, joined, numbered
+
+MOST_CORNERS = 4
+"""Of more corners only the largest number is shown: all are below 0 if it is."""
 
 
 def _listed(values: list[float]) -> str:
@@ -16,18 +19,28 @@ def _dropped(step: StepValues) -> list[Part]:
     return conclusion("dropped", "dropped" if step.flag("applies") else "kept")
 
 
+def _each(symbol: str, name: str, relation: str, values: list[float]) -> tuple[str, list[list[Part]]]:
+    """Return the numbers of all corners and a comparison of each, or of the largest where they are many."""
+    if len(values) > MOST_CORNERS:
+        largest = max(values)
+        return f"largest {name} {spoken(largest)}", [comparison(rf"\max_k {symbol}_k", relation, largest)]
+    return _listed(values), [comparison(f"{symbol}_{k}", relation, value) for k, value in enumerate(values)]
+
+
 @explains("cull.behind.test")
 def behind(step: StepValues) -> Said:
     """Whether all corners have w of 0 or less."""
     w = step.vector("w")
-    compared = [comparison(f"w_{k}", r"\le", value) for k, value in enumerate(w)]
+    numbers, compared = _each("w", "w", r"\le", w)
     in_front = [k for k, value in enumerate(w) if not value <= 0]
-    name, found = f"Triangle {step.triangle}", f"w above 0 (w = {_listed(w)})"
+    has_many = len(w) > MOST_CORNERS
+    name, found = f"Triangle {step.triangle}", f"w above 0 ({'' if has_many else 'w = '}{numbers})"
     if step.flag("applies"):
         text = f"{name} is behind the eye and dropped: no corner has {found}."
     else:
         verb = "have" if len(in_front) > 1 else "has"
-        text = f"{name} is not behind the eye: {numbered('corner', in_front)} {verb} {found}."
+        corners = counted(len(in_front), "corner") if has_many else numbered("corner", in_front)
+        text = f"{name} is not behind the eye: {corners} {verb} {found}."
     return text, all_of(compared, *_dropped(step))
 
 
@@ -35,16 +48,18 @@ def behind(step: StepValues) -> Said:
 def plane(step: StepValues) -> Said:
     """Whether all corners are outside one plane."""
     distances, name = step.vector("distances"), step.text("plane")
-    compared = [comparison(f"d_{k}", "<", distance) for k, distance in enumerate(distances)]
+    numbers, compared = _each("d", "distance", "<", distances)
     inside = sum(not value < 0 for value in distances)
-    number = "all" if inside == len(distances) else ("no", "one", "two")[inside]
+    small = ("no", "one", "two")
+    number = "all" if inside == len(distances) else small[inside] if inside < len(small) else str(inside)
     corners = f"{number} of its corners {'are' if inside > 1 else 'is'} inside"
     if not any(distances):
         corners = "all of its corners lie on it, which counts as inside"
     verdict = f"is not outside the {name} plane: {corners}"
     if step.flag("applies"):
         verdict = f"is dropped: all its corners are outside the {name} plane"
-    text = f"Triangle {step.triangle} {verdict} (distances {_listed(distances)})."
+    listed = numbers if len(distances) > MOST_CORNERS else f"distances {numbers}"
+    text = f"Triangle {step.triangle} {verdict} ({listed})."
     return text, all_of(compared, *_dropped(step))
 
 

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel
+from PySide6.QtWidgets import QApplication, QLabel
 from pytestqt.qtbot import QtBot
 
 from app.session.document import open_document
@@ -10,6 +10,8 @@ from app.session.session import Session
 from app.views.stage_views import StageViews
 from core.stages.declared import PHASES, STAGES
 from lessons.scenes import make_scene
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import LIGHT, PRESENTER, for_screen
 from widgets.timeline.phases import Phases
 
 
@@ -74,3 +76,18 @@ def test_a_click_steps_the_stage_and_predicting_hides_the_numbers(qtbot: QtBot) 
         character.isdigit() for column in phases.columns for b in column.buttons for character in b.text()
     )
     views.stop()
+
+
+def test_the_four_stages_stand_side_by_side_in_the_type_of_a_presenter(qtbot: QtBot) -> None:
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    apply_theme(application, for_screen(PRESENTER, 720))
+    try:
+        _, phases, views = shown(qtbot, "cube")
+        phases.resize(720, 680)
+        phases.show()
+        QApplication.processEvents()
+        assert phases.widget().width() <= phases.viewport().width()
+        views.stop()
+    finally:
+        apply_theme(application, LIGHT)

@@ -372,3 +372,22 @@ def test_cuts_that_are_left_out_are_said_to_be(monkeypatch: pytest.MonkeyPatch) 
         "Pixel (0, 0): edges cut it into 2 pieces, and triangles cover 0.5 of its area; to step through the cuts, "
         "trace one triangle or a smaller part of the picture."
     )
+
+
+def test_of_the_many_corners_of_a_polygon_the_farthest_decides():
+    corners = np.array(
+        [[-2, -0.5, 0, 1], [2, -0.5, 0, 1], [3, 0, 0, 1], [2, 0.5, 0, 1], [-2, 0.5, 0, 1], [-3, 0, 0, 1]]
+    )
+    scene = ClipScene(clip=corners[None], size=(8, 8), kind="polygons", rings=[0])
+    traced = trace(scene).stage("cull")
+    steps = [traced.explain(position) for position in range(1, traced.steps.count + 1)]
+    said = [sentence(step, 0, (0, 0)) for step in steps if step is not None and step.key == "cull.plane.test"]
+    assert (
+        said[2]
+        == "Polygon 0 is not outside the left plane: 3 of its corners are inside (largest distance 4)."
+    )
+    (behind,) = (step for step in steps if step is not None and step.key == "cull.behind.test")
+    assert (
+        sentence(behind, 0, (0, 0))
+        == "Polygon 0 is not behind the eye: 6 corners have w above 0 (largest w 1)."
+    )

@@ -378,3 +378,18 @@ def test_no_line_of_a_thumbnail_leaves_its_frame(qtbot, focus: int, is_kept: boo
     assert all(shown.pixelColor(x, y) == panel for x in left for y in range(100))
     inside = {shown.pixelColor(150, y).name() for y in range(10, 90)}
     assert len(inside) > 1
+
+
+def test_a_table_of_whole_numbers_is_written_large(grid: PixelGrid) -> None:
+    values = np.full((16, 24), np.inf)
+    grid.set_view(GridView(0.5, 0.5, 2.0))
+    inked = []
+    for number in (7.25, 7.0):
+        values[8, 12] = number
+        grid.show_buffer(GridBuffer("depth", values.copy(), range=(0, 9)))
+        rect = grid.placement().cells_rect(12, 8).adjusted(3, 3, -3, -3).toRect()
+        cell = picture(grid).copy(rect)
+        inked.append(
+            len({y for y in range(cell.height()) if len({cell.pixel(x, y) for x in range(cell.width())}) > 1})
+        )
+    assert inked[1] > inked[0]
