@@ -15,6 +15,7 @@ from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, twice_area
 from lessons.exercises.templates.drafting import numbers, one_of, place_text, table
+from lessons.exercises.templates.edges import coefficients
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.polygons import polygon_of_rings
@@ -44,11 +45,24 @@ def marked(
     return Draft(text, given, answer, hints, wrong, scene, settings)
 
 
+def is_decided(corners: list[Corner]) -> bool:
+    """Return whether no centre is so near to a side that snapping the corners to 1/256 pixel moves it across."""
+    if all(256 % c.denominator == 0 for place in corners for c in place):
+        return True
+    sides = [coefficients(corners[k - 1], corner) for k, corner in enumerate(corners)]
+    return all(
+        abs(a * (i + HALF) + b * (j + HALF) + c) > (abs(a) + abs(b)) / 256
+        for a, b, c in sides
+        for i in range(SIZE[0])
+        for j in range(SIZE[1])
+    )
+
+
 def of_triangle(
     corners: list[Corner], text: str, names: tuple[str, ...], hints: tuple[str, ...]
 ) -> Draft | None:
     """Ask for the pixels of one triangle."""
-    if abs(twice_area(corners)) < 8:
+    if abs(twice_area(corners)) < 8 or not is_decided(corners):
         return None
     scene = triangle_scene(np.array([corners], float), SIZE)
     return marked(f"{text} {RULE}", f"{WINDOW}\nTriangle: {corner_text(corners)}", scene, names, hints)
@@ -121,7 +135,7 @@ def draw_star(draws: Draws) -> Draft | None:
     corners = [(tenths(draws, 0, 12), tenths(draws, 0, 9)) for _ in range(5)]
     around = sorted(corners, key=lambda p: atan2(p[1] - Fraction(9, 2), p[0] - 6))
     star = [around[2 * k % 5] for k in range(5)]
-    if min(abs(p[0] - 6) + abs(p[1] - Fraction(9, 2)) for p in corners) < 3:
+    if min(abs(p[0] - 6) + abs(p[1] - Fraction(9, 2)) for p in corners) < 3 or not is_decided(star):
         return None
     rule, said = draws.item(
         (
@@ -280,13 +294,13 @@ def draw_fan(draws: Draws) -> Draft | None:
 
 TEMPLATES = (
     Template("flat-side", 1, "A triangle with a level side", "raster", 4, draw_flat),
-    Template("thin-triangle", 1, "A thin triangle", "raster", 4, draw_thin),
-    Template("right-border", 1, "Beyond the right border", "raster", 3, draw_border),
+    Template("thin-triangle", 2, "A thin triangle", "raster", 4, draw_thin),
+    Template("right-border", 2, "Beyond the right border", "raster", 3, draw_border),
     Template("point-pixels", 1, "Pixels of points", "raster", 3, draw_points),
     Template("row-ends", 1, "First and last pixel of a row", "raster", 2, draw_ends),
     Template("row-crossings", 1, "Where edges cross rows", "raster", 4, draw_rows),
     Template("crossing-count", 1, "Crossings at vertices", "raster", 2, draw_crossings),
     Template("fourth-vertex", 1, "The vertex that splits a triangle", "raster", 2, draw_fourth),
-    Template("star-polygon", 1, "A polygon that crosses itself", "raster", 4, draw_star),
+    Template("star-polygon", 2, "A polygon that crosses itself", "raster", 4, draw_star),
     Template("fan-count", 1, "How often a centre is drawn", "raster", 2, draw_fan),
 )

@@ -160,7 +160,7 @@ def draw_side(draws: Draws) -> Draft | None:
 def draw_box(draws: Draws) -> Draft | None:
     """Pixels of a bounding box."""
     corners = [(Fraction(draws.whole(2, 118), 10), Fraction(draws.whole(2, 88), 10)) for _ in range(3)]
-    if abs(twice_area(corners)) < 20:
+    if abs(twice_area(corners)) < 20 or any(c % 1 == HALF for place in corners for c in place):
         return None
     low, high = (
         np.array([float(pick(c[axis] for c in corners)) for axis in range(2)]) for pick in (min, max)
@@ -322,7 +322,7 @@ TEMPLATES = (
     Template("front-pixels", 1, "Pixels of front faces", "cull", 3, draw_culled),
     Template("pixels-beyond-near", 1, "Pixels beyond the near plane", "clip", 3, draw_clipped),
     Template("inner-side", 1, "The inner side of an edge", "edges", 3, draw_side),
-    Template("box-pixels", 1, "Pixels in the bounding box", "bin", 3, draw_box),
+    Template("box-pixels", 2, "Pixels in the bounding box", "bin", 3, draw_box),
     Template("below-half", 1, "Where u is below 1/2", "interpolate", 4, draw_below_half),
     Template("texel-pixels", 1, "Pixels of dark texels", "shade", 3, draw_texels),
     Template("nearer-pixels", 1, "Pixels of the nearer triangle", "depth", 4, draw_nearer),

@@ -1,4 +1,4 @@
-"""Exercises on lines: their answers follow from the rule that the question states, in exact numbers."""
+"""Exercises on pixels: their answers follow from the rule that the question states, in exact numbers."""
 
 from collections.abc import Callable
 from fractions import Fraction
@@ -9,6 +9,7 @@ import pytest
 
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask
+from lessons.exercises.templates.filling import is_decided
 
 HALF = Fraction(1, 2)
 Place = tuple[Fraction, Fraction]
@@ -67,3 +68,12 @@ def test_the_answer_follows_from_the_stated_rule(
             (i, j) for i in range(columns) for j in range(rows) if rule(start, end, (i + HALF, j + HALF))
         }
         assert question.draft.answer.reference == found, question.mark
+
+
+def test_no_centre_lies_on_a_side_that_snapping_moves() -> None:
+    # The centre (8.5, 1.5) lies on the first side exactly; snapped to 1/256 pixel the side runs beside it.
+    tenths = [[(73, 7), (91, 19), (62, 86)], [(73, 7), (91, 21), (62, 86)]]
+    on_side, clear = ([(Fraction(x, 10), Fraction(y, 10)) for x, y in one] for one in tenths)
+    assert not is_decided(on_side)
+    assert is_decided(clear)
+    assert is_decided([(Fraction(1, 2), HALF), (Fraction(9, 2), HALF), (HALF, Fraction(5, 2))])
