@@ -10,10 +10,11 @@ import numpy as np
 
 import core
 from core.trace import StageTrace
+from tests.covering import is_everything
 
-ROW_LIMIT = 150
-"""Rows of a stage that are executed: all of them, or these many of them spread over the trace."""
-FOLLOWED_ROWS = 25
+ROW_LIMIT = 150 if is_everything() else 60
+"""Rows of a kind that are executed: all of them, or these many of them spread over the trace."""
+FOLLOWED_ROWS = 25 if is_everything() else 10
 """Those of them that are followed line by line, at least."""
 
 Ran = dict[CodeType, list[list[int]]]
