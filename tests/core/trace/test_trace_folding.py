@@ -77,7 +77,9 @@ def test_all_rows_give_the_picture_and_its_crop(name, choice):
     for region in ((0, 0, *scene.size), small_region(scene)):
         traced, crop = trace(scene, settings, region=region), crop_of(region)
         check_frame(traced, frame, crop)
-        assert same_bits(folded(traced, "raster", "overdraw"), np.ascontiguousarray(frame.cover_count[crop]))
+        if scene.corner_count:  # Fragments of a table are there before the stage Raster.
+            overdraw = folded(traced, "raster", "overdraw")
+            assert same_bits(overdraw, np.ascontiguousarray(frame.cover_count[crop]))
 
 
 @pytest.mark.parametrize("name", ["sphere", "torus", "knot"])

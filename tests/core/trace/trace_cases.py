@@ -23,7 +23,8 @@ def small_scene(name: str) -> ClipScene | Scene:
 def small_region(scene: ClipScene | Scene) -> Region:
     """Return a window around the middle of the picture, on no block's border."""
     width, height = scene.size
-    return width // 2 - 5, height // 2 - 3, 11, 7
+    column, row = max(width // 2 - 5, 0), max(height // 2 - 3, 0)
+    return column, row, min(11, width - column), min(7, height - row)
 
 
 def lit_scene(projection: str = "perspective") -> Scene:
@@ -197,14 +198,23 @@ CASES = [*FILLED, *OUTLINED, *(in_turn(SCENES, [*CHOICES, *MIXES]) if is_everyth
 
 
 def settings_of(choice: dict[str, str | int], scene: ClipScene | Scene) -> Settings:
-    """Return the settings of a choice; what is made of w is left out where the camera is orthographic."""
-    if isinstance(scene, Scene) and scene.camera.projection == "orthographic":
-        choice = {
-            family: name
-            for family, name in choice.items()
-            if family not in FAMILIES or "perspective" not in table.get(family, str(name)).needs
-        }
-    return Settings(**choice)  # type: ignore[arg-type]
+    """Return the settings of a choice, but for methods that refuse the scene."""
+    possible = {
+        family: name
+        for family, name in choice.items()
+        if family not in FAMILIES or not _refuses(family, str(name), scene)
+    }
+    return Settings(**possible)  # type: ignore[arg-type]
+
+
+def _refuses(family: str, name: str, scene: ClipScene | Scene) -> bool:
+    """Return whether a method can't draw a scene: an orthographic camera, or polygons that it does not clip."""
+    needs = table.get(family, name).needs
+    if isinstance(scene, Scene):
+        return "perspective" in needs and scene.camera.projection == "orthographic"
+    if name == "weiler-atherton":
+        return scene is SCENES["pentagram"]
+    return "convex-window" in needs and not scene.has_convex_region
 
 
 def name_of(choice: object) -> str:
