@@ -18,7 +18,8 @@ from lessons.exercises.templates.fragments import NAMES
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import segment_scene, triangle_scene
 
-TOLERANCE = 0.1
+TOLERANCE = 0.15
+"""In pixels: more than half a step of 1/4, so that the nearest place that the mouse can reach counts."""
 WEIGHT_TOLERANCE = 0.25
 
 

@@ -77,3 +77,9 @@ def test_no_centre_lies_on_a_side_that_snapping_moves() -> None:
     assert not is_decided(on_side)
     assert is_decided(clear)
     assert is_decided([(Fraction(1, 2), HALF), (Fraction(9, 2), HALF), (HALF, Fraction(5, 2))])
+
+
+def test_no_sentence_of_a_file_is_broken_in_the_middle() -> None:
+    for name, template in TEMPLATES.items():
+        for line in ask(template, 0).draft.text.strip().split("\n")[:-1]:
+            assert line.endswith((".", "?", ":")), name
