@@ -14,6 +14,7 @@ from core.settings import Settings
 from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.focus_order import tab_stops
 from widgets.basics.key_claim import GIVEN_BACK
+from widgets.basics.labels import text_label
 from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
@@ -23,6 +24,10 @@ if TYPE_CHECKING:
         Opening,
     )  # At run time all studies would come along: not before they are wanted.
 
+COVERED = (
+    "Hidden while an exercise asks about this scene. P on the Step page, or Model answer, ends the question."
+)
+"""What stands for a page that would show what is asked about."""
 Handlers = Mapping[str, Callable[[], object]]
 """What to call for actions of ``app.window.keys.ACTIONS``, by name."""
 
@@ -163,6 +168,8 @@ class PageKind:
     """Files with these endings are shown on this page, not opened as scenes; lower case."""
     signature: bytes = b""
     """Stands at the beginning of its files, where another page has files of the same ending."""
+    hides_itself: bool = False
+    """Whether it hides by itself what an exercise asks about."""
 
 
 class Pages(QWidget):
@@ -194,6 +201,11 @@ class Pages(QWidget):
             Qt.FocusPolicy.NoFocus
         )  # Its keys are actions; the arrows belong to the page.
         self._stack = QStackedWidget(self)
+        self._cover = text_label(COVERED, self, role="muted")
+        self._cover.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._cover.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self._stack.addWidget(self._cover)
+        session.asked_changed.connect(self._place)
         for kind in kinds:
             index = self.bar.addTab(kind.title)
             self.bar.setTabToolTip(index, kind.tip)
@@ -237,6 +249,11 @@ class Pages(QWidget):
     def current_name(self) -> str:
         """Its name."""
         return self._kinds[self.bar.currentIndex()].name
+
+    @property
+    def is_covered(self) -> bool:
+        """Whether the page is hidden, for an exercise asks about the scene that it shows."""
+        return self._session.is_asked_about and not self._kinds[self.bar.currentIndex()].hides_itself
 
     @property
     def names(self) -> list[str]:
@@ -285,11 +302,18 @@ class Pages(QWidget):
 
     @Slot(int)
     def _show_index(self, index: int) -> None:
-        before = self._stack.currentWidget()
-        page = self.page(self._kinds[index].name)
-        if isinstance(before, Page) and before is not page:
-            before.leave()
-        self._stack.setCurrentWidget(page)
-        if self.isVisible():
-            page.take_focus()
+        self._place()
+        if self.isVisible() and self.is_covered:
+            self._cover.setFocus()
+        elif self.isVisible():
+            self.current.take_focus()
         self.page_changed.emit(self._kinds[index].name)
+
+    @Slot()
+    def _place(self) -> None:
+        """Show the page of the bar, or its cover."""
+        before, page = self._stack.currentWidget(), self.page(self.current_name)
+        shown = self._cover if self.is_covered else page
+        if isinstance(before, Page) and before is not shown:
+            before.leave()
+        self._stack.setCurrentWidget(shown)

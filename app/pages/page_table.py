@@ -46,7 +46,9 @@ def _make_exercises(session: Session, parent: QWidget) -> Page:
 
 PAGE_KINDS = (
     PageKind("start", "Start", "What this is, recent files and scenes (Alt+0)", _make_start),
-    PageKind("step", "Step", "Step through the pipeline, pixel by pixel (Alt+1)", _make_step),
+    PageKind(
+        "step", "Step", "Step through the pipeline, pixel by pixel (Alt+1)", _make_step, hides_itself=True
+    ),
     PageKind(
         "compare",
         "Compare",
@@ -64,7 +66,14 @@ PAGE_KINDS = (
         b'"rasterscope stress"',
     ),
     PageKind("plan", "Plan", "Find the cheapest methods that this scene needs (Alt+4)", _make_plan),
-    PageKind("exercises", "Exercises", "Answer on the picture (Alt+5)", _make_exercises, (".toml",)),
+    PageKind(
+        "exercises",
+        "Exercises",
+        "Answer on the picture (Alt+5)",
+        _make_exercises,
+        (".toml",),
+        hides_itself=True,
+    ),
 )
 HEAD = 256
 """Bytes at the beginning of a file that name the program it is of."""

@@ -53,6 +53,10 @@ class Session(QObject):
     history_changed = Signal()
     """What can be undone, redone or gone back to."""
     predicting_changed = Signal()
+    revealed = Signal()
+    """What comes next was shown while predicting, or a part of it."""
+    asked_changed = Signal()
+    """An exercise asks about the open scene from now on, or no longer."""
     """What comes next is hidden, or shown again."""
     plan_changed = Signal()
     """Something else is known of what the scene needs."""
@@ -71,7 +75,7 @@ class Session(QObject):
         self._visited = History(self._cursor)
         self._pin: Pixel | None = None
         self._hover: Pixel | None = None
-        self._is_predicting = False
+        self._is_predicting = self._is_asked_about = False
         self._plan: PlanReport | None = None
         self._trace = document.make_trace()
         self._resting = QTimer(self)
@@ -400,6 +404,17 @@ class Session(QObject):
         if is_predicting != self._is_predicting:
             self._is_predicting = is_predicting
             self.predicting_changed.emit()
+
+    @property
+    def is_asked_about(self) -> bool:
+        """Whether an exercise asks about the open scene: no page may show it."""
+        return self._is_asked_about
+
+    def set_asked_about(self, is_asked_about: bool) -> None:
+        """Keep the pages from showing the scene, or let them show it again."""
+        if is_asked_about != self._is_asked_about:
+            self._is_asked_about = is_asked_about
+            self.asked_changed.emit()
 
     def has_pixel(self, pixel: Pixel) -> bool:
         """Return whether the traced raster has this pixel."""

@@ -15,7 +15,7 @@ from app.background.workers import ending_within
 from app.files.export_desk import ExportActions
 from app.files.file_desk import READ_OUTSIDE, FileActions
 from app.help.pane import HelpPane
-from app.pages.page_bar import Page, Pages
+from app.pages.page_bar import COVERED, Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
 from app.pages.step.opening import StepOpening
 from app.pages.step.page import PANES, StepPage
@@ -37,6 +37,8 @@ from core.scene import ClipScene
 from widgets.basics.accessible import announce, install_roles
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
+OF_VIEW = ("export_view", "copy_view", "print_view")
+"""Actions that hand out what the page shows."""
 BY_SIGNAL = 128
 """Exit code of a program that a signal has ended, less the signal's number."""
 SECONDS_TO_END = 1.0
@@ -156,8 +158,12 @@ class MainWindow(QMainWindow):
         if name.startswith("page_"):
             self.pages.show_page(name.removeprefix("page_"))
             self.menus.show_page(self.pages.current_name)
+            return
+        own = self.pages.current.handlers()
+        if self.pages.is_covered and (name in own or name in OF_VIEW):
+            self.tell(COVERED)
         else:
-            {**self._handlers(), **self.pages.current.handlers()}[name]()
+            {**self._handlers(), **own}[name]()
 
     def _handlers(self) -> dict[str, Callable[[], object]]:
         """Return what the actions of ``app.window.keys.ACTIONS`` do that a page cannot do alone."""

@@ -1,10 +1,14 @@
-"""Keeps the Step page from showing what is asked: it hides what comes next while it has the question's scene."""
+"""Keeps the Step page from showing what is asked: it hides what comes next while it has the question's scene.
+
+The step goes back to before what is asked. Going on from there, or what Predict shows there, ends the question.
+"""
 
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.pages.exercises.question_presenter import QuestionPresenter
 from app.session.session import Session
-from lessons.exercises.screen import draws_same
+from core import STAGES
+from lessons.exercises.screen import PREFIX, draws_same, screen_of
 
 
 class AskedScene(QObject):
@@ -20,6 +24,8 @@ class AskedScene(QObject):
         """Whether it is hidden for the question's sake."""
         session.document_changed.connect(self._look)
         session.predicting_changed.connect(self._follow_predicting)
+        session.cursor_changed.connect(self._follow_steps)
+        session.revealed.connect(self._follow_reveal)
         questions.state_changed.connect(self._look)
 
     def _is_open(self) -> bool:
@@ -35,12 +41,50 @@ class AskedScene(QObject):
         """Hide the scene while it is asked about, and show it when it no longer is."""
         is_open, is_predicting = self._is_open(), self._session.is_predicting
         was_hidden, self._is_hidden = self._is_hidden, is_open
+        if is_open and self._here() > self._start():
+            number, position = self._start()
+            self._session.scrub(position, STAGES[number])
+        self._session.set_asked_about(is_open)
         if is_open != is_predicting and (is_open or was_hidden):
             self.hiding_toggled.emit()
 
     @Slot()
     def _follow_predicting(self) -> None:
         """Give the question up where the user ends predicting: then it can be seen."""
-        if self._is_hidden and not self._session.is_predicting and self._is_open():
+        if not self._session.is_predicting:
+            self._end()
+
+    @Slot()
+    def _follow_steps(self) -> None:
+        """Give the question up where the user steps into what is asked."""
+        if self._is_hidden and self._here() > self._start():
+            self._end()
+
+    @Slot()
+    def _follow_reveal(self) -> None:
+        """Give the question up where Predict shows what comes next of it; earlier stages may be predicted."""
+        if self._is_hidden and self._here() == self._start():
+            self._end()
+
+    def _end(self) -> None:
+        """Give the question up; Predict goes on by itself."""
+        if self._is_hidden and self._is_open():
             self._is_hidden = False
             self._questions.give_up()
+
+    def _here(self) -> tuple[int, int]:
+        """Return the number of the stage at the cursor, and the position."""
+        cursor = self._session.cursor
+        return STAGES.index(cursor.stage), cursor.position
+
+    def _start(self) -> tuple[int, int]:
+        """Return the last place that shows nothing of what is asked: before a step, else before the whole stage."""
+        question = self._questions.question
+        assert question is not None
+        template = question.template
+        row = screen_of(template.name).row if template.name.startswith(PREFIX) else -1
+        position = 0
+        if row > 0:
+            steps = self._session.trace.stage(template.stage).steps
+            position = steps.position_after(min(row, steps.row_count) - 1)
+        return STAGES.index(template.stage), position

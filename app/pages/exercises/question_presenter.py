@@ -23,7 +23,7 @@ from widgets.exercises.records import Feedback, QuestionRecord
 VARIANTS = 10_000
 """Seeds that new variants are drawn from: short ones, to be read out."""
 SURE = "The model answer ends this question without points. Choose Model answer again to show it."
-SHOWN = "The model answer was shown before, so this earns nothing."
+SHOWN = "What is right was shown before, so this earns nothing."
 
 
 def new_seed() -> int:

@@ -95,6 +95,7 @@ class PredictionPresenter(QObject):
                 self._session.go_to(self._session.stage_trace.steps.count)
             self._show(asked)
             self._view.show_verdict(verdict)
+            self._session.revealed.emit()
 
     @Slot()
     def _next(self) -> None:
@@ -114,6 +115,7 @@ class PredictionPresenter(QObject):
         self._right += bool(verdict.is_right)
         self._view.show_verdict(verdict)
         self._view.show_count(self._right, self._count)
+        self._session.revealed.emit()
 
     @Slot()
     def _cursor_moved(self) -> None:

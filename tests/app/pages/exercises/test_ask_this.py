@@ -1,11 +1,17 @@
 """Ask this: a step or a value of the Step page becomes a question; while it is asked, the Step page hides it."""
 
+from collections.abc import Callable
+
 import pytest
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.cli.attempts import attempt_file
 from app.pages.exercises.page import ExercisesPage
+from app.pages.page_bar import COVERED
 from app.window.main_window import MainWindow
 from core import Settings
+from core.records.steps import Level
 from lessons.exercises.question import ask, judge
 from lessons.exercises.screen import Screen, scene_name, screen_of, screen_template
 from lessons.scenes import make_scene
@@ -47,6 +53,76 @@ def test_ending_prediction_gives_the_question_up(window: MainWindow) -> None:
     window.run_action("page_step")
     window.run_action("predict")
     assert not page.questions.is_asked
+
+
+def end_by_reveal(window: MainWindow) -> None:
+    window.page.column.prediction.reveal_requested.emit()
+
+
+def end_by_clicks(window: MainWindow) -> None:
+    window.page.grid.pixel_clicked.emit(30, 20)
+
+
+def end_by_steps(window: MainWindow) -> None:
+    window.session.step(1, Level.PIXEL)
+
+
+@pytest.mark.parametrize("look", [end_by_reveal, end_by_clicks, end_by_steps])
+def test_what_is_seen_while_predicting_earns_nothing(
+    window: MainWindow, look: Callable[[MainWindow], None]
+) -> None:
+    """The step goes back to before what is asked; whoever goes on from there, or reveals it, has seen it."""
+    session = window.session
+    session.set_stage("raster", 4000)
+    session.set_pin((30, 20))
+    window.run_action("ask_value")
+    page = exercises(window)
+    assert (session.cursor.stage, session.cursor.position) == ("raster", 0)
+    assert page.questions.is_asked
+    assert session.is_predicting
+    window.run_action("page_step")
+    look(window)
+    assert not page.questions.is_asked
+    assert window.statusBar().currentMessage().startswith("The Step page shows what was asked for.")
+    window.run_action("page_exercises")
+    page.questions.answer(page.question.draft.answer.reference)  # type: ignore[union-attr]
+    page.questions.check()
+    page.settle()
+    assert not attempt_file().attempts()
+
+
+def test_earlier_stages_may_be_predicted(window: MainWindow) -> None:
+    window.session.set_stage("raster", 4000)
+    window.session.set_pin((30, 20))
+    window.run_action("ask_value")
+    page = exercises(window)
+    window.run_action("page_step")
+    window.session.set_stage("edges", 0)
+    end_by_reveal(window)
+    end_by_steps(window)
+    assert page.questions.is_asked
+
+
+def test_no_other_page_shows_what_is_asked(window: MainWindow) -> None:
+    """Pages that would show the open scene are covered, and hand out nothing, until the question has ended."""
+    window.session.set_stage("raster", 4000)
+    window.session.set_pin((30, 20))
+    window.run_action("page_start")
+    start = window.pages.current
+    window.run_action("page_step")
+    window.run_action("ask_value")
+    page = exercises(window)
+    window.run_action("page_start")
+    assert start.isHidden()
+    QApplication.clipboard().setText("nothing")
+    window.run_action("copy_view")
+    assert QApplication.clipboard().text() == "nothing"
+    assert window.statusBar().currentMessage() == COVERED
+    window.run_action("page_exercises")
+    page.questions.show_model()
+    page.questions.show_model()
+    window.run_action("page_start")
+    assert not start.isHidden()
 
 
 def test_what_has_no_line_is_refused(window: MainWindow, qtbot: QtBot) -> None:
