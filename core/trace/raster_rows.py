@@ -39,7 +39,7 @@ FILL_OPERATIONS: dict[str, tuple[Operation, ...]] = {
         Operation("edge-2", "value", ("value_2",)),
         Operation("decide", "covered", ("covered", "tie")),
     ),
-    "accept": (Operation("accept", "covered", ("covered",)),),
+    "accept": (Operation("accept", "", ("covered",)),),
     "span": (
         *(Operation(f"edge-{k}", _side_label(k), (f"crossing_{k}",)) for k in range(3)),
         Operation("span", "span", ("start", "stop")),
