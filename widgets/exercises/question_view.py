@@ -51,7 +51,12 @@ class QuestionView(QWidget):
         self.list_button.hide()
         self.title = text_label("", self, role="title", wraps=True)
         self.mark = text_label(
-            "", self, role="muted", is_selectable=True, name="Line that gives this question again"
+            "",
+            self,
+            role="muted",
+            wraps=True,
+            is_selectable=True,
+            name="Line that gives this question again",
         )
         self.copy_button = self._button(
             "Copy line", "Copy the line that gives this question to anybody", flat=True
@@ -104,9 +109,8 @@ class QuestionView(QWidget):
         self._content = QWidget(self)
         column = column_layout(self._content, 12, margins=(4, 4, 12, 8))
         head = row_layout(spacing=4)
-        head.addWidget(self.mark)
-        head.addWidget(self.copy_button)
-        head.addStretch(1)
+        head.addWidget(self.mark, 1)
+        head.addWidget(self.copy_button, 0, Qt.AlignmentFlag.AlignTop)
         column.addWidget(self.list_button, 0, Qt.AlignmentFlag.AlignLeft)
         column.addWidget(self.title)
         column.addLayout(head)

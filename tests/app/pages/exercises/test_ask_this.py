@@ -15,6 +15,8 @@ from core.records.steps import Level
 from lessons.exercises.question import ask, judge
 from lessons.exercises.screen import Screen, scene_name, screen_of, screen_template
 from lessons.scenes import make_scene
+from widgets.exercises.mark_grid import MarkGrid
+from widgets.exercises.question_view import QuestionView
 
 
 def exercises(window: MainWindow) -> ExercisesPage:
@@ -175,3 +177,13 @@ def test_a_value_is_asked_with_its_channels() -> None:
     assert draft.answer.names[:3] == ("red", "green", "blue")  # type: ignore[attr-defined]
     assert Settings() == draft.settings
     assert screen_of(Screen("cube", (8, 6), {}, "interpolate", buffer="1/w").name).buffer == "1/w"
+
+
+def test_a_long_line_of_a_question_wraps_in_a_narrow_column(qtbot: QtBot) -> None:
+    view = QuestionView(MarkGrid())
+    qtbot.addWidget(view)
+    widths = []
+    for line in ("ask/shared-edge", "ask/shared-edge/64x48/fill=bounding-box/raster/bounding-box/3501"):
+        view.mark.setText(line)
+        widths.append(view.scroll_area.widget().minimumSizeHint().width())
+    assert widths[1] <= 2 * widths[0]
