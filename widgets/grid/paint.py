@@ -100,7 +100,8 @@ def paint_pale_edges(
         for row, column in np.argwhere(meets).tolist():
             rect = placement.cells_rect(column + column0 + step[0], row + row0 + step[1])
             corner = rect.topLeft() if step[0] else rect.bottomRight()
-            lines.append(QLineF(rect.bottomLeft(), corner))
+            # Whole pixels, in files as on the screen: cells may end between two.
+            lines.append(QLineF(rect.bottomLeft().toPoint(), corner.toPoint()).translated(0.5, 0.5))
     painter.save()
     painter.setPen(QPen(QColor(theme.text), 1.0))
     painter.drawLines(lines)

@@ -232,9 +232,8 @@ def test_distances_of_a_picture_are_those_of_what_is_seen(size):
     seen = inverse_w > 0
     assert seen.any()
     assert np.array_equal(np.isfinite(found), seen)
-    assert np.allclose(
-        found[seen], 1 / inverse_w[seen], rtol=6e-4
-    )  # Of float32 depths, beside the outline worst.
+    # Of float32 depths, beside the outline worst.
+    assert np.allclose(found[seen], 1 / inverse_w[seen], rtol=6e-4)
 
 
 def test_places_of_distances_are_spread_over_the_picture():
