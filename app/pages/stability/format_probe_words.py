@@ -38,13 +38,13 @@ def dial_rows(found: PixelInFormats) -> tuple[DialRow, ...]:
         for index, triangle in enumerate(found.triangles):
             own = (each.coverage, drawn_words(each.count, each.wanted), picture_words(each))
             is_count_right = each.count == each.wanted
-            decision, is_right = _decision(each.readings[index], each.is_drawn[index])
+            decision, is_right = _decision(each.readings[index], each.is_drawn[index], found.is_culled[index])
             cells = (*(own if index == 0 else ("",) * len(own)), str(triangle), *decision)
             rows.append(DialRow(cells, is_right, is_count_right if index == 0 else None))
     return tuple(rows)
 
 
-def _decision(reading: DialReading, is_drawn: bool) -> tuple[tuple[str, ...], bool]:
+def _decision(reading: DialReading, is_drawn: bool, is_culled: bool) -> tuple[tuple[str, ...], bool]:
     """Return what is said of one triangle, and whether it is right; pieces have no edge function to be shown."""
     should_cover = reading.is_covered == reading.is_right
     is_right = is_drawn == should_cover
@@ -55,7 +55,7 @@ def _decision(reading: DialReading, is_drawn: bool) -> tuple[tuple[str, ...], bo
             "",
             "",
             number_text(reading.exact_value),
-            "clipped first: its pieces decide",
+            "culled" if is_culled else "clipped first: its pieces decide",
             "",
         ), is_right
     numbers = (str(reading.edge), number_text(reading.values[reading.edge]), number_text(reading.exact_value))

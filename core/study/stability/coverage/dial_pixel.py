@@ -20,6 +20,7 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.stages.bin_and_raster import covered
 from core.stages.declared import STAGES
+from core.stages.geometry import Geometry
 from core.stages.vertices import process_geometry
 from core.study.stability.coverage.covered_pixels import Wanted, count_cover
 from core.study.stability.coverage.number_formats import FORMATS
@@ -50,8 +51,8 @@ class FormatAtPixel:
     readings: tuple[DialReading, ...]
     """Of every triangle of ``PixelInFormats.triangles``."""
     is_drawn: tuple[bool, ...]
-    """Whether each of these triangles covers the pixel when it is drawn. Other than its reading only where the format
-    needs corners in front of the eye, so that pieces are drawn which clipping made."""
+    """Whether each of these triangles covers the pixel when it is drawn. Other than its reading only where it is
+    culled, or the format needs corners in front of the eye, so that pieces are drawn which clipping made."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -61,6 +62,8 @@ class PixelInFormats:
     pixel: Pixel
     triangles: tuple[int, ...]
     """Those that decide the pixel and are shown."""
+    is_culled: tuple[bool, ...]
+    """Whether the run culls each of them."""
     is_touched: bool
     """Whether any triangle covers the pixel in any format; else the one shown is the nearest."""
     left_out: int
@@ -122,9 +125,11 @@ def pixel_in_formats(
         right = wanted(scene, chosen)
         here = len(covering[name]), int(right[pixel[::-1]])
         formats.append(FormatAtPixel(name, *here, *_wrong_pixels(scene, chosen, right), readings, is_drawn))
+    kept = _geometry_of(scene, by_format["exact"]).primitives.triangle
     return PixelInFormats(
         pixel,
         shown,
+        tuple(number not in kept for number in shown),
         len(deciding) > 0,
         len(np.setdiff1d(deciding, shown)),
         _run_count(scene, settings, pixel),
@@ -147,12 +152,19 @@ def covering_triangles(scene: ClipScene, settings: Settings, pixel: Pixel) -> In
     ValueError
         If a method does not take the scene.
     """
-    counts = {stage: StageCount() for stage in STAGES}
-    geometry = process_geometry(scene, settings, counts)
+    geometry = _geometry_of(scene, settings)
     raster = make_raster(scene.size, settings.pixel_center, (*pixel, 1, 1))
-    parts = [fragments.primitive for fragments in covered(geometry, raster, counts)]
+    parts = [fragments.primitive for fragments in covered(geometry, raster, _counts())]
     primitive = np.concatenate([np.empty(0, np.int64), *parts])
     return geometry.primitives.triangle.take(primitive)
+
+
+def _geometry_of(scene: ClipScene, settings: Settings) -> Geometry:
+    return process_geometry(scene, settings, _counts())
+
+
+def _counts() -> dict[str, StageCount]:
+    return {stage: StageCount() for stage in STAGES}
 
 
 def nearest_triangle(scene: ClipScene, pixel: Pixel) -> Integers:
