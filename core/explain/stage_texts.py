@@ -138,7 +138,7 @@ def summary_sentence(
     triangle : int, optional
         The triangle that all rows are about; ``None`` or -1: several, or none.
     corner_count : int, optional
-        Corners of what is drawn: 2 of segments, 1 of points.
+        Corners of what is drawn: 2 of segments, 1 of points, 0 of tables of depths.
     """
     known = {name: counts.get(name, 0) for name in ("rows", *MARKS)}
     group = stage_of(stage).group
@@ -163,7 +163,7 @@ def stage_card(stage: str, method: str = "", corner_count: int = 3) -> StageCard
     method : str, optional
         The method that ran, as ``fill=hierarchy``: the card then names it and its source.
     corner_count : int, optional
-        Corners of what is drawn: 2 of segments, 1 of points.
+        Corners of what is drawn: 2 of segments, 1 of points, 0 of tables of depths.
 
     Raises
     ------
@@ -171,7 +171,8 @@ def stage_card(stage: str, method: str = "", corner_count: int = 3) -> StageCard
         If there is no such stage.
     """
     declared = stage_of(stage)
-    texts = LINE_CARD if method.startswith("line=") else _own_texts(declared)
+    draws_lines = method.startswith("line=") and corner_count > 0
+    texts = LINE_CARD if draws_lines else _own_texts(declared)
     if not declared.needs_area:
         texts = {name: of_kind(text, corner_count) for name, text in texts.items()}
     card = StageCard(**texts, source=declared.source)

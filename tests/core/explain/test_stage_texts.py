@@ -65,3 +65,7 @@ def test_the_view_shows_a_card(qtbot: QtBot) -> None:
     qtbot.addWidget(view)
     view.show_card(stage_card("edges"))
     assert view.fold_button.text() == stage_of("edges").title
+
+
+def test_the_card_of_a_table_of_depths_says_nothing_of_lines():
+    assert stage_card("raster", "line=bresenham", 0).title == "Raster: which pixels are covered"
