@@ -1,7 +1,7 @@
 """Practice: which question comes next, from what was missed and how long ago."""
 
 from collections import defaultdict
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime, timedelta
 from hashlib import sha256
@@ -55,7 +55,7 @@ def next_question(
     tries = first_tries(known)
     again = _missed_last(tries, templates)
     if again is not None:
-        told = _telling_apart(known, templates, again, user) if len(again.mistakes) > 1 else None
+        told = telling_apart(again.mistakes, _tries(known, templates, again, user))
         if told is not None:
             names = " and ".join(again.mistakes)
             return Choice(told, f"The last answer can come from {names}: this question tells them apart.")
@@ -141,25 +141,32 @@ def _fresh_seeds(attempts: Sequence[Attempt], template: Template, user: str) -> 
     return islice((seed for seed in seeds if seed not in used), TRY_LIMIT)
 
 
-def _telling_apart(
+def _tries(
     attempts: Sequence[Attempt], templates: Mapping[str, Template], missed: Attempt, user: str
-) -> Question | None:
-    """Return a question in which the mistakes of an attempt give different answers, if one is found."""
+) -> list[tuple[Template, int]]:
+    """Return what may tell the mistakes of an attempt apart: variants, then others of the stage."""
     own = templates[missed.template]
     others = [each for each in templates.values() if each.stage == own.stage and each is not own]
     tries = [(own, seed) for seed in _fresh_seeds(attempts, own, user)]
     tries += [(other, next(_fresh_seeds(attempts, other, user))) for other in others]
+    return tries
+
+
+def telling_apart(mistakes: Sequence[str], tries: Iterable[tuple[Template, int]]) -> Question | None:
+    """Return the first question of templates and seeds in which several mistakes give different answers, if any."""
+    if len(mistakes) < 2:
+        return None
     for template, seed in tries:
-        if any(set(missed.mistakes) <= alike for alike in template.alike):
+        if any(set(mistakes) <= alike for alike in template.alike):
             continue
         try:
             question = ask(template, seed)
         except ValueError:
             continue
         draft = question.draft
-        if set(missed.mistakes) <= set(draft.mistakes) and not any(
+        if set(mistakes) <= set(draft.mistakes) and not any(
             draft.answer.is_same(draft.mistakes[one], draft.mistakes[other])
-            for one, other in combinations(missed.mistakes, 2)
+            for one, other in combinations(mistakes, 2)
         ):
             return question
     return None

@@ -74,11 +74,15 @@ _FOUND = {
         *(read_exercise(path) for path in _FILES),
     ]
 }
-_ORDER: dict[str, list[str]] = tomllib.loads(
+_ORDER: dict[str, dict[str, list[str]]] = tomllib.loads(
     Path(__file__).with_name("order.toml").read_text(encoding="utf-8")
 )
 
-TEMPLATES: dict[str, Template] = {name: _FOUND[name] for names in _ORDER.values() for name in names}
+SUBJECTS: dict[str, str] = {
+    name: subject for lists in _ORDER.values() for subject, names in lists.items() for name in names
+}
+"""What each template is about, by its name; empty: its stage is not divided."""
+TEMPLATES: dict[str, Template] = {name: _FOUND[name] for name in SUBJECTS}
 """By name, stage by stage, from easy to hard."""
 
 

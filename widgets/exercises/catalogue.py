@@ -101,11 +101,24 @@ class Catalogue(QWidget):
         for group in self._groups:
             parent = QTreeWidgetItem(self.tree)
             self._parents.append(parent)
+            subject = ""
             for entry in group.entries:
+                if entry.subject != subject:
+                    subject = entry.subject
+                    self._add_heading(parent, subject)
                 item = QTreeWidgetItem(parent)
                 item.setData(0, _NAME, entry.name)
                 item.setFirstColumnSpanned(True)
                 self._items[entry.name] = item
+
+    def _add_heading(self, parent: QTreeWidgetItem, subject: str) -> None:
+        """Divide the exercises of a stage: neither keys nor clicks stop at the heading."""
+        heading = QTreeWidgetItem(parent, [subject])
+        heading.setFlags(Qt.ItemFlag.NoItemFlags)
+        heading.setFirstColumnSpanned(True)
+        font = heading.font(0)
+        font.setBold(True)
+        heading.setFont(0, font)
 
     @Slot()
     def _refresh(self) -> None:
@@ -130,9 +143,9 @@ class Catalogue(QWidget):
     @Slot(QTreeWidgetItem)
     def _open(self, item: QTreeWidgetItem) -> None:
         name = item.data(0, _NAME)
-        if name is None:
+        if name is None and item.parent() is None:
             item.setExpanded(not item.isExpanded())
-        else:
+        elif name is not None:
             self.exercise_chosen.emit(name)
 
     @Slot(QTreeWidgetItem)

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 
 from widgets.basics.accessible import announce
 from widgets.basics.theme import current_theme
-from widgets.exercises.point_layer import Place, PointLayer
+from widgets.exercises.point_layer import Place, PointLayer, paint_names
 from widgets.exercises.records import Pixel, PixelMarks, Pixels
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
@@ -148,8 +148,12 @@ class MarkGrid(PixelGrid):
         self.update()
 
     def _paint_marks(self, painter: QPainter, placement: GridPlacement) -> None:
-        """Paint the points above everything."""
+        """Paint the names of triangles and the points above everything."""
         super()._paint_marks(painter, placement)
+        outline = self._geometry
+        if outline is not None and outline.names:
+            middles = outline.vertices[outline.triangles].mean(axis=1).tolist()
+            paint_names(painter, placement, current_theme(), outline.names, middles)
         if self._points.names:
             self._points.paint(painter, placement, current_theme(), has_focus=self.hasFocus())
 

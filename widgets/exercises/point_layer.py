@@ -61,18 +61,43 @@ class PointLayer:
                 painter.setBrush(QColor(theme.panel))
                 painter.drawEllipse(center, radius, radius)
             mark = {True: " ✓", False: " ✗", None: ""}[self.marks.get(number)]
-            text = f"{self.names[number]}{mark}"
-            metrics = painter.fontMetrics()
-            box = QRectF(0, 0, metrics.horizontalAdvance(text) + 10, metrics.height() + 2)
+            box = label_box(painter, f"{self.names[number]}{mark}")
             box.moveBottomLeft(center + QPointF(RADIUS + 2, -RADIUS))
-            area = QRectF(placement.viewport)
-            box.moveRight(min(box.right(), area.right()))
-            box.moveTop(max(box.top(), area.top()))
-            ground = QColor(theme.panel)
-            ground.setAlphaF(0.9)
-            painter.setPen(Qt.PenStyle.NoPen)
-            painter.setBrush(ground)
-            painter.drawRoundedRect(box, 3, 3)
-            painter.setPen(QColor(theme.text))
-            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+            paint_label(painter, placement, theme, f"{self.names[number]}{mark}", box)
         painter.restore()
+
+
+def paint_names(
+    painter: QPainter, placement: GridPlacement, theme: Theme, names: Sequence[str], places: Sequence[Place]
+) -> None:
+    """Write names about places in the window; of a place beside the picture at its border."""
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setFont(text_font(theme))
+    for name, place in zip(names, places, strict=True):
+        box = label_box(painter, name)
+        box.moveCenter(placement.to_widget(*place))
+        paint_label(painter, placement, theme, name, box)
+    painter.restore()
+
+
+def label_box(painter: QPainter, text: str) -> QRectF:
+    """Return the room of a name."""
+    metrics = painter.fontMetrics()
+    return QRectF(0, 0, metrics.horizontalAdvance(text) + 10, metrics.height() + 2)
+
+
+def paint_label(painter: QPainter, placement: GridPlacement, theme: Theme, text: str, box: QRectF) -> None:
+    """Write a name on a quiet ground, moved inside the picture where it would be cut off."""
+    area = QRectF(placement.viewport)
+    box.moveRight(min(box.right(), area.right()))
+    box.moveLeft(max(box.left(), area.left()))
+    box.moveBottom(min(box.bottom(), area.bottom()))
+    box.moveTop(max(box.top(), area.top()))
+    ground = QColor(theme.panel)
+    ground.setAlphaF(0.9)
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(ground)
+    painter.drawRoundedRect(box, 3, 3)
+    painter.setPen(QColor(theme.text))
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)

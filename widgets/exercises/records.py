@@ -31,6 +31,8 @@ class ExerciseEntry:
     points: str
     """As ``4 points``."""
     standing: Standing = Standing.NEW
+    subject: str = ""
+    """Heading under which it stands within its group, the same as that of its neighbours; empty: none."""
 
 
 @dataclass(frozen=True)

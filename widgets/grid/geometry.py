@@ -49,6 +49,8 @@ class GridGeometry:
     """(V, 2) float64 snapped positions, or None."""
     draggable: bool = True
     """Whether the vertices of the triangle in focus can be dragged."""
+    names: tuple[str, ...] = ()
+    """A name per triangle, for who writes them; empty: none."""
     labels: tuple[str, ...] = ()
     """A name per vertex; empty: 0, 1, 2 for those of the primitive in focus."""
     behind: NDArray[np.float64] | None = field(default=None, repr=False)

@@ -15,7 +15,7 @@ from core.records.words import counted
 from core.stages.declared import stage_of
 from lessons.attempts.practice import Choice, next_question
 from lessons.attempts.record import DEFAULT_USER, Attempt
-from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.catalogue import SUBJECTS, TEMPLATES
 from lessons.exercises.question import Question, Template
 from lessons.exercises.screen import PREFIX, screen_template
 from widgets.exercises.catalogue import Catalogue
@@ -226,13 +226,18 @@ class CataloguePresenter(QObject):
                 name,
                 title,
                 tuple(
-                    ExerciseEntry(each.name, each.title, counted(each.points, "point"), standing(each.name))
+                    ExerciseEntry(
+                        each.name,
+                        each.title,
+                        counted(each.points, "point"),
+                        standing(each.name),
+                        SUBJECTS.get(each.name, ""),
+                    )
                     for each in templates
                 ),
             )
 
-        order = dict.fromkeys(name for name in (*FIRST_COURSE, *self.templates) if name in TEMPLATES)
-        shipped = [self.templates[name] for name in order]
+        shipped = [self.templates[name] for name in TEMPLATES]
         groups = [
             group(stage, stage_of(stage).short_title, (each for each in shipped if each.stage == stage))
             for stage in STAGES

@@ -12,8 +12,9 @@ from app.pages.exercises.answer_kind import Live
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.evidence import Evidence
 from app.pages.exercises.unfinished import Unfinished, UnfinishedFile
-from app.pages.exercises.work import Asked, Checked, asking, checking, drawing
+from app.pages.exercises.work import Asked, Checked, Work, asking, asking_apart, checking, drawing
 from core.records.words import counted
+from lessons.attempts.practice import TRY_LIMIT
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Question, Template
 from widgets.exercises.mark_grid import MarkGrid
@@ -93,15 +94,21 @@ class QuestionPresenter(QObject):
             kept = self._unfinished.answers.answers.get(template.name)
             is_kept = kept is not None and kept.version == template.version
             seed = kept.seed if kept is not None and is_kept else new_seed()
+        self._draw(asking(template, seed))
+
+    def _draw(self, work: Work) -> None:
+        """Draw another question; what is done about this one ends."""
         self._checking.cancel()
         self._drawing.cancel()
-        self._asking.start(asking(template, seed))
+        self._asking.start(work)
 
     @Slot()
     def ask_variant(self) -> None:
-        """Ask the same with other numbers."""
+        """Ask the same with other numbers; if several mistakes fit the answer, with such as tell them apart."""
         if self.question is not None:
-            self.open(self.question.template, new_seed())
+            mistakes = () if self._checked is None else self._checked.judgement.mistakes
+            seeds = [new_seed() for _ in range(TRY_LIMIT)]
+            self._draw(asking_apart(self.question.template, mistakes, seeds))
 
     @Slot()
     def ask_again(self) -> None:

@@ -9,6 +9,10 @@ from core.settings import DEFAULTS
 from lessons.exercises.question import Draft
 from widgets.grid.geometry import GridGeometry
 
+NAMES = "ABCD"
+"""As questions call several triangles, in the order of the scene."""
+NAMED = range(2, len(NAMES) + 1)
+"""How many triangles have names."""
 HIDDEN = ("transform",)
 """Stages whose questions ask where the corners lie."""
 
@@ -24,7 +28,14 @@ def document_of(draft: Draft, title: str) -> Document:
 
 def outline_of(draft: Draft, stage: str) -> GridGeometry | None:
     """Return the outlines of the scene; ``None``: there is none, or it is what is asked for."""
-    return None if draft.scene is None or stage in HIDDEN else scene_outline(draft.scene)
+    if draft.scene is None or stage in HIDDEN:
+        return None
+    outline = scene_outline(draft.scene)
+    names = NAMES[: len(outline.triangles)]
+    if len(outline.triangles) in NAMED and all(f"{name}: " in draft.given for name in names):
+        # None stands out: the question is about all of them.
+        return replace(outline, focus=-1, names=tuple(names))
+    return outline
 
 
 def scene_outline(scene: AnyScene) -> GridGeometry:

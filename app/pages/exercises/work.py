@@ -1,6 +1,6 @@
 """What the Exercises page does off the GUI thread: draws a question, checks an answer, keeps the attempt."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
@@ -9,11 +9,14 @@ from app.cli.attempts import attempt_file
 from app.pages.exercises.answer_kind import AnswerKind, Live
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.scene_outline import outline_of
+from lessons.attempts.practice import telling_apart
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Judgement, Question, Template, ask, judge
 from widgets.exercises.records import AnswerMarks
 from widgets.grid.geometry import GridGeometry
+
+Work = Callable[[Progress, Callable[[], bool]], "Asked"]
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,11 +40,21 @@ class Checked:
     """What to tell of keeping it, in sentences; empty: all is well."""
 
 
-def asking(template: Template, seed: int) -> Callable[[Progress, Callable[[], bool]], Asked]:
+def asking(template: Template, seed: int) -> Work:
     """Return the work that draws a question; it raises ValueError where none can be drawn."""
 
     def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Asked:
         question = ask(template, seed)
+        return Asked(question, outline_of(question.draft, template.stage))
+
+    return work
+
+
+def asking_apart(template: Template, mistakes: Sequence[str], seeds: Sequence[int]) -> Work:
+    """Return the work that draws the first variant that tells the mistakes of an answer apart, or else any."""
+
+    def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Asked:
+        question = telling_apart(mistakes, ((template, seed) for seed in seeds)) or ask(template, seeds[0])
         return Asked(question, outline_of(question.draft, template.stage))
 
     return work

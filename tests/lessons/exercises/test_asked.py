@@ -54,9 +54,9 @@ def test_every_template_of_the_folder_is_found_and_no_name_used_twice() -> None:
 def test_the_order_stands_stage_by_stage_and_names_no_template_twice() -> None:
     order = tomllib.loads(ORDER.read_text(encoding="utf-8"))
     assert tuple(order) == STAGES
-    assert [(name, stage) for stage, names in order.items() for name in names] == [
-        (template.name, template.stage) for template in TEMPLATES.values()
-    ]
+    assert [
+        (name, stage) for stage, lists in order.items() for names in lists.values() for name in names
+    ] == [(template.name, template.stage) for template in TEMPLATES.values()]
 
 
 @pytest.mark.slow

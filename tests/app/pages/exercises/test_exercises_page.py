@@ -1,6 +1,8 @@
 """The Exercises page, as a learner uses it: on the picture, in fields, by mouse and by keyboard alone."""
 
 from collections.abc import Callable
+from dataclasses import replace
+from itertools import count, cycle
 from pathlib import Path
 
 import pytest
@@ -15,7 +17,7 @@ from app.pages.exercises.page import ExercisesPage
 from app.window.main_window import MainWindow
 from lessons.exercises.answers.spots import SpotAnswer
 from lessons.exercises.answers.trials import BreakAnswer
-from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.catalogue import SUBJECTS, TEMPLATES
 from lessons.exercises.question import ask
 from widgets.exercises.choice_answer import ChoiceAnswerView
 from widgets.exercises.dial_answer import DialAnswerView
@@ -309,6 +311,64 @@ def check_that_the_cheapest_methods_are_chosen(page: Page) -> None:
         for _ in range(method + 1):
             QTest.keyClick(box, Qt.Key.Key_Down)
     assert check(shown).startswith("4 of 4 points")
+
+
+def test_a_variant_after_a_miss_tells_two_mistakes_apart(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Seeds in which both mistakes give the same answer are passed over; without such a miss the first is taken."""
+    pair = ("level-edges-never", "all-edges-exclusive")
+
+    def are_alike(seed: int) -> bool:
+        draft = ask(TEMPLATES["shared-edge"], seed).draft
+        named = set(pair) <= set(draft.mistakes)
+        return not named or draft.answer.is_same(*(draft.mistakes[name] for name in pair))
+
+    shown = page("shared-edge")
+    alike = next(seed for seed in count() if are_alike(seed))
+    apart = next(seed for seed in count(alike) if not are_alike(seed))
+    seeds = cycle((alike, apart))
+    monkeypatch.setattr("app.pages.exercises.question_presenter.new_seed", lambda: next(seeds))
+    shown.questions.ask_variant()
+    shown.settle()
+    assert shown.question is not None
+    assert shown.question.seed == alike
+    paint(shown, frozenset({(0, 0)}))
+    check(shown)
+    checked = shown.questions._checked
+    assert checked is not None
+    shown.questions._checked = replace(checked, judgement=replace(checked.judgement, mistakes=pair))
+    seeds = cycle((alike, apart))
+    shown.questions.ask_variant()
+    shown.settle()
+    assert shown.question.seed == apart
+
+
+def test_outlines_have_the_names_of_the_question(page: Page) -> None:
+    shown = page("facing")
+    geometry = shown.grid._geometry
+    assert geometry is not None
+    assert geometry.names == ("A", "B", "C", "D")
+    before = shown.grid.grab().toImage()
+    shown.grid.show_geometry(replace(geometry, names=()))
+    assert shown.grid.grab().toImage() != before
+
+
+def test_the_list_of_a_stage_is_divided_by_subject(page: Page) -> None:
+    """Headings stand between the exercises; neither clicks nor the keys of the list stop there."""
+    shown = page("line-octants")
+    tree = shown.catalogue.tree
+    stage = tree.currentItem().parent()
+    titles = [stage.child(number).text(0) for number in range(stage.childCount())]
+    heads = [title for title in titles if title in SUBJECTS.values()]
+    assert heads == list(dict.fromkeys(SUBJECTS[name] for name in SUBJECTS if SUBJECTS[name] in heads))
+    assert len(heads) == 4
+    heading = stage.child(titles.index("Lines"))
+    tree.itemClicked.emit(heading, 0)
+    assert stage.isExpanded()
+    assert shown.question is not None
+    assert shown.question.template.name == "line-octants"
+    tree.setCurrentItem(stage.child(titles.index("Lines") - 1))
+    QTest.keyClick(tree, Qt.Key.Key_Down)
+    assert tree.currentItem() is stage.child(titles.index("Lines") + 1)
 
 
 def test_a_belief_is_refuted_by_a_step_and_a_mistake_by_its_picture(
