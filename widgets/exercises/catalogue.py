@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from PySide6.QtCore import QSize, Qt, Signal, Slot
-from PySide6.QtGui import QIcon
+from PySide6.QtGui import QColor, QIcon
 from PySide6.QtWidgets import QAbstractItemView, QLineEdit, QTreeWidget, QTreeWidgetItem, QWidget
 
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
@@ -37,6 +37,7 @@ class Catalogue(QWidget):
         super().__init__(parent)
         self._groups: tuple[ExerciseGroup, ...] = ()
         self._parents: list[QTreeWidgetItem] = []
+        self._headings: list[QTreeWidgetItem] = []
         self._items: dict[str, QTreeWidgetItem] = {}
         self.setAccessibleName("Exercises by stage")
         self.next_button = button_with_tip("Try next", "Open the exercise that suits you now", self)
@@ -97,7 +98,7 @@ class Catalogue(QWidget):
 
     def _make(self) -> None:
         self.tree.clear()
-        self._items, self._parents = {}, []
+        self._items, self._parents, self._headings = {}, [], []
         for group in self._groups:
             parent = QTreeWidgetItem(self.tree)
             self._parents.append(parent)
@@ -119,11 +120,15 @@ class Catalogue(QWidget):
         font = heading.font(0)
         font.setBold(True)
         heading.setFont(0, font)
+        self._headings.append(heading)
 
     @Slot()
     def _refresh(self) -> None:
         side = current_theme().text_px
         self.tree.setIconSize(QSize(side, side))
+        for heading in self._headings:
+            # Nothing can be done with them, but they are to be read.
+            heading.setForeground(0, QColor(current_theme().text))
         for parent, group in zip(self._parents, self._groups, strict=True):
             parent.setText(0, group.title)
             parent.setText(1, f"{group.solved} of {len(group.entries)}")

@@ -25,6 +25,9 @@ class MethodAnswerView(AnswerView):
         for row, family in enumerate(form.families):
             box = QComboBox(self)
             box.setAccessibleName(family.title)
+            # The longest method must not make the question wider than its column.
+            box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+            box.setMinimumContentsLength(10)
             box.addItem("choose", "")
             for name, text in family.methods:
                 box.addItem(text, name)

@@ -175,7 +175,8 @@ class StepsAnswerView(AnswerView):
         self.list.clear()
         for line in state.lines[:number] if is_asked else state.lines:
             self.list.addItem(_line_text(line))
-            mark = MARKS.get(line.standing)
+            # A step that was missed stays open: it may be tried again.
+            mark = MARKS.get("wrong" if line.standing == "open" and line.tries else line.standing)
             if mark is not None:
                 self.list.item(self.list.count() - 1).setIcon(
                     QIcon(mark_pixmap(mark, side, self.devicePixelRatioF()))

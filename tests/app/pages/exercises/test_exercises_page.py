@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QScrollArea
 from pytestqt.qtbot import QtBot
 
 from app.cli.attempts import attempt_file
@@ -340,6 +340,22 @@ def test_a_variant_after_a_miss_tells_two_mistakes_apart(page: Page, monkeypatch
     shown.questions.ask_variant()
     shown.settle()
     assert shown.question.seed == apart
+
+
+@pytest.mark.parametrize("name", ["cheapest-methods", "edge-values"])
+def test_a_question_is_no_wider_than_its_column(page: Page, window: MainWindow, name: str) -> None:
+    window.resize(1280, 800)
+    shown = page(name)
+    (scrolled,) = shown.question_view.findChildren(QScrollArea)
+    assert scrolled.widget().width() <= scrolled.viewport().width()
+
+
+def test_a_step_that_was_missed_has_its_mark(page: Page) -> None:
+    shown = page("space-steps")
+    answer = shown.question_view.answer
+    assert isinstance(answer, StepsAnswerView)
+    answer.show_given([["99"]])
+    assert not answer.list.item(0).icon().isNull()
 
 
 def test_outlines_have_the_names_of_the_question(page: Page) -> None:
