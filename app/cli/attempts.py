@@ -97,6 +97,6 @@ def counted(count: int) -> str:
 
 def attempt_file() -> AttemptFile:
     """Return the file of attempts in the user's folder of data; FileWriteError where there is none."""
-    from app.files.data_folder import data_folder  # Qt takes a moment: not before an attempt is kept.
+    from app.files.user_folders import data_folder  # Qt takes a moment: not before an attempt is kept.
 
     return AttemptFile(data_folder() / FILE_NAME)

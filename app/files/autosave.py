@@ -7,11 +7,11 @@ from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal, SignalInstanc
 from app.background.workers import Job, Progress
 from app.files.state_files import State, StateFileError
 from app.files.state_models import Breakpoints
+from app.files.user_folders import preferences_folder
 from app.files.window_files import WindowFile, new_window_file
 from app.session.document import Document
 from app.session.session import Session
 from app.window.message_words import sentences
-from app.window.preferences import preferences_folder
 
 PAUSE = 700
 """Milliseconds after the last edit."""

@@ -3,9 +3,9 @@
 import os
 from pathlib import Path
 
-from app.files.data_folder import data_folder
 from app.files.file_writing import make_folder, write_file
 from app.files.input_files import read_input
+from app.files.user_folders import data_folder
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.folders import read_folders
 from lessons.exercises.question import Template

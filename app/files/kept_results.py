@@ -12,8 +12,8 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import JobGroup, Progress
-from app.files.data_folder import data_folder
 from app.files.file_writing import FileWriteError, make_folder, write_file
+from app.files.user_folders import data_folder
 
 LARGEST = 4 << 20
 """Bytes of one file; a result that is larger is not kept."""

@@ -40,7 +40,7 @@ def is_in_own_folder(path: Path) -> bool:
 
 
 def _folder() -> Path:
-    from app.window.preferences import preferences_folder  # Qt takes a moment: not before a mark is needed.
+    from app.files.user_folders import preferences_folder  # Qt takes a moment: not before a mark is needed.
 
     return preferences_folder()
 

@@ -9,12 +9,12 @@ from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
 from app.files.export_desk import SCALES
+from app.files.user_folders import preferences_folder
 from app.files.window_files import earlier_windows
 from app.session.document import TEACHING_SIZES
 from app.window.appearance import DESK_THEMES, TEXT_SIZES
 from app.window.key_choices import KeyChoices
 from app.window.keys import ACTIONS, KeyAction, key_text
-from app.window.preferences import preferences_folder
 from core.explain.kinds import of_kind
 from lessons.scenes import CATALOGUE, BuiltInScene
 from lessons.slides.scenes import LECTURE_SCENES

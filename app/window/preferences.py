@@ -5,16 +5,14 @@ from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
-from PySide6.QtCore import QStandardPaths
 
-from app.files.file_writing import FileWriteError, make_folder, write_file
+from app.files.file_writing import make_folder, write_file
 from app.files.input_files import read_input
 from app.files.saved_records import field_problem
 from app.files.state_models import TextSize
+from app.files.user_folders import preferences_folder
 from core.stages.declared import STAGES
 
-FOLDER_VARIABLE = "RASTERSCOPE_CONFIG"
-"""Environment variable that names another folder."""
 FILE_NAME = "preferences.json"
 RECENT_LIMIT = 10
 SIZE_LIMIT = 1 << 22
@@ -63,24 +61,6 @@ def with_recent_file(preferences: Preferences, path: str | Path) -> Preferences:
     path = os.path.abspath(path)
     recent = [path, *(other for other in preferences.recent_files if other != path)]
     return preferences.model_copy(update={"recent_files": recent[:RECENT_LIMIT]})
-
-
-def preferences_folder() -> Path:
-    """Return the folder of preferences and of the states of windows; it may not exist yet.
-
-    Raises
-    ------
-    FileWriteError
-        If this user has no configuration folder.
-    """
-    chosen = os.environ.get(FOLDER_VARIABLE)
-    if chosen:
-        return Path(chosen).absolute()
-    # Not AppConfigLocation: that one depends on how the running program is called.
-    folder = QStandardPaths.writableLocation(QStandardPaths.StandardLocation.GenericConfigLocation)
-    if not folder:
-        raise FileWriteError(f"there is no folder for preferences; {FOLDER_VARIABLE} may name one")
-    return Path(folder) / "rasterscope"
 
 
 def load_preferences() -> tuple[Preferences, str]:

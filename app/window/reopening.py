@@ -4,10 +4,10 @@ from dataclasses import dataclass, replace
 
 from app.files.file_writing import FileWriteError
 from app.files.open_any import Opened, open_any
+from app.files.user_folders import preferences_folder
 from app.files.window_files import EarlierWindow, WindowFile, earlier_windows, remove_oldest_windows
 from app.session.document import open_document
 from app.window.message_words import sentences
-from app.window.preferences import preferences_folder
 from lessons.scenes import CATALOGUE
 from widgets.basics.message_bar import Message, MessageKind
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -74,16 +75,7 @@ def outlined(geometry: Geometry, raster: Raster, counts: Counts) -> Iterator[Fra
     """Raster a wireframe: yield the pixels of the outlines of all primitives, which have no bins."""
     assert geometry.outlines is not None
     counts["bin"].incoming = len(geometry.edges)
-    batches = draw_outlines(geometry.outlines, raster, geometry.settings.line)
-    while True:
-        with counts["raster"] as count:
-            fragments, _ = next(batches, (None, None))
-        if fragments is None:
-            return
-        for of_stage in (counts["bin"], count):
-            of_stage.outgoing += len(fragments)
-        count.incoming += len(fragments)
-        yield fragments
+    return _without_bins(draw_outlines(geometry.outlines, raster, geometry.settings.line), counts)
 
 
 def filled(geometry: Geometry, raster: Raster, counts: Counts) -> Iterator[Fragments]:
@@ -94,10 +86,14 @@ def filled(geometry: Geometry, raster: Raster, counts: Counts) -> Iterator[Fragm
     counts["bin"].incoming = len(geometry.primitives)
     with counts["raster"]:
         runs = fill_rings(geometry.polygons, raster, resolve(geometry.settings).polygon_fill)
-    batches = cover(geometry.edges, runs, raster)
+    return _without_bins(cover(geometry.edges, runs, raster), counts)
+
+
+def _without_bins(batches: Iterator[tuple[Fragments, Any]], counts: Counts) -> Iterator[Fragments]:
+    """Yield fragments in batches: all that come in go out."""
     while True:
         with counts["raster"] as count:
-            fragments, _ = next(batches, (None, 0))
+            fragments, _ = next(batches, (None, None))
         if fragments is None:
             return
         for of_stage in (counts["bin"], count):

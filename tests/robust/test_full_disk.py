@@ -10,8 +10,8 @@ from pytestqt.qtbot import QtBot
 
 from app.files import autosave, file_writing
 from app.files.open_any import open_any
+from app.files.user_folders import preferences_folder
 from app.window.main_window import CLOSE_UNSAVED, MainWindow
-from app.window.preferences import preferences_folder
 from tests.app.cli.cli_runs import refused
 
 

@@ -8,9 +8,9 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.background.workers import Job, Progress
-from app.files.data_folder import data_folder
 from app.files.file_writing import make_folder, write_file
 from app.files.input_files import read_input
+from app.files.user_folders import data_folder
 from lessons.attempts.record import DEFAULT_USER
 from lessons.exercises.draws import SEED_LIMIT
 

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
 from itertools import product
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from core import Settings
 from core.scene import ClipScene
@@ -22,6 +22,20 @@ Choices = tuple[int, ...]
 
 COMBINATION_LIMIT = 256
 """Most combinations of methods: all of them are drawn to find the cheapest."""
+
+
+def _entries_of(given: object, names: list[str], what: str) -> list[Any]:
+    """Return the entry of every name: from a list in their order, or a table of them."""
+    if given in ("", [], None, {}):
+        raise NotCheckedError("the answer is empty")
+    if isinstance(given, dict):
+        if set(given) != set(names):
+            raise NotCheckedError(f"expected {', '.join(names)}, got {', '.join(map(str, given))!a:.60}")
+        given = [given[name] for name in names]
+    entries = given if isinstance(given, list) else [given]
+    if len(entries) != len(names):
+        raise NotCheckedError(f"expected {what} for each of {', '.join(names)}, got {len(entries)}")
+    return entries
 
 
 @dataclass(frozen=True)
@@ -108,16 +122,7 @@ class BreakAnswer(Answer):
 
     def read(self, given: object) -> Values:
         """Read a list of numbers, or a table of them by the names of the dials."""
-        if given in ("", [], None, {}):
-            raise NotCheckedError("the answer is empty")
-        names = [dial.name for dial in self.dials]
-        if isinstance(given, dict):
-            if set(given) != set(names):
-                raise NotCheckedError(f"expected {', '.join(names)}, got {', '.join(map(str, given))!a:.60}")
-            given = [given[name] for name in names]
-        entries = given if isinstance(given, list) else [given]
-        if len(entries) != len(names):
-            raise NotCheckedError(f"expected {len(names)} numbers, got {len(entries)}")
+        entries = _entries_of(given, [dial.name for dial in self.dials], "a number")
         return tuple(self._read(dial, entry) for dial, entry in zip(self.dials, entries, strict=True))
 
     def _read(self, dial: Dial, given: object) -> Fraction:
@@ -282,16 +287,7 @@ class CheapestAnswer(Answer):
 
     def read(self, given: object) -> Choices:
         """Read a table of methods by family, or a list of them."""
-        if given in ("", [], None, {}):
-            raise NotCheckedError("the answer is empty")
-        names = [family.name for family in self.families]
-        if isinstance(given, dict):
-            if set(given) != set(names):
-                raise NotCheckedError(f"expected {', '.join(names)}, got {', '.join(map(str, given))!a:.60}")
-            given = [given[name] for name in names]
-        entries = given if isinstance(given, list) else [given]
-        if len(entries) != len(names):
-            raise NotCheckedError(f"expected a method of each of {', '.join(names)}, got {len(entries)}")
+        entries = _entries_of(given, [family.name for family in self.families], "a method")
         chosen = []
         for family, entry in zip(self.families, entries, strict=True):
             if entry not in family.methods:

@@ -7,12 +7,12 @@ import sys
 import pytest
 
 from app.files.file_writing import FileWriteError
+from app.files.user_folders import preferences_folder
 from app.window.preferences import (
     FILE_NAME,
     RECENT_LIMIT,
     Preferences,
     load_preferences,
-    preferences_folder,
     save_preferences,
     with_recent_file,
 )

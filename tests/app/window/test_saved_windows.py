@@ -11,10 +11,10 @@ from pytestqt.qtbot import QtBot
 
 from app.files.file_writing import FileWriteError
 from app.files.open_any import open_any
+from app.files.user_folders import preferences_folder
 from app.files.window_files import KEPT, WindowFile, earlier_windows, new_window_file, remove_oldest_windows
 from app.session.document import Document, open_document
 from app.window.main_window import MainWindow
-from app.window.preferences import preferences_folder
 from app.window.reopening import reopen
 from core.scene import Scene
 from lessons.scenes import built_in_scene
