@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QComboBox, QGridLayout, QWidget
 
 from widgets.basics.controls import column_layout
 from widgets.basics.labels import text_label
+from widgets.basics.settings_panel import ChoiceBox
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.records import AnswerMarks, MethodForm
@@ -23,7 +24,7 @@ class MethodAnswerView(AnswerView):
         rows = QGridLayout()
         rows.setHorizontalSpacing(8)
         for row, family in enumerate(form.families):
-            box = QComboBox(self)
+            box = ChoiceBox(self)
             box.setAccessibleName(family.title)
             # The longest method must not make the question wider than its column.
             box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
