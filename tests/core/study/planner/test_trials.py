@@ -8,6 +8,7 @@ import pytest
 from core.scene import ClipScene
 from core.study import Tolerance, plan, reference_settings
 from core.study.accuracy.workloads import sphere_scene
+from core.study.planner.costs import Costs
 from core.study.planner.trials import PIXELS, Trials, bands, difference, shown
 
 
@@ -44,6 +45,6 @@ def test_what_is_tried_are_pixels_of_the_whole_picture() -> None:
 def test_cut_edges_keep_their_clipping_where_rows_are_left_out() -> None:
     clip = np.random.default_rng(4).normal(size=(20, 3, 4))
     scene = ClipScene(clip, np.full((20, 3, 4), 0.5), (200, 150))
-    decision = next(each for each in plan(scene).decisions if each.setting == "clipping")
+    decision = next(each for each in plan(scene, costs=Costs()).decisions if each.setting == "clipping")
     assert (decision.chosen, decision.is_needed) == ("sutherland-hodgman", True)
     assert "may change a pixel on a cut edge between the rows that were tried" in decision.reason
