@@ -174,10 +174,12 @@ def _met(families: set[str], scenes: Sequence[str], **numbers: tuple[int, ...]) 
 _OF_FILLS = {"fill", "fill_rule", "coverage", "pixel_center"}
 _SEGMENTS = {"segment", "clipped-segment", "line-strip"}
 _WITHOUT_SIDES = {"points", "depth-table"}
+_POLYGONS = [name for name, scene in SCENES.items() if scene.corner_count > 3]
+_OF_EDGES = {"cull", "clipping", "interpolation", "provoking", "texture_filter", "wrap", "shading"}
 
 FILLED = _met(
     set(table.families) - _OF_OUTLINES - _OF_POLYGONS - {"polygon_mode"},
-    [name for name in SCENES if name not in _SEGMENTS],
+    [name for name in SCENES if name not in _SEGMENTS and name not in _POLYGONS],
     block_size=(8, 1, 3),
     correction_interval=(16, 3),
     samples_across=(3, 1),
@@ -187,13 +189,18 @@ FILLED = _met(
 OUTLINED = [
     (name, {"polygon_mode": "wireframe", **choice})
     for name, choice in _met(
-        set(table.families) - _OF_FILLS - {"polygon_mode"},
-        [name for name in SCENES if name not in _WITHOUT_SIDES],
+        set(table.families) - _OF_FILLS - _OF_POLYGONS - {"polygon_mode"},
+        [name for name in SCENES if name not in _WITHOUT_SIDES and name not in _POLYGONS],
     )
 ]
 """Wireframes and segments, likewise."""
+POLYGONS = _met(
+    set(table.families) - (_OF_FILLS - {"pixel_center"}) - _OF_OUTLINES - _OF_EDGES - {"polygon_mode"},
+    _POLYGONS,
+)
+"""Polygons, likewise."""
 
-CASES = [*FILLED, *OUTLINED, *(in_turn(SCENES, [*CHOICES, *MIXES]) if is_everything() else ())]
+CASES = [*FILLED, *OUTLINED, *POLYGONS, *(in_turn(SCENES, [*CHOICES, *MIXES]) if is_everything() else ())]
 """Scenes and choices for a law that holds of every picture."""
 
 
