@@ -78,22 +78,21 @@ def test_scenes_that_show_next_to_nothing(window: MainWindow) -> None:
 
 
 def test_all_levels_both_ways(window: MainWindow) -> None:
-    for mode in ["fill", "wireframe"]:
-        session = window.session
+    session = window.session
+    for stage, mode in in_turn(STAGES, ["fill", "wireframe"]):
         session.set_setting("polygon_mode", mode)
-        for stage in STAGES:
-            session.set_stage(stage, 0)
-            for level in Level:
-                session.set_level(level)
-                session.go_to(0)
-                session.step(1)
-                forward = session.cursor
-                session.step(1)
-                if session.cursor != forward:
-                    session.step(-1)
-                assert session.cursor == forward
+        session.set_stage(stage, 0)
+        for level in Level:
+            session.set_level(level)
+            session.go_to(0)
+            session.step(1)
+            forward = session.cursor
+            session.step(1)
+            if session.cursor != forward:
                 session.step(-1)
-                assert session.cursor.position == 0
+            assert session.cursor == forward
+            session.step(-1)
+            assert session.cursor.position == 0
 
 
 def test_panes_keep_their_places_from_stage_to_stage(window: MainWindow) -> None:

@@ -69,17 +69,21 @@ def crop_of(region: tuple[int, int, int, int]) -> tuple[slice, slice]:
     return slice(row, row + rows), slice(column, column + columns)
 
 
-@pytest.mark.parametrize(("name", "choice"), CASES, ids=name_of)
-def test_all_rows_give_the_picture_and_its_crop(name, choice):
+@pytest.mark.parametrize(
+    ("name", "choice", "part"),
+    [(*case, part) for case, part in in_turn(CASES, ["picture", "crop"])],
+    ids=name_of,
+)
+def test_all_rows_give_the_picture_and_its_crop(name, choice, part):
     scene = SCENES[name]
     settings = settings_of(choice, scene)
     frame = render(scene, settings)
-    for region in ((0, 0, *scene.size), small_region(scene)):
-        traced, crop = trace(scene, settings, region=region), crop_of(region)
-        check_frame(traced, frame, crop)
-        if scene.corner_count:  # Fragments of a table are there before the stage Raster.
-            overdraw = folded(traced, "raster", "overdraw")
-            assert same_bits(overdraw, np.ascontiguousarray(frame.cover_count[crop]))
+    region = (0, 0, *scene.size) if part == "picture" else small_region(scene)
+    traced, crop = trace(scene, settings, region=region), crop_of(region)
+    check_frame(traced, frame, crop)
+    if scene.corner_count:  # Fragments of a table are there before the stage Raster.
+        overdraw = folded(traced, "raster", "overdraw")
+        assert same_bits(overdraw, np.ascontiguousarray(frame.cover_count[crop]))
 
 
 @pytest.mark.parametrize("name", ["sphere", "torus", "knot"])

@@ -171,6 +171,7 @@ def test_another_scene_leaves_the_results_as_those_of_the_earlier(
     assert page.controls.apply_button.isEnabled()
 
 
+@pytest.mark.slow
 def test_other_things_to_be_seen_make_the_results_old(
     window: MainWindow, page: PlanPage, qtbot: QtBot
 ) -> None:
@@ -181,6 +182,7 @@ def test_other_things_to_be_seen_make_the_results_old(
     assert page.plans.is_stale
 
 
+@pytest.mark.slow
 def test_cancelling_leaves_what_was_found_before(page: PlanPage, qtbot: QtBot) -> None:
     report = looked(page, qtbot)
     page.controls.rounds_box.setValue(99)
@@ -226,6 +228,7 @@ def test_a_wrong_prediction_is_said_plainly() -> None:
     assert "2.00 times as slow" in headline(slow.plan, slow)
 
 
+@pytest.mark.slow
 def test_difference_pictures(window: MainWindow, page: PlanPage, qtbot: QtBot) -> None:
     page.controls.color_box.setValue(255)
     report = looked(page, qtbot)

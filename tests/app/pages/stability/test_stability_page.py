@@ -179,6 +179,7 @@ def test_a_cell_is_opened_at_once(window: MainWindow, page: StabilityPage, qtbot
     assert window.session.document.settings.fill_rule == "inclusive"
 
 
+@pytest.mark.slow
 def test_a_picture_that_is_too_large_is_only_opened(
     window: MainWindow, page: StabilityPage, qtbot: QtBot
 ) -> None:

@@ -202,6 +202,7 @@ def test_magnified_bilinear_is_near_its_samples_and_nearest_is_not() -> None:
 # Measuring
 
 
+@pytest.mark.slow
 def test_pipeline_measures_the_scene_and_settings_that_are_given() -> None:
     scene = scaled(standard_scene(), 0.25)
     base = Settings(shading="flat", cull="back")
@@ -330,6 +331,7 @@ def test_slow_methods_take_fewer_rounds(monkeypatch: pytest.MonkeyPatch) -> None
     assert {len(point.seconds) for point in study.points} == {1}
 
 
+@pytest.mark.slow
 def test_growth_has_all_values_of_the_cost_dial_and_leaves_out_what_is_too_slow(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
