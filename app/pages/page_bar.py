@@ -49,7 +49,7 @@ class StepRequest:
     position: int | None = None
     """Steps of the stage that are done; ``None``: those up to the pixel, or none."""
     is_asked: bool | None = None
-    """Whether it is hidden as while predicting, for it is asked for; ``None``: as it is now."""
+    """Whether an exercise asks for it, so that it is hidden as while predicting; ``None``: as it is now."""
 
 
 @dataclass(frozen=True)

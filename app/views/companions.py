@@ -93,7 +93,7 @@ class FillingTable(Companion):
         return 0 if table is None else self._view.width_of(table)
 
     def draw(self) -> None:
-        """Show the table as far as it is filled."""
+        """Show the table with the cells filled so far."""
         self._view.show_table(step_table(self.session.stage_trace, self.session.cursor.position))
 
 

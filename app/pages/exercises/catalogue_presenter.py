@@ -42,7 +42,7 @@ FIRST_COURSE = (
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """What there is when the page begins."""
+    """The exercises and attempts that the page begins with."""
 
     templates: dict[str, Template]
     attempts: Attempts

@@ -97,7 +97,7 @@ class SpotKind(AnswerKind):
 
 
 def picture_of(frame: Frame) -> GridBuffer:
-    """Return a frame as it is seen: its colours, or what it covers where all have one colour."""
+    """Return the colours of a frame, or the pixels it covers where all have one colour."""
     colors = frame.color[frame.primitive >= 0]
     if len(colors) and (colors != colors[0]).any():
         return GridBuffer("picture", to_display(frame.color).pixels, "color", title="the picture")

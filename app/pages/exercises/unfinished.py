@@ -136,7 +136,7 @@ class UnfinishedFile(QObject):
             self.failed.emit(f"The answer is not kept for the next start: {error}.")
 
     def finish(self) -> None:
-        """Write what is not written yet; a failure has been told before, or is told by this sentence."""
+        """Write the latest changes; a failure has been told before, or is told by this sentence."""
         self._timer.stop()
         self._job.shut_down()
         if self._is_dirty:

@@ -35,7 +35,7 @@ class Checked:
     judgement: Judgement
     marks: AnswerMarks
     attempt: Attempt | None
-    """As it is kept; ``None``: it is not, for the model answer was shown before."""
+    """The attempt to keep; ``None``: the model answer was shown before."""
     trouble: str
     """What to tell of keeping it, in sentences; empty: all is well."""
 

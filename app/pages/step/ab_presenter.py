@@ -183,7 +183,7 @@ class ComparePresenter(QObject):
     @Slot(str, str)
     def _choose(self, family: str, value: str) -> None:
         if not value:
-            return  # What is printed stays as it is.
+            return  # The printed listing is still chosen.
         chosen: str | int = int(value) if family in WHOLE_NUMBERS else value
         named = {name: of for name, of in self._differences.items() if not isinstance(of, ReplacedName)}
         self.set_differences({**named, family: chosen})

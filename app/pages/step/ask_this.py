@@ -17,7 +17,7 @@ class AskThis(QObject):
     """Turns the step just done, or the value of the pinned pixel, into the line of a question."""
 
     question_requested = Signal(str)
-    """The line of a question, as it is handed out."""
+    """The line that a teacher hands out for a question."""
     refused = Signal(str)
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:

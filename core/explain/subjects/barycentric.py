@@ -188,6 +188,23 @@ def _line_name(k: int, at: str = "x, y") -> str:
     return rf"f_{{{(k + 1) % 3}{(k + 2) % 3}}}({at})"
 
 
+def _values_of_lines(
+    step: StepValues, values: list[float], names: list[str], places: list[tuple[tuple[str, float], ...]]
+) -> Formula:
+    """Write the three line functions with their values, each at a place: its name, and x and y with their symbols."""
+    lines = zip(*(step.vector(f"line_{name}") for name in "abc"), strict=True)
+    sums = [
+        linear_parts(
+            rf"\vertex{{{k}}}{{{_line_name(k, names[k])}}}",
+            values[k],
+            [(f"{name}_{k}", value) for name, value in zip("abc", line, strict=True)],
+            *places[k],
+        )
+        for k, line in enumerate(lines)
+    ]
+    return equation(*beside(*sums))
+
+
 @explains("interpolate.affine-distances.lines")
 def line_functions(step: StepValues) -> Said:
     """The line through two corners as a function of x and y that is 0 on it."""
@@ -217,17 +234,7 @@ def at_the_pixel(step: StepValues) -> Said:
         f"{step.pixel_name}: the functions of the edges opposite to corners 0, 1 and 2 are {_listed(values)} here, "
         "the distances from the edges times their lengths."
     )
-    lines = list(zip(*(step.vector(f"line_{name}") for name in "abc"), strict=True))
-    sums = [
-        linear_parts(
-            rf"\vertex{{{k}}}{{{_line_name(k)}}}",
-            values[k],
-            [(f"{name}_{k}", value) for name, value in zip("abc", line, strict=True)],
-            *(("x", x), ("y", y)),
-        )
-        for k, line in enumerate(lines)
-    ]
-    return text, equation(*beside(*sums))
+    return text, _values_of_lines(step, values, ["x, y"] * 3, [(("x", x), ("y", y))] * 3)
 
 
 @explains("interpolate.affine-distances.opposite")
@@ -235,18 +242,7 @@ def at_the_corner(step: StepValues) -> Said:
     """The same functions at the corner opposite to each edge."""
     values = step.vector("at_corner")
     text = f"{step.pixel_name}: at the corner opposite to each edge the functions are {_listed(values)}."
-    lines = list(zip(*(step.vector(f"line_{name}") for name in "abc"), strict=True))
-    corners = _named_corners(step)
-    sums = [
-        linear_parts(
-            rf"\vertex{{{k}}}{{{_line_name(k, f'x_{k}, y_{k}')}}}",
-            values[k],
-            [(f"{name}_{k}", value) for name, value in zip("abc", line, strict=True)],
-            *corners[k],
-        )
-        for k, line in enumerate(lines)
-    ]
-    return text, equation(*beside(*sums))
+    return text, _values_of_lines(step, values, [f"x_{k}, y_{k}" for k in range(3)], _named_corners(step))
 
 
 @explains("interpolate.affine-distances.weights", asks=first_weight)
