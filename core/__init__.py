@@ -36,7 +36,7 @@ from core.stages.declared import STAGES
 from core.trace import Trace, trace
 
 if TYPE_CHECKING:
-    from core.assembly import assemble
+    from core.assembly.primitives import assemble
     from core.fast_path import Picture, draw_picture
     from core.geometry.line_clipping.clipping import clip_lines
     from core.geometry.line_clipping.records import ClippedLines
@@ -47,7 +47,7 @@ else:
         globals(),
         ClippedLines="core.geometry.line_clipping.records",
         Picture="core.fast_path",
-        assemble="core.assembly",
+        assemble="core.assembly.primitives",
         clip_lines="core.geometry.line_clipping.clipping",
         draw_lines="core.raster.lines.drawing",
         draw_picture="core.fast_path",

@@ -238,10 +238,10 @@ class Scene:
 
 
 CORNER_COUNTS = {"points": 1, "segments": 2, "triangles": 3, "fragments": 0}
-"""Kinds of primitives and how many corners each has; strips, fans and quads are assembled from them (`core.assembly`).
+"""Kinds of primitives and how many corners each has; `core.assembly.primitives` makes them from strips, fans and quads.
 
 ``polygons`` have any number of corners from `POLYGON_CORNERS` on, in rings. Fragments have a place and a depth, but no
-corner: they enter the pipeline at the depth test (`core.depth_tables`).
+corner: they enter the pipeline at the depth test (`core.assembly.depth_tables`).
 """
 KINDS = (*CORNER_COUNTS, "polygons")
 POLYGON_CORNERS = (4, 1000)
@@ -282,7 +282,7 @@ class ClipScene:
     region_rings: Integers | None = None
     """(R,) int64, the same of ``clip_region``."""
     table: DepthTable | None = None
-    """What fragments are made from (`core.depth_tables.table_scene`); ``None`` of all other kinds."""
+    """What fragments are made from (`core.assembly.depth_tables.table_scene`); ``None`` of all other kinds."""
     corner_count: int = field(init=False)
     """How many corners a primitive has."""
 

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.depth_tables import table_scene
+from core.assembly.depth_tables import table_scene
 from core.records.depth_table import DepthTable, depths_of_text
 from core.scene import ClipScene
 from lessons.shapes import linear_color

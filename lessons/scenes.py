@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.assembly import assemble
+from core.assembly.primitives import assemble
 from core.records.arrays import Floats, checked
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, Scene
 from lessons.depth_tables import two_triangles
@@ -113,7 +113,7 @@ def fan() -> ClipScene:
 
 
 def assembled(name: str, x: ArrayLike, y: ArrayLike, size: tuple[int, int]) -> ClipScene:
-    """Return primitives of `core.assembly` between places (V,) in the window, each vertex in one of four colours."""
+    """Return primitives assembled between places (V,) in the window, each vertex in one of four colours."""
     corners = np.stack([np.asarray(x, float), np.asarray(y, float)], axis=1)
     clip = np.concatenate([2 * corners / size - 1, np.tile([0.0, 1.0], (len(corners), 1))], axis=1)
     colors = np.array([linear_color(FACE_COLORS[k % 4]) for k in range(len(corners))])

@@ -38,7 +38,7 @@ from app.files.state_models import (
     SourceRecord,
     TableSceneRecord,
 )
-from core.depth_tables import table_scene
+from core.assembly.depth_tables import table_scene
 from core.records.depth_table import DepthTable, depths_of_text, text_of_depths
 from core.scene import (
     AnyScene,

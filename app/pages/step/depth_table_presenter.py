@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.session.document import TeachingRaster
 from app.session.session import Session
-from core.depth_tables import table_scene
+from core.assembly.depth_tables import table_scene
 from core.records.depth_table import DepthTable, depth_of_text, depths_of_text
 from core.scene import ClipScene
 from lessons.depth_tables import COLORS

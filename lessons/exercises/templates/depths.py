@@ -7,7 +7,7 @@ from math import inf, isinf
 import numpy as np
 
 from core import Settings, render
-from core.depth_tables import table_scene
+from core.assembly.depth_tables import table_scene
 from core.framebuffer.depth_formats import unsigned_depth
 from core.records.arrays import Floats
 from core.records.depth_table import DepthTable, text_of_depths

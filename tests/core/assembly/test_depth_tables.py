@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from core.depth_tables import table_scene
+from core.assembly.depth_tables import table_scene
 from core.fast_path.draw import draw_picture
 from core.framebuffer.display import to_display
 from core.pixel_history import why
