@@ -13,7 +13,7 @@ from app.cli.exercise_folders import known_templates
 from app.files.file_writing import write_file
 from app.files.input_files import read_input
 from lessons.attempts.practice import Progress, next_question, progress
-from lessons.attempts.record import DEFAULT_USER, attempt_of, attempts_json, read_attempts_json
+from lessons.attempts.record import DEFAULT_USER, attempt_of, exported_attempts, read_attempts_json
 from lessons.attempts.store import FILE_NAME, AttemptFile
 from lessons.exercises.answers.answer import Response
 from lessons.exercises.question import Judgement, Question
@@ -32,8 +32,12 @@ def add_parsers(parsers: "argparse._SubParsersAction[argparse.ArgumentParser]") 
         one.add_argument(
             "--user", metavar="NAME", default=DEFAULT_USER, help=f"whose attempts ({DEFAULT_USER})"
         )
-    export = parsers.add_parser("export", help="write attempts into a JSON file", allow_abbrev=False)
-    export.add_argument("path", metavar="ATTEMPTS.json", help="the file to write")
+    export = parsers.add_parser(
+        "export", help="write attempts into a JSON file, or a CSV table", allow_abbrev=False
+    )
+    export.add_argument(
+        "path", metavar="ATTEMPTS", help="the file to write: .json, or .csv for a spreadsheet"
+    )
     export.add_argument("--user", metavar="NAME", help="only the attempts of this user")
     taken = parsers.add_parser("import", help="add the attempts of a JSON file", allow_abbrev=False)
     taken.add_argument("path", metavar="ATTEMPTS.json", help="a file that export has written")
@@ -55,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
         return 0
     if options.action == "export":
         attempts = file.attempts(options.user)
-        write_file(options.path, attempts_json(attempts))
+        write_file(options.path, exported_attempts(attempts, options.path))
         print(f"{options.path}: {counted(len(attempts))}")
         return 0
     attempts = tuple(read_attempts_json(read_input(options.path, SIZE_LIMIT), options.path))

@@ -1,8 +1,11 @@
-"""One attempt: a question, the answer of a user, and what came of it; and many of them as JSON."""
+"""One attempt: a question, the answer of a user, and what came of it; and many of them as JSON or CSV."""
 
+import csv
+import io
+import re
 from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
-from typing import TYPE_CHECKING, Annotated, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import AfterValidator, AwareDatetime, BaseModel, ConfigDict, Field, ValidationError
 
@@ -103,6 +106,41 @@ def attempt_of(
         is_slip=judgement.is_slip,
         seconds=seconds,
     )
+
+
+COLUMNS = tuple(Attempt.model_fields)
+"""Of a table with one attempt a row."""
+_TIME = "%Y-%m-%dT%H:%M:%S.%fZ"
+_FORMULA = re.compile(r"[=+\-@\t\r](?![\s\d.,/e+()-]*$)")
+"""Beginning of a text that a spreadsheet would run, if it is not made of numbers."""
+
+
+def attempt_row(attempt: Attempt) -> dict[str, Any]:
+    """Return an attempt as a row of a table: the time as text, the names of mistakes separated by spaces."""
+    values = {name: getattr(attempt, name) for name in COLUMNS}
+    values["at"] = attempt.at.strftime(_TIME)
+    return values | {name: " ".join(values[name]) for name in ("asked", "mistakes")}
+
+
+def attempts_csv(attempts: Iterable[Attempt]) -> bytes:
+    """Return attempts as a table, one a row; a text that a spreadsheet would run begins with an apostrophe."""
+    text = io.StringIO()
+    table = csv.DictWriter(text, COLUMNS)
+    table.writeheader()
+    for attempt in attempts:
+        row = attempt_row(attempt)
+        table.writerow(
+            {
+                name: f"'{value}" if isinstance(value, str) and _FORMULA.match(value) else value
+                for name, value in row.items()
+            }
+        )
+    return text.getvalue().encode("utf-8-sig")
+
+
+def exported_attempts(attempts: Iterable[Attempt], path: str) -> bytes:
+    """Return attempts as the content of a file: a table where its name ends in .csv, else JSON."""
+    return (attempts_csv if path.lower().endswith(".csv") else attempts_json)(attempts)
 
 
 class AttemptList(BaseModel):

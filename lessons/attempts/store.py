@@ -14,7 +14,7 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
-from lessons.attempts.record import VERSION, Attempt
+from lessons.attempts.record import COLUMNS, VERSION, Attempt, attempt_row
 
 FILE_NAME = "attempts.sqlite"
 APPLICATION = 0x52415354
@@ -43,12 +43,10 @@ TABLE = """CREATE TABLE attempts (
 )"""
 """``at`` as in 2026-11-23T08:00:00.000000Z, so that texts are in the order of time; names of mistakes are separated by
 spaces."""
-COLUMNS = tuple(Attempt.model_fields)
 _INSERT = (
     f"INSERT INTO attempts ({', '.join(COLUMNS)}) VALUES ({', '.join('?' * len(COLUMNS))}) "
     "ON CONFLICT (user, at, template, version, seed, answer) DO NOTHING"
 )
-_TIME = "%Y-%m-%dT%H:%M:%S.%fZ"
 _REASONS = {
     sqlite3.SQLITE_FULL: "the disk is full",
     sqlite3.SQLITE_BUSY: "another window is writing to it",
@@ -256,10 +254,7 @@ def _lock(connection: sqlite3.Connection) -> None:
 
 
 def _row_of_attempt(attempt: Attempt) -> tuple[Any, ...]:
-    values = {name: getattr(attempt, name) for name in COLUMNS}
-    values["at"] = attempt.at.strftime(_TIME)
-    values |= {name: " ".join(values[name]) for name in ("asked", "mistakes")}
-    return tuple(values.values())
+    return tuple(attempt_row(attempt).values())
 
 
 def _attempt_of_row(row: tuple[Any, ...]) -> Attempt:

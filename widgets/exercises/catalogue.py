@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QSize, Qt, Signal, Slot
-from PySide6.QtGui import QColor, QIcon
+from PySide6.QtCore import QRect, QSize, Qt, Signal, Slot
+from PySide6.QtGui import QColor, QIcon, QResizeEvent
 from PySide6.QtWidgets import QAbstractItemView, QLineEdit, QTreeWidget, QTreeWidgetItem, QWidget
 
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
@@ -14,6 +14,8 @@ from widgets.exercises.records import ExerciseGroup, Standing
 
 ROW_ROOM = 11
 """Pixels of a row above and below its text together."""
+TITLE_MARGINS = 6
+"""Pixels left and right of a title, and of its mark, together."""
 _NAME = int(Qt.ItemDataRole.UserRole)
 _MARKS = {
     Standing.BEGUN: Mark.BOOKMARK,
@@ -53,7 +55,7 @@ class Catalogue(QWidget):
         self.tree.setAnimated(False)
         self.tree.setRootIsDecorated(True)
         self.tree.setIndentation(12)
-        self.tree.setUniformRowHeights(True)
+        self.tree.setWordWrap(True)
         self.tree.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.tree.setSelectionMode(QAbstractItemView.SelectionMode.SingleSelection)
         self.tree.header().setStretchLastSection(False)
@@ -144,6 +146,23 @@ class Catalogue(QWidget):
                 item.setText(0, entry.title)
                 item.setToolTip(0, f"{entry.title}: {entry.points}, {entry.standing.value}")
                 item.setData(0, Qt.ItemDataRole.AccessibleTextRole, f"{entry.title}, {entry.standing.value}")
+        self._set_heights()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Give a title as many lines as it takes in this width."""
+        super().resizeEvent(event)
+        self._set_heights()
+
+    def _set_heights(self) -> None:
+        tree, side = self.tree, current_theme().text_px
+        width = tree.viewport().width() - 2 * tree.indentation() - TITLE_MARGINS
+        line = tree.fontMetrics().lineSpacing()
+        for item in self._items.values():
+            mark = 0 if item.icon(0).isNull() else side + TITLE_MARGINS
+            room = QRect(0, 0, max(width - mark, side), 0)
+            text = tree.fontMetrics().boundingRect(room, Qt.TextFlag.TextWordWrap, item.text(0))
+            more = text.height() - line
+            item.setSizeHint(0, QSize(0, more + side + ROW_ROOM) if more > 0 else QSize())
 
     @Slot(QTreeWidgetItem)
     def _open(self, item: QTreeWidgetItem) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
+from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPainter
 from PySide6.QtWidgets import QWidget
 
 from widgets.basics.accessible import announce
@@ -71,6 +71,7 @@ class MarkGrid(PixelGrid):
         """Let clicks and keys mark pixels."""
         self._is_paintable = is_paintable
         self.set_brush(is_paintable)
+        self._begin_at_pixel()
 
     def marked(self) -> Pixels:
         """Return the marked pixels."""
@@ -211,6 +212,15 @@ class MarkGrid(PixelGrid):
 
     # By keyboard.
 
+    def focusInEvent(self, event: QFocusEvent) -> None:
+        """Show the pixel that Space marks first."""
+        super().focusInEvent(event)
+        self._begin_at_pixel()
+
+    def _begin_at_pixel(self) -> None:
+        if self._is_paintable and self.hasFocus() and self.pin() is None and not self._points.names:
+            self.show_pin((0, self._size[1] - 1))
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Go with the arrows and mark with Space, or choose a point with Space and move it with the arrows."""
         key, is_shifted = Qt.Key(event.key()), bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
@@ -230,10 +240,8 @@ class MarkGrid(PixelGrid):
     def _go_pixels(self, key: Qt.Key, is_shifted: bool) -> None:
         """Go to a neighbour, or to the end of the row; with Shift take the mark of this pixel along."""
         columns, rows = self._size
-        pixel = self.pin()
-        if pixel is None:
-            self.show_pin((0, rows - 1))
-        elif key == Qt.Key.Key_Space:
+        pixel = self.pin() or (0, rows - 1)
+        if key == Qt.Key.Key_Space:
             self._paint(frozenset({pixel}), pixel not in self._marked)
         else:
             ends = {Qt.Key.Key_Home: (-columns, 0), Qt.Key.Key_End: (columns, 0)}
@@ -242,7 +250,7 @@ class MarkGrid(PixelGrid):
             if is_shifted:
                 self._paint(_between(pixel, there), pixel in self._marked)
             self.show_pin(there)
-        announce(self, self._pixel_text(self.pin() or (0, rows - 1)))
+        announce(self, self._pixel_text(self.pin() or pixel))
 
     def _go_points(self, key: Qt.Key, is_shifted: bool) -> None:
         """Choose the next point, or move the chosen one by steps; with Shift by pixels."""

@@ -69,7 +69,7 @@ class ProgressView(QWidget):
         self.close_button = button_with_tip("Back to the question", "Close the progress (Escape)", self)
         self.close_button.clicked.connect(self.closed)
         self.export_button = button_with_tip(
-            "Export answers…", "Write all answers of this learner to a file", self
+            "Export answers…", "Write all answers of this learner to a file, or to a table", self
         )
         self.export_button.clicked.connect(self.export_requested)
         self.import_button = button_with_tip("Import answers…", "Add the answers of an exported file", self)

@@ -17,11 +17,12 @@ from core import STAGES
 from core.records.words import counted
 from core.stages.declared import stage_of
 from lessons.attempts.practice import progress
-from lessons.attempts.record import Attempt, Name, attempts_json, read_attempts_json
+from lessons.attempts.record import Attempt, Name, exported_attempts, read_attempts_json
 from lessons.mistakes.shelf import MISTAKES
 from widgets.exercises.progress_view import MistakeRecord, ProgressView, StageProgress
 
 KINDS = "Answers (*.json);;All files (*)"
+EXPORTED = "Answers, to be imported (*.json);;Table for a spreadsheet (*.csv)"
 _NAMES: TypeAdapter[str] = TypeAdapter(Name)
 
 
@@ -85,7 +86,7 @@ class ProgressPresenter(QObject):
 
     @Slot()
     def _export(self) -> None:
-        path = SaveDialog(self._view.window(), "Export answers", f"answers-{self._user}.json", KINDS).ask()
+        path = SaveDialog(self._view.window(), "Export answers", f"answers-{self._user}", EXPORTED).ask()
         if path:
             self.export_to(path)
 
@@ -93,7 +94,7 @@ class ProgressPresenter(QObject):
         """Write all answers of the learner."""
         try:
             attempts = attempt_file().attempts(self._user)
-            write_file(path, attempts_json(attempts))
+            write_file(path, exported_attempts(attempts, path))
         except OSError as problem:
             self.refused.emit(f"The answers were not exported: {problem}.")
         else:

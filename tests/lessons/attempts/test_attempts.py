@@ -1,5 +1,7 @@
 """Attempts are on the disk at once, and nothing that happens to the process, the disk or the file loses one."""
 
+import csv
+import io
 import os
 import shutil
 import signal
@@ -12,7 +14,7 @@ from pathlib import Path
 import pytest
 from pydantic import ValidationError
 
-from lessons.attempts.record import attempt_of, attempts_json, read_attempts_json
+from lessons.attempts.record import attempt_of, attempts_json, exported_attempts, read_attempts_json
 from lessons.attempts.store import FILE_NAME, AttemptFile, AttemptFileError
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask, judge
@@ -54,6 +56,18 @@ def test_an_attempt_says_what_came_of_an_answer(file: AttemptFile) -> None:
     assert set(kept.mistakes) < set(kept.asked)
     assert kept.at == at
     assert kept.answer == question.draft.answer.text(wrong)
+
+
+def test_a_table_has_one_attempt_a_row_and_no_formula() -> None:
+    """A spreadsheet would run a name such as ``=1+1``; numbers with a sign remain numbers."""
+    kept = [attempt(0), attempt(1, user='=HYPERLINK("x")', answer="-2, 4", mistakes=("y-down", "affine"))]
+    text = exported_attempts(kept, "Answers.CSV").decode("utf-8-sig")
+    first, second = csv.DictReader(io.StringIO(text, newline=""))
+    assert first["at"] == "2026-11-23T08:00:00.000000Z"
+    assert (first["answer"], first["points"], first["is_slip"]) == ("..#\n.##", "2.0", "False")
+    assert (second["user"], second["answer"]) == ('\'=HYPERLINK("x")', "-2, 4")
+    assert second["mistakes"] == "y-down affine"
+    assert exported_attempts(kept, "answers.json") == attempts_json(kept)
 
 
 def test_a_file_of_version_1_opens(tmp_path: Path) -> None:

@@ -1,0 +1,274 @@
+"""Every type of answer, given by mouse and by keyboard alone."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.cli.attempts import attempt_file
+from app.pages.exercises.answer_kinds import KINDS
+from lessons.exercises.answers.spots import SpotAnswer
+from lessons.exercises.answers.trials import BreakAnswer
+from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.question import ask
+from tests.app.pages.exercises.acting import LEFT, Page, at, check
+from widgets.exercises.choice_answer import ChoiceAnswerView
+from widgets.exercises.dial_answer import DialAnswerView
+from widgets.exercises.field_answer import FieldAnswerView
+from widgets.exercises.listing_answer import ListingAnswerView
+from widgets.exercises.mark_grid import MarkGrid
+from widgets.exercises.method_answer import MethodAnswerView
+from widgets.exercises.order_answer import OrderAnswerView
+from widgets.exercises.pixel_answer import PixelAnswerView
+from widgets.exercises.place_answer import PlaceAnswerView
+from widgets.exercises.records import FamilyRecord, MethodForm
+from widgets.exercises.spot_answer import SpotAnswerView
+from widgets.exercises.steps_answer import StepsAnswerView
+
+
+def check_that_pixels_are_marked_by_keyboard_alone(page: Page) -> None:
+    """Arrows go, Space marks, Shift paints; the rows say the same."""
+    shown = page("shared-edge")
+    assert shown.question is not None
+    shown.grid.setFocus(Qt.FocusReason.TabFocusReason)
+    for is_marked in (True, False):
+        QTest.keyClick(shown.grid, Qt.Key.Key_Space)
+        assert ((0, 8) in shown.grid.marked()) == is_marked
+    for _ in range(8):
+        QTest.keyClick(shown.grid, Qt.Key.Key_Down)
+    QTest.keyClick(shown.grid, Qt.Key.Key_Space)
+    assert shown.grid.marked() == {(0, 0)}
+    for _ in range(4):
+        QTest.keyClick(shown.grid, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
+    assert shown.grid.marked() == {(column, 0) for column in range(5)}
+    answer = shown.question_view.answer
+    assert isinstance(answer, PixelAnswerView)
+    answer.toggle_rows()
+    assert answer.rows.text(8, 0) == "0-4"
+    field = answer.rows.field(8, 0)
+    field.setFocus()
+    field.selectAll()
+    QTest.keyClicks(field, "2-3, 5")
+    assert shown.grid.marked() == {(2, 0), (3, 0), (5, 0)}
+    assert shown.grid.spoken_description() == "Pixel 4, 0: not marked. 3 marked."
+
+
+def check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page: Page) -> None:
+    """Return goes down; what is typed is said to be understood; a slip costs one cell."""
+    shown = page("bresenham-table")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    assert isinstance(answer, FieldAnswerView)
+    right = [[str(cell[1])] for (cell,) in shown.question.draft.answer.reference]
+    answer.fields.field(0, 0).setFocus()
+    for (text,) in right:
+        focused = QApplication.focusWidget()
+        assert focused is not None
+        QTest.keyClicks(focused, text)
+        assert "understood as" in shown.question_view.note.text()
+        QTest.keyClick(focused, Qt.Key.Key_Return)
+    assert answer.given() == right
+    shown.settle()  # Return in the last field has checked the answer.
+    assert shown.question_view.verdict.text().startswith("4 of 4 points")
+    last = answer.fields.field(len(right) - 1, 0)
+    last.setFocus()
+    QTest.keyClicks(last, "1")
+    assert f"{len(right) - 1} of {len(right)} cells right" in check(shown)
+    assert last.accessibleDescription() == "wrong"
+    assert answer.fields.field(0, 0).accessibleDescription() == "right"
+
+
+def check_that_nonsense_costs_nothing(page: Page) -> None:
+    shown = page("barycentric-weights")
+    before = attempt_file().attempts()
+    check(shown)
+    assert shown.question_view.note.text() == "Not checked yet: the answer is empty."
+    assert attempt_file().attempts() == before
+
+
+def check_that_an_order_is_moved_by_keys(page: Page) -> None:
+    shown = page("stage-order")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    assert isinstance(answer, OrderAnswerView)
+    for place, item in enumerate(shown.question.draft.answer.options):
+        answer.list.setCurrentRow(answer.given().index(item))
+        while answer.given().index(item) > place:
+            QTest.keyClick(answer.list, Qt.Key.Key_Up, Qt.KeyboardModifier.AltModifier)
+    assert check(shown).startswith("2 of 2 points")
+
+
+def check_that_options_are_chosen_by_space_and_marked(page: Page) -> None:
+    shown = page("facing")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    assert isinstance(answer, ChoiceAnswerView)
+    right = shown.question.draft.answer.reference
+    answer.buttons[0].setFocus(Qt.FocusReason.TabFocusReason)
+    for place, button in enumerate(answer.buttons):
+        assert button.hasFocus()
+        if place in right:
+            QTest.keyClick(button, Qt.Key.Key_Space)
+        QTest.keyClick(button, Qt.Key.Key_Tab)
+    assert check(shown).startswith("2 of 2 points")
+    assert answer.buttons[min(right)].accessibleDescription() == "right"
+
+
+def check_that_hints_come_in_order_and_the_model_answer_asks_first(page: Page) -> None:
+    shown = page("triangle-coverage")
+    view = shown.question_view
+    QTest.mouseClick(view.hint_button, LEFT)
+    assert view.hints.text().startswith("Hint 1 of 3: Look at one row")
+    assert view.hint_button.text() == "Hint 2 of 3"
+    QTest.mouseClick(view.model_button, LEFT)
+    assert shown.grid.marked() == frozenset()
+    QTest.mouseClick(view.model_button, LEFT)
+    assert shown.question is not None
+    assert shown.grid.marked() == shown.question.draft.answer.reference
+    QTest.mouseClick(shown.grid, LEFT, pos=at(shown, (0, 0)))
+    assert (0, 0) not in shown.grid.marked()
+
+
+def check_that_a_point_is_placed_by_mouse_and_moved_by_keys(page: Page) -> None:
+    shown = page("clip-ends")
+    answer = shown.question_view.answer
+    assert isinstance(answer, PlaceAnswerView)
+    placement = shown.grid.placement()
+    QTest.mouseClick(shown.grid, LEFT, pos=placement.to_widget(2.0, 1.0).toPoint())
+    QTest.mouseClick(shown.grid, LEFT, pos=placement.to_widget(6.0, 3.0).toPoint())
+    assert [round(float(text)) for row in answer.given() for text in row] == [2, 1, 6, 3]
+    before = answer.given()[0]
+    shown.grid.setFocus(Qt.FocusReason.TabFocusReason)
+    QTest.keyClick(shown.grid, Qt.Key.Key_Space)
+    QTest.keyClick(shown.grid, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
+    QTest.keyClick(shown.grid, Qt.Key.Key_Up)
+    assert float(answer.given()[0][0]) == float(before[0]) + 1
+    assert float(answer.given()[0][1]) > float(before[1])
+    assert "of 2 points right" in check(shown)
+
+
+def check_that_a_line_of_a_listing_is_chosen_by_keys(page: Page) -> None:
+    shown = page("wrong-line")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    assert isinstance(answer, ListingAnswerView)
+    assert answer.given() == ""
+    QTest.keyClick(answer.list, Qt.Key.Key_Home)
+    for _ in range(shown.question.draft.answer.reference):
+        QTest.keyClick(answer.list, Qt.Key.Key_Down)
+    assert check(shown).startswith("2 of 2 points")
+
+
+def check_that_what_is_wrong_with_a_picture_is_pointed_at_and_named(page: Page) -> None:
+    shown = page("wrong-picture")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    right = shown.question.draft.answer
+    assert isinstance(answer, SpotAnswerView)
+    assert isinstance(right, SpotAnswer)
+    QTest.mouseClick(shown.grid, LEFT, pos=at(shown, min(right.wrong)))
+    QTest.keyClick(answer.choice.buttons[right.right], Qt.Key.Key_Space)
+    assert check(shown).startswith("4 of 4 points")
+
+
+def check_that_steps_are_judged_at_once_and_put_right(page: Page) -> None:
+    """A pixel is clicked, a number typed; a wrong try may be put right and earns nothing."""
+    shown = page("bresenham-steps")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    steps = shown.question.draft.answer.steps
+    assert isinstance(answer, StepsAnswerView)
+    QTest.keyClicks(answer.field, "77")
+    QTest.keyClick(answer.field, Qt.Key.Key_Return)
+    assert shown.question_view.note.text() == "Step 1: 77 is not right. Try again, or have it put right."
+    QTest.mouseClick(answer.fix_button, LEFT)
+    for step in steps[1:]:
+        if step.kind == "pixel":
+            QTest.mouseClick(shown.grid, LEFT, pos=at(shown, step.right))
+        else:
+            QTest.keyClicks(answer.field, str(step.right))
+            QTest.keyClick(answer.field, Qt.Key.Key_Return)
+    assert answer.prompt.text() == "All steps are done."
+    assert f"{len(steps) - 1} of {len(steps)} steps right" in check(shown)
+    assert shown.grid.marked() == {step.right for step in steps if step.kind == "pixel"}
+
+
+def check_that_a_weak_method_is_broken_by_a_drag_and_by_keys(page: Page) -> None:
+    shown = page("break-inclusive")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    right = shown.question.draft.answer
+    assert isinstance(answer, DialAnswerView)
+    assert isinstance(right, BreakAnswer)
+    x, y = map(float, right.reference)
+    placement = shown.grid.placement()
+    start, end = (placement.to_widget(*place).toPoint() for place in (map(float, right.start), (x, y)))
+    QTest.mousePress(shown.grid, LEFT, pos=start)
+    QTest.mouseMove(shown.grid, end)
+    QTest.mouseRelease(shown.grid, LEFT, pos=end)
+    assert [float(text) for text in answer.given()] == [x, y]
+    assert check(shown).startswith("3 of 3 points")
+    QTest.keyClick(answer.sliders[0], Qt.Key.Key_Right)
+    shown.settle()
+    assert float(answer.given()[0]) == x + float(right.dials[0].step)
+
+
+def check_that_the_cheapest_methods_are_chosen(page: Page) -> None:
+    shown = page("cheapest-methods")
+    answer = shown.question_view.answer
+    assert shown.question is not None
+    assert isinstance(answer, MethodAnswerView)
+    for box, method in zip(answer.boxes, shown.question.draft.answer.reference, strict=True):
+        box.setFocus()
+        for _ in range(method + 1):
+            QTest.keyClick(box, Qt.Key.Key_Down)
+    assert check(shown).startswith("4 of 4 points")
+
+
+def test_every_form_takes_every_answer_of_its_questions() -> None:
+    """What a form holds for an answer is read as that answer."""
+    for template in list(TEMPLATES.values())[::4]:
+        draft = ask(template, 3).draft
+        kind = KINDS[draft.answer.kind]
+        for response in (draft.answer.reference, *draft.mistakes.values()):
+            given = kind.given(draft.answer, response)
+            read = draft.answer.read(kind.read(draft.answer, given))
+            assert draft.answer.is_same(read, response), template.name
+
+
+def test_every_type_is_answered_in_one_window(page: Page) -> None:
+    """One window for all of them: making one takes longer than answering."""
+    check_that_pixels_are_marked_by_keyboard_alone(page)
+    check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page)
+    check_that_nonsense_costs_nothing(page)
+    check_that_an_order_is_moved_by_keys(page)
+    check_that_options_are_chosen_by_space_and_marked(page)
+    check_that_hints_come_in_order_and_the_model_answer_asks_first(page)
+    check_that_a_point_is_placed_by_mouse_and_moved_by_keys(page)
+    check_that_a_line_of_a_listing_is_chosen_by_keys(page)
+    check_that_what_is_wrong_with_a_picture_is_pointed_at_and_named(page)
+    check_that_steps_are_judged_at_once_and_put_right(page)
+    check_that_a_weak_method_is_broken_by_a_drag_and_by_keys(page)
+    check_that_the_cheapest_methods_are_chosen(page)
+
+
+def test_a_long_method_makes_the_question_no_wider(qtbot: QtBot) -> None:
+    """A list of methods that is wider than its column would cut the text of the question off."""
+
+    def width(text: str) -> int:
+        form = MethodForm((FamilyRecord("fill", "Fill", (("one", text),)),), lambda chosen: "")
+        grid = MarkGrid()
+        view = MethodAnswerView(form, grid)
+        qtbot.addWidget(grid)
+        qtbot.addWidget(view)
+        return view.minimumSizeHint().width()
+
+    assert width("a method of many words, with its cost") == width("a")
+
+
+def test_a_step_that_was_missed_has_its_mark(page: Page) -> None:
+    shown = page("space-steps")
+    answer = shown.question_view.answer
+    assert isinstance(answer, StepsAnswerView)
+    answer.show_given([["99"]])
+    assert not answer.list.item(0).icon().isNull()
