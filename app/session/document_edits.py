@@ -14,13 +14,14 @@ class DocumentEdits(QObject):
     """Makes edits that undo takes back."""
 
     edit_refused = Signal(object)
-    """The ValueError that says why an edit is not possible."""
+    """The exception that says why an edit is not possible, or came to nothing."""
     edit_pointless = Signal(str)
     """Why there is nothing to edit."""
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session = session
+        session.edit_failed.connect(self._fail)
 
     def edit(self, document: Document) -> None:
         """Take over an edited document, or say why that is not possible."""
@@ -28,6 +29,32 @@ class DocumentEdits(QObject):
             self._session.edit(document)
         except ValueError as error:
             self.edit_refused.emit(error)
+
+    @Slot(object)
+    def _fail(self, error: Exception) -> None:
+        """Say why an edit that was traced in the background came to nothing."""
+        if not isinstance(error, ValueError | MemoryError):
+            raise error
+        self.edit_refused.emit(error)
+
+    @Slot()
+    def cancel(self) -> None:
+        """Say that an edit was cancelled."""
+        self.edit_refused.emit(ValueError("The edit was cancelled; nothing has changed."))
+
+    def undo(self) -> None:
+        """Take the last edit back, or say that there is none."""
+        if self._session.can_undo:
+            self._session.undo()
+        else:
+            self.edit_pointless.emit("There is no edit to undo.")
+
+    def redo(self) -> None:
+        """Do the edit again that was undone last, or say that there is none."""
+        if self._session.can_redo:
+            self._session.redo()
+        else:
+            self.edit_pointless.emit("There is no edit to redo.")
 
     def toggle_shared(self) -> None:
         """Let corners at one place move together, or each by itself."""

@@ -2,9 +2,10 @@
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QObject, Qt, Slot
+from PySide6.QtWidgets import QApplication, QWidget
 
+from app.window.appearance import the_application
 from widgets.basics.focus_order import give_focus, next_stop, tab_stops
 from widgets.basics.key_claim import GIVEN_BACK
 
@@ -19,11 +20,19 @@ class FocusWalk(QObject):
         super().__init__(window)
         self._last: dict[QWidget, QWidget] = {}
         """The stop that had the keyboard last in each pane."""
+        self.is_by_mouse = False
+        """Whether the focus was given by a click: then the keys go on stepping."""
+        the_application().focusChanged.connect(self._focus_moved)
 
     @property
     def window(self) -> "MainWindow":
         """The window; not an attribute, since a window in a cycle would not be deleted when it is released."""
         return self.parent()  # type: ignore[return-value]
+
+    @Slot(QWidget, QWidget)
+    def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
+        if now is not None and now.window() is self.window:
+            self.is_by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
 
     def panes(self) -> list[QWidget]:
         """Return what Tab walks through: a page of keys alone where one is open, else the main view first."""

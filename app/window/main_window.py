@@ -1,15 +1,10 @@
-"""The main window: its layout, and what every action does."""
+"""The main window: its layout, what it connects, and what it shows of the session beside the page."""
 
-import sys
-import traceback
-from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
-from types import TracebackType
 
-from PySide6.QtCore import QEvent, Qt, Slot
+from PySide6.QtCore import QEvent, Slot
 from PySide6.QtGui import QCloseEvent, QContextMenuEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QApplication, QLabel, QMainWindow, QStatusBar, QWidget
+from PySide6.QtWidgets import QLabel, QMainWindow, QStatusBar
 
 from app.background.workers import ending_within
 from app.files.export_desk import ExportActions
@@ -22,19 +17,20 @@ from app.pages.step.page import PANES, StepPage
 from app.session.document import Document
 from app.session.document_edits import DocumentEdits
 from app.session.session import Session
-from app.views.view_space import LARGEST_WITH_CAMERA
+from app.window.actions import window_handlers
 from app.window.appearance import Appearance, the_application
 from app.window.focus_walk import FocusWalk
 from app.window.key_choices import KeyChoices
 from app.window.keys import has_use_for
 from app.window.menus import Menus
-from app.window.message_words import sentence_case, sentences
+from app.window.message_words import sentences
+from app.window.notices import Notices
 from app.window.overlays import Overlays
 from app.window.preferences import Preferences
 from app.window.presenter import Presenter
 from app.window.remembering import Remembering
 from core.scene import ClipScene
-from widgets.basics.accessible import announce, install_roles
+from widgets.basics.accessible import install_roles
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
 OF_VIEW = ("export_view", "copy_view", "print_view")
@@ -47,8 +43,6 @@ SMALLEST = (800, 500)
 """Least size of the window: 1920 x 1080 pixels at 200 % leave 960 x 540, and a title."""
 CLOSE_UNSAVED = "Close without saving"
 """The button that closes a window although what is open could not be saved."""
-HINT_MILLISECONDS = 8000
-"""How long a hint stays in the status bar."""
 
 
 class MainWindow(QMainWindow):
@@ -64,11 +58,11 @@ class MainWindow(QMainWindow):
         step_page = self.pages.page("step")
         assert isinstance(step_page, StepPage)
         self.page = step_page
-        self._has_mouse_focus = False
         self._closes_unsaved = False
         self._offered = ""
         """Path of the state that the message bar offers to open."""
         self._lay_out()
+        self.notices = Notices(self._hints, self.messages, self)
         self.menus = Menus(self)
         self.appearance = Appearance(self)
         self.presenter = Presenter(self)
@@ -104,16 +98,16 @@ class MainWindow(QMainWindow):
         return self._hints
 
     def _connect(self) -> None:
-        session, page, menus = self.session, self.page, self.menus
+        session, page, menus, notices = self.session, self.page, self.menus, self.notices
         session.document_changed.connect(self._show_document)
         session.hover_changed.connect(self._show_pointed)
         session.pin_changed.connect(self._show_pointed)
         session.cursor_changed.connect(self._show_pointed)
-        session.edit_failed.connect(self._edit_failed)
+        session.predicting_changed.connect(self._show_predicting)
         self.pages.page_made.connect(self._take_page)
         self.pages.page_changed.connect(self._show_page)
         page.timeline.speed_changed.connect(self.memory.remember_speed)
-        page.stepping.message_ended.connect(self._end_hint)
+        page.stepping.message_ended.connect(notices.end_hint)
         page.stepping.bookmarks.bookmarks_changed.connect(self._show_bookmarks)
         page.panes_changed.connect(self._show_panes)
         page.views.triangle_picked.connect(self.edits.focus_triangle)
@@ -130,25 +124,23 @@ class MainWindow(QMainWindow):
         menus.text_size_chosen.connect(self.appearance.set_text_size)
         self.appearance.text_size_changed.connect(self.memory.remember_text_size)
         self.appearance.text_size_changed.connect(self.menus.show_text_size)
-        self.opening.message_sent.connect(self._show_message)
+        self.opening.message_sent.connect(notices.show_message)
         self.opening.opened.connect(self._show_step)
-        self.opening.hiding_wanted.connect(self.set_predict)
-        self.edits.edit_refused.connect(self.refuse)
+        self.edits.edit_refused.connect(self._refuse)
         self.overlays.keys.keys_changed.connect(self._take_keys)
         self.overlays.keys.set_choices(self.memory.key_choices())
         self.overlays.triangle_requested.connect(self.edits.focus_triangle)
         self.edits.edit_pointless.connect(self._tell_pointless)
         self.files.path_chosen.connect(self.open_path)
-        self.files.message_sent.connect(self._show_message)
-        self.exports.message_sent.connect(self._show_message)
+        self.files.message_sent.connect(notices.show_message)
+        self.exports.message_sent.connect(notices.show_message)
         menus.scale_chosen.connect(self.exports.set_scale)
         self.files.file_used.connect(self.memory.remember_file)
         self.memory.recent_changed.connect(self.menus.show_recent)
-        self.memory.autosave.failed.connect(self._warn)
+        self.memory.autosave.failed.connect(notices.warn)
         self.memory.autosave.recovered.connect(self._tell_saved_again)
-        self.files.progress.edit_cancelled.connect(self._edit_cancelled)
+        self.files.progress.edit_cancelled.connect(self.edits.cancel)
         self.messages.action_requested.connect(self._open_offered)
-        the_application().focusChanged.connect(self._focus_moved)
 
     # Actions by key and menu.
 
@@ -161,145 +153,21 @@ class MainWindow(QMainWindow):
             return
         own = self.pages.current.handlers()
         if self.pages.is_covered and (name in own or name in OF_VIEW):
-            self.tell(COVERED)
+            self.notices.tell(COVERED)
         else:
-            {**self._handlers(), **own}[name]()
-
-    def _handlers(self) -> dict[str, Callable[[], object]]:
-        """Return what the actions of ``app.window.keys.ACTIONS`` do that a page cannot do alone."""
-        return {
-            "next_page": lambda: self.pages.show_next(1),
-            "previous_page": lambda: self.pages.show_next(-1),
-            "edit_condition": self.overlays.ask_condition,
-            "note_bookmark": self.overlays.ask_note,
-            "go_to_pixel": self.overlays.ask_pixel,
-            "go_to_triangle": self.overlays.ask_triangle,
-            "next_triangle": lambda: self.edits.step_triangle(1),
-            "previous_triangle": lambda: self.edits.step_triangle(-1),
-            "unpin": self.dismiss,
-            "predict": self.toggle_predict,
-            "toggle_theme": self.appearance.toggle_theme,
-            "text_larger": lambda: self.appearance.change_text_size(1),
-            "text_smaller": lambda: self.appearance.change_text_size(-1),
-            "presenter": self.presenter.toggle,
-            "help": self.help.toggle,
-            "help_guide": lambda: self.help.show_page("guide"),
-            "help_glossary": lambda: self.help.show_page("glossary"),
-            "help_methods": lambda: self.help.show_page("methods"),
-            "show_keys": self.overlays.toggle_keys,
-            "change_keys": self.overlays.change_keys,
-            "next_pane": lambda: self.focus_walk.go_pane(1),
-            "previous_pane": lambda: self.focus_walk.go_pane(-1),
-            "undo": self.undo,
-            "redo": self.redo,
-            "fit_region": self.fit_to_triangle,
-            "whole_picture": self.show_whole_picture,
-            "toggle_shared": self.edits.toggle_shared,
-            "focus_all": self.edits.focus_all,
-            "toggle_cleared": self.edits.toggle_cleared,
-            "open_file": self.files.ask_file,
-            "save_state": self.files.ask_save,
-            "export_view": self.exports.ask_export,
-            "copy_view": self.exports.copy,
-            "print_view": self.print_view,
-            "export_caption": self.toggle_caption,
-            "quit": self.close,
-        }
-
-    @Slot(str)
-    def tell(self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "") -> None:
-        """Show a message in the window without stopping anything.
-
-        What only informs goes to the status bar, so that the page does not move while one steps.
-        """
-        text = sentence_case(text)
-        if kind is MessageKind.INFORMATION and not details:
-            self.statusBar().showMessage(text, HINT_MILLISECONDS)
-            announce(self.statusBar(), text)
-        else:
-            self.messages.show_message(Message(kind, text, details))
-
-    @Slot(str)
-    def _end_hint(self, text: str) -> None:
-        """Take a hint away that is true no longer, if it is still shown."""
-        if self.statusBar().currentMessage() == sentence_case(text):
-            self.statusBar().clearMessage()
-
-    @Slot(str)
-    def _warn(self, text: str) -> None:
-        self.tell(text, MessageKind.WARNING)
+            {**window_handlers(self), **own}[name]()
 
     @Slot(object)
-    def _show_message(self, message: Message) -> None:
-        if message.action:
-            self.messages.show_message(replace(message, text=sentence_case(message.text)))
-        else:
-            self.tell(message.text, message.kind, message.details)
-
-    @Slot(object)
-    def refuse(self, error: Exception) -> None:
-        """Say why an edit came to nothing."""
-        self.tell(f"{error}", MessageKind.WARNING)
+    def _refuse(self, error: Exception) -> None:
+        """Say why an edit came to nothing, and show again what is there."""
+        self.notices.warn(f"{error}")
         self.page.scene.refresh()
         self._show_document()
 
-    @Slot(object)
-    def _edit_failed(self, error: Exception) -> None:
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
-        self.refuse(error)
-
     @Slot(str)
     def _tell_pointless(self, text: str) -> None:
-        self.tell(text)
+        self.notices.tell(text)
         self._show_document()
-
-    @Slot()
-    def _edit_cancelled(self) -> None:
-        self.refuse(ValueError("The edit was cancelled; nothing has changed."))
-
-    def dismiss(self) -> None:
-        """Close what is open on top, stop what runs, or else take the pin away."""
-        if self.presenter.end_black() or self.overlays.close_top() or self.help.dismiss():
-            return
-        if self.files.progress.is_busy:
-            self.files.progress.cancel()
-        elif self.messages.isVisible():
-            self.messages.dismiss()
-        elif (
-            self.pages.current.is_busy() or self._has_mouse_focus or not self.focus_walk.go_home()
-        ) and not self.pages.current.dismiss():
-            self.presenter.leave()
-
-    def undo(self) -> None:
-        """Take the last edit back, or say that there is none."""
-        if self.session.can_undo:
-            self.session.undo()
-        else:
-            self.tell("There is no edit to undo.")
-
-    def redo(self) -> None:
-        """Do the edit again that was undone last, or say that there is none."""
-        if self.session.can_redo:
-            self.session.redo()
-        else:
-            self.tell("There is no edit to redo.")
-
-    def fit_to_triangle(self) -> None:
-        """Fit the raster to the triangle in focus; where the 3D view is shown, magnify it there or leave it."""
-        self.edits.fit_region()
-        if self.page.current_view() == "scene":
-            self.page.show_own_view()
-            self.page.views.look_at_focus()
-
-    def show_whole_picture(self) -> None:
-        """Show the whole model in the 3D view: its grid would hold a sliver. A small scene is shown on the grid."""
-        self.page.grid.fit()
-        self.page.views.look_home()
-        if self.session.document.triangle_count > LARGEST_WITH_CAMERA:
-            self.page.show_view("scene")
-        else:
-            self.edits.show_whole()
 
     @Slot(object)
     def _take_keys(self, choices: KeyChoices) -> None:
@@ -308,33 +176,13 @@ class MainWindow(QMainWindow):
         self.overlays.show_keys(self.pages.current_name)
         self.memory.remember_keys(choices)
 
-    def toggle_predict(self) -> None:
-        """Ask before showing, or stop asking."""
-        self.set_predict(not self.page.predicting.is_active)
-
-    @Slot(bool)
-    def set_predict(self, is_on: bool) -> None:
-        """Ask before showing from now on, or show everything."""
-        if is_on != self.page.predicting.is_active:
-            self.page.set_predicting(is_on)
-        self.menus.show_checked("predict", is_on)
-
-    def toggle_caption(self) -> None:
-        """Export the view with sentence and formula from now on, or without."""
-        self.exports.has_caption = not self.exports.has_caption
-        self.menus.show_checked("export_caption", self.exports.has_caption)
-
-    def print_view(self) -> None:
-        """Print the view with what the page says of it, under the title of the scene."""
-        self.exports.print_view(self.session.document.title)
-
     # Pages.
 
     @Slot(object)
     def _take_page(self, page: Page) -> None:
         """Listen to a page that has just been made, and give its panes the sizes that they had."""
-        page.message_sent.connect(self.tell)
-        page.edit_refused.connect(self._warn)
+        page.message_sent.connect(self.notices.tell)
+        page.edit_refused.connect(self.notices.warn)
         page.step_requested.connect(self.opening.open_request)
         page.question_requested.connect(self._ask_question)
         page.action_requested.connect(self.run_action)
@@ -372,6 +220,10 @@ class MainWindow(QMainWindow):
         self.menus.show_checked("compare", self.page.current_view() == "compare")
 
     @Slot()
+    def _show_predicting(self) -> None:
+        self.menus.show_checked("predict", self.session.is_predicting)
+
+    @Slot()
     def _show_panes(self) -> None:
         shown = self.page.shown_panes()
         for name in PANES:
@@ -404,13 +256,6 @@ class MainWindow(QMainWindow):
         self.pointed.setText(
             f"pixel ({pixel[0]}, {pixel[1]})   {self.page.pointed_text(pixel)}" if pixel else ""
         )
-
-    def report(self, kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
-        """Tell a mistake of the program in the window too; what is open is still there."""
-        text = "".join(traceback.format_exception(kind, error, trace))
-        print(text, file=sys.stderr)
-        said = f"Something went wrong in the program ({kind.__name__}: {error}). The open scene is unchanged."
-        self.messages.show_message(Message(MessageKind.ERROR, said, text))
 
     # Coming and going.
 
@@ -480,17 +325,11 @@ class MainWindow(QMainWindow):
     def event(self, event: QEvent) -> bool:
         """Leave a control that Tab has reached the keys it needs: Space presses a button, it does not play."""
         if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride:
-            is_needed = not self._has_mouse_focus and has_use_for(self.focusWidget(), event)
+            is_needed = not self.focus_walk.is_by_mouse and has_use_for(self.focusWidget(), event)
             if is_needed:
                 event.accept()
                 return True
         return super().event(event)
-
-    @Slot(QWidget, QWidget)
-    def _focus_moved(self, before: QWidget | None, now: QWidget | None) -> None:
-        """Remember whether the focus was given by a click: then the keys go on stepping."""
-        if now is not None and now.window() is self:
-            self._has_mouse_focus = QApplication.mouseButtons() != Qt.MouseButton.NoButton
 
     def contextMenuEvent(self, event: QContextMenuEvent) -> None:
         """Ask what the terms of a text are: a widget without a menu of its own leaves the click to the window."""
@@ -507,7 +346,7 @@ class MainWindow(QMainWindow):
         """Open the file that was dropped."""
         paths = [url.toLocalFile() for url in event.mimeData().urls() if url.isLocalFile()]
         if len(paths) > 1:
-            self.tell(f"One file at a time: opening {Path(paths[0]).name}.")
+            self.notices.tell(f"One file at a time: opening {Path(paths[0]).name}.")
         if paths:
             self.open_path(paths[0])
 
@@ -518,7 +357,7 @@ class MainWindow(QMainWindow):
         try:
             self.page.comparing.show_printed(name)
         except ValueError as error:
-            self.refuse(error)
+            self._refuse(error)
             return
         self.page.show_view("compare")
 

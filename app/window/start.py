@@ -24,7 +24,6 @@ from app.window.reopening import reopen
 from core.fast_path.workers import BandWorkers
 from core.settings import Settings
 from lessons.scenes import CATALOGUE
-from widgets.basics.message_bar import MessageKind
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import Theme
 
@@ -84,9 +83,9 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
     signals.received.connect(window.end_by_signal)
     window.show()
     window.setFocus(Qt.FocusReason.OtherFocusReason)
-    sys.excepthook = window.report
+    sys.excepthook = window.notices.report
     if warning:
-        window.tell(warning, MessageKind.WARNING)
+        window.notices.warn(warning)
     if first.message is not None:
         window.offer(first.message, first.offered)
     is_restored = first.file is not None or first.message is not None

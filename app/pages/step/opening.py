@@ -32,8 +32,6 @@ class StepOpening(QObject):
     """A ``Message``: why it could not be opened."""
     opened = Signal()
     """It is on the Step page now."""
-    hiding_wanted = Signal(bool)
-    """Whether the Step page has to hide what comes next, before it shows anything."""
 
     def __init__(self, session: Session, page: StepPage, parent: QObject | None = None) -> None:
         super().__init__(parent)
@@ -61,7 +59,7 @@ class StepOpening(QObject):
         opening, other = ready.request.opening, ready.request.other
         self._page.timeline.show_playing(False)
         if ready.request.is_asked is not None:
-            self.hiding_wanted.emit(ready.request.is_asked)
+            self._page.set_predicting(ready.request.is_asked)
         self._session.open(ready.document, ready.trace)
         self._page.stepping.set_places()
         self._session.set_stage(opening.stage, ready.request.position or 0)

@@ -302,6 +302,8 @@ class StepPage(Page):
 
     def set_predicting(self, is_on: bool) -> None:
         """Hide what comes next until it has been predicted, or show everything."""
+        if is_on == self.session.is_predicting:
+            return
         if is_on:
             self.show_view("pixels")
             self.show_panes(["inspector", *self.shown_panes()])

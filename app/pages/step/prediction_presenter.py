@@ -34,7 +34,6 @@ class PredictionPresenter(QObject):
         self._session, self._view, self._grid, self._grids = session, view, grid, grids
         self._asked: Prediction | None = None
         self._guesses: Guesses | None = None
-        self._is_active = False
         self._right = self._count = 0
         view.answer_given.connect(self._answer)
         view.reveal_requested.connect(self._reveal)
@@ -43,14 +42,8 @@ class PredictionPresenter(QObject):
         session.cursor_changed.connect(self._cursor_moved)
         session.document_changed.connect(self._cursor_moved)
 
-    @property
-    def is_active(self) -> bool:
-        """Whether results are hidden."""
-        return self._is_active
-
     def set_active(self, is_active: bool) -> None:
         """Start asking, or stop and show everything."""
-        self._is_active = is_active
         self._right = self._count = 0
         self._view.show_count(0, 0)
         self._session.set_predicting(is_active)
@@ -119,5 +112,5 @@ class PredictionPresenter(QObject):
 
     @Slot()
     def _cursor_moved(self) -> None:
-        if self._is_active:
+        if self._session.is_predicting:
             self._ask()

@@ -101,8 +101,8 @@ def test_what_is_shown_of_the_pin_is_current(window: MainWindow, heard: Heard, q
 
 def test_messages_are_announced(window: MainWindow, heard: Heard) -> None:
     """A warning interrupts; a hint does not."""
-    window.tell("nothing covers this pixel")
-    window.tell("the file ends too early.", MessageKind.WARNING)
+    window.notices.tell("nothing covers this pixel")
+    window.notices.tell("the file ends too early.", MessageKind.WARNING)
     assert heard == [
         ("Polite", "Nothing covers this pixel"),
         ("Assertive", "Warning: The file ends too early."),

@@ -95,7 +95,7 @@ def put_back(window: MainWindow, document: Document) -> None:
         pass
     window.presenter.leave()
     if window.page.prediction.isVisible():
-        window.toggle_predict()
+        window.run_action("predict")
     if current_theme().name != "light":
         window.appearance.set_theme("light")
     window.page.show_view("pixels")

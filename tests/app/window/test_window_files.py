@@ -93,7 +93,7 @@ def test_a_broken_file_leaves_the_scene_as_it_was(window: MainWindow, qtbot: QtB
         assert window.session.cursor.stage == cursor.stage
         assert window.messages.isVisible()
         assert window.messages.text.text().endswith("The open scene is unchanged.")
-        window.dismiss()
+        window.run_action("unpin")
         assert not window.messages.isVisible()
 
 

@@ -151,7 +151,7 @@ def test_space_presses_the_button_that_tab_has_reached(window: MainWindow, qtbot
     window.page.grid.setFocus()
     QTest.keyClick(window.page.grid, Qt.Key.Key_Space)
     assert window.page.timeline.is_playing()
-    window.dismiss()
+    window.run_action("unpin")
     assert not window.page.timeline.is_playing()
 
 

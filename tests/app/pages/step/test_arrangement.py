@@ -67,12 +67,14 @@ def test_no_feedback_moves_the_grid(window: MainWindow) -> None:
         assert place_of_pixel(window) == place
         window.messages.dismiss()
         assert place_of_pixel(window) == place
-    window.tell("A hint that is a good deal longer than the room beside the names of the pages has. " * 4)
+    window.notices.tell(
+        "A hint that is a good deal longer than the room beside the names of the pages has. " * 4
+    )
     assert place_of_pixel(window) == place
-    window.toggle_predict()
+    window.run_action("predict")
     assert window.page.prediction.isVisible()
     assert place_of_pixel(window) == place
-    window.toggle_predict()
+    window.run_action("predict")
     window.session.set_pin((20, 20))
     assert place_of_pixel(window) == place
     window.page.main_area.buffer_choice.buffer_chosen.emit("edge 0")

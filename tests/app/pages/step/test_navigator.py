@@ -114,7 +114,7 @@ def test_the_navigator_pans_a_magnified_grid_and_can_be_hidden(window: MainWindo
     assert "navigator" not in page.shown_panes()
     window.run_action("pane_navigator")
     assert page.navigator.isVisible()
-    window.toggle_predict()
+    window.run_action("predict")
     assert not page.navigator.isVisible()
 
 

@@ -103,7 +103,7 @@ def test_every_stage_can_be_gone_through_while_asking(asking: MainWindow) -> Non
 def test_a_history_that_is_hidden_says_so(window: MainWindow) -> None:
     window.session.set_pin((20, 20))
     assert window.page.history.place.isVisible()
-    window.toggle_predict()
+    window.run_action("predict")
     assert "Turn prediction off" in window.page.history.verdict.text()
-    window.toggle_predict()
+    window.run_action("predict")
     assert window.page.history.place.text() == "Pixel column 20, row 20"

@@ -64,7 +64,7 @@ def test_a_hint_goes_when_it_is_true_no_longer(window: MainWindow) -> None:
     assert bar.currentMessage() == ""
     window.page.stepping.run_to_pin(1)
     assert "(1, 0)" in bar.currentMessage()
-    window.tell("Saved.")
+    window.notices.tell("Saved.")
     window.session.go_to(0)
     assert bar.currentMessage() == "Saved.", "another message stays"
 

@@ -1,0 +1,60 @@
+"""What the window says without stopping anything: hints in the status bar, messages in the bar of messages."""
+
+import sys
+import traceback
+from dataclasses import replace
+from types import TracebackType
+
+from PySide6.QtCore import QObject, Slot
+from PySide6.QtWidgets import QStatusBar
+
+from app.window.message_words import sentence_case
+from widgets.basics.accessible import announce
+from widgets.basics.message_bar import Message, MessageBar, MessageKind
+
+HINT_MILLISECONDS = 8000
+"""How long a hint stays in the status bar."""
+
+
+class Notices(QObject):
+    """Puts what is to be said where it belongs."""
+
+    def __init__(self, hints: QStatusBar, messages: MessageBar, parent: QObject) -> None:
+        super().__init__(parent)
+        self._hints, self._messages = hints, messages
+
+    @Slot(str)
+    def tell(self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "") -> None:
+        """Show a message; what only informs goes to the status bar, so that the page does not move while one steps."""
+        text = sentence_case(text)
+        if kind is MessageKind.INFORMATION and not details:
+            self._hints.showMessage(text, HINT_MILLISECONDS)
+            announce(self._hints, text)
+        else:
+            self._messages.show_message(Message(kind, text, details))
+
+    @Slot(str)
+    def warn(self, text: str) -> None:
+        """Show a warning."""
+        self.tell(text, MessageKind.WARNING)
+
+    @Slot(object)
+    def show_message(self, message: Message) -> None:
+        """Show a message that is made already, in the bar of messages where it offers something."""
+        if message.action:
+            self._messages.show_message(replace(message, text=sentence_case(message.text)))
+        else:
+            self.tell(message.text, message.kind, message.details)
+
+    @Slot(str)
+    def end_hint(self, text: str) -> None:
+        """Take a hint away that is true no longer, if it is still shown."""
+        if self._hints.currentMessage() == sentence_case(text):
+            self._hints.clearMessage()
+
+    def report(self, kind: type[BaseException], error: BaseException, trace: TracebackType | None) -> None:
+        """Tell a mistake of the program in the window too; what is open is still there."""
+        text = "".join(traceback.format_exception(kind, error, trace))
+        print(text, file=sys.stderr)
+        said = f"Something went wrong in the program ({kind.__name__}: {error}). The open scene is unchanged."
+        self._messages.show_message(Message(MessageKind.ERROR, said, text))
