@@ -125,6 +125,9 @@ class Page(QWidget):
         """Show a file that has one of the endings of this page."""
         self.edit_refused.emit(f"This page cannot show {path}.")
 
+    def resume(self) -> None:
+        """Show what was shown when the program ended, before anything else is."""
+
     def show_preferences(self, preferences: "Preferences") -> None:
         """Show what the program remembers, as far as the page does."""
 
@@ -254,6 +257,10 @@ class Pages(QWidget):
     def is_covered(self) -> bool:
         """Whether the page is hidden, for an exercise asks about the scene that it shows."""
         return self._session.is_asked_about and not self._kinds[self.bar.currentIndex()].hides_itself
+
+    def is_made(self, name: str) -> bool:
+        """Return whether a page has been made."""
+        return name in self._made
 
     @property
     def names(self) -> list[str]:

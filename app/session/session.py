@@ -53,11 +53,11 @@ class Session(QObject):
     history_changed = Signal()
     """What can be undone, redone or gone back to."""
     predicting_changed = Signal()
+    """What comes next is hidden, or shown again."""
     revealed = Signal()
     """What comes next was shown while predicting, or a part of it."""
     asked_changed = Signal()
-    """An exercise asks about the open scene from now on, or no longer."""
-    """What comes next is hidden, or shown again."""
+    """An exercise asks about another scene, or about none; or the open scene is the one from now on, or no longer."""
     plan_changed = Signal()
     """Something else is known of what the scene needs."""
     edit_failed = Signal(object)
@@ -76,6 +76,7 @@ class Session(QObject):
         self._pin: Pixel | None = None
         self._hover: Pixel | None = None
         self._is_predicting = self._is_asked_about = False
+        self._asked_scene = ""
         self._plan: PlanReport | None = None
         self._trace = document.make_trace()
         self._resting = QTimer(self)
@@ -410,10 +411,15 @@ class Session(QObject):
         """Whether an exercise asks about the open scene: no page may show it."""
         return self._is_asked_about
 
-    def set_asked_about(self, is_asked_about: bool) -> None:
-        """Keep the pages from showing the scene, or let them show it again."""
-        if is_asked_about != self._is_asked_about:
-            self._is_asked_about = is_asked_about
+    @property
+    def asked_scene(self) -> str:
+        """Digest of the scene that an exercise asks about, open or not; empty: none."""
+        return self._asked_scene
+
+    def set_asked(self, scene: str, *, is_open: bool) -> None:
+        """Keep a scene with this digest from being shown, and the open one if it ``is_open``; empty: none."""
+        if (scene, is_open) != (self._asked_scene, self._is_asked_about):
+            self._asked_scene, self._is_asked_about = scene, is_open
             self.asked_changed.emit()
 
     def has_pixel(self, pixel: Pixel) -> bool:

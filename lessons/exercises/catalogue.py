@@ -71,7 +71,7 @@ _FOUND = {
     template.name: template
     for template in [
         *(each for module in _MODULES for each in module.TEMPLATES),
-        *(read_exercise(path) for path in _FILES),
+        *(read_exercise(path, revision=1) for path in _FILES),
     ]
 }
 _ORDER: dict[str, dict[str, list[str]]] = tomllib.loads(

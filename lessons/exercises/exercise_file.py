@@ -1,6 +1,10 @@
 """Exercises that teachers write as TOML: read, checked, and drawn as questions."""
 
+import json
+from collections.abc import Mapping
+from hashlib import sha256
 from pathlib import Path
+from typing import Any
 
 from core import Settings
 from core.scene import AnyScene, ClipScene
@@ -17,10 +21,14 @@ from lessons.mistakes.shelf import SHELF
 
 NAME_LIMIT = 100
 """Longest name of a file, without its ending."""
+REVISIONS = 1_000_000
+"""How many revisions a file can have that names none: short numbers, to be read out."""
+ASKED = ("question", "mistakes", "scene", "settings", "answer")
+"""What a seed draws from, and what is right: titles, points and hints may change."""
 
 
-def read_exercise(path: Path) -> Template:
-    """Return the exercise of a file.
+def read_exercise(path: Path, revision: int | None = None) -> Template:
+    """Return the exercise of a file, of a ``revision`` where it names none; ``None``: by what it asks.
 
     Raises
     ------
@@ -38,12 +46,13 @@ def read_exercise(path: Path) -> Template:
         raise file.error(("mistakes",), "expected an answer that is found by drawing: pixels without art")
     template = Template(
         path.stem,
-        exercise.version,
+        exercise.revision or revision or _revision_of(file.values),
         exercise.title,
         exercise.stage,
         exercise.points,
         lambda draws: draft_of(exercise, draws),
         is_fixed=not (has_ranges(exercise) or exercise.answer.type in ("order", "spot")),
+        path=str(path.absolute()),
     )
     try:
         ask(template, 0)
@@ -52,6 +61,12 @@ def read_exercise(path: Path) -> Template:
             ("mistakes",) if "cannot draw" in str(problem) else ("answer",), str(problem)
         ) from None
     return template
+
+
+def _revision_of(values: Mapping[str, Any]) -> int:
+    """Return a number that differs where something else is asked."""
+    asked = json.dumps([values.get(name) for name in ASKED], sort_keys=True)
+    return 1 + int.from_bytes(sha256(asked.encode()).digest()[:8], "big") % (REVISIONS - 1)
 
 
 def has_ranges(exercise: Exercise) -> bool:

@@ -60,6 +60,8 @@ class Template:
     """Mistakes that always give the same answer."""
     is_fixed: bool = False
     """Every draw is the same."""
+    path: str = ""
+    """File that it was read from; empty: it is written in Python."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -6,6 +6,7 @@ from pydantic import Field, model_validator
 
 from core.scene import CORNER_COUNTS
 from lessons.exercises.answer_parts import AnswerPart
+from lessons.exercises.draws import SEED_LIMIT
 from lessons.exercises.fields import (
     Coordinate,
     MistakeName,
@@ -48,6 +49,8 @@ class Exercise(Part):
 
     version: Literal[1]
     """Of the format; files of later versions are refused."""
+    revision: Annotated[int, Field(ge=1, le=SEED_LIMIT)] | None = None
+    """Of what is asked; left out: what is asked says it, so that no seed ever gives two questions."""
     title: Word
     stage: StageName
     question: Text

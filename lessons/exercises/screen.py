@@ -105,15 +105,6 @@ def is_alike(one: AnyScene, other: AnyScene) -> bool:
     )
 
 
-def draws_same(one: AnyScene, other: AnyScene) -> bool:
-    """Return whether two scenes show the same shapes, whatever the raster."""
-    if not is_alike(one, other):
-        return False
-    return (
-        not isinstance(one, ClipScene) or not isinstance(other, ClipScene) or _is_same(one.clip, other.clip)
-    )
-
-
 def _is_same(one: Any, other: Any) -> bool:
     if one is None or other is None:
         return one is other

@@ -1,6 +1,6 @@
 """Scenes as cards: a picture, a title and a sentence; a click or Return opens one, arrows go to its neighbours."""
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt, Signal, Slot
@@ -27,6 +27,7 @@ SIZES = (3, 4)
 MANY = 5
 """Cards in a row that the larger pictures leave room for."""
 GAP = 8
+CENTERED = int(Qt.AlignmentFlag.AlignCenter) | int(Qt.TextFlag.TextWordWrap)
 WRAPPED = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop) | int(Qt.TextFlag.TextWordWrap)
 
 
@@ -46,6 +47,8 @@ class SceneCard(QAbstractButton):
         super().__init__(parent)
         self.entry = entry
         self._image: QImage | None = None
+        self._hidden = ""
+        """Why the picture is hidden; empty: it is not."""
         self._size = SIZES[0]
         self._heights: tuple[tuple[int, Theme], tuple[int, int]] | None = None
         """Of title and sentence, and what they are made from."""
@@ -63,6 +66,13 @@ class SceneCard(QAbstractButton):
         """Show the picture of the scene."""
         self._image = image
         self.update()
+
+    def hide_picture(self, why: str) -> None:
+        """Show these words in place of the picture; none: the picture."""
+        if why != self._hidden:
+            self._hidden = why
+            self.setAccessibleDescription(f"{self.entry.description} {why}".strip())
+            self.update()
 
     def set_size(self, size: int) -> None:
         """Show the picture so many times as large as `PICTURE`."""
@@ -89,7 +99,10 @@ class SceneCard(QAbstractButton):
             painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), 4, 4)
             picture = QRect(GAP, GAP, self._picture_size().width(), self._picture_size().height())
             painter.fillRect(picture, QColor(theme.canvas))
-            if self._image is not None:
+            if self._hidden:
+                painter.setPen(QColor(theme.muted_text))
+                painter.drawText(picture.adjusted(GAP, GAP, -GAP, -GAP), CENTERED, self._hidden)
+            elif self._image is not None:
                 # Pixels of a small raster stay squares; a large picture is made smaller smoothly.
                 is_small = self._image.width() < picture.width()
                 painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, not is_small)
@@ -177,6 +190,11 @@ class SceneCards(QWidget):
     def show_picture(self, name: str, image: QImage) -> None:
         """Show the picture of a scene by its name."""
         next(card for card in self.cards if card.entry.name == name).show_picture(image)
+
+    def hide_pictures(self, names: Set[str], why: str) -> None:
+        """Show words in place of the pictures of these scenes, and of no others."""
+        for card in self.cards:
+            card.hide_picture(why if card.entry.name in names else "")
 
     def eventFilter(self, watched: object, event: QEvent) -> bool:
         """Go with an arrow to the card on that side; Qt would go to the next in the order of Tab."""

@@ -1,6 +1,7 @@
-"""Keeps the Step page from showing what is asked: it hides what comes next while it has the question's scene.
+"""Keeps the pages from showing what is asked: Step hides what comes next while it has the question's scene.
 
-The step goes back to before what is asked. Going on from there, or what Predict shows there, ends the question.
+The step goes back to before what is asked. Going on from there, or what Predict shows there, ends the question. A scene
+that was hidden stays so while it is edited: a corner moved by a hair would show the answer.
 """
 
 from PySide6.QtCore import QObject, Signal, Slot
@@ -8,7 +9,10 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.pages.exercises.question_presenter import QuestionPresenter
 from app.session.session import Session
 from core import STAGES
-from lessons.exercises.screen import PREFIX, draws_same, screen_of
+from lessons.exercises.scene_digest import scene_digest
+from lessons.exercises.screen import PREFIX, screen_of
+
+EDITED = "The scene stays hidden while an exercise asks about it. P shows it, and ends the question."
 
 
 class AskedScene(QObject):
@@ -16,35 +20,46 @@ class AskedScene(QObject):
 
     hiding_toggled = Signal()
     """The Step page is to predict from now on, or no longer."""
+    message_sent = Signal(str)
 
     def __init__(self, session: Session, questions: QuestionPresenter, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session, self._questions = session, questions
-        self._is_hidden = False
-        """Whether it is hidden for the question's sake."""
+        self._is_hidden = self._is_edited = False
+        """Whether it is hidden for the question's sake, and whether an edit has made another scene of it since."""
+        self._hidden: tuple[str, str] | None = None
+        """Title and file of what is hidden."""
         session.document_changed.connect(self._look)
         session.predicting_changed.connect(self._follow_predicting)
         session.cursor_changed.connect(self._follow_steps)
         session.revealed.connect(self._follow_reveal)
         questions.state_changed.connect(self._look)
+        questions.refused.connect(self._look)
 
     def _is_open(self) -> bool:
-        """Return whether the scene that is asked about is the one that is open on the Step page."""
-        question = self._questions.question
-        scene = None if question is None else question.draft.scene
-        return (
-            scene is not None and self._questions.is_asked and draws_same(scene, self._session.document.scene)
-        )
+        """Return whether the scene that is asked about, or what an edit has made of it, is open on the Step page."""
+        asked, document = self._questions.asked_scene, self._session.document
+        if not asked:
+            return False
+        return self._hidden == (document.title, document.path) or scene_digest(document.scene) == asked
 
     @Slot()
     def _look(self) -> None:
         """Hide the scene while it is asked about, and show it when it no longer is."""
-        is_open, is_predicting = self._is_open(), self._session.is_predicting
+        session, document = self._session, self._session.document
+        if self._questions.question is None and self._questions.is_working:
+            return  # What was asked when the program ended is still hidden.
+        is_open, is_predicting = self._is_open(), session.is_predicting
         was_hidden, self._is_hidden = self._is_hidden, is_open
+        was_edited = self._is_edited
+        self._is_edited = is_open and scene_digest(document.scene) != self._questions.asked_scene
+        if self._is_edited and not was_edited:
+            self.message_sent.emit(EDITED)
+        self._hidden = (document.title, document.path) if is_open else None
         if is_open and self._here() > self._start():
             number, position = self._start()
-            self._session.scrub(position, STAGES[number])
-        self._session.set_asked_about(is_open)
+            session.scrub(position, STAGES[number])
+        session.set_asked(self._questions.asked_scene, is_open=is_open)
         if is_open != is_predicting and (is_open or was_hidden):
             self.hiding_toggled.emit()
 

@@ -35,27 +35,28 @@ class Evidence(QObject):
         self._view, self._grid = view, grid
         self._question: Question | None = None
         self._checked: Checked | None = None
-        self._is_shown = self._is_pictured = False
-        """Whether the model answer was shown, and whether the picture of a mistake stands in place of the raster."""
+        self._is_asked = self._is_shown = self._is_pictured = False
+        """Whether the question is open, whether the model answer was shown, and whether the picture of a mistake stands
+        in place of the raster."""
         view.twin_requested.connect(self.show_mistake)
         view.step_requested.connect(self.step_hidden)
 
-    def follow(self, question: Question, checked: Checked | None, *, is_shown: bool) -> None:
-        """Offer what can be shown of a question: it was checked, or its model answer ``is_shown``, or it is asked."""
+    def follow(self, question: Question, checked: Checked | None, *, is_asked: bool, is_shown: bool) -> None:
+        """Offer what can be shown of a question that ``is_asked``, was checked, or whose model answer ``is_shown``."""
         if question is not self._question:
             self._is_pictured = False
-        self._question, self._checked, self._is_shown = question, checked, is_shown
+        self._question, self._checked = question, checked
+        self._is_asked, self._is_shown = is_asked, is_shown
         self._show_buttons()
 
     def _show_buttons(self) -> None:
         assert self._question is not None
         shown, has_run = self._shown(), self._question.draft.scene is not None
-        is_asked = self._checked is None and not self._is_shown
         mistake = "" if not shown else next(iter(shown)) if len(shown) == 1 else SEVERAL
         self._view.show_choices(
             twin=BACK if self._is_pictured else mistake,
             model="Model answer" if not self._is_shown else "Step the right run" if has_run else "",
-            step="Step it, hidden" if has_run and is_asked else "",
+            step="Step it, hidden" if has_run and self._is_asked else "",
         )
 
     def _shown(self) -> dict[str, Callable[[], None]]:
@@ -121,7 +122,7 @@ class Evidence(QObject):
     @Slot()
     def step_hidden(self) -> None:
         """Step the scene while it is asked about; the Step page hides what comes next, as while predicting."""
-        if self._question is not None and self._checked is None and not self._is_shown:
+        if self._question is not None and self._is_asked:
             self._step(partial(right_run, self._question, is_asked=True))
 
     def step_right(self) -> None:

@@ -97,6 +97,7 @@ class ExercisesPage(Page):
             source.connect(self.edit_refused)
         self.hiding = AskedScene(session, self.questions, self)
         self.hiding.hiding_toggled.connect(self._toggle_hiding)
+        self.hiding.message_sent.connect(self.message_sent)
         self._begin()
 
     @Slot()
@@ -123,10 +124,20 @@ class ExercisesPage(Page):
 
     def _last(self) -> Template | None:
         """Return the exercise that was open last, if there is such."""
+        kept = self.unfinished.answers
         try:
-            return self.exercises.template(self.unfinished.answers.current)
-        except ValueError:
-            return None  # A question about a screen of another version: it is not asked again.
+            template = self.exercises.template(kept.current)
+            if template is None and kept.path:
+                template = self.exercises.templates[kept.current] = read_exercise(Path(kept.path))
+        except (OSError, ValueError):
+            return None  # About a screen of another version, or in a file that is gone or broken: it is asked no more.
+        return template
+
+    def resume(self) -> None:
+        """Ask the question that was open when the program ended, and hide its scene."""
+        template = self._last()
+        if template is not None:
+            self.questions.open(template, at_once=True)
 
     def open_line(self, line: str) -> None:
         """Ask the question of a line that was handed out."""

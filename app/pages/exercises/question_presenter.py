@@ -12,11 +12,12 @@ from app.pages.exercises.answer_kind import Live
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.evidence import Evidence
 from app.pages.exercises.unfinished import Unfinished, UnfinishedFile
-from app.pages.exercises.work import Asked, Checked, Work, asking, asking_apart, checking, drawing
+from app.pages.exercises.work import Asked, Checked, Work, asking, asking_apart, checking, drawing, drawn
 from core.records.words import counted
 from lessons.attempts.practice import TRY_LIMIT
 from lessons.exercises.answers.answer import NotCheckedError, Response
-from lessons.exercises.question import Question, Template
+from lessons.exercises.question import Question, Template, ask
+from lessons.exercises.scene_digest import scene_digest
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
 from widgets.exercises.records import Feedback, QuestionRecord
@@ -54,7 +55,8 @@ class QuestionPresenter(QObject):
         self._checked: Checked | None = None
         """What the last check found; ``None``: nothing was checked since the question was asked."""
         self._hints = 0
-        self._has_answer = self._is_shown = self._is_sure = False
+        self._has_answer = self._is_checked = self._is_shown = self._is_sure = False
+        self._digest = ""
         self._begun = monotonic()
         self.evidence = Evidence(view, grid, self)
         self._jobs = JobGroup(self)
@@ -84,17 +86,29 @@ class QuestionPresenter(QObject):
     @property
     def is_asked(self) -> bool:
         """Whether the question is still open: neither checked nor shown."""
-        return self.question is not None and self._checked is None and not self._is_shown
+        return self.question is not None and not self._is_checked and not self._is_shown
+
+    @property
+    def asked_scene(self) -> str:
+        """Digest of the scene that is asked about; empty: none."""
+        return self._digest if self.is_asked else ""
 
     # Asking.
 
-    def open(self, template: Template, seed: int | None = None) -> None:
+    def open(self, template: Template, seed: int | None = None, *, at_once: bool = False) -> None:
         """Ask a question of a template: of a seed, or the one that was begun, or else a new one."""
         if seed is None:
             kept = self._unfinished.answers.answers.get(template.name)
             is_kept = kept is not None and kept.version == template.version
             seed = kept.seed if kept is not None and is_kept else new_seed()
-        self._draw(asking(template, seed))
+        if not at_once:
+            self._draw(asking(template, seed))
+            return
+        self._asking.cancel()
+        try:
+            self._show(drawn(ask(template, seed)))
+        except (ValueError, MemoryError) as error:
+            self._refuse(error)
 
     def _draw(self, work: Work) -> None:
         """Draw another question; what is done about this one ends."""
@@ -114,7 +128,7 @@ class QuestionPresenter(QObject):
     def ask_again(self) -> None:
         """Ask the same question with an empty answer."""
         if self.question is not None:
-            self._keep(given=None)
+            self._keep(given=None, is_checked=False)
             self.open(self.question.template, self.question.seed)
 
     @Slot(object)
@@ -127,7 +141,9 @@ class QuestionPresenter(QObject):
             kept = Unfinished(version=template.version, seed=question.seed)
         self._checked, self._is_sure = None, False
         self._has_answer = kept.given is not None
-        self._hints, self._is_shown = min(kept.hints, len(draft.hints)), kept.is_shown
+        self._hints = min(kept.hints, len(draft.hints))
+        self._is_checked, self._is_shown = kept.is_checked, kept.is_shown
+        self._digest = "" if draft.scene is None else scene_digest(draft.scene)
         self._begun = monotonic()
         kind = KINDS[draft.answer.kind]
         size = kind.size(draft)
@@ -207,8 +223,9 @@ class QuestionPresenter(QObject):
                 "given": self._view.answer.given() if self._has_answer else None,
                 "hints": self._hints,
                 "is_shown": self._is_shown,
+                "is_checked": self._is_checked,
             }
-            self._unfinished.keep(template.name, Unfinished(**{**now, **changed}))
+            self._unfinished.keep(template, Unfinished(**{**now, **changed}), self.asked_scene)
 
     @Slot()
     def check(self) -> None:
@@ -230,10 +247,11 @@ class QuestionPresenter(QObject):
     def _show_checked(self, checked: Checked) -> None:
         """Show marks, points and the mistake."""
         assert self._view.answer is not None
-        self._checked = checked
+        self._checked, self._is_checked = checked, True
         self._view.answer.show_marks(checked.marks)
         self._view.show_feedback(self._feedback(checked))
         self._show_state()
+        self._keep()
         if checked.trouble:
             self.refused.emit(checked.trouble)
         if checked.attempt is not None:
@@ -270,7 +288,7 @@ class QuestionPresenter(QObject):
         assert self.question is not None
         hints = self._all_hints()
         self._view.show_hints(hints[: self._hints], len(hints))
-        self.evidence.follow(self.question, self._checked, is_shown=self._is_shown)
+        self.evidence.follow(self.question, self._checked, is_asked=self.is_asked, is_shown=self._is_shown)
         self.state_changed.emit()
 
     def give_up(self) -> None:
@@ -292,7 +310,7 @@ class QuestionPresenter(QObject):
         answer = question.draft.answer
         if self._is_shown:
             self.evidence.step_right()
-        elif self._checked is None and not self._is_sure:
+        elif self.is_asked and not self._is_sure:
             self._is_sure = True
             self._view.show_note(SURE)
         else:

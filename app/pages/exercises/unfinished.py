@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
@@ -14,11 +14,14 @@ from app.files.user_folders import data_folder
 from lessons.attempts.record import DEFAULT_USER
 from lessons.exercises.draws import SEED_LIMIT
 
+if TYPE_CHECKING:
+    from lessons.exercises.question import Template  # All mistakes come along: not at every start.
+
 FILE_NAME = "answers.json"
 PAUSE = 200
 """Milliseconds after the last change."""
-VERSION: Literal[1] = 1
-"""Of the file; later ones are left alone."""
+VERSION: Literal[2] = 2
+"""Of the file; earlier ones are read, later ones left alone."""
 SIZE_LIMIT = 1 << 22
 """Most bytes of the file."""
 
@@ -37,6 +40,8 @@ class Unfinished(BaseModel):
     """How many are shown."""
     is_shown: bool = False
     """The model answer has been shown, so the question is asked no more."""
+    is_checked: bool = False
+    """The answer, or an earlier one, has been checked: nothing is hidden for the question any more."""
 
 
 class UnfinishedAnswers(BaseModel):
@@ -45,11 +50,15 @@ class UnfinishedAnswers(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     program: Literal["rasterscope answers"] = "rasterscope answers"
-    version: Literal[1] = VERSION
+    version: Literal[1, 2] = VERSION
     user: str = DEFAULT_USER
     """Who answers."""
     current: str = ""
     """Name of the exercise that was open last."""
+    path: str = ""
+    """Its file; empty: it has none."""
+    asked_scene: str = ""
+    """Digest of the scene that it asks about, as long as that is hidden; empty: nothing is."""
     answers: dict[str, Unfinished] = {}
     """By the name of the exercise."""
 
@@ -76,14 +85,13 @@ class UnfinishedFile(QObject):
     def read(self) -> str:
         """Read what was kept; return what to tell the user, empty if all is well."""
         try:
-            content = read_input(_path(), SIZE_LIMIT)
-            self.answers = UnfinishedAnswers.model_validate_json(content)
+            self.answers = read_answers()
         except FileNotFoundError:
             pass
         except OSError as problem:
             return f"Answers in progress cannot be read: {problem.strerror or problem}."
         except ValidationError:
-            if _is_later(content):
+            if _is_later():
                 self._is_foreign = True
                 return "Answers in progress were kept by a later version of the program. They are left alone."
             broken = _path().with_suffix(".broken")
@@ -94,14 +102,17 @@ class UnfinishedFile(QObject):
             return f"Answers in progress were broken. They are kept as {broken.name}, and none is open."
         return ""
 
-    def keep(self, name: str, unfinished: Unfinished) -> None:
-        """Keep the answer to an exercise, and that it is the one that is open."""
+    def keep(self, template: "Template", unfinished: Unfinished, asked_scene: str = "") -> None:
+        """Keep the answer to an exercise, that it is the one that is open, and the scene that is hidden for it."""
+        name = template.name
         answers = {**self.answers.answers, name: unfinished}
-        self._change(self.answers.model_copy(update={"current": name, "answers": answers}))
+        changed = {"current": name, "path": template.path, "asked_scene": asked_scene, "answers": answers}
+        self._change(self.answers.model_copy(update=changed))
 
     def keep_user(self, user: str) -> None:
         """Keep who answers; answers in progress are those of nobody else."""
-        self._change(UnfinishedAnswers(user=user, current=self.answers.current))
+        kept = self.answers
+        self._change(UnfinishedAnswers(user=user, current=kept.current, path=kept.path))
 
     def _change(self, changed: UnfinishedAnswers) -> None:
         if changed != self.answers:
@@ -151,11 +162,17 @@ class _Head(BaseModel):
     version: int
 
 
-def _is_later(content: bytes) -> bool:
-    """Return whether a file was written by a later version."""
+def read_answers() -> UnfinishedAnswers:
+    """Return what was kept; OSError where it cannot be read, ValidationError where it is broken or of a later one."""
+    kept = UnfinishedAnswers.model_validate_json(read_input(_path(), SIZE_LIMIT))
+    return kept.model_copy(update={"version": VERSION})
+
+
+def _is_later() -> bool:
+    """Return whether the file was written by a later version."""
     try:
-        return _Head.model_validate_json(content).version > VERSION
-    except ValidationError:
+        return _Head.model_validate_json(read_input(_path(), SIZE_LIMIT)).version > VERSION
+    except (OSError, ValidationError):
         return False
 
 

@@ -44,18 +44,21 @@ def asking(template: Template, seed: int) -> Work:
     """Return the work that draws a question; it raises ValueError where none can be drawn."""
 
     def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Asked:
-        question = ask(template, seed)
-        return Asked(question, outline_of(question.draft, template.stage))
+        return drawn(ask(template, seed))
 
     return work
+
+
+def drawn(question: Question) -> Asked:
+    """Return a question with its outline."""
+    return Asked(question, outline_of(question.draft, question.template.stage))
 
 
 def asking_apart(template: Template, mistakes: Sequence[str], seeds: Sequence[int]) -> Work:
     """Return the work that draws the first variant that tells the mistakes of an answer apart, or else any."""
 
     def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Asked:
-        question = telling_apart(mistakes, ((template, seed) for seed in seeds)) or ask(template, seeds[0])
-        return Asked(question, outline_of(question.draft, template.stage))
+        return drawn(telling_apart(mistakes, ((template, seed) for seed in seeds)) or ask(template, seeds[0]))
 
     return work
 

@@ -15,8 +15,9 @@ from app.background.workers import Job, Progress
 from app.pages.page_bar import Handlers, Page
 from app.session.session import Session
 from core.fast_path.draw import draw_picture
-from core.scene import Scene
+from core.scene import AnyScene, Scene
 from core.settings import settings_from_texts
+from lessons.exercises.scene_digest import scene_digest
 from lessons.scenes import CATALOGUE, TEACHING_SIZE, BuiltInScene
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.image import display_image
@@ -33,6 +34,8 @@ WHAT = (
     "step by step, forwards and backwards."
 )
 MOST_RECENT = 6
+HIDDEN = "Hidden while an exercise asks about this scene"
+"""What stands for the picture of a scene."""
 OF_MESH = 8
 """Size of the picture of a mesh, in those of the cards' unit: it is shown smaller, so that its edges are smooth."""
 SIDE = 300
@@ -71,6 +74,9 @@ class StartPage(Page):
         row.addWidget(self._panes[1], 1)
         theme_notifier().theme_changed.connect(self._set_widths)
         session.document_changed.connect(self._show_document)
+        session.asked_changed.connect(self._hide_asked)
+        self._digests: dict[str, str] = {}
+        """Of the scenes whose pictures are there, by name."""
         self._show_document()
         self.show_recent(())
 
@@ -156,9 +162,16 @@ class StartPage(Page):
             self._job.start_in_parts(draw_pictures)
 
     @Slot(object)
-    def _show_picture(self, part: tuple[str, NDArray[np.uint8]]) -> None:
-        name, pixels = part
+    def _show_picture(self, part: tuple[str, str, NDArray[np.uint8]]) -> None:
+        name, self._digests[name], pixels = part
+        self._hide_asked()
         self.cards.show_picture(name, display_image(pixels))
+
+    @Slot()
+    def _hide_asked(self) -> None:
+        """Hide the picture of a scene that an exercise asks about."""
+        asked = self._session.asked_scene
+        self.cards.hide_pictures({name for name, digest in self._digests.items() if digest == asked}, HIDDEN)
 
     @Slot(object)
     def _fail(self, error: Exception) -> None:
@@ -218,16 +231,16 @@ class StartPage(Page):
 def draw_pictures(
     progress: Progress, is_cancelled: Callable[[], bool], part_done: Callable[[object], None]
 ) -> None:
-    """Draw the built-in scenes for their cards: name and (H, W, 4) uint8 pixels of each, one after the other."""
+    """Draw the built-in scenes for their cards: name, digest and (H, W, 4) uint8 pixels of each, one by one."""
     for built_in in CATALOGUE:
         if is_cancelled():
             return
-        part_done((built_in.name, picture_of(built_in)))
+        scene = built_in.make()
+        part_done((built_in.name, scene_digest(scene), picture_of(built_in, scene)))
 
 
-def picture_of(built_in: BuiltInScene) -> NDArray[np.uint8]:
+def picture_of(built_in: BuiltInScene, scene: AnyScene) -> NDArray[np.uint8]:
     """Return the picture of a built-in scene, (H, W, 4) uint8: a teaching raster unchanged, a mesh in more pixels."""
-    scene = built_in.make()
     if isinstance(scene, Scene) and scene.size != TEACHING_SIZE:
         scene = replace(scene, size=(OF_MESH * PICTURE.width(), OF_MESH * PICTURE.height()))
     return draw_picture(scene, settings_from_texts(dict(built_in.picture_settings))).pixels

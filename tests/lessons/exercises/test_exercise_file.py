@@ -85,6 +85,26 @@ def test_a_drawn_exercise_is_the_same_for_a_seed_and_shows_its_mistakes(tmp_path
         assert judge(question, wrong).mistakes == (name,)
 
 
+def test_another_question_has_another_version(tmp_path: Path) -> None:
+    """So a line, an attempt and an answer in progress are never taken for another question; a revision may be named."""
+
+    def version(text: str) -> int:
+        return read_exercise(written(tmp_path, text)).version
+
+    same = (
+        DRAWN.replace("points = 4", "points = 2")
+        .replace("My triangle", "A triangle")
+        .replace("\n\n", "\n# !\n")
+    )
+    assert version(DRAWN) == version(same)
+    changed = [
+        DRAWN.replace(*change)
+        for change in (("0.5..", "1.5.."), ("level", "flat"), ("bounding-box", "spans"))
+    ]
+    assert len({version(text) for text in (DRAWN, *changed)}) == 4
+    assert version(DRAWN.replace("points = 4", "revision = 12")) == 12
+
+
 @pytest.mark.parametrize(
     ("part", "right"),
     [

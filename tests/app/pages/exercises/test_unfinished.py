@@ -6,6 +6,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.pages.exercises.unfinished import FILE_NAME, Unfinished, UnfinishedFile
+from lessons.exercises.catalogue import TEMPLATES
 
 KEPT = Unfinished(version=1, seed=7, given=[[1, 2]], hints=1)
 
@@ -19,14 +20,14 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 def test_a_change_is_on_the_disk_soon_and_after_the_end(qtbot: QtBot, folder: Path) -> None:
     first = UnfinishedFile()
-    first.keep("one", KEPT)
+    first.keep(TEMPLATES["shared-edge"], KEPT)
     qtbot.waitUntil((folder / FILE_NAME).exists)
-    first.keep("two", KEPT)
+    first.keep(TEMPLATES["facing"], KEPT)
     first.finish()
     second = UnfinishedFile()
     assert second.read() == ""
-    assert second.answers.answers == {"one": KEPT, "two": KEPT}
-    assert second.answers.current == "two"
+    assert second.answers.answers == {"shared-edge": KEPT, "facing": KEPT}
+    assert second.answers.current == "facing"
 
 
 @pytest.mark.parametrize("content", [b"", b"{", b"[]", b'{"answers": {"a": {"seed": -1}}}', b"\xff\x00"])
@@ -40,11 +41,11 @@ def test_a_broken_file_is_set_aside(qtbot: QtBot, folder: Path, content: bytes) 
 
 
 def test_a_file_of_a_later_version_is_left_alone(qtbot: QtBot, folder: Path) -> None:
-    content = b'{"program": "rasterscope answers", "version": 2, "more": 1}'
+    content = b'{"program": "rasterscope answers", "version": 3, "more": 1}'
     (folder / FILE_NAME).write_bytes(content)
     file = UnfinishedFile()
     assert "later version" in file.read()
-    file.keep("one", KEPT)
+    file.keep(TEMPLATES["facing"], KEPT)
     file.finish()
     assert (folder / FILE_NAME).read_bytes() == content
 
@@ -54,8 +55,18 @@ def test_what_cannot_be_written_is_reported_once(qtbot: QtBot, folder: Path) -> 
     file = UnfinishedFile()
     said: list[str] = []
     file.failed.connect(said.append)
-    file.keep("one", KEPT)
+    file.keep(TEMPLATES["facing"], KEPT)
     file.finish()
     file.finish()
     assert len(said) == 1
     assert said[0].startswith("The answer is not kept for the next start: ")
+
+
+def test_a_file_of_version_1_is_read(qtbot: QtBot, folder: Path) -> None:
+    (folder / FILE_NAME).write_text(
+        '{"program":"rasterscope answers","version":1,"user":"me","current":"facing",'
+        '"answers":{"facing":{"version":1,"seed":7,"given":["A"],"hints":1,"is_shown":false}}}'
+    )
+    file = UnfinishedFile()
+    assert file.read() == ""
+    assert file.answers.answers["facing"] == Unfinished(version=1, seed=7, given=["A"], hints=1)

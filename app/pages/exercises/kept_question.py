@@ -1,0 +1,37 @@
+"""Hides from the first moment on what was asked when the program ended; the page of Exercises is made for it."""
+
+from PySide6.QtCore import QObject, Slot
+
+from app.pages.exercises.unfinished import read_answers
+from app.pages.page_bar import Pages
+from app.session.session import Session
+from core.scene import AnyScene
+from lessons.exercises.scene_digest import scene_digest
+
+
+class KeptQuestion(QObject):
+    """Watches the open scene until the page of Exercises does."""
+
+    def __init__(self, session: Session, pages: Pages, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._pages = session, pages
+        self._seen: AnyScene | None = None
+        try:
+            asked = read_answers().asked_scene
+        except (OSError, ValueError):
+            return  # The page says what is wrong with the file.
+        if asked:
+            session.set_asked(asked, is_open=False)
+            session.document_changed.connect(self._look)
+            self._look()
+
+    @Slot()
+    def _look(self) -> None:
+        """Have the question asked once its scene is open."""
+        scene = self._session.document.scene
+        if self._pages.is_made("exercises"):
+            self._session.document_changed.disconnect(self._look)
+        elif scene is not self._seen:
+            self._seen = scene
+            if scene_digest(scene) == self._session.asked_scene:
+                self._pages.page("exercises").resume()

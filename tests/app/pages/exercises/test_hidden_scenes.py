@@ -1,0 +1,122 @@
+"""What is asked is hidden from the start of the program on, also where its scene is edited, or is not the open one."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+from pytestqt.qtbot import QtBot
+
+from app.pages.exercises.asked_scene import EDITED
+from app.pages.exercises.kept_question import KeptQuestion
+from app.pages.exercises.page import ExercisesPage
+from app.pages.start.page import HIDDEN, StartPage
+from app.session.document import open_document
+from app.window.main_window import MainWindow
+from core.scene import ClipScene
+from lessons.scenes import built_in_scene
+
+EXERCISE = """version = 1
+title = "Mine"
+stage = "raster"
+question = "Which?"
+scene = {size = [8, 6], triangles = [[[1, 1], [7, 1], [4, 5]]]}
+answer = {type = "pixels"}
+"""
+
+
+def exercises(window: MainWindow) -> ExercisesPage:
+    page = window.pages.page("exercises")
+    assert isinstance(page, ExercisesPage)
+    page.settle()
+    return page
+
+
+def ask_value(window: MainWindow) -> ExercisesPage:
+    window.session.set_stage("raster", 4000)
+    window.session.set_pin((30, 20))
+    window.run_action("ask_value")
+    return exercises(window)
+
+
+def restarted(window: MainWindow, qtbot: QtBot, name: str) -> MainWindow:
+    """Return another window with a scene, as the program begins with it."""
+    exercises(window).unfinished.finish()
+    scene = built_in_scene(name)
+    second = MainWindow(open_document(scene.make(), scene.title))
+    qtbot.addWidget(second)
+    KeptQuestion(second.session, second.pages, second)
+    return second
+
+
+def test_the_next_start_hides_what_is_asked(window: MainWindow, qtbot: QtBot) -> None:
+    """At once where its scene is open, else on its card, and as soon as it is opened."""
+    page = ask_value(window)
+    second = restarted(window, qtbot, "single-triangle")
+    second.run_action("page_start")
+    start = second.pages.current
+    assert isinstance(start, StartPage)
+    assert not second.pages.is_made("exercises")
+    start._show_picture(("shared-edge", page.questions.asked_scene, np.zeros((48, 64, 4), np.uint8)))
+    (card,) = [card for card in start.cards.cards if card.entry.name == "shared-edge"]
+    assert card.accessibleDescription().endswith(HIDDEN)
+    second.open_path("shared-edge")
+    qtbot.waitUntil(lambda: second.session.is_asked_about)
+    assert second.session.is_predicting
+    asked = second.pages.page("exercises")
+    assert isinstance(asked, ExercisesPage)
+    asked.settle()
+    asked.questions.answer(page.question.draft.answer.reference)  # type: ignore[union-attr]
+    asked.questions.check()
+    asked.settle()
+    assert not second.session.is_predicting
+    assert card.accessibleDescription() == card.entry.description
+    asked.unfinished.finish()
+    third = restarted(second, qtbot, "shared-edge")
+    assert not third.session.is_predicting, "what was checked is asked no more"
+    for each in (second, third):
+        each.close()
+
+
+def test_a_scene_stays_hidden_while_it_is_edited(window: MainWindow) -> None:
+    page = ask_value(window)
+    document = window.session.document
+    assert isinstance(document.scene, ClipScene)
+    clip = document.scene.clip.copy()
+    clip[0, 1, 0] += 1e-3
+    window.session.edit(replace(document, scene=replace(document.scene, clip=clip)))
+    assert window.session.is_predicting
+    assert page.questions.is_asked
+    assert window.statusBar().currentMessage() == EDITED
+    window.run_action("page_step")
+    assert window.page.pointed_text((30, 20)) == ""
+    window.run_action("predict")
+    assert not page.questions.is_asked
+    assert not window.session.is_asked_about
+
+
+def test_another_scene_is_not_hidden(window: MainWindow, qtbot: QtBot) -> None:
+    page = ask_value(window)
+    window.open_path("single-triangle")
+    qtbot.waitUntil(lambda: window.session.document.triangle_count == 1)
+    assert not window.session.is_asked_about
+    assert page.questions.is_asked
+
+
+def test_a_teachers_exercise_is_found_again(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    """Also where it was dropped on the window from a folder of no exercises."""
+    path = tmp_path / "mine.toml"
+    path.write_text(EXERCISE)
+    window.open_path(str(path))
+    page = exercises(window)
+    page.questions.answer(frozenset({(4, 3)}))
+    second = restarted(window, qtbot, "single-triangle")
+    again = exercises(second)
+    assert again.question is not None
+    assert again.question.mark == page.question.mark  # type: ignore[union-attr]
+    assert again.grid.marked() == {(4, 3)}
+    page.unfinished.finish()
+    path.write_text(EXERCISE.replace("[4, 5]", "[5, 5]"))
+    third = exercises(restarted(second, qtbot, "single-triangle"))
+    assert third.question is not None
+    assert third.question.template.version != again.question.template.version
+    assert third.grid.marked() == frozenset(), "the answer was to another question"
