@@ -3,7 +3,7 @@
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, Qt, QThread
-from PySide6.QtGui import QPageLayout, QPainter
+from PySide6.QtGui import QPageLayout, QPainter, QPicture
 from PySide6.QtWidgets import QWidget
 
 from app.export.paint import Portrait, paint_tree
@@ -56,7 +56,14 @@ class ViewSheet(QWidget):
         self.grab()  # The first painting is what lays texts and formula out.
 
     def print_on(self, printer: "QPrinter") -> None:
-        """Print on one page, as large as it fits, at the top."""
+        """Print on one page, as large as it fits, at the top.
+
+        Qt gives a printer every widget as a picture of the printer's own resolution, which takes seconds and leaves
+        no text: the sheet is recorded first, as vectors, and played back.
+        """
+        recorded = QPicture()
+        with QPainter(recorded) as painter:
+            paint_tree(self, painter)
         is_wide = self.width() > self.height()
         printer.setPageOrientation(
             QPageLayout.Orientation.Landscape if is_wide else QPageLayout.Orientation.Portrait
@@ -65,6 +72,9 @@ class ViewSheet(QWidget):
         scale = min(page.width() / self.width(), page.height() / self.height(), LARGEST * inch)
         with QPainter(printer) as painter:
             painter.translate((page.width() - scale * self.width()) / 2, 0)
-            painter.scale(scale, scale)
+            own = (
+                scale * recorded.logicalDpiX() / printer.logicalDpiX()
+            )  # Qt itself goes from inches to inches.
+            painter.scale(own, own)
             painter.setRenderHint(QPainter.RenderHint.LosslessImageRendering)
-            paint_tree(self, painter)
+            painter.drawPicture(0, 0, recorded)

@@ -112,5 +112,7 @@ def _as_on_paper() -> Iterator[None]:
     assert isinstance(application, QApplication)
     if theme.is_dark:
         apply_theme(application, LIGHT)
-    yield
-    apply_theme(application, theme)
+    try:
+        yield
+    finally:
+        apply_theme(application, theme)

@@ -279,7 +279,7 @@ def test_an_enlarged_picture_is_drawn_sharp(window: MainWindow, tmp_path: Path) 
     assert not np.array_equal(*rows)
 
 
-def test_the_view_is_printed_on_one_page_and_light(
+def test_the_view_is_printed_on_one_page_and_light_and_its_text_stays_text(
     window: MainWindow, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog
@@ -302,6 +302,7 @@ def test_the_view_is_printed_on_one_page_and_light(
     assert current_theme() == DARK
     content = (tmp_path / "page.pdf").read_bytes()
     assert content.count(b"/MediaBox") == 1
+    assert content.count(b"/FontFile") == 1
     assert len(content) > 5000
     assert window.statusBar().currentMessage() == "Printed the view."
 
