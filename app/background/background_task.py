@@ -46,6 +46,7 @@ class BackgroundTask(QObject):
     ) -> None:
         super().__init__(parent)
         self._job, self._progress_shown, self._words = job, controls, words
+        self._told: Progress | None = None
         job.progressed.connect(self._show_progress)
         job.part_done.connect(self._take_part)
         job.succeeded.connect(self._take_result)
@@ -71,7 +72,10 @@ class BackgroundTask(QObject):
         self._tell_progress(Progress(self._doing(doing), done, 0 if fraction is None else PERCENT))
 
     def _tell_progress(self, progress: Progress | None) -> None:
-        """Show how far it is, on the page and to those who listen."""
+        """Show how far it is, on the page and to those who listen: each percent once, not each of a thousand cases."""
+        if progress is not None and progress == self._told:
+            return
+        self._told = progress
         self._progress_shown.show_progress(progress)
         self.progressed.emit(progress)
 

@@ -212,24 +212,14 @@ class ListingView(QPlainTextEdit):
         """Return the height of the first lines of every listing shown in turn, wrapped, or of so many rows."""
         row, rows = self.fontMetrics().lineSpacing(), lines
         if is_wrapped:
-            rows = max(self._rows(source, lines) for source in {self.toPlainText(), *self._in_turn})
+            # Beside a scroll bar.
+            bar = self.verticalScrollBar().sizeHint().width()
+            width = self.width() - self.margin_width() - bar - 2 * self.document().documentMargin()
+            font, option = self.font(), self.document().defaultTextOption()
+            sources = {self.toPlainText(), *self._in_turn}
+            rows = max(_rows(source, lines, width, font, option.wrapMode()) for source in sources)
         # Half a row more: Qt scrolls by whole ones.
         return math.ceil(min(rows, MOST_ROWS) * row + row / 2 + 2 * self.document().documentMargin())
-
-    def _rows(self, source: str, lines: int) -> int:
-        """Return how many rows the first lines of a source take, beside a scroll bar; at least one for each."""
-        bar = self.verticalScrollBar().sizeHint().width()
-        width = self.width() - self.margin_width() - bar - 2 * self.document().documentMargin()
-        rows = lines
-        for text in source.split("\n")[:lines]:
-            layout = QTextLayout(text, self.font())
-            layout.setTextOption(QTextOption(self.document().defaultTextOption()))
-            layout.beginLayout()
-            while (line := layout.createLine()).isValid():
-                line.setLineWidth(width)
-            layout.endLayout()
-            rows += max(layout.lineCount() - 1, 0)
-        return rows
 
     def margin_width(self) -> int:
         """Room for a mark and the largest line number."""
@@ -404,6 +394,23 @@ class ListingView(QPlainTextEdit):
         self._mark_line()
         self._place_margin()
         self.room_changed.emit()
+
+
+@lru_cache(maxsize=1024)
+def _rows(source: str, lines: int, width: float, font: QFont, wrap: QTextOption.WrapMode) -> int:
+    """Return how many rows the first lines of a source take in a width; at least one for each."""
+    option = QTextOption()
+    option.setWrapMode(wrap)
+    rows = lines
+    for text in source.split("\n")[:lines]:
+        layout = QTextLayout(text, font)
+        layout.setTextOption(option)
+        layout.beginLayout()
+        while (line := layout.createLine()).isValid():
+            line.setLineWidth(width)
+        layout.endLayout()
+        rows += max(layout.lineCount() - 1, 0)
+    return rows
 
 
 def _look(color: str, *, is_bold: bool = False, is_italic: bool = False) -> QTextCharFormat:

@@ -1,8 +1,12 @@
 """The progress of long work: what is waited for, and how far it has come."""
 
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.background.background_task import BackgroundTask, WorkWords
+from app.background.workers import Job
 from app.window.main_window import MainWindow
+from widgets.basics.message_bar import Progress
 
 
 def test_the_progress_of_opening_names_the_file(window: MainWindow, qtbot: QtBot) -> None:
@@ -13,3 +17,25 @@ def test_the_progress_of_opening_names_the_file(window: MainWindow, qtbot: QtBot
     assert window.messages.text.text() == "Opening teapot.obj: reading lines"
     window.files.job.progressed.emit(1.0, "")
     assert window.messages.text.text() == "Opening teapot.obj"
+
+
+def test_each_percent_is_told_once(qapp: QApplication) -> None:
+    shown: list[tuple[str, int] | None] = []
+
+    class Controls:
+        def show_progress(self, progress: Progress | None) -> None:
+            shown.append(progress and (progress.text, progress.done))
+
+    class Task(BackgroundTask):
+        def _put_back(self) -> None:
+            pass
+
+    job = Job()
+    task = Task(job, Controls(), WorkWords("", "", ""))
+    for k in range(100):
+        job.progressed.emit(0.2 + 0.0001 * k, "slivers")
+    job.progressed.emit(0.21, "cracks")
+    job.ended.emit()
+    job.progressed.emit(0.21, "cracks")
+    assert shown == [("slivers", 20), ("slivers", 21), ("cracks", 21), None, ("cracks", 21)]
+    task.deleteLater()
