@@ -5,8 +5,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import pytest
-
 from app.cli.window import BEFORE_QT
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -24,16 +22,12 @@ def imported_by(code: str) -> set[str]:
     return set(done.stdout.split())
 
 
-@pytest.mark.parametrize("module", BEFORE_QT)
-def test_what_is_imported_before_qt_needs_no_qt(module: str) -> None:
-    imported = imported_by(f"import {module}")
-    assert module in imported
+def test_what_is_imported_before_qt_needs_no_qt_and_a_scene_opens_without_pillow_and_trimesh() -> None:
+    imported = imported_by(
+        f"import {', '.join(BEFORE_QT)}; from app.files.open_any import open_any; open_any('cube')"
+    )
+    assert {*BEFORE_QT, "app.files.mesh_files", "app.files.mesh_formats.images"} <= imported
     assert not {"PySide6", "shiboken6", "pyqtgraph"} & imported
-
-
-def test_a_scene_opens_without_pillow_and_trimesh() -> None:
-    imported = imported_by("from app.files.open_any import open_any; open_any('cube')")
-    assert "app.files.mesh_formats.images" in imported
     assert not {"PIL", "trimesh", "app.files.mesh_formats.gltf_header"} & imported
 
 
@@ -43,17 +37,12 @@ def test_the_process_of_the_first_picture_imports_little() -> None:
     assert not {"core", "subprocess", "tempfile", "zipfile"} & imported
 
 
-def test_a_colour_map_comes_without_pyqtgraph() -> None:
-    imported = imported_by("from widgets.basics.colormaps import colormap_table; colormap_table('viridis')")
-    assert "widgets.basics.colormaps" in imported
-    assert "pyqtgraph" not in imported
-
-
-def test_the_window_waits_for_no_typesetter_chart_or_other_page() -> None:
+def test_neither_the_window_nor_a_colour_map_waits_for_a_typesetter_chart_or_other_page() -> None:
     code = (
-        "from app.window.main_window import MainWindow; from app.window.appearance import the_application; "
-        "from app.files.open_any import open_any; the_application(); window = MainWindow(open_any('cube').document); "
-        "window.show()"
+        "import app.window.start; from app.window.main_window import MainWindow; "
+        "from app.window.appearance import the_application; from app.files.open_any import open_any; "
+        "from widgets.basics.colormaps import colormap_table; "
+        "the_application(); window = MainWindow(open_any('cube').document); window.show(); colormap_table('viridis')"
     )
     imported = imported_by(code)
     assert "app.pages.step.page" in imported
@@ -62,4 +51,4 @@ def test_the_window_waits_for_no_typesetter_chart_or_other_page() -> None:
     assert [
         name for name in sorted(imported) if name.startswith(tuple(f"app.pages.{page}" for page in pages))
     ] == []
-    assert "core.study.planner" not in imported
+    assert not {"core.study.planner", "core.study.accuracy.families"} & imported

@@ -181,38 +181,36 @@ class TestWriting:
         line = refused(1, "render", "cube", "-o", "out.png", "--size", "8x8", cwd=tmp_path)
         assert line == f"{SOLID}out.png cannot be written: it is a folder"
 
-    @pytest.mark.parametrize(
-        "arguments",
-        [
+    def test_a_full_disk_leaves_the_old_file_whole(self, tmp_path):
+        runs = [
             ["render", "cube", "-o", "out.png"],
-            ["render", "cube", "--buffers", "out.npz"],
+            ["render", "cube", "--buffers", "buffers.npz"],
             ["trace", "cube", "--stage", "raster", "--size", "64x64", "-o", "out.json"],
-            ["trace", "cube", "--stage", "raster", "--size", "64x64", "--format", "npz", "-o", "out.npz"],
-        ],
-        ids=["png", "buffers", "json", "npz"],
-    )
-    def test_a_full_disk_leaves_the_old_file_whole(self, tmp_path, arguments):
-        old = tmp_path / arguments[-1]
-        old.write_bytes(b"the old content")
+            ["trace", "cube", "--stage", "raster", "--size", "64x64", "--format", "npz", "-o", "trace.npz"],
+        ]
+        names = [arguments[-1] for arguments in runs]
+        for name in names:
+            (tmp_path / name).write_bytes(b"the old content")
         # A limit on the size of files stands in for a full disk: writing fails in the middle.
         code = (
-            "import resource, signal, sys; from app.__main__ import main; "
+            "import json, resource, signal, sys; from app.cli.commands import run_command_line; "
             "signal.signal(signal.SIGXFSZ, signal.SIG_IGN); "
-            "resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000)); sys.exit(main(sys.argv[1:]))"
+            "resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000)); "
+            "sys.exit(sum(run_command_line(arguments) for arguments in json.loads(sys.argv[1])))"
         )
         run = subprocess.run(
-            [sys.executable, "-c", code, *arguments],
+            [sys.executable, "-c", code, json.dumps(runs)],
             capture_output=True,
             text=True,
             cwd=tmp_path,
             # Bytecode cut off at the limit would be taken for whole by every later start.
             env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"},
         )
-        assert run.returncode == 1
-        (line,) = run.stderr.splitlines()
-        assert f"{arguments[-1]} cannot be written: " in line
-        assert old.read_bytes() == b"the old content"
-        assert [path.name for path in tmp_path.iterdir()] == [old.name]
+        assert run.returncode == len(runs), "each has failed with 1"
+        for name, line in zip(names, run.stderr.splitlines(), strict=True):
+            assert f"{name} cannot be written: " in line
+            assert (tmp_path / name).read_bytes() == b"the old content"
+        assert {path.name for path in tmp_path.iterdir()} == set(names)
 
     @pytest.mark.skipif(not os.path.exists("/dev/full"), reason="no device that is full")
     def test_a_full_standard_output(self):

@@ -1,9 +1,6 @@
 """The pages of the window: one bar, keys of the page that is shown, and what comes back."""
 
-import subprocess
-import sys
 from dataclasses import replace
-from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
@@ -18,16 +15,6 @@ from app.window.preferences import Preferences, load_preferences
 from core import Settings
 from core.study.accuracy.record import Opening
 from lessons.scenes import built_in_scene, make_scene
-
-
-def test_starting_the_window_does_not_wait_for_other_pages() -> None:
-    program = (
-        "import sys, app.window.start\n"
-        "print([name for name in ('pyqtgraph', 'core.study.accuracy.families') if name in sys.modules])"
-    )
-    root = Path(__file__).resolve().parents[3]
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, cwd=root)
-    assert done.stdout.strip() == "[]", done.stdout + done.stderr
 
 
 def test_a_click_in_the_bar_shows_a_page_that_is_made_only_then(window: MainWindow) -> None:

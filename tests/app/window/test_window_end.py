@@ -1,5 +1,6 @@
 """The program ends with its own exit code, whatever is going on, and begins where it ended."""
 
+import json
 import os
 import subprocess
 import sys
@@ -27,37 +28,35 @@ sys.exit(window_start.run_window({target!r}))
 """
 
 
-ACTS = [
+OPENED = ("torus", "window.files.open_path('knot')")
+MAPPED = ("single-triangle", "window.pages.show_page('stability'); window.pages.current.results.start()")
+ALONE = [
     ("/nowhere/gone.obj", "pass"),
-    ("torus", "window.files.open_path('knot')"),
-    ("single-triangle", "window.pages.show_page('stability'); window.pages.current.results.start()"),
-]
-SLOW_ACTS = [
+    OPENED,
+    MAPPED,
     ("single-triangle", "window.page.timeline.toggle_play()"),
     ("knot", "window.page.show_view('scene')"),
     ("sphere", "window.session.set_setting('fill', 'brute-force')"),
     ("single-triangle", "window.pages.show_page('compare'); window.pages.current.results.start()"),
 ]
+AT_ONCE = ("/nowhere/gone.obj", f"{MAPPED[1]}; {OPENED[1]}")
+WITHOUT_END = "window.files.job.start(lambda progress, is_cancelled: __import__('time').sleep(1000))"
 
 
 @pytest.mark.parametrize(
-    ("target", "act"), [*ACTS, *(pytest.param(*case, marks=pytest.mark.slow) for case in SLOW_ACTS)]
+    ("target", "act"), [AT_ONCE, *(pytest.param(*case, marks=pytest.mark.slow) for case in ALONE)]
 )
 def test_closing_ends_every_thread(tmp_path: Path, target: str, act: str) -> None:
     assert printed(tmp_path, target, act) == ""
     assert (tmp_path / "preferences.json").is_file()
 
 
-def test_closing_does_not_wait_for_work_that_does_not_end(tmp_path: Path) -> None:
-    act = "import time; window.files.job.start(lambda progress, is_cancelled: time.sleep(1000))"
-    assert printed(tmp_path, None, act) == ""
-    assert (tmp_path / "preferences.json").is_file()
-
-
-def test_a_scene_given_at_the_start_is_shown_whatever_page_was_shown_last(tmp_path: Path) -> None:
-    printed(tmp_path, None, "window.pages.show_page('plan')")
-    assert '"page": "plan"' in (tmp_path / "preferences.json").read_text()
-    assert printed(tmp_path, "torus", "print(window.pages.current_name)") == "step\n"
+def test_a_scene_given_at_the_start_is_shown_whatever_page_was_shown_last_and_closing_does_not_wait_without_end(
+    tmp_path: Path,
+) -> None:
+    (tmp_path / "preferences.json").write_text(json.dumps({"page": "plan"}))
+    assert printed(tmp_path, "torus", f"print(window.pages.current_name); {WITHOUT_END}") == "step\n"
+    assert '"page": "step"' in (tmp_path / "preferences.json").read_text()
 
 
 def printed(folder: Path, target: str | None, act: str) -> str:
