@@ -50,6 +50,25 @@ def one_triangle_always(inside: int) -> Vector:
     return (Fraction(min(inside, 1)),)
 
 
+def new_corners(corners: Sequence[Vector], border: int) -> tuple[Vector, Vector]:
+    """Return where the two sides at corner 0 cross x = ``border``: to corner 1, and from corner 2."""
+    return cut_at(corners[0], corners[1], border), cut_at(corners[0], corners[2], border)
+
+
+def cut_at(start: Vector, end: Vector, border: int) -> Vector:
+    """Return where a side crosses x = ``border``."""
+    t = Fraction(border - start[0], end[0] - start[0])
+    return tuple(a + t * (b - a) for a, b in zip(start, end, strict=True))
+
+
+def new_corners_in_place(corners: Sequence[Vector], border: int) -> tuple[Vector, Vector]:
+    """Put the first crossing in the place of corner 0, and start the second side there, at the t that it had."""
+    (x, _), end = corners[0], corners[2]
+    moved = cut_at(corners[0], corners[1], border)
+    t = Fraction(border - x, end[0] - x)
+    return moved, tuple(a + t * (b - a) for a, b in zip(moved, end, strict=True))
+
+
 def area_in_window(polygon: Polygon, window: Polygon) -> Vector:
     """Return the area that Sutherland-Hodgman leaves of a polygon in a convex, counter-clockwise window."""
     for (x0, y0), (x1, y1) in pairwise([*window, window[0]]):
@@ -147,6 +166,15 @@ RULES = (
         one_triangle_always,
         (2,),
         (1,),
+    ),
+    WrongRule(
+        "clipped-in-place",
+        "The first new corner replaced the vertex that the second one starts from. Keep the old vertices until all "
+        "crossings are found.",
+        new_corners,
+        new_corners_in_place,
+        (((2, 2), (12, 2), (12, 8)), 8),
+        (((2, 2), (12, 2), (8, 8)), 8),
     ),
     WrongRule(
         "window-clockwise",

@@ -145,6 +145,16 @@ def resolved_from_one(layers: Sequence[Layer], count: int) -> Vector:
     return resolved(first, count)
 
 
+def line_greys(grey: int, counts: Sequence[int]) -> Vector:
+    """Return the grey of a pixel of a line over black with so many samples: all of them are written."""
+    return tuple(Fraction(grey) for _ in counts)
+
+
+def line_greys_of_one_sample(grey: int, counts: Sequence[int]) -> Vector:
+    """Write one sample of the pixel."""
+    return tuple(Fraction(grey, count) for count in counts)
+
+
 NEAR_AND_FAR = cards([0.25] * 3, [0.75] * 3)
 LEVEL = cards([0.5] * 3, [0.5] * 3)
 GLASS = cards([0.25] * 3, [0.75] * 3, alpha=0.5)
@@ -260,5 +270,13 @@ RULES = (
         resolved_from_one,
         (ONE, 4),
         ((Layer(frozenset({0}), 1, 8),), 4),
+    ),
+    WrongRule(
+        "line-in-one-sample",
+        "The line was written to one sample of each pixel, so it fades as their number grows. Write all of them.",
+        line_greys,
+        line_greys_of_one_sample,
+        (240, (1, 4, 16)),
+        (240, (1,)),
     ),
 )

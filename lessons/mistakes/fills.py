@@ -5,6 +5,7 @@ from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import floor
+from typing import Any
 
 import numpy as np
 
@@ -85,10 +86,80 @@ def closed_crossing_count(polygon: Sequence[Vector], y: int) -> Vector:
     return (Fraction(sum(min(y0, y1) <= y <= max(y0, y1) and y0 != y1 for (_, y0), (_, y1) in edges)),)
 
 
+def active_edges(polygon: Sequence[Vector], y: Fraction) -> frozenset[int]:
+    """Return the edges that are active on the line y: they have their lower end, but not their upper one."""
+    edges = enumerate(pairwise([*polygon, polygon[0]]))
+    return frozenset(k for k, ((_, y0), (_, y1)) in edges if min(y0, y1) <= y < max(y0, y1))
+
+
+def edges_that_leave_late(polygon: Sequence[Vector], y: Fraction) -> frozenset[int]:
+    """Remove edges only after a row is drawn: those of the row before are still there."""
+    return active_edges(polygon, y) | active_edges(polygon, y - 1)
+
+
+def pixels_with_border(polygon: Sequence[Vector]) -> frozenset[tuple[int, int]]:
+    """Return the pixels whose centres lie inside of a convex, counter-clockwise polygon or on its border."""
+    sides = list(pairwise([*polygon, polygon[0]]))
+    (left, right), (bottom, top) = (
+        (floor(min(c) - Fraction(1, 2)), floor(max(c) - Fraction(1, 2))) for c in zip(*polygon, strict=True)
+    )
+    return frozenset(
+        (i, j)
+        for i in range(left, right + 1)
+        for j in range(bottom, top + 1)
+        if all(_left_of(side, (i + Fraction(1, 2), j + Fraction(1, 2))) >= 0 for side in sides)
+    )
+
+
+def _left_of(side: tuple[Vector, Vector], point: Vector) -> Any:
+    (x0, y0), (x1, y1) = side
+    return (x1 - x0) * (point[1] - y0) - (y1 - y0) * (point[0] - x0)
+
+
+def pixels_without_level_top(polygon: Sequence[Vector]) -> frozenset[tuple[int, int]]:
+    """Drop level sides; a row whose pixels lie on the upper one alone is not drawn."""
+    pixels, top = pixels_with_border(polygon), max(y for _, y in polygon)
+    is_level = sum(y == top for _, y in polygon) > 1
+    return frozenset((i, j) for i, j in pixels if not is_level or j + Fraction(1, 2) < top)
+
+
+def count_by_weights(triangles: Sequence[Sequence[Vector]], side: int) -> Vector:
+    """Return how many of side x side pixels are drawn where all weights of a triangle lie in [0, 1], ends included."""
+    return (Fraction(len(frozenset().union(*(pixels_with_border(_turned(one)) for one in triangles)))),)
+
+
+def _turned(corners: Sequence[Vector]) -> Sequence[Vector]:
+    return corners if _left_of((corners[0], corners[1]), corners[2]) > 0 else corners[::-1]
+
+
+def count_by_rounded_weights(triangles: Sequence[Sequence[Vector]], side: int) -> Vector:
+    """Compute the weights in float32, in each triangle's own order of corners; the third is what the others leave."""
+    y, x = np.indices((side, side)).astype(np.float32) + np.float32(0.5)
+    is_drawn = np.zeros((side, side), bool)
+    for corners in triangles:
+        (x0, y0), (x1, y1), (x2, y2) = np.array(corners, float).astype(np.float32)
+        area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)
+        alpha = ((x1 - x) * (y2 - y) - (x2 - x) * (y1 - y)) / area
+        beta = ((x2 - x) * (y0 - y) - (x0 - x) * (y2 - y)) / area
+        is_drawn |= (alpha >= 0) & (beta >= 0) & (1 - alpha - beta >= 0)
+    return (Fraction(int(is_drawn.sum())),)
+
+
+SHIFT = Fraction(1, 16384)
+LOW, HIGH, FAR = Fraction(1, 2) - SHIFT, Fraction(13, 2), Fraction(13, 2) + SHIFT
+HALVES = (
+    ((Fraction(1, 2), HIGH), (Fraction(1, 2), LOW), (FAR, LOW)),
+    ((FAR, LOW), (FAR, HIGH), (Fraction(1, 2), HIGH)),
+)
+"""Two triangles that share an edge through 7 centres; their corners are float32 numbers."""
+TURNED_HALVES = tuple((b, a, c) for a, b, c in HALVES)
 EDGE = ((Fraction(6, 5), Fraction(19, 10)), (Fraction(12, 5), Fraction(87, 10)), 4)
 LEVEL_EDGE = ((Fraction(3), Fraction(1, 2)), (Fraction(3), Fraction(9, 2)), 2)
 STAR = np.array([(2.3, 1.2), (6.1, 8.6), (9.7, 1.4), (1.2, 5.8), (10.9, 5.7)])
 HOUSE = ((0, 0), (6, 3), (4, 8), (0, 8))
+LATE = ((3, 5), (1, 7), (1, 1), (7, 6))
+RECTANGLE = tuple((x + Fraction(1, 2), y + Fraction(1, 2)) for x, y in ((1, 1), (5, 1), (5, 4), (1, 4)))
+DIAMOND = tuple((x + Fraction(1, 2), y + Fraction(1, 2)) for x, y in ((2, 0), (4, 2), (2, 4), (0, 2)))
 
 TWINS = (
     Twin(
@@ -153,5 +224,31 @@ RULES = (
         closed_crossing_count,
         (HOUSE, 3),
         (HOUSE, 5),
+    ),
+    WrongRule(
+        "edges-leave-late",
+        "Edges were removed after the row was drawn. They leave the active edges before it: an edge has its lower end, "
+        "not its upper one.",
+        active_edges,
+        edges_that_leave_late,
+        (LATE, Fraction(6)),
+        (LATE, Fraction(4)),
+    ),
+    WrongRule(
+        "level-side-dropped",
+        "The level upper side was dropped, and its pixels with it. Here what lies on the border is drawn.",
+        pixels_with_border,
+        pixels_without_level_top,
+        (RECTANGLE,),
+        (DIAMOND,),
+    ),
+    WrongRule(
+        "third-weight-rounded",
+        "1 - alpha - beta was rounded below 0 in both triangles, so pixels on their common edge are missing. Decide "
+        "edges by whole numbers, alike in both.",
+        count_by_weights,
+        count_by_rounded_weights,
+        (HALVES, 7),
+        (TURNED_HALVES, 7),
     ),
 )

@@ -142,7 +142,7 @@ def coefficients(step: StepValues) -> Asked | None:
     """Ask for a coefficient of an edge function."""
     k = step.whole("edge")
     shown = ", ".join(spoken(step.number(name)) for name in "abc")
-    text = f"What is a{k}, the change of E{k} per pixel to the right?"
+    text = f"What is a{k} of triangle {step.triangle}, the change of E{k} per pixel to the right?"
     return number(text, step.number("a"), f"a{k}, b{k}, c{k} are {shown}.")
 
 

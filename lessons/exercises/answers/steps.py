@@ -103,7 +103,7 @@ class StepsAnswer(Answer):
     @property
     def offered(self) -> str:
         """The steps with their numbers, and what each wants."""
-        wanted = (", ".join(step.options) or f"a {step.kind}" for step in self.steps)
+        wanted = (" | ".join(step.options) or f"a {step.kind}" for step in self.steps)
         return "\n".join(
             f"{number}. {step.prompt} ({want})"
             for number, (step, want) in enumerate(zip(self.steps, wanted, strict=True), 1)

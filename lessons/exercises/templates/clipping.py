@@ -152,7 +152,7 @@ def draw_outcodes(draws: Draws) -> Draft | None:
     text = (
         "Fill in Cohen-Sutherland's cuts. An outcode has the bits top, bottom, right, left, such as 0101. Write the "
         "outcodes of both ends before each cut; then the first end that is outside moves to the first of left, right, "
-        "bottom, top that it is outside of. Fractions, or decimals within 0.005."
+        "bottom, top that it is outside of. A point on a border is inside. Fractions, or decimals within 0.005."
     )
     hints = (
         "Begin with the outcodes of the two ends.",

@@ -120,7 +120,9 @@ def draw_inverse(draws: Draws) -> Draft | None:
     wrong = {"farther-wins": stored(min), "no-depth-test": [[value] for _, value in fragments]}
     follow = follow_nearest(fragments)
     settings = Settings(depth="inverse-w")
-    return table(text, given, ("1/w",), labels, stored(max), hints, wrong, follow, settings=settings)
+    # 1/19 and 1/20 are 0.0026 apart.
+    right = stored(max)
+    return table(text, given, ("1/w",), labels, right, hints, wrong, follow, None, settings, None, 0.001)
 
 
 GRID = 4
@@ -212,7 +214,7 @@ TEMPLATES = (
     Template("window-depth", 1, "Window depth at a distance", "depth", 2, draw_window_depth),
     Template("depth-steps", 1, "A depth buffer of 16 bits", "depth", 2, draw_steps),
     Template("fighting-pairs", 1, "Surfaces that fight", "depth", 3, draw_fighting),
-    Template("inverse-w-table", 1, "A buffer of 1/w", "depth", 4, draw_inverse),
+    Template("inverse-w-table", 2, "A buffer of 1/w", "depth", 4, draw_inverse),
     Template("z-buffer-grid", 1, "A z-buffer of whole numbers", "depth", 4, draw_grid),
     Template("painter-order", 1, "A painter's order", "depth", 2, draw_painter),
     Template("equal-depths", 1, "Cards at equal depths", "depth", 1, draw_ties),

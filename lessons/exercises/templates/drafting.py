@@ -117,6 +117,7 @@ def table(
     scene: AnyScene | None = None,
     settings: Settings = DEFAULTS,
     pixel: tuple[int, int] | None = None,
+    tolerance: float = TOLERANCE,
 ) -> Draft:
     """Ask for a table of numbers."""
     mistakes = {name: number_rows(cells) for name, cells in (wrong or {}).items()}
@@ -126,7 +127,7 @@ def table(
         tuple(labels),
         number_rows(rows),
         follow,
-        0.0 if is_whole else TOLERANCE,
+        0.0 if is_whole else tolerance,
     )
-    asked = text if is_whole else f"{text} {WITHIN}"
+    asked = text if is_whole else f"{text} Fractions, or decimals within {tolerance:g}."
     return Draft(asked, given, answer, hints, mistakes, scene, settings, pixel)

@@ -81,8 +81,8 @@ def draw_outside(draws: Draws) -> Draft | None:
     dropped = np.flatnonzero(np.any(np.all(outside, axis=1), axis=1)).tolist()
     collapsed = (dropped_at_border(scene).clip != scene.clip).any(axis=(1, 2))
     text = (
-        "Which triangles are dropped because all three vertices lie outside of one border of the window? All have the "
-        "same depth."
+        "Which triangles are dropped because all three vertices lie outside of one border of the window? A point on a "
+        "border is inside."
     )
     given = f"Window 0..{WINDOW[0]} x 0..{WINDOW[1]}.\n" + "\n".join(
         f"{name}: {corner_text(corners)}" for name, corners in zip(FACES, triangles, strict=True)

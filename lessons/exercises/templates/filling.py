@@ -14,11 +14,10 @@ from lessons.exercises.drawn_scene import seen_pixels
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, twice_area
-from lessons.exercises.templates.drafting import numbers, one_of, place_text, table
+from lessons.exercises.templates.drafting import numbers, place_text, table
 from lessons.exercises.templates.edges import coefficients
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.shelf import RULES, SHELF
-from lessons.polygons import polygon_of_rings
 from lessons.scenes import assembled
 from lessons.small_scenes import triangle_scene
 
@@ -130,33 +129,6 @@ def draw_points(draws: Draws) -> Draft | None:
     return marked(text, given, scene, ("truncated-to-zero",), hints)
 
 
-def draw_star(draws: Draws) -> Draft | None:
-    """A polygon that crosses itself, or turns around a part twice."""
-    corners = [(tenths(draws, 0, 12), tenths(draws, 0, 9)) for _ in range(5)]
-    around = sorted(corners, key=lambda p: atan2(p[1] - Fraction(9, 2), p[0] - 6))
-    star = [around[2 * k % 5] for k in range(5)]
-    if min(abs(p[0] - 6) + abs(p[1] - Fraction(9, 2)) for p in corners) < 3 or not is_decided(star):
-        return None
-    rule, said = draws.item(
-        (
-            ("even-odd", "an odd number of edges lies to its left in its row"),
-            ("non-zero", "the directions of the edges to its left in its row, up or down, do not cancel"),
-        )
-    )
-    text = (
-        f"Which pixels does this polygon cover by the {rule} rule? A centre (i + 1/2, j + 1/2) is inside if {said}. "
-        "The polygon is closed, and crosses itself."
-    )
-    scene, settings = polygon_of_rings([np.array(star, float)], SIZE), Settings(polygon_fill=rule)
-    hints = (
-        "Sketch the polygon: a star around a middle part.",
-        "Go along a row from the left, and count what you cross.",
-        "The rules differ in the middle, which the polygon runs around twice.",
-    )
-    given = f"{WINDOW}\nPolygon: {', '.join(map(place_text, star))}"
-    return marked(text, given, scene, ("winding-ignored",), hints, settings)
-
-
 def draw_ends(draws: Draws) -> Draft | None:
     """First and last pixel of a row."""
     corners = [(draws.whole(0, 11) + HALF, draws.whole(0, 8) + HALF) for _ in range(3)]
@@ -225,29 +197,6 @@ def draw_rows(draws: Draws) -> Draft | None:
     return table(text, given, ("left", "right"), labels, right, hints, wrong, scene=scene, settings=settings)
 
 
-def draw_crossings(draws: Draws) -> Draft | None:
-    """Crossings of a polygon with a line through its vertices."""
-    places = {(draws.whole(0, 9), draws.whole(0, 6)) for _ in range(6)}
-    polygon = sorted(places, key=lambda p: (atan2(p[1] - 3, p[0] - 4), p))
-    y = draws.item(polygon)[1]
-    rule = RULES["both-ends-crossed"]
-    right, wrong = (int(count(polygon, y)[0]) for count in (rule.right, rule.wrong))
-    options = ("0", "1", "2", "3", "4", "5", "6")
-    if len(polygon) < 5 or right >= len(options) or not right < wrong < len(options):
-        return None
-    text = (
-        f"How many crossings does a scanline fill count on the line y = {y}? An edge counts where the line is at or "
-        "above its lower end and below its upper end; level edges do not count."
-    )
-    hints = (
-        "Go round the polygon, one edge at a time.",
-        "A vertex on the line is the lower end of one edge and the upper end of another.",
-        "The number is even, or a span would have one end.",
-    )
-    given = f"Polygon: {', '.join(map(str, polygon))}"
-    return one_of(text, given, options, right, hints, {rule.name: wrong})
-
-
 def draw_fourth(draws: Draws) -> Draft | None:
     """The point on the long edge that splits a triangle."""
     corners = [wholes(draws, 2, 0, 12) for _ in range(3)]
@@ -299,8 +248,6 @@ TEMPLATES = (
     Template("point-pixels", 1, "Pixels of points", "raster", 3, draw_points),
     Template("row-ends", 1, "First and last pixel of a row", "raster", 2, draw_ends),
     Template("row-crossings", 1, "Where edges cross rows", "raster", 4, draw_rows),
-    Template("crossing-count", 1, "Crossings at vertices", "raster", 2, draw_crossings),
     Template("fourth-vertex", 1, "The vertex that splits a triangle", "raster", 2, draw_fourth),
-    Template("star-polygon", 2, "A polygon that crosses itself", "raster", 4, draw_star),
     Template("fan-count", 1, "How often a centre is drawn", "raster", 2, draw_fan),
 )

@@ -15,7 +15,7 @@ from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
 from lessons.exercises.templates.drafting import by_rule, numbers, place_text, table
 from lessons.exercises.templates.edges import coefficients
 from lessons.exercises.templates.fragments import NAMES, attributes_at
-from lessons.mistakes.shelf import SHELF
+from lessons.mistakes.shelf import RULES, SHELF
 from lessons.small_scenes import triangle_scene
 
 RGB = ("red", "green", "blue")
@@ -159,7 +159,9 @@ def draw_reciprocal(draws: Draws) -> Draft | None:
     text = "What is 1/w at this point of an edge? t is its share of the way in the window."
     given = f"w = {w[0]} at t = 0, w = {w[1]} at t = 1.\nThe point: t = {number_text(t)}"
     hints = ("Which of w and 1/w is linear in the window?", "1/w = (1 - t)/w0 + t/w1.")
-    return numbers(text, given, [(1 - t) / w[0] + t / w[1]], hints)
+    rule = RULES["distance-linear"]
+    right, wrong = ([1 / distance(t, w)[0]] for distance in (rule.right, rule.wrong))
+    return numbers(text, given, right, hints, {rule.name: wrong})
 
 
 def draw_plane(draws: Draws) -> Draft | None:
@@ -229,7 +231,7 @@ TEMPLATES = (
     Template("sorted-attributes", 1, "Values of sorted vertices", "interpolate", 3, draw_sorted),
     Template("flat-value", 1, "The provoking vertex", "interpolate", 1, draw_flat),
     Template("edge-middle", 1, "The middle of an edge", "interpolate", 2, draw_edge_middle),
-    Template("reciprocal-w", 2, "1/w along an edge", "interpolate", 1, draw_reciprocal),
+    Template("reciprocal-w", 3, "1/w along an edge", "interpolate", 1, draw_reciprocal),
     Template("attribute-plane", 1, "u/w over the window", "interpolate", 4, draw_plane),
     Template("depth-along-edge", 1, "Window depth along an edge", "interpolate", 2, draw_depth),
     Template("distance-along-edge", 1, "Distance along an edge", "interpolate", 2, draw_distance),

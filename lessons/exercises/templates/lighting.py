@@ -134,13 +134,17 @@ def draw_camera_normal(draws: Draws) -> Draft:
     )
 
 
-def draw_byte(draws: Draws) -> Draft:
+def draw_byte(draws: Draws) -> Draft | None:
     """A sum of lights."""
-    ambient, diffuse = Fraction(draws.whole(30, 60), 100), Fraction(draws.whole(72, 98), 100)
+    ambient, diffuse = Fraction(draws.whole(15, 60), 100), Fraction(draws.whole(42, 98), 100)
+    if (255 * (ambient + diffuse)).denominator == 2:
+        return None
     text = "Ambient and diffuse light are added and stored as a byte, 255 for 1, rounded. Which byte is it?"
     given = f"Ambient: {number_text(ambient)}, diffuse: {number_text(diffuse)}"
     hints = ("Is the sum above 1?", "A byte ends at 255.")
-    return by_rule(text, given, (float(ambient), float(diffuse)), ("byte-overflows",), hints)
+    rule, lights = RULES["byte-overflows"], (float(ambient), float(diffuse))
+    wrong = {rule.name: rule.wrong(*lights)} if ambient + diffuse > 1 else {}
+    return numbers(text, given, rule.right(*lights), hints, wrong)
 
 
 def draw_evaluations(draws: Draws) -> Draft:
@@ -181,7 +185,7 @@ TEMPLATES = (
     Template("highlight", 1, "The highlight", "shade", 3, draw_highlight),
     Template("scaled-normal", 1, "A normal under scaling", "shade", 3, draw_normal),
     Template("camera-normal", 1, "The matrix of normals", "shade", 2, draw_camera_normal),
-    Template("light-byte", 1, "A sum of lights as a byte", "shade", 1, draw_byte),
+    Template("light-byte", 2, "A sum of lights as a byte", "shade", 1, draw_byte),
     Template("light-evaluations", 1, "Where light is evaluated", "shade", 2, draw_evaluations),
     Template("shading-of-highlight", 1, "Which shading shows it", "shade", 1, draw_shading),
 )

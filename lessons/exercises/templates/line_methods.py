@@ -124,14 +124,15 @@ def draw_printed(draws: Draws) -> Draft | None:
     (x0, y0), (x1, y1) = ends
     listing, meant = next(iter(printed.readings.values())), printed_listing("pellacini-midpoint").readings
     drawn, right = (
-        frozenset(pixel[:2] for pixel in rule(x0, y0, x1, y1, True))
+        frozenset(pixel[:2] for pixel in rule(*map(Fraction, (x0, y0, x1, y1)), True))
         for rule in (listing, next(iter(meant.values())))
     )
     if drawn == right or not all(0 <= y < SIZE[1] for _, y in drawn):
         return None
     text = (
         f"This listing is printed on a slide ({printed.lecture}, {printed.slide}). It slips: which pixels does it "
-        "draw, executed as printed? Pixel centres are whole numbers, and write(x, y) lights pixel (x, y)."
+        "draw, executed as printed with exact numbers? Pixel centres are whole numbers, write(x, y) lights pixel "
+        "(x, y), and 1/2 is rounded up."
     )
     given = f"{printed.text}\n\n{WINDOW} From ({x0}, {y0}) to ({x1}, {y1})."
     hints = (
@@ -224,7 +225,7 @@ TEMPLATES = (
     ),
     Template("dda-table", 1, "y and rows of a DDA", "raster", 4, draw_dda),
     Template("error-table", 1, "The error of Bresenham's line", "raster", 3, draw_error),
-    Template("printed-line", 1, "A listing with a slip", "raster", 4, draw_printed),
+    Template("printed-line", 2, "A listing with a slip", "raster", 4, draw_printed),
     Template("wu-column", 1, "Two intensities of a column", "raster", 2, draw_wu),
     Template("wu-end", 1, "The first column of Wu's line", "raster", 3, draw_end),
     Template("line-value", 1, "A value along a line", "interpolate", 1, draw_value),

@@ -131,6 +131,21 @@ def draw_coverage(draws: Draws) -> Draft:
     return by_rule(text, given, (layer, side * side), ("one-sample-filled",), hints)
 
 
+def draw_line_samples(draws: Draws) -> Draft:
+    """A line with more and more samples a pixel."""
+    grey = draws.whole(3, 15) * 16
+    text = (
+        "A grey line over black is as wide as a pixel. It is drawn with 1, 4 and 16 samples a pixel. Which grey value, "
+        "the mean of the samples, has one of its pixels?"
+    )
+    hints = (
+        "How many of its samples does the line cover?",
+        "Should a line fade where there are more samples?",
+    )
+    names = ("1 sample", "4 samples", "16 samples")
+    return by_rule(text, f"Grey: {grey}", (grey, (1, 4, 16)), ("line-in-one-sample",), hints, names)
+
+
 def draw_tent(draws: Draws) -> Draft:
     """The tent filter."""
     side = 4
@@ -183,6 +198,7 @@ TEMPLATES = (
     Template("additive-layers", 1, "Lights that add up", "blend", 1, draw_additive),
     Template("samples-of-two", 1, "Two triangles in a pixel", "resolve", 3, draw_samples),
     Template("box-filter", 1, "The box filter", "resolve", 1, draw_coverage),
+    Template("line-samples", 1, "A line and its samples", "resolve", 1, draw_line_samples),
     Template("tent-filter", 1, "The tent filter", "resolve", 1, draw_tent),
     Template("mean-of-bytes", 1, "The mean of two bytes", "resolve", 2, draw_mean),
     Template("multisampling-cost", 1, "What multisampling costs", "resolve", 2, draw_cost),

@@ -106,12 +106,16 @@ def draw_clipped(draws: Draws) -> Draft | None:
     depth = [[(float(x) - border) / 12 for x, _ in corners]]
     scene = triangle_scene(np.array([corners], float), SIZE, depth=depth)
     settings = Settings(clipping="sutherland-hodgman")
-    right = seen_pixels(render(scene, settings))
-    wrong = {
-        name: seen_pixels(SHELF[name].draw(scene, settings))
-        for name in ("corner-for-center", "all-edges-inclusive")
-    }
-    if right == seen_pixels(render(replace(scene, clip=scene.clip * [1, 1, 0, 1]))):
+
+    def seen(of: Settings) -> tuple[Pixels, dict[str, Pixels]]:
+        names = ("corner-for-center", "all-edges-inclusive")
+        wrong = {name: seen_pixels(SHELF[name].draw(scene, of)) for name in names}
+        return seen_pixels(render(scene, of)), wrong
+
+    right, wrong = seen(settings)
+    # New corners are snapped, which may turn an edge away from centres that lie on it: without them none is.
+    is_snapped = (right, wrong) != seen(Settings())
+    if is_snapped or right == seen_pixels(render(replace(scene, clip=scene.clip * [1, 1, 0, 1]))):
         return None
     text = f"Window depth is 0 at the near plane. What lies in front of it is clipped. Which pixels are drawn? {RULE}"
     given = [f"Triangle: {corner_text(corners)}", f"Window depth at (x, y): (x - {border}) / {SIZE[0]}"]
@@ -187,12 +191,14 @@ def draw_box(draws: Draws) -> Draft | None:
 
 def draw_below_half(draws: Draws) -> Draft | None:
     """Where an attribute is below 1/2, with perspective."""
-    near = draws.whole(0, 1)
-    left, right = HALF, Fraction(23, 2)
-    corners = rectangle_corners(float(left), 0.5, float(right), 8.5)
-    w_of = {float(left): (1, 4)[near], float(right): (4, 1)[near]}
-    w = [[w_of[x] for x, _ in triangle] for triangle in corners]
-    u = [[[float(x > 1)] for x, _ in triangle] for triangle in corners]
+    left, right = draws.whole(0, 3) + HALF, draws.whole(8, 11) + HALF
+    low, high = draws.whole(0, 2) + HALF, draws.whole(6, 8) + HALF
+    w_of = {left: draws.whole(1, 3), right: draws.whole(2, 6)}
+    if (w_of[left] * (right - left) / (w_of[left] + w_of[right])).denominator == 1:
+        return None  # u is 1/2 in the middle of a column.
+    corners = rectangle_corners(float(left), float(low), float(right), float(high))
+    w = [[w_of[Fraction(x)] for x, _ in triangle] for triangle in corners]
+    u = [[[float(x > left)] for x, _ in triangle] for triangle in corners]
     scene = triangle_scene(corners, SIZE, w=w, attributes=u)
 
     def below(frame: Frame) -> Pixels:
@@ -205,9 +211,9 @@ def draw_below_half(draws: Draws) -> Draft | None:
         f"is u below 1/2? {RULE}"
     )
     given = [
-        f"Left side: x = {number_text(left)}, w = {w_of[float(left)]}. Right side: x = {number_text(right)}, "
-        f"w = {w_of[float(right)]}.",
-        "It reaches from y = 1/2 to y = 8 + 1/2.",
+        f"Left side: x = {number_text(left)}, w = {w_of[left]}. Right side: x = {number_text(right)}, "
+        f"w = {w_of[right]}.",
+        f"It reaches from y = {number_text(low)} to y = {number_text(high)}.",
     ]
     hints = (
         "Which side is nearer?",
@@ -320,10 +326,10 @@ def draw_mixed(draws: Draws) -> Draft | None:
 TEMPLATES = (
     Template("vertex-pixels", 1, "Pixels of the vertices", "transform", 2, draw_vertices),
     Template("front-pixels", 1, "Pixels of front faces", "cull", 3, draw_culled),
-    Template("pixels-beyond-near", 1, "Pixels beyond the near plane", "clip", 3, draw_clipped),
+    Template("pixels-beyond-near", 2, "Pixels beyond the near plane", "clip", 3, draw_clipped),
     Template("inner-side", 1, "The inner side of an edge", "edges", 3, draw_side),
     Template("box-pixels", 2, "Pixels in the bounding box", "bin", 3, draw_box),
-    Template("below-half", 1, "Where u is below 1/2", "interpolate", 4, draw_below_half),
+    Template("below-half", 2, "Where u is below 1/2", "interpolate", 4, draw_below_half),
     Template("texel-pixels", 1, "Pixels of dark texels", "shade", 3, draw_texels),
     Template("nearer-pixels", 1, "Pixels of the nearer triangle", "depth", 4, draw_nearer),
     Template("blended-twice", 1, "Pixels that are blended twice", "blend", 3, draw_overlap),

@@ -15,7 +15,7 @@ from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.clipping import PARAMETERS, SIZE, Ends, parameter_rows
 from lessons.exercises.templates.coverage import RULE, corner_text, twice_area
 from lessons.exercises.templates.fragments import NAMES
-from lessons.mistakes.shelf import SHELF
+from lessons.mistakes.shelf import RULES, SHELF
 from lessons.small_scenes import segment_scene, triangle_scene
 
 TOLERANCE = 0.15
@@ -132,7 +132,37 @@ def draw_weights(draws: Draws) -> Draft | None:
     return Draft(text, given, answer, hints, {"weights-permuted": (turned,)}, scene)
 
 
+BORDER = 8
+
+
+def draw_new_corners(draws: Draws) -> Draft | None:
+    """The two corners that a border makes of a triangle with one vertex inside."""
+    corners = [
+        (draws.whole(0, 6), draws.whole(0, 9)),
+        *((draws.whole(9, 12), draws.whole(0, 9)) for _ in "BC"),
+    ]
+    exact = [(Fraction(x), Fraction(y)) for x, y in corners]
+    rule = RULES["clipped-in-place"]
+    if twice_area(exact) < 12:
+        return None
+    text = (
+        f"A triangle is clipped at the border x = {BORDER}: only vertex 0, on the left of it, is inside. Place the two "
+        "new corners, where the sides from 0 to 1 and from 2 to 0 cross the border."
+    )
+    hints = (
+        "What is x of both corners?",
+        f"t = ({BORDER} - x0) / (x - x0) of each side, from vertex 0 to its other end.",
+        "Both sides begin at the vertex 0 that is given, not at a new corner.",
+    )
+    names = ("on side 0 to 1", "on side 2 to 0")
+    answer = PlaceAnswer(CORNER_SIZE, names, rule.right(exact, BORDER), (), Fraction(1, 4), TOLERANCE)
+    given = f"Window of {CORNER_SIZE[0]} x {CORNER_SIZE[1]} pixels. Vertices 0, 1, 2: {corner_text(exact)}"
+    scene = triangle_scene(np.array([corners], float), CORNER_SIZE)
+    return Draft(text, given, answer, hints, {rule.name: rule.wrong(exact, BORDER)}, scene)
+
+
 TEMPLATES = (
+    Template("new-corners", 1, "New corners at a border", "clip", 3, draw_new_corners),
     Template("clip-ends", 2, "Ends of a clipped segment", "raster", 4, draw_ends),
     Template("place-ndc", 1, "Points of NDC in the window", "transform", 2, draw_ndc),
     Template("place-weights", 1, "The point behind the weights", "interpolate", 2, draw_weights),

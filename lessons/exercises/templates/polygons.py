@@ -155,7 +155,7 @@ def draw_rejected(draws: Draws) -> Draft | None:
     right = [k for k, (a, b) in enumerate(codes) if any(x == y == "1" for x, y in zip(a, b, strict=True))]
     text = (
         "Which segments does Cohen-Sutherland reject at once? An outcode has a bit for each border that an end lies "
-        "outside of; a segment is rejected where both ends share a bit."
+        "outside of; a segment is rejected where both ends share a bit. A point on a border is inside."
     )
     names = "ABCDE"
     given = f"{WINDOW}.\n" + "\n".join(

@@ -131,8 +131,8 @@ def draw_clip(draws: Draws) -> Draft | None:
                 Step(f"side {k}: the crossing (x, y)", "place", (Fraction(BORDER), y), tolerance=0.05)
             )
     text = (
-        f"Be Sutherland-Hodgman at the border x = {BORDER}: what is left of it stays. For each side from its start to "
-        "its end, say what is put out, and where the side crosses the border. Fractions, or decimals within 0.05."
+        f"Be Sutherland-Hodgman at the border x = {BORDER}: inside is where x is smaller. For each side from its start "
+        "to its end, say what is put out, and where the side crosses the border. Fractions, or decimals within 0.05."
     )
     names = ("side 0 from corner 0 to 1", "side 1 from corner 1 to 2", "side 2 from corner 2 to 0")
     given = f"Corners 0, 1, 2: {corner_text(corners)}; {', '.join(names)}."

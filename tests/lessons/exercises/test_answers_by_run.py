@@ -100,7 +100,7 @@ def test_what_is_offered_stands_in_text() -> None:
     assert CORNERS.offered == "Points: entry, exit"
     assert LINE.offered.splitlines()[2] == " 3    x += 2"
     assert SPOT.offered == "- rounded\n- upside down"
-    assert RUN.offered.splitlines()[1:3] == ["2. the next pixel (a pixel)", "3. inside (yes, no)"]
+    assert RUN.offered.splitlines()[1:3] == ["2. the next pixel (a pixel)", "3. inside (yes | no)"]
     assert BROKEN.offered.splitlines()[0] == "x: 0 to 8 in steps of 0.5, at first 3"
     assert CHEAPEST.offered.splitlines()[1] == "texture_filter: nearest 1, bilinear 4"
 

@@ -1,5 +1,6 @@
 """Exercises on pixels: their answers follow from the rule that the question states, in exact numbers."""
 
+import re
 from collections.abc import Callable
 from fractions import Fraction
 from math import floor
@@ -7,7 +8,10 @@ from math import floor
 import numpy as np
 import pytest
 
+from core import render
 from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.drawn_scene import seen_pixels
+from lessons.exercises.numbers import are_close
 from lessons.exercises.question import ask
 from lessons.exercises.templates.filling import is_decided
 
@@ -83,3 +87,73 @@ def test_no_sentence_of_a_file_is_broken_in_the_middle() -> None:
     for name, template in TEMPLATES.items():
         for line in ask(template, 0).draft.text.strip().split("\n")[:-1]:
             assert line.endswith((".", "?", ":")), name
+
+
+@pytest.mark.parametrize("name", ["outside-one-border", "rejected-at-once", "cohen-sutherland-table"])
+def test_what_lies_on_a_border_is_said_where_it_decides(name: str) -> None:
+    assert "on a border is inside" in ask(TEMPLATES[name], 0).draft.text
+
+
+def test_a_line_is_printed_from_exact_numbers() -> None:
+    # With floats 2 + 3/6 grew to less than 5/2 here, and the pixel of the tie was the lower one.
+    draft = ask(TEMPLATES["printed-line"], 96).draft
+    assert "From (0, 2) to (10, 5)" in draft.given
+    assert "round(y)" in draft.given
+    assert "1/2 is rounded up" in draft.text
+    assert draft.answer.reference == {(x, floor(2 + Fraction(3 * x, 10) + HALF)) for x in range(10)}
+
+
+def covered(corners: list[Place]) -> set[tuple[int, int]]:
+    """Return the pixels of a counter-clockwise triangle, by the stated rule."""
+    sides = [
+        (start[1] - end[1], end[0] - start[0], start)
+        for start, end in zip(corners, [*corners[1:], corners[0]], strict=True)
+    ]
+    return {
+        (i, j)
+        for i in range(12)
+        for j in range(9)
+        if all(
+            (value := a * (i + HALF - x) + b * (j + HALF - y)) > 0 or (value == 0 and (a > 0 or a == 0 < b))
+            for a, b, (x, y) in sides
+        )
+    }
+
+
+def test_the_near_plane_turns_no_edge_that_runs_through_centres() -> None:
+    for seed in (3, 9, 19):
+        given = ask(TEMPLATES["pixels-beyond-near"], seed).draft.given
+        places = re.findall(r"\(([0-9.]+), ([0-9.]+)\)", given)
+        border = Fraction(re.search(r"\(x - ([0-9]+)\)", given)[1])
+        pixels = covered([(Fraction(x), Fraction(y)) for x, y in places])
+        right = ask(TEMPLATES["pixels-beyond-near"], seed).draft.answer.reference
+        assert right == {(i, j) for i, j in pixels if i >= border}
+
+
+def test_a_wrong_method_is_not_within_the_tolerance() -> None:
+    for seed in range(8):
+        draft = ask(TEMPLATES["reciprocal-w"], seed).draft
+        assert draft.mistakes["distance-linear"]
+        table = ask(TEMPLATES["inverse-w-table"], seed).draft
+        for wrong in table.mistakes.values():
+            for mine, its in zip(wrong, table.answer.reference, strict=True):
+                assert mine == its or not are_close(mine[0][1], its[0][1], table.answer.tolerance)
+
+
+@pytest.mark.slow
+def test_every_exercise_has_variants_and_none_always_one_number() -> None:
+    for template in TEMPLATES.values():
+        if template.is_fixed:
+            continue
+        drafts = [ask(template, seed).draft for seed in range(12)]
+        variants = {(draft.text, draft.given, draft.answer.offered) for draft in drafts}
+        assert len(variants) > 1, template.name
+        answers = {draft.answer.text(draft.answer.reference) for draft in drafts}
+        if drafts[0].answer.kind in ("numbers", "pixels", "places", "table"):
+            assert len(answers) > 1, template.name
+
+
+def test_a_square_is_as_its_two_triangles_with_their_borders() -> None:
+    for seed in SEEDS:
+        draft = ask(TEMPLATES["level-sides"], seed).draft
+        assert seen_pixels(render(draft.scene, draft.settings)) == draft.answer.reference

@@ -1,0 +1,149 @@
+"""Filling polygons row by row: crossings, active edges, level sides; and a square that is filled by weights."""
+
+from fractions import Fraction
+from math import atan2
+
+import numpy as np
+
+from core import Settings
+from lessons.exercises.answers.pixels import PixelAnswer
+from lessons.exercises.draws import Draws
+from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.coverage import SIZE, corner_text
+from lessons.exercises.templates.drafting import by_rule, one_of, place_text, several
+from lessons.exercises.templates.filling import HALF, WINDOW, is_decided, marked, tenths
+from lessons.mistakes.shelf import RULES
+from lessons.polygons import polygon_of_rings
+from lessons.small_scenes import triangle_scene
+
+
+def draw_star(draws: Draws) -> Draft | None:
+    """A polygon that crosses itself, or turns around a part twice."""
+    corners = [(tenths(draws, 0, 12), tenths(draws, 0, 9)) for _ in range(5)]
+    around = sorted(corners, key=lambda p: atan2(p[1] - Fraction(9, 2), p[0] - 6))
+    star = [around[2 * k % 5] for k in range(5)]
+    if min(abs(p[0] - 6) + abs(p[1] - Fraction(9, 2)) for p in corners) < 3 or not is_decided(star):
+        return None
+    rule, said = draws.item(
+        (
+            ("even-odd", "an odd number of edges lies to its left in its row"),
+            ("non-zero", "the directions of the edges to its left in its row, up or down, do not cancel"),
+        )
+    )
+    text = (
+        f"Which pixels does this polygon cover by the {rule} rule? A centre (i + 1/2, j + 1/2) is inside if {said}. "
+        "The polygon is closed, and crosses itself."
+    )
+    scene, settings = polygon_of_rings([np.array(star, float)], SIZE), Settings(polygon_fill=rule)
+    hints = (
+        "Sketch the polygon: a star around a middle part.",
+        "Go along a row from the left, and count what you cross.",
+        "The rules differ in the middle, which the polygon runs around twice.",
+    )
+    given = f"{WINDOW}\nPolygon: {', '.join(map(place_text, star))}"
+    return marked(text, given, scene, ("winding-ignored",), hints, settings)
+
+
+def draw_crossings(draws: Draws) -> Draft | None:
+    """Crossings of a polygon with a line through its vertices."""
+    places = {(draws.whole(0, 9), draws.whole(0, 6)) for _ in range(6)}
+    polygon = sorted(places, key=lambda p: (atan2(p[1] - 3, p[0] - 4), p))
+    y = draws.item(polygon)[1]
+    rule = RULES["both-ends-crossed"]
+    right, wrong = (int(count(polygon, y)[0]) for count in (rule.right, rule.wrong))
+    options = ("0", "1", "2", "3", "4", "5", "6")
+    if len(polygon) < 5 or right >= len(options) or not right < wrong < len(options):
+        return None
+    text = (
+        f"How many crossings does a scanline fill count on the line y = {y}? An edge counts where the line is at or "
+        "above its lower end and below its upper end; level edges do not count."
+    )
+    hints = (
+        "Go round the polygon, one edge at a time.",
+        "A vertex on the line is the lower end of one edge and the upper end of another.",
+        "The number is even, or a span would have one end.",
+    )
+    given = f"Polygon: {', '.join(map(str, polygon))}"
+    return one_of(text, given, options, right, hints, {rule.name: wrong})
+
+
+EDGES = ("from 0 to 1", "from 1 to 2", "from 2 to 3", "from 3 to 4", "from 4 to 0")
+
+
+def draw_active(draws: Draws) -> Draft | None:
+    """The active edges of a row."""
+    corners = [(tenths(draws, 0, 12), tenths(draws, 0, 9)) for _ in EDGES]
+    polygon = sorted(corners, key=lambda p: atan2(p[1] - Fraction(9, 2), p[0] - 6))
+    row = draws.whole(2, 7)
+    rule = RULES["edges-leave-late"]
+    right, wrong = (count(polygon, row + HALF) for count in (rule.right, rule.wrong))
+    if not is_decided(polygon):
+        return None
+    text = (
+        f"A scanline fill keeps an active edge table. Which edges are active while row {row} is drawn, at "
+        f"y = {row} + 1/2? An edge enters the table at the first row whose centres are not below its lower end, and "
+        "leaves it before the first row whose centres are not below its upper end."
+    )
+    hints = (
+        "Look at the y of both ends of each edge.",
+        f"Is {row} + 1/2 at or above the lower end, and below the upper end?",
+        "An even number of edges is active in every row.",
+    )
+    scene = polygon_of_rings([np.array(polygon, float)], SIZE)
+    given = f"{WINDOW}\nVertices 0 to 4: {corner_text(polygon)}"
+    return several(text, given, EDGES, right, hints, {rule.name: wrong}, scene)
+
+
+def draw_level(draws: Draws) -> Draft | None:
+    """A polygon with a level upper side, with all that lies on its border."""
+    low, high = draws.whole(0, 2) + HALF, draws.whole(5, 8) + HALF
+    (a, b), (c, d) = ((draws.whole(0, 5) + HALF, draws.whole(6, 11) + HALF) for _ in range(2))
+    polygon = ((a, low), (b, low), (d, high), (c, high))
+    rule = RULES["level-side-dropped"]
+    text = (
+        "Which pixels does this polygon cover if everything on its border counts? A pixel is drawn where its centre "
+        "(i + 1/2, j + 1/2) lies inside or on the border."
+    )
+    hints = (
+        "Look at one row of centres at a time, from the lowest vertex to the highest.",
+        "In a row, both ends of the span are drawn where they fall on centres.",
+        "Which pixels lie on the level sides?",
+    )
+    # Two triangles draw the same if each of them draws its border.
+    scene = triangle_scene(
+        np.array([[polygon[k] for k in (0, 1, 2)], [polygon[k] for k in (0, 2, 3)]], float), SIZE
+    )
+    answer, wrong = PixelAnswer(SIZE, rule.right(polygon)), {rule.name: rule.wrong(polygon)}
+    given = f"{WINDOW}\nPolygon: {corner_text(list(polygon))}"
+    return Draft(text, given, answer, hints, wrong, scene, Settings(fill_rule="inclusive"))
+
+
+def draw_float(draws: Draws) -> Draft | None:
+    """How many pixels two triangles draw whose common edge runs through centres."""
+    side, shift = draws.whole(5, 9), Fraction(draws.whole(1, 9), 16384)
+    low, high, far = HALF - shift, side - HALF, side - HALF + shift
+    halves = (
+        draws.shuffled(((HALF, high), (HALF, low), (far, low))),
+        draws.shuffled(((far, low), (far, high), (HALF, high))),
+    )
+    text = (
+        "Two triangles share an edge that runs through pixel centres. A pixel is drawn where alpha, beta and gamma at "
+        "its centre (i + 1/2, j + 1/2) lie in [0, 1] in one of them, ends included. How many different pixels are "
+        "drawn, if nothing is rounded?"
+    )
+    given = "\n".join(f"Triangle {k}: {corner_text(list(corners))}" for k, corners in enumerate(halves))
+    hints = (
+        "Sketch both triangles: which shape do they make?",
+        "A centre on the common edge has a weight of exactly 0 in both triangles.",
+        "Count the columns and the rows of centres, those on the border, too.",
+    )
+    return by_rule(text, given, (halves, side + 1), ("third-weight-rounded",), hints)
+
+
+TEMPLATES = (
+    Template("crossing-count", 1, "Crossings at vertices", "raster", 2, draw_crossings),
+    Template("active-edges", 1, "Active edges of a row", "raster", 2, draw_active),
+    Template("level-sides", 1, "Level sides with their pixels", "raster", 3, draw_level),
+    Template("star-polygon", 2, "A polygon that crosses itself", "raster", 4, draw_star),
+    Template("float-weights", 1, "Weights on a shared edge", "raster", 2, draw_float),
+)
