@@ -2,10 +2,13 @@
 
 from collections.abc import Iterator
 from functools import cache
+from typing import NamedTuple
 
 import numpy as np
 
 from core import STAGES, ClipScene, Settings, Trace, render, trace
+from core.explain import account, formula, variables
+from core.explain.records import Formula, Variable
 from core.methods import table
 from core.scene import AnyScene
 from core.settings import families
@@ -99,19 +102,37 @@ def every_choice() -> list[Settings]:
     return found
 
 
-def steps_of(traced: Trace | StageTrace) -> Iterator[Step]:
-    """Yield all operations of some rows of every kind, of one stage or of all."""
+Place = tuple[str, StageTrace, int, int]
+"""The key of an operation, its stage, its row and its position."""
+
+
+def places_of(traced: Trace | StageTrace) -> Iterator[Place]:
+    """Yield where all operations are of some rows of every kind, of one stage or of all."""
     count = 2 * ROWS if is_everything() else ROWS
     stages = [traced.stage(name) for name in STAGES] if isinstance(traced, Trace) else [traced]
     for stage in stages:
-        for kind in range(len(stage.steps.kinds)):
-            rows = np.flatnonzero(stage.steps.kind == kind)
+        for number, kind in enumerate(stage.steps.kinds):
+            rows = np.flatnonzero(stage.steps.kind == number)
             for row in rows[np.unique(np.linspace(0, len(rows) - 1, count).astype(int))] if rows.size else []:
-                column, line = stage.pixel[row].tolist()
-                for position in range(stage.steps.starts[row] + 1, stage.steps.starts[row + 1] + 1):
-                    explanation = stage.explain(int(position))
-                    assert explanation is not None
-                    yield explanation, int(stage.triangle[row]), (column, line)
+                for position, operation in enumerate(
+                    stage.steps.operations[kind], stage.steps.starts[row] + 1
+                ):
+                    yield f"{stage.stage}.{kind}.{operation.name}", stage, int(row), int(position)
+
+
+def step_at(place: Place) -> Step:
+    """Explain an operation."""
+    key, stage, row, position = place
+    explanation = stage.explain(position)
+    assert explanation is not None
+    assert explanation.key == key
+    column, line = stage.pixel[row].tolist()
+    return explanation, int(stage.triangle[row]), (column, line)
+
+
+def steps_of(traced: Trace | StageTrace) -> Iterator[Step]:
+    """Yield all operations of some rows of every kind, of one stage or of all."""
+    return map(step_at, places_of(traced))
 
 
 @cache
@@ -140,20 +161,47 @@ def traces() -> dict[str, list[Trace]]:
 @cache
 def explained(group: str) -> tuple[Step, ...]:
     """Return the steps of the built-in ``scenes`` or of the ``rare`` triangles."""
-    found = [step for traced in traces()[group] for step in steps_of(traced)]
-    if is_everything():
-        return tuple(found)
-    places: dict[str, list[int]] = {}
-    for place, (explanation, _, _) in enumerate(found):
-        places.setdefault(explanation.key, []).append(place)
+    found = [place for traced in traces()[group] for place in places_of(traced)]
+    numbers: dict[str, list[int]] = {}
+    for number, (key, *_) in enumerate(found):
+        numbers.setdefault(key, []).append(number)
+    most = len(found) if is_everything() else ALIKE
     chosen = {
         alike[k]
-        for alike in places.values()
-        for k in np.linspace(0, len(alike) - 1, ALIKE).round().astype(int)
+        for alike in numbers.values()
+        for k in np.linspace(0, len(alike) - 1, min(most, len(alike))).round().astype(int)
     }
-    return tuple(found[place] for place in sorted(chosen))
+    return tuple(step_at(found[number]) for number in sorted(chosen))
 
 
 def all_steps() -> tuple[Step, ...]:
     """Return the steps of both groups."""
     return explained("scenes") + explained("rare")
+
+
+class Said(NamedTuple):
+    """All that is said of a step."""
+
+    explanation: Explanation
+    sentence: str
+    own: Formula | None
+    """The step's own formula."""
+    formula: Formula | None
+    """The formula that is shown: its own, or the last one of its row."""
+    variables: tuple[Variable, ...]
+
+
+@cache
+def said(group: str) -> tuple[Said, ...]:
+    """Return what is said of the steps of a group, made once for all laws on it."""
+    return tuple(
+        Said(
+            explanation, *account(explanation, triangle, pixel), formula(explanation), variables(explanation)
+        )
+        for explanation, triangle, pixel in explained(group)
+    )
+
+
+def all_said() -> tuple[Said, ...]:
+    """Return what is said of the steps of both groups."""
+    return said("scenes") + said("rare")

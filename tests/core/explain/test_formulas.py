@@ -15,7 +15,7 @@ from core.explain.number_text import latex_text
 from core.explain.records import Formula
 from core.explain.statements import BREAKS, RELATIONS, statements
 from core.trace import Explanation
-from tests.core.explain.explained_steps import all_steps, rare_trace, steps_of
+from tests.core.explain.explained_steps import all_said, rare_trace, steps_of
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.typesetter import Typesetter
 
@@ -30,8 +30,7 @@ SUMS = re.compile(
 def test_every_formula_can_be_checked_from_what_it_shows() -> None:
     """Numbers stand under their symbols; all that is stated holds for the digits that are printed."""
     summed, stated, read, long = 0, 0, 0, 0
-    for number, (explanation, _, _) in enumerate(all_steps()):
-        made = formula(explanation)
+    for number, (explanation, _, _, made, _) in enumerate(all_said()):
         if made is None:
             continue
         symbols, numbers = split_cells(made.symbolic), split_cells(made.substituted)
@@ -81,8 +80,7 @@ def test_formulas_can_be_typeset(qtbot: QtBot) -> None:
     typesetter = Typesetter(capacity=10_000)
     number = re.compile(r"\(?-?\d+(\.\d*)?\)?")
     cells = set()
-    for explanation in {explanation.key: explanation for explanation, _, _ in all_steps()}.values():
-        made = formula(explanation)
+    for made in {step.explanation.key: step.formula for step in all_said()}.values():
         if made is not None:
             cells |= {*split_cells(made.symbolic), *split_cells(made.substituted)}
     problems = {

@@ -10,7 +10,7 @@ from core.explain.number_text import exact_text, pair_text, position_text
 from core.records.steps import Level
 from core.records.words import counted, joined
 from core.trace import Explanation
-from tests.core.explain.explained_steps import all_steps, explained, rare_trace, steps_of
+from tests.core.explain.explained_steps import all_said, rare_trace, said, steps_of
 
 NUMBERS = {
     "transform.object-to-world.x": "after_x",
@@ -41,8 +41,7 @@ NUMBERS = {
 
 
 def test_every_step_has_a_finished_sentence() -> None:
-    for explanation, triangle, pixel in all_steps():
-        text = sentence(explanation, triangle, pixel)
+    for _, text, *_ in all_said():
         assert re.fullmatch(r"[A-Z].*\.", text), text
         assert not re.search(r"[{}\[\]]|\bnan\b|\binf\b|None|array|\s\s|\.\.|(?<!fixed)-\d", text), text
         assert ". " not in text, f"more than one sentence: {text}"
@@ -50,34 +49,35 @@ def test_every_step_has_a_finished_sentence() -> None:
 
 
 def test_nothing_is_undefined_in_the_built_in_scenes() -> None:
-    for explanation, triangle, pixel in explained("scenes"):
+    for explanation, text, *_ in said("scenes"):
         # Products above 65,504 are infinite in float16, and their differences no numbers.
         if explanation.values.get("number_format") != "float16":
-            assert "NaN" not in sentence(explanation, triangle, pixel)
+            assert "NaN" not in text
 
 
 def test_an_undefined_number_is_said_only_where_there_is_one() -> None:
-    said = 0
-    overflown = steps_of(rare_trace("far-away", Settings(coverage="float16")))
-    for explanation, triangle, pixel in (*explained("rare"), *overflown):
-        text = sentence(explanation, triangle, pixel)
+    count = 0
+    overflown = [
+        (step[0], sentence(*step)) for step in steps_of(rare_trace("far-away", Settings(coverage="float16")))
+    ]
+    for explanation, text in (*(step[:2] for step in said("rare")), *overflown):
         if "NaN" in text:
-            said += 1
+            count += 1
             names = {*explanation.known, "before", "after"} & set(explanation.values)
             values = [value for value in map(explanation.values.get, names) if not isinstance(value, str)]
             numbers = np.concatenate([np.ravel(np.asarray(value, float)) for value in values])
             assert np.isnan(numbers).any(), text
-    assert said
+    assert count
 
 
 def test_sentences_give_the_numbers_of_the_step() -> None:
     found = set()
-    for explanation, triangle, pixel in all_steps():
+    for explanation, text, *_ in all_said():
         variable = NUMBERS.get(explanation.key)
         if variable:
             found.add(explanation.key)
             number = exact_text(float(np.asarray(explanation.values[variable])))
-            assert number in sentence(explanation, triangle, pixel)
+            assert number in text
     assert found == set(NUMBERS)
 
 

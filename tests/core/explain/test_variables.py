@@ -7,14 +7,14 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from core import STAGES, Settings
-from core.explain import account, variables
+from core.explain import variables
 from core.explain.latex import plain_text
 from core.explain.records import Variable
 from core.explain.step_values import StepValues
 from core.explain.steps import load_subjects
 from core.explain.variable_text import HIDDEN, VARIABLES
 from core.trace import Explanation
-from tests.core.explain.explained_steps import all_steps, rare_trace
+from tests.core.explain.explained_steps import all_said, rare_trace
 from widgets.inspector.variables import VariablesView, value_text
 
 
@@ -26,8 +26,7 @@ def at(stage: str, key: str, place: int = 0, settings: Settings | None = None) -
 
 
 def test_rows_are_distinct_readable_and_finished() -> None:
-    for explanation, _, _ in all_steps()[::2]:
-        found = variables(explanation)
+    for explanation, *_, found in all_said():
         names = [variable.name for variable in found]
         assert len(set(names)) == len(names), explanation.key
         for variable in found:
@@ -37,10 +36,10 @@ def test_rows_are_distinct_readable_and_finished() -> None:
 
 
 def test_what_is_known_is_shown_and_nothing_from_later() -> None:
-    for explanation, _, _ in all_steps()[::5]:
+    for explanation, *_, found in all_said():
         step = StepValues(explanation)
         hidden = HIDDEN.get(f"{step.stage}.{step.kind}", frozenset())
-        shown = {variable.name for variable in variables(explanation)}
+        shown = {variable.name for variable in found}
         for name, text in VARIABLES[step.stage].items():
             if name not in explanation.values or not np.size(explanation.values[name]):
                 continue
@@ -146,12 +145,12 @@ def plain(text: str) -> str:
 def test_symbols_are_those_of_the_formulas() -> None:
     symbols: dict[str, str] = {}
     shown: dict[str, set[str]] = {}
-    for explanation, triangle, pixel in all_steps()[::3]:
-        kind, (_, made) = explanation.key.rpartition(".")[0], account(explanation, triangle, pixel)
+    for explanation, _, made, _, found in all_said():
+        kind = explanation.key.rpartition(".")[0]
         symbols[kind] = symbols.get(kind, "") + (plain(plain_text(made.symbolic)) if made else "")
         shown.setdefault(kind, set()).update(
             plain(variable.name)
-            for variable in variables(explanation)
+            for variable in found
             if variable.is_changed() and isinstance(variable.now, float)
         )
     short = {kind: {name for name in names if len(name) <= 3} for kind, names in shown.items()}
