@@ -13,8 +13,10 @@ from widgets.grid.outline_layer import OutlineLayer
 from widgets.grid.overlay import Overlay, bounds, changed_cells, union
 from widgets.grid.overlay_paint import paint_above, paint_below
 from widgets.grid.paint import (
+    Writing,
     beside_rulers,
     centres_are_free,
+    number_writing,
     paint_border,
     paint_hidden,
     paint_image,
@@ -52,7 +54,7 @@ class GridCanvas:
         self.outlines = OutlineLayer()
         """Grids that show the same triangles may share one."""
         self._pixmap: QPixmap | None = None
-        self._painted: tuple[GridPlacement, QRect, Theme] | None = None
+        self._painted: tuple[GridPlacement, QRect, Theme, Writing | None] | None = None
         self._dirty: Cells | None = None
         """Cells to paint again; None: everything."""
 
@@ -144,7 +146,8 @@ class GridCanvas:
     def paint(self, painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme) -> None:
         """Paint from the kept picture, after painting again what changed in it."""
         ratio = painter.device().devicePixelRatioF()
-        key = (placement, area, theme)
+        writing = number_writing(placement, self._buffer, theme, self._samples) if self._buffer else None
+        key = (placement, area, theme, writing)
         if self._pixmap is None or self._painted != key or self._pixmap.devicePixelRatio() != ratio:
             size = area.size() * ratio
             if self._pixmap is None or self._pixmap.size() != size:
@@ -211,7 +214,7 @@ class GridCanvas:
         paint_nan(painter, placement, buffer, theme)
         paint_below(painter, placement, self._overlays, theme)
         if not self._is_compact or placement.cell >= COMPACT_LINE_CELL:
-            is_free = not self._is_compact and centres_are_free(placement, buffer, theme)
+            is_free = not self._is_compact and centres_are_free(number_writing(placement, buffer, theme))
             paint_lines(painter, placement, theme, self._samples is None and is_free)
             if self._samples is not None:
                 paint_samples(painter, placement, self._samples, cells)

@@ -12,11 +12,18 @@ from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import Theme, current_theme, theme_notifier
 from widgets.grid.buffer import NO_VALUE, GridBuffer
 from widgets.grid.canvas import GridCanvas
-from widgets.grid.geometry import GridGeometry, paint_focus
+from widgets.grid.geometry import GridGeometry, name_boxes, paint_focus
 from widgets.grid.marks import StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
 from widgets.grid.outline_layer import OutlineLayer
 from widgets.grid.overlay import Overlay
-from widgets.grid.paint import beside_rulers, has_numbers, paint_ruler_pixel, ruler_areas, ruler_size
+from widgets.grid.paint import (
+    beside_rulers,
+    number_boxes,
+    number_writing,
+    paint_ruler_pixel,
+    ruler_areas,
+    ruler_size,
+)
 from widgets.grid.sample_dots import SampleDots
 from widgets.grid.view import FIT, GridPlacement, GridView, clamped, place
 
@@ -37,6 +44,7 @@ class GridDisplay(QWidget):
         # What is made again only where what it is made from differs.
         self._placed: tuple[tuple[object, ...], GridPlacement] | None = None
         self._beside_rulers: tuple[tuple[GridPlacement, QRect, Theme], QRegion] | None = None
+        self._names: tuple[tuple[GridPlacement, GridGeometry | None, Theme], QRegion] | None = None
         self._hover: tuple[int, int] | None = None
         self._pin: tuple[int, int] | None = None
         self._step = StepMark()
@@ -166,24 +174,23 @@ class GridDisplay(QWidget):
         """Return whether the values are written into the cells at this zoom."""
         buffer = self._canvas.buffer
         samples = self._canvas.samples
-        return buffer is not None and has_numbers(self.placement(), buffer, current_theme(), samples)
+        return buffer is not None and bool(number_writing(self.placement(), buffer, current_theme(), samples))
 
     def samples_text(self, pixel: tuple[int, int]) -> str:
         """Return who has the samples of a pixel as text; empty: it has one sample, or is covered up."""
-        samples, hidden = self._canvas.samples, self._canvas.hidden
+        samples = self._canvas.samples
         column, row = pixel
-        if samples is None or (hidden is not None and hidden[row, column]):
+        if samples is None or self._is_hidden(pixel):
             return ""
         _, rows, columns = samples.shown.shape
         return samples.text_at(column, row) if column < columns and row < rows else ""
 
     def value_text(self, pixel: tuple[int, int], digits: int = 4) -> str:
         """Return the value of a pixel as text: "?" where it is covered, empty outside the raster."""
-        buffer, hidden = self._canvas.buffer, self._canvas.hidden
-        column, row = pixel
-        if buffer is None or not (0 <= column < buffer.columns and 0 <= row < buffer.rows):
+        buffer = self._canvas.buffer
+        if buffer is None or not self._is_inside(pixel):
             return ""
-        return "?" if hidden is not None and hidden[row, column] else buffer.text_at(column, row, digits)
+        return "?" if self._is_hidden(pixel) else buffer.text_at(*pixel, digits)
 
     def spoken_description(self) -> str:
         """Return what a screen reader says of the pixels that are pinned and pointed at."""
@@ -227,7 +234,7 @@ class GridDisplay(QWidget):
         painter.setClipRect(placement.seen_raster if self._compact else placement.viewport)
         if self._geometry is not None:
             self._paint_geometry(painter, placement, self._geometry)
-        paint_step_mark(painter, placement, self._step, theme)
+        paint_step_mark(painter, placement, self._step, theme, self._written(placement))
         if self._pin is not None and self._is_inside(self._pin):
             paint_pin(painter, placement, self._pin)
         if self._hover is not None and self._is_inside(self._hover):
@@ -244,6 +251,20 @@ class GridDisplay(QWidget):
             outlines.paint_focus(painter, placement, self.rect(), geometry, theme, self._vertex, free)
         else:
             paint_focus(painter, placement, geometry, theme, self._vertex, free)
+
+    def _written(self, placement: GridPlacement) -> QRegion:
+        """Return what names and the numbers below the step's mark take."""
+        theme, buffer, geometry = current_theme(), self._canvas.buffer, self._geometry
+        if self._compact or buffer is None:
+            return QRegion()
+        if self._names is None or self._names[0] != (placement, geometry, theme):
+            boxes = name_boxes(placement, geometry, theme) if geometry is not None else []
+            names = QRegion()
+            for box, _, _ in boxes:
+                names += box.toAlignedRect()
+            self._names = (placement, geometry, theme), names
+        cells = {cell for cell in self._step.crossed() if self._is_inside(cell) and not self._is_hidden(cell)}
+        return self._names[1] + number_boxes(placement, buffer, theme, cells, self._canvas.samples)
 
     def _free(self, placement: GridPlacement) -> QRegion | None:
         """Return where outlines may go: beside the numbers of the rulers. None: there are no rulers."""
@@ -303,6 +324,11 @@ class GridDisplay(QWidget):
         """Return whether a pixel belongs to the raster."""
         buffer = self._canvas.buffer
         return buffer is not None and 0 <= pixel[0] < buffer.columns and 0 <= pixel[1] < buffer.rows
+
+    def _is_hidden(self, pixel: tuple[int, int]) -> bool:
+        """Return whether a pixel of the raster is covered up."""
+        hidden = self._canvas.hidden
+        return hidden is not None and bool(hidden[pixel[1], pixel[0]])
 
     def _repaint_all(self) -> None:
         """Paint everything again with the present theme."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF, QRegion
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen, QPolygonF, QRegion
 
 from widgets.basics.theme import Theme, text_font
 from widgets.grid.edge_ends import edge_segments, towards
@@ -217,11 +217,9 @@ def paint_focus(
                 painter.setBrush(QColor(color))
                 painter.drawEllipse(position, radius + more / 2, radius + more / 2)
         _paint_snapped(painter, placement, geometry, corners, scale)
-        _paint_names(painter, placement, geometry, theme)
-        if len(corners) == 3:
-            _paint_edge_names(
-                painter, placement, geometry, list(zip(lines, source.tolist(), strict=True)), theme
-            )
+        painter.setFont(_name_font(theme))
+        for box, text, color in name_boxes(placement, geometry, theme):
+            _paint_chip(painter, box, text, color, theme)
     painter.restore()
 
 
@@ -259,11 +257,35 @@ def _paint_snapped(
             painter.drawPolygon(diamond)
 
 
-def _paint_names(painter: QPainter, placement: GridPlacement, geometry: GridGeometry, theme: Theme) -> None:
-    """Write the names of the vertices away from the middle of the triangle."""
+def name_boxes(
+    placement: GridPlacement, geometry: GridGeometry, theme: Theme
+) -> list[tuple[QRectF, str, str]]:
+    """Return the boxes, texts and colours of the names of the vertices and edges of the primitive in focus."""
+    if not geometry.focus_vertices:
+        return []
+    metrics = QFontMetrics(_name_font(theme))
+    names = _vertex_names(placement, geometry, theme, metrics)
+    if len(geometry.focus_vertices) == 3:
+        lines, source = widget_lines(
+            geometry.edges(geometry.triangles[geometry.focus][geometry.sides]), placement
+        )
+        names += _edge_names(
+            placement, geometry, list(zip(lines, source.tolist(), strict=True)), theme, metrics
+        )
+    return names
+
+
+def _name_font(theme: Theme) -> QFont:
     font = text_font(theme)
     font.setBold(True)
-    painter.setFont(font)
+    return font
+
+
+def _vertex_names(
+    placement: GridPlacement, geometry: GridGeometry, theme: Theme, metrics: QFontMetrics
+) -> list[tuple[QRectF, str, str]]:
+    """Return the names of the vertices away from the middle of the triangle."""
+    names = []
     corners = list(geometry.focus_vertices)
     with np.errstate(over="ignore", invalid="ignore"):
         middle = geometry.vertices[corners].mean(axis=0)
@@ -277,25 +299,25 @@ def _paint_names(painter: QPainter, placement: GridPlacement, geometry: GridGeom
             length = float(np.hypot(away[0], away[1]))
         if not np.isfinite(length) or length == 0.0:
             away, length = np.array([0.0, 1.0]), 1.0
-        metrics = painter.fontMetrics()
         width, height = metrics.horizontalAdvance(text) + 8, metrics.height()
         reach = HANDLE_RADIUS * theme.text_px / 13 + 8 + width / 2
         box = QRectF(0, 0, width, height)
         box.moveCenter(position + QPointF(away[0] / length * reach, -away[1] / length * (reach + 2)))
         if QRectF(placement.viewport).contains(position):
             box = moved_inside(box, QRectF(placement.viewport))
-        _paint_chip(painter, box, text, theme.vertex_text[geometry.color(place)], theme)
+        names.append((box, text, theme.vertex_text[geometry.color(place)]))
+    return names
 
 
-def _paint_edge_names(
-    painter: QPainter,
+def _edge_names(
     placement: GridPlacement,
     geometry: GridGeometry,
     edges: list[tuple[QLineF, int]],
     theme: Theme,
-) -> None:
-    """Write the name of each edge function beside its edge, outside of the triangle."""
-    metrics = painter.fontMetrics()
+    metrics: QFontMetrics,
+) -> list[tuple[QRectF, str, str]]:
+    """Return the name of each edge function beside its edge, outside of the triangle."""
+    names = []
     width, height = metrics.horizontalAdvance("E0") + 6, metrics.height()
     viewport = QRectF(placement.viewport)
     for line, edge in edges:
@@ -310,7 +332,8 @@ def _paint_edge_names(
             away = -away
         box = QRectF(0, 0, width, height)
         box.moveCenter(middle + away * (RIM + abs(away.x()) * width / 2 + abs(away.y()) * height / 2))
-        _paint_chip(painter, moved_inside(box, viewport), f"E{edge}", theme.vertex_text[edge], theme)
+        names.append((moved_inside(box, viewport), f"E{edge}", theme.vertex_text[edge]))
+    return names
 
 
 def _facing(geometry: GridGeometry, vertex: int, place: tuple[float, float]) -> tuple[float, float]:

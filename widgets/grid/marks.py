@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF, QRegion
 
 from widgets.basics.theme import Theme, faded
 from widgets.grid.line_clip import widget_lines
@@ -60,11 +60,27 @@ class StepMark:
         (column0, row0), (column1, row1) = pixels.min(axis=0).tolist(), pixels.max(axis=0).tolist()
         return placement.cells_rect(column0, row0, column1 - column0 + 1, row1 - row0 + 1)
 
+    def crossed(self) -> set[tuple[int, int]]:
+        """Return the columns and rows of the pixels that the trail runs through."""
+        found: set[tuple[int, int]] = set()
+        for start, end in itertools.pairwise(self.trail):
+            count = 2 * int(np.abs(end - start).max()) + 1
+            places = np.floor(np.linspace(start + 0.5, end + 0.5, count)).astype(int)
+            found.update(map(tuple, places.tolist()))
+        return found
 
-def paint_step_mark(painter: QPainter, placement: GridPlacement, mark: StepMark, theme: Theme) -> None:
-    """Paint the trail below, then the pixels, lines and points of the step in the accent."""
+
+def paint_step_mark(
+    painter: QPainter, placement: GridPlacement, mark: StepMark, theme: Theme, written: QRegion
+) -> None:
+    """Paint the trail below, then the pixels, lines and points of the step in the accent.
+
+    No line runs through what is ``written`` on the grid: it would strike it out.
+    """
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    if not written.isEmpty():
+        painter.setClipRegion(QRegion(placement.viewport) - written, Qt.ClipOperation.IntersectClip)
     _paint_trail(painter, placement, mark.trail, theme)
     lines, _ = widget_lines(mark.lines, placement, False)
     for pen in (_pen(theme.halo(), 5.0), _pen(theme.accent, 3.0)):

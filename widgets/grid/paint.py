@@ -1,9 +1,11 @@
 """How the cells of a pixel grid are painted: colour, then lines, centres, numbers as zoom grows."""
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRect, QRectF, Qt
-from PySide6.QtGui import QBrush, QColor, QFontMetricsF, QImage, QPainter, QPen, QRegion
+from PySide6.QtGui import QBrush, QColor, QFont, QFontMetricsF, QImage, QPainter, QPen, QRegion
 
 from core.framebuffer.display import linear_light
 from widgets.basics.mark_patterns import cell_tile
@@ -129,13 +131,6 @@ def paint_nan(painter: QPainter, placement: GridPlacement, buffer: GridBuffer, t
             paint_pattern(painter, placement, is_nan, Mark.NAN, theme)
 
 
-def has_numbers(
-    placement: GridPlacement, buffer: GridBuffer, theme: Theme, samples: SampleDots | None = None
-) -> bool:
-    """Return whether the values are written into the cells at this zoom."""
-    return buffer.kind != "bool" and _number_size(placement, buffer, theme, samples) is not None
-
-
 def _number_size(
     placement: GridPlacement, buffer: GridBuffer, theme: Theme, samples: SampleDots | None = None
 ) -> int | None:
@@ -170,11 +165,6 @@ def _characters(cell: float, size: int, theme: Theme) -> int:
     return int((cell - 5) / QFontMetricsF(text_font(theme, size)).horizontalAdvance("0"))
 
 
-def _stands_below(placement: GridPlacement, lines: int, height: float) -> bool:
-    """Return whether so many lines of text fit below the sample centre of a cell."""
-    return placement.cell / 2 - _GAP - 3 >= height * lines
-
-
 def paint_numbers(
     painter: QPainter,
     placement: GridPlacement,
@@ -189,16 +179,10 @@ def paint_numbers(
 
     They stand clear of the sample in the middle, or of several ``samples`` where there is room between them.
     """
-    size = _number_size(placement, buffer, theme, samples)
-    if size is None or buffer.kind == "bool":
+    writing = number_writing(placement, buffer, theme, samples)
+    if writing is None:
         return
-    font = text_font(theme, size)
-    metrics = QFontMetricsF(font)
-    height = metrics.height() * 0.95
-    width = _characters(placement.cell, size, theme)
-    has_dots = samples is not None and has_room(placement, samples)
-    below = not has_dots and _stands_below(placement, buffer.channels, height)
-    shift = between_samples(placement, samples)[0] if has_dots and samples is not None else 0.0
+    font, height, width, top = writing
     dark, light = QColor("#000000"), QColor("#ffffff")
     backdrop = QColor(theme.canvas)
     is_nan = np.isnan(buffer.values) if buffer.values.dtype.kind == "f" else None
@@ -215,17 +199,77 @@ def paint_numbers(
             painter.setPen(dark if _is_light(color, backdrop) else light)
             rect = placement.cells_rect(column, row)
             lines = buffer.lines_at(column, row, 4, width)
+            first = rect.center().y() + top
             if is_nan is not None and is_nan[row, column].any():
-                chip = QRectF(0, 0, placement.cell * 0.8, height * len(lines) + 2)
-                chip.moveCenter(rect.center() + QPointF(0, _GAP + height * len(lines) / 2 if below else 0))
+                chip = QRectF(0, first - 1, placement.cell * 0.8, height * len(lines) + 2)
+                chip.moveLeft(rect.center().x() - chip.width() / 2)
                 painter.fillRect(chip, QColor(theme.nan_light))
                 painter.setPen(dark)
-            # Below the sample centre if there is room, or between samples, so that both can be read.
-            top = rect.center().y() + (_GAP if below else shift - height * len(lines) / 2)
             for index, line in enumerate(lines):
-                box = QRectF(rect.left(), top + index * height, rect.width(), height)
+                box = QRectF(rect.left(), first + index * height, rect.width(), height)
                 painter.drawText(box, flags, line)
     painter.restore()
+
+
+class Writing(NamedTuple):
+    """How values are written into cells."""
+
+    font: QFont
+    height: float
+    """Of a line."""
+    width: int
+    """Most characters."""
+    top: float
+    """Where the first line begins below the middle of a cell."""
+
+
+def number_writing(
+    placement: GridPlacement, buffer: GridBuffer, theme: Theme, samples: SampleDots | None = None
+) -> Writing | None:
+    """Return how values are written into the cells at this zoom; None: they are not.
+
+    They stand below the sample centre if there is room, or between samples, so that both can be read.
+    """
+    size = None if buffer.kind == "bool" else _number_size(placement, buffer, theme, samples)
+    if size is None:
+        return None
+    font = text_font(theme, size)
+    height = QFontMetricsF(font).height() * 0.95
+    top = -height * buffer.channels / 2
+    if samples is not None and has_room(placement, samples):
+        top += between_samples(placement, samples)[0]
+    elif placement.cell / 2 - _GAP - 3 >= height * buffer.channels:
+        top = _GAP
+    return Writing(font, height, _characters(placement.cell, size, theme), top)
+
+
+def centres_are_free(writing: Writing | None) -> bool:
+    """Return whether no number is written over the sample centres."""
+    return writing is None or writing.top == _GAP
+
+
+def number_boxes(
+    placement: GridPlacement,
+    buffer: GridBuffer,
+    theme: Theme,
+    cells: set[tuple[int, int]],
+    samples: SampleDots | None = None,
+) -> QRegion:
+    """Return what the values written into some cells (column, row) take, which no line may cross."""
+    region = QRegion()
+    writing = number_writing(placement, buffer, theme, samples)
+    if writing is None:
+        return region
+    font, height, width, top = writing
+    digit = QFontMetricsF(font).horizontalAdvance("0")
+    for column, row in cells:
+        if buffer.is_known(column, row):
+            lines = buffer.lines_at(column, row, 4, width)
+            across = max(len(line) for line in lines) * digit
+            middle = placement.cells_rect(column, row).center()
+            box = QRectF(middle.x() - across / 2, middle.y() + top, across, height * len(lines))
+            region += QRegion(box.toAlignedRect())
+    return region
 
 
 def _is_light(color: QColor, backdrop: QColor) -> bool:
@@ -267,14 +311,6 @@ def paint_hidden(
         for rect in rects:
             painter.drawText(rect, Qt.AlignmentFlag.AlignCenter, "?")
     painter.restore()
-
-
-def centres_are_free(placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> bool:
-    """Return whether no number is written over the sample centres."""
-    size = _number_size(placement, buffer, theme)
-    if size is None or buffer.kind == "bool":
-        return True
-    return _stands_below(placement, buffer.channels, QFontMetricsF(text_font(theme, size)).height() * 0.95)
 
 
 def ruler_size(rows: int, theme: Theme) -> tuple[int, int]:

@@ -14,10 +14,10 @@ from PySide6.QtWidgets import QApplication, QWidget
 from tests.widgets.grid.pixel_grids import LEFT, TRIANGLE, at, color_at, picture, shown_grid, wheel
 from widgets.basics.theme import current_theme
 from widgets.grid.buffer import GridBuffer
-from widgets.grid.geometry import GridGeometry, handle_part
+from widgets.grid.geometry import GridGeometry, handle_part, name_boxes
 from widgets.grid.marks import StepMark
 from widgets.grid.overlay import Mark, MaskOverlay
-from widgets.grid.paint import ruler_labels
+from widgets.grid.paint import number_boxes, ruler_labels
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import FIT, GridView
 
@@ -393,3 +393,44 @@ def test_a_table_of_whole_numbers_is_written_large(grid: PixelGrid) -> None:
             len({y for y in range(cell.height()) if len({cell.pixel(x, y) for x in range(cell.width())}) > 1})
         )
     assert inked[1] > inked[0]
+
+
+def test_no_mark_of_a_step_strikes_out_what_is_written(qtbot) -> None:
+    widget = PixelGrid()
+    qtbot.addWidget(widget)
+    widget.resize(500, 500)
+    widget.show_buffer(GridBuffer("z", np.full((8, 8), 5.0)))
+    geometry = GridGeometry(np.array([[1.0, 1.0], [7.0, 1.5], [3.0, 7.0]]), np.array([[0, 1, 2]]))
+    widget.show_geometry(geometry)
+    theme, placement = current_theme(), widget.placement()
+    trail = np.array([[0, 6], [5, 6], [0, 4]])
+    mark = StepMark(lines=np.array([[[0.0, 0.6], [8.0, 0.6]]]), trail=trail)
+    buffer = widget.buffer()
+    assert buffer is not None
+    written = [box.toRect() for box, _, _ in name_boxes(placement, geometry, theme)]
+    assert len(written) == 6
+    written += [*number_boxes(placement, buffer, theme, mark.crossed())]
+    before = picture(widget)
+    widget.show_step(mark)
+    after = picture(widget)
+    assert after != before
+    for box in written:
+        assert after.copy(box) == before.copy(box)
+
+
+def test_a_first_whole_number_leaves_no_centre_in_other_cells(qtbot) -> None:
+    known = np.zeros((6, 6), bool)
+    values = np.full((6, 6), 0.0)
+    pictures = []
+    for is_stepped in (True, False):
+        widget = PixelGrid()
+        qtbot.addWidget(widget)
+        widget.resize(360, 360)
+        if is_stepped:
+            widget.show_buffer(GridBuffer("z", values, known=known, range=(0.0, 7.0)))
+            picture(widget)
+        after, is_known = values.copy(), known.copy()
+        after[5, 0], is_known[5, 0] = 7.0, True
+        widget.show_buffer(GridBuffer("z", after, known=is_known, range=(0.0, 7.0)))
+        pictures.append(picture(widget))
+    assert pictures[0] == pictures[1]
