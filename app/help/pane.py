@@ -132,7 +132,7 @@ class HelpPane(QObject):
 
     @Slot()
     def _widen(self) -> None:
-        width = min(self.view.sizeHint().width(), self.window.width() * 2 // 5)
+        width = min(self.view.sizeHint().width(), self.window.width() // 3)
         self.window.resizeDocks([self._made()], [width], Qt.Orientation.Horizontal)
 
     # What is asked for on the page.

@@ -204,7 +204,7 @@ class Pages(QWidget):
             Qt.FocusPolicy.NoFocus
         )  # Its keys are actions; the arrows belong to the page.
         self._stack = QStackedWidget(self)
-        self._cover = text_label(COVERED, self, role="muted")
+        self._cover = text_label(COVERED, self, role="muted", wraps=True)
         self._cover.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._cover.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self._stack.addWidget(self._cover)

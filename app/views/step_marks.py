@@ -35,12 +35,13 @@ def step_marks(session: Session, space: ViewSpace) -> list[SpaceMark]:
     stage, position = session.cursor.stage, session.cursor.position
     if stage == "transform":
         return _corner_marks(session, space, position)
+    marks = _point_marks(session, space)
     if stage == "cull":
-        return _facing_marks(session, space, position)
+        return marks + _facing_marks(session, space, position)
     row, _ = session.stage_trace.steps.row_at(position)
     if row < 0 or (stage not in GEOMETRY_STAGES and stage != "bin"):
-        return []
-    return _outlines(space, int(session.stage_trace.triangle[row]))
+        return marks
+    return marks + _outlines(space, int(session.stage_trace.triangle[row]))
 
 
 def is_scene_lit(session: Session) -> bool:
@@ -49,6 +50,15 @@ def is_scene_lit(session: Session) -> bool:
     if stage != "shade":
         return STAGES.index(stage) > STAGES.index("shade")
     return session.cursor.position == session.stage_trace.steps.count
+
+
+def _point_marks(session: Session, space: ViewSpace) -> list[SpaceMark]:
+    """Return a disc on every point that has not been dropped: the picture has a single pixel of it."""
+    assembled, cursor = session.trace.source.geometry.assembled.triangle, session.cursor
+    if session.document.scene.corner_count != 1 or len(assembled) > MOST_MARKS:
+        return []
+    left = assembled[~is_dropped(session.trace, cursor.stage, cursor.position)]
+    return [SpaceMark(space.corners(number)[:1], "text", shape="disc") for number in left.tolist()]
 
 
 def _corner_marks(session: Session, space: ViewSpace, position: int) -> list[SpaceMark]:
@@ -80,7 +90,7 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     """
     source, trace = session.trace.source, session.stage_trace
     culled, triangles = source.geometry.culled, source.geometry.assembled.triangle
-    row, _ = trace.steps.row_at(position)
+    row, done = trace.steps.row_at(position)
     tested = int(np.searchsorted(trace.steps.triangle_ends, trace.steps.rows_done(position), "right"))
     current = -1 if row < 0 else int(np.flatnonzero(triangles == trace.triangle[row])[0])
     kept = np.flatnonzero(culled.verdict[: min(tested, len(triangles))] == KEPT)
@@ -96,10 +106,14 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     marks += _outlines(space, triangle)
     facing = float(culled.side[current])
     what = f"area {facing / 2:+.4g}" if culled.sight is None else f"N · V {-facing:+.4g}"
+    operations = [operation.name for operation in trace.steps.operations.get(kind, ())]
+    is_known = culled.sight is None or kind == "kept" or "product" in operations[: done + 1]
     side = f"front, {what}" if facing > 0 else f"back, {what}"
     if is_dropped(session.trace, "cull", position)[current]:
         label = f"{name}: dropped, {REASONS[int(culled.verdict[current])].replace('-', ' ')}"
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label, "cross"))
+    elif not is_known:
+        marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", name))
     elif kind not in ("behind", "plane") and source.scene.corner_count == 3:
         marks.append(_arrow(space, triangle, facing, "accent", f"{name}: {side}"))
     else:

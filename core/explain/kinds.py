@@ -47,6 +47,7 @@ _WORDS = {
         (r"vertices 1 and 2 are", "end 1 is"),
         (r"\ba corner", "an end"),
         (r"vertices", "ends"),
+        (r"\ba vertex", "an end"),
         (r"vertex(?! \d+ of)", "end"),
         (r"edge 2 of triangle|triangle", "segment"),
         (r"(the )?edge 2\b", "the segment"),

@@ -61,7 +61,7 @@ class HelpView(QWidget):
         self.forward_button = flat_button("→", "Forward", "Forward again", self)
         self.home_button = flat_button("⌂", "Contents of Help", "Contents: guide, glossary, methods", self)
         self.search = QLineEdit(self)
-        self.search.setPlaceholderText("Find a term, a method or a key")
+        self.search.setPlaceholderText("Term, method or key")
         self.search.setAccessibleName("Find in Help")
         self.search.setClearButtonEnabled(True)
         self.close_button = closing_button("Help", self)

@@ -1,6 +1,6 @@
 """A table that fills as a stage is stepped: the cells of the step stand out, each leads to the step that made it."""
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, Qt, Signal, Slot
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QAction,
     QColor,
@@ -8,6 +8,7 @@ from PySide6.QtGui import (
     QKeySequence,
     QPainter,
     QPaintEvent,
+    QResizeEvent,
     QStandardItem,
     QStandardItemModel,
 )
@@ -31,8 +32,11 @@ from widgets.basics.typed_value import tabular_font
 EMPTY = "The numbers of each step appear here."
 _POSITION = int(Qt.ItemDataRole.UserRole)
 _FULL, _MADE, _HERE = _POSITION + 1, _POSITION + 2, _POSITION + 3
-_MARK_WIDTH = 4
-NUMBER, PADDING = "−0.0000", 8
+_MARK_WIDTH, _MARK_ROOM = 4, 6
+"""Pixels of the bar before a cell, and what is left free for it before every text."""
+_WIDE = 40
+"""Width, in heights of the text, from which what a step decides takes two lines."""
+NUMBER, PADDING = "0.0000", 8 + _MARK_ROOM
 """A number of usual length, and pixels around each."""
 
 
@@ -42,7 +46,9 @@ class _CellDelegate(QStyledItemDelegate):
     def paint(
         self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
     ) -> None:
-        super().paint(painter, option, index)
+        text = QStyleOptionViewItem(option)
+        text.rect = option.rect.adjusted(_MARK_ROOM, 0, 0, 0)
+        super().paint(painter, text, index)
         accent = QColor(current_theme().accent)
         if index.data(_MADE):
             bar = option.rect.adjusted(1, 3, 0, -3)
@@ -51,6 +57,10 @@ class _CellDelegate(QStyledItemDelegate):
         if index.data(_HERE):
             line = QRect(option.rect.left(), option.rect.bottom() - 1, option.rect.width(), 2)
             painter.fillRect(line, accent)
+
+    def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
+        """Return the size of a text, with room for the bar before it."""
+        return super().sizeHint(option, index) + QSize(_MARK_ROOM, 0)
 
 
 class _Cells(QTableView):
@@ -140,13 +150,18 @@ class StepTableView(QWidget):
         theme_notifier().theme_changed.connect(self._follow_theme)
         self.show_table(None)
 
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep room for what the longest steps decide, so that the table keeps its place."""
+        super().resizeEvent(event)
+        lines = 2 if self.width() >= _WIDE * current_theme().text_px else 3
+        self._note.setMinimumHeight(lines * self._note.fontMetrics().lineSpacing())
+
     def show_table(self, table: StepTable | None) -> None:
         """Show a table as it is after a step; ``None``: nothing yet."""
         self._table = table
         shown = table or StepTable("", "", (), (), ())
         self._title.setText(shown.title)
         self._note.setText(shown.note)
-        self._note.setMinimumHeight(3 * self._note.fontMetrics().lineSpacing())
         self.cells.setAccessibleName(shown.title or "Table")
         self.cells.setAccessibleDescription(shown.note)
         self.cells.show_cells(shown)

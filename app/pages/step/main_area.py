@@ -214,6 +214,9 @@ class MainArea(QWidget):
         self._sides.setDirection(
             QBoxLayout.Direction.TopToBottom if is_stacked else QBoxLayout.Direction.LeftToRight
         )
+        for side, share in enumerate((3, 2) if is_stacked and not companion.is_alike else (1, 1)):
+            # A table below the picture scrolls: the picture is what the step is about.
+            self._sides.setStretch(side, share)
         self._main_title.setVisible(companion.is_alike)
         if self._session.is_predicting:
             # It keeps its place, so that the main view keeps its own.

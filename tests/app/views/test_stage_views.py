@@ -12,8 +12,9 @@ from app.session.session import Session
 from app.views.pointed_pixel import shown_triangle
 from app.views.scene_picture import fractions
 from app.views.stage_views import StageViews
+from app.views.step_marks import step_marks
 from app.views.texture_footprint import no_texture_reason
-from app.views.view_space import thinned, viewed_scene, viewing_camera
+from app.views.view_space import make_space, thinned, viewed_scene, viewing_camera
 from core import Settings, render
 from core.fast_path.workers import BandWorkers
 from core.geometry.vertex_stage import transform_vertices
@@ -380,3 +381,31 @@ def test_looking_at_the_focus_fills_the_view_with_it(show, qtbot):
     places = np.array([(handle.x, handle.y) for handle in widget.picture().handles])
     assert ((places > 0) & (places < 1)).all()
     assert np.ptp(places, axis=0).max() > 0.2
+
+
+def test_a_mark_of_culling_tells_nothing_before_its_step(show):
+    session, _, _ = show("scene", "cube", cull="back-normal")
+    session.set_stage("cull", 0)
+    space = make_space(session.document.traced_scene, session.trace.source.geometry.vertices)
+    steps, told = session.stage_trace.steps, []
+    for position in range(1, int(steps.triangle_ends[1]) + 20):
+        session.go_to(position)
+        row, done = steps.row_at(position)
+        kind = session.stage_trace.kind_of(row)
+        labels = [mark.label for mark in step_marks(session, space) if "N · V" in mark.label]
+        told.append((kind, done, bool(labels)))
+    assert {(kind, done) for kind, done, is_told in told if is_told and kind == "back-normal"} == {
+        ("back-normal", 2),
+        ("back-normal", 3),
+    }
+    assert not any(is_told for kind, _, is_told in told if kind in ("behind", "plane", "degenerate"))
+
+
+def test_points_stay_in_sight_until_they_are_dropped(show):
+    session, _, _ = show("scene", "points")
+    space = make_space(session.document.traced_scene, session.trace.source.geometry.vertices)
+    counts = []
+    for stage, position in (("cull", 0), ("cull", None), ("raster", 0)):
+        session.set_stage(stage, position)
+        counts.append(sum(mark.shape == "disc" for mark in step_marks(session, space)))
+    assert counts == [5, 4, 4]

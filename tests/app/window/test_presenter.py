@@ -40,6 +40,7 @@ def test_type_and_picture_are_as_large_as_a_lecture_hall_needs(
     page, height = window.page, size[1]
     assert (window.width(), window.height()) == size
     picture = page.main_view()
+    assert window.pages.minimumSizeHint().width() <= 0.6 * size[0], "Help needs a third of the width"
     assert picture.width() * picture.height() >= 0.55 * size[0] * size[1]
     page.sentence.setText("H")
     page.formula.show_formula(Formula("E", ""))

@@ -1,10 +1,11 @@
 """The widget of a table that fills: cells, what a screen reader hears, copying, and the way to the step of a number."""
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QGuiApplication
+from PySide6.QtGui import QColor, QGuiApplication
 from pytestqt.qtbot import QtBot
 
 from core.records.tables import StepTable, TableCell, TableColumn
+from widgets.basics.theme import current_theme
 from widgets.tables.step_table_view import StepTableView
 
 COLUMNS = (TableColumn("p", "Speed."), TableColumn("q", "Room."))
@@ -44,3 +45,22 @@ def test_it_is_copied_with_all_digits(qtbot: QtBot) -> None:
     assert QGuiApplication.clipboard().text() == "Borders\nBorder\tp\tq\nleft\t0.3333333333333333\t\nKept.\n"
     view.show_table(None)
     assert view.cells.model().rowCount() == 0
+
+
+def test_the_bar_of_a_step_covers_no_digit(qtbot: QtBot) -> None:
+    view = StepTableView()
+    qtbot.addWidget(view)
+    view.resize(300, 300)
+    cell = TableCell("−1.671875", "−1.671875", 4)
+    view.show_table(table((cell, None), (cell, None)))
+    picture = view.cells.viewport().grab().toImage()
+    made, other = (view.cells.visualRect(view.cells.model().index(row, 0)) for row in (0, 1))
+    accent = QColor(current_theme().accent)
+    bar = [x for x in range(made.width()) if picture.pixelColor(made.left() + x, made.center().y()) == accent]
+    assert bar
+    ground = {
+        picture.pixel(other.left() + x, y)
+        for x in range(bar[-1] + 2)
+        for y in range(other.top() + 2, other.bottom() - 2)
+    }
+    assert len(ground) == 1, "digits begin beside the place of the bar"
