@@ -159,6 +159,11 @@ def shade(albedo: Floats, diffuse_light: Floats, specular_light: Floats) -> Floa
     return rows.T
 
 
+def unlit_color(albedo: Sequence[float]) -> tuple[float, ...]:
+    """Return the colour of one fragment without texture and light (listing of `shade`)."""
+    return tuple(albedo)  #: color
+
+
 def shaded_color(
     albedo: Sequence[float], diffuse_light: Sequence[float], specular_light: Sequence[float]
 ) -> tuple[float, ...]:

@@ -50,6 +50,11 @@ def blend_traits(blend: str) -> BlendTraits:
     return traits
 
 
+def opaque_pixel(source: Sequence[float]) -> list[np.float32]:
+    """Return the colour of a pixel after one fragment (listing of `opaque`)."""
+    return [np.float32(value) for value in source]  #: store
+
+
 @method(
     "blend",
     "opaque",
@@ -57,6 +62,7 @@ def blend_traits(blend: str) -> BlendTraits:
     source="OpenGL 4.6 without GL_BLEND",
     exact_for="opaque surfaces",
     breaks_where="alpha below 1: it is stored, but the surface hides everything behind it",
+    listing=opaque_pixel,
     operations={"opaque": (Operation("write", "store", ("source", "before", "after")),)},
     traits=BlendTraits(False, lambda alpha: np.ones(alpha.shape, bool)),
 )

@@ -119,6 +119,16 @@ def not_behind_eye(inverse_w: Floats) -> Singles:
     return as_float32(np.fmax(inverse_w, 0.0))
 
 
+def depth_as_float32(depth: float) -> np.float32:
+    """Listing of a window depth as it is stored."""
+    return np.float32(depth)  #: round
+
+
+def inverse_w_as_float32(inverse_w: float) -> np.float32:
+    """Listing of 1/w as it is stored: behind the eye it is 0."""
+    return np.float32(inverse_w if inverse_w > 0 else 0.0)  #: round
+
+
 @method(
     "depth",
     "z-float32",
@@ -126,6 +136,7 @@ def not_behind_eye(inverse_w: Floats) -> Singles:
     source="OpenGL 4.6, DEPTH_COMPONENT32F; Pellacini, which z distance",
     exact_for="depth order, to the spacing of float32",
     breaks_where="surfaces near the far plane: values crowd towards 1",
+    listing=depth_as_float32,
 )
 def z_float32() -> DepthFormat:
     """Store the window depth."""
@@ -141,6 +152,7 @@ def z_float32() -> DepthFormat:
     exact_for="depth order, to the spacing of float32",
     breaks_where="orthographic cameras: 1/w is constant",
     needs=("perspective",),
+    listing=inverse_w_as_float32,
 )
 def inverse_w() -> DepthFormat:
     """Store 1/w, which is linear over the window; larger is nearer.

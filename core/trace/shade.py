@@ -7,7 +7,7 @@ import numpy as np
 
 from core.fragments.level_of_detail import level_of_detail
 from core.fragments.lighting import Lighting, blinn_phong, trace_lighting
-from core.fragments.shading import shaded_color
+from core.fragments.shading import shaded_color, unlit_color
 from core.fragments.textures import uses_mipmaps
 from core.methods import table
 from core.records.arrays import Floats, Integers
@@ -149,7 +149,7 @@ def _of_lights(label: str) -> Labels:
 
 def _operations(source: TraceSource, has_normals: bool) -> dict[str, tuple[Operation, ...]]:
     """Return what a row of each kind does."""
-    plain = (Operation("color", "", ("albedo", "color")),)
+    plain = (Operation("color", "color", ("albedo", "color")),)
     texture = (
         *texture_operations(source.settings.texture_filter),
         Operation("albedo", "color", ("albedo",)),
@@ -184,7 +184,7 @@ def _listings(source: TraceSource, has_normals: bool) -> dict[str, Listing]:
         "interpolated": light,
         "product": product,
     }
-    found = {"plain": product, "textured": texture, "lit": product, "textured-lit": texture}
+    found = {"plain": listing(unlit_color), "textured": texture, "lit": product, "textured-lit": texture}
     if uses_mipmaps(texture_filter):
         for kind in ("textured", "textured-lit"):
             found[f"{kind}.slopes"] = listing(SLOPE_LISTINGS[slope_kind(source)])

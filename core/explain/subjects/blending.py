@@ -20,7 +20,13 @@ def red(step: StepValues) -> Asked | None:
 def opaque(step: StepValues) -> Said:
     """A colour that replaces another."""
     after, before = (vector_text(step.vector(name)) for name in ("after", "before"))
-    return f"{step.pixel_name}: the fragment's colour {after} replaces {before}."
+    channel = _channel(step)
+    parts = (
+        (channel_symbol(name, channel), step.vector(of)[channel])
+        for name, of in (("new", "after"), ("source", "source"))
+    )
+    new, source = parts
+    return f"{step.pixel_name}: the fragment's colour {after} replaces {before}.", equation(new, "=", source)
 
 
 @explains("blend.over|line-over.source")

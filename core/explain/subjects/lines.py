@@ -260,7 +260,7 @@ def plotted(step: StepValues) -> Said:
         where = f"lies {at} of {edge}"
     text, t = f"{step.pixel_name} {drawn}: its centre {where}.", step.number("t")
     if not length:
-        return text, equation(("t", t))
+        return (text, equation(("t", t))) if start != end else text
     above = difference((axis, center), (f"{axis}_0", start[k]))
     symbols, numbers = fraction(above, difference((f"{axis}_1", end[k]), (f"{axis}_0", start[k])))
     if along != t:

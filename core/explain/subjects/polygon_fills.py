@@ -3,7 +3,7 @@
 import math
 
 from core.explain.digits import number_latex, signed_latex, spoken
-from core.explain.equation import Part, beside, conclusion, equation
+from core.explain.equation import Part, beside, conclusion, equation, relation
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -172,7 +172,9 @@ def draws(step: StepValues) -> Said:
         step.pixel[0] + step.number("center"),
     )
     tie = ", exactly on the left edge, which owns it" if x == left else ""
-    return f"{step.pixel_name} is covered: its centre x = {spoken(x)} lies from {spoken(left)} to {spoken(right)}{tie}."
+    text = f"{step.pixel_name} is covered: its centre x = {spoken(x)} lies from {spoken(left)} to {spoken(right)}{tie}."
+    ends = (r"x_{\mathrm{left}}", left), (r"x_{\mathrm{right}}", right)
+    return text, equation(ends[0], (r"\le", relation(left, x)), ("x", x), (r"<", relation(x, right)), ends[1])
 
 
 shows(

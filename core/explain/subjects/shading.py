@@ -5,7 +5,7 @@ Formulas of colours have the channel that is strongest; the other channels follo
 
 from collections.abc import Sequence
 
-from core.explain.digits import signed_latex, spoken, vector_text
+from core.explain.digits import number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import (
     CHANNEL_LETTERS,
     Part,
@@ -15,6 +15,7 @@ from core.explain.equation import (
     outstanding,
     vector_latex,
 )
+from core.explain.records import Formula
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows
@@ -24,13 +25,23 @@ from core.records.words import joined, noun_of
 @explains("shade.plain.color")
 def plain(step: StepValues) -> Said:
     """Colour without texture and light."""
-    return f"{step.pixel_name}: its colour is the interpolated {vector_text(step.vector('color'))}."
+    text = f"{step.pixel_name}: its colour is the interpolated {vector_text(step.vector('color'))}."
+    return text, _without_light(step)
 
 
 @explains("shade.textured.color")
 def unlit(step: StepValues) -> Said:
     """Colour of an unlit textured fragment."""
-    return f"{step.pixel_name}: its colour is {vector_text(step.vector('color'))}, as no light is computed."
+    text = f"{step.pixel_name}: its colour is {vector_text(step.vector('color'))}, as no light is computed."
+    return text, _without_light(step)
+
+
+def _without_light(step: StepValues) -> Formula:
+    """Return the colour that is the albedo."""
+    color, albedo = step.vector("color"), step.vector("albedo")
+    channel = outstanding(color[:3])
+    names = (channel_symbol(name, channel) for name in ("colour", "albedo"))
+    return equation((next(names), color[channel]), "=", (next(names), albedo[channel]))
 
 
 @explains("shade.lit.albedo")
@@ -66,24 +77,29 @@ def normal(step: StepValues) -> Said:
 
 
 def _dot(other: str, value: float, first: Sequence[float], second: Sequence[float]) -> list[Part]:
-    products = " + ".join(
-        rf"{signed_latex(a)} \cdot {signed_latex(b)}" for a, b in zip(first, second, strict=True)
-    )
-    return [(rf"N \cdot {other}", value), "=", (rf"N^T {other}", products)]
+    """Return a product of two directions, term by term: a long line breaks between them."""
+    parts: list[Part] = [(rf"N \cdot {other}", value), "="]
+    for k, axis in enumerate("xyz"):
+        parts += ["+"] if k else []
+        parts.append(
+            (rf"N_{axis} {other}_{axis}", rf"{number_latex(first[k])} \cdot {signed_latex(second[k])}")
+        )
+    return parts
 
 
 @explains("shade.*.cosines")
 def cosines(step: StepValues) -> Said:
-    """The cosines of every light."""
+    """The cosines of every light; the formula has those of the light that stands highest."""
     n, n_dot_l, n_dot_h = (step.vector(name) for name in ("normal", "n_dot_l", "n_dot_h"))
     if not n_dot_l:
         return f"{step.pixel_name}: there is no light, so no cosine to compute."
-    texts, products = [], []
+    texts, highest = [], max(range(len(n_dot_l)), key=n_dot_l.__getitem__)
     lights = zip(n_dot_l, n_dot_h, step.rows("to_light"), step.rows("half"), strict=True)
     for number, (of_light, of_half, to_light, half) in enumerate(lights):
         side = "" if of_light > 0 else ", so it does not reach this side"
         texts.append(f"light {number} has N·L = {spoken(of_light)} and N·H = {spoken(of_half)}{side}")
-        products += [_dot("L", of_light, n, to_light), _dot("H", of_half, n, half)]
+        if number == highest:
+            products = _dot("L", of_light, n, to_light), _dot("H", of_half, n, half)
     return f"{step.pixel_name}: {'; '.join(texts)}.", equation(*beside(*products))
 
 

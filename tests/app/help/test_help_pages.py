@@ -71,7 +71,6 @@ def test_a_reference_page_has_every_field() -> None:
 def test_methods_that_compute_something_have_a_listing() -> None:
     without = {f"{method.family}={method.name}" for method in table if not listings_of(method)}
     assert without == {
-        "blend=opaque",
         "clipping=homogeneous",
         "line_clipping=none",
         "polygon_clipping=none",

@@ -76,8 +76,7 @@ def test_questions_are_finished_and_have_the_right_answer() -> None:
 
 UNMARKED = {
     *("edges.homogeneous.keep", "edges.orientation.area", "clip.untouched.keep", "bin.whole-image.keep"),
-    "raster.accept.accept",
-    *("depth.test.depth", "depth.cell.depth", "depth.store.depth", "shade.plain.color", "blend.opaque.write"),
+    *("raster.accept.accept", "depth.cell.depth", "depth.store.depth"),
 }
 """Operations that no line of a listing does: what they do is to copy, or to take what is known already."""
 

@@ -2,9 +2,7 @@
 
 from math import isnan
 
-import numpy as np
-
-from core.framebuffer.blending import additive_pixel, over_pixel
+from core.framebuffer.blending import additive_pixel, opaque_pixel, over_pixel
 from core.framebuffer.depth import depth_in_range, depth_test, store_depth
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.trace import StageTrace, Trace
@@ -74,7 +72,9 @@ def check_stored(found: StageTrace, kind: str) -> None:
         if making is not None:
             assert rounding.function(c["value"][row]) == c["stored"][row]
         elif rounding is not None:
-            assert rounding.function(float(c["depth"][row]), constants["scale"]) == c["stored"][row]
+            scale = [constants[name] for name in ("scale",) if name in constants]
+            depth = c["inverse_w" if constants["quantity"] == "inverse-w" else "depth"][row]
+            assert equal(rounding.function(float(depth), *scale), c["stored"][row])
 
 
 def check_keys(found: StageTrace) -> None:
@@ -92,8 +92,7 @@ def check_blend(traced: Trace) -> None:
     found = traced.stage("blend")
     c = found.columns
     for row in rows_of_kind(found, traced.source.settings.blend):
-        scalar = {"over": over_pixel, "additive": additive_pixel}.get(traced.source.settings.blend)
-        if scalar is not None:
-            assert equal(scalar(c["source"][row], c["before"][row]), c["after"][row])
-        else:
-            assert equal(c["source"][row].astype(np.float32), c["after"][row])
+        mixing = {"over": over_pixel, "additive": additive_pixel}.get(traced.source.settings.blend)
+        source = c["source"][row]
+        made = opaque_pixel(source) if mixing is None else mixing(source, c["before"][row])
+        assert equal(made, c["after"][row])

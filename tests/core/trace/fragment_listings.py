@@ -11,7 +11,7 @@ from core.fragments.interpolation import interpolate_affine_at, interpolate_at, 
 from core.fragments.level_of_detail import level_of_detail, mipmap_color, nearest_mipmap_color
 from core.fragments.lighting import blinn_phong
 from core.fragments.mipmaps import mipmap_levels
-from core.fragments.shading import shaded_color
+from core.fragments.shading import shaded_color, unlit_color
 from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
 from core.fragments.uv_slopes import slopes_at, slopes_of_one_value
 from core.methods import table
@@ -78,9 +78,10 @@ def check_shade(traced: Trace) -> None:
         for row in rows_of_kind(found, kind):
             color = shaded_color(c["albedo"][row], c["diffuse_light"][row], c["specular_light"][row])
             assert equal(color, c["color"][row])
-    for kind in ("plain", "textured"):
-        rows = list(rows_of_kind(found, kind))
-        assert equal(c["albedo"][rows], c["color"][rows])
+    for row in rows_of_kind(found, "plain"):
+        assert equal(unlit_color(c["albedo"][row]), c["color"][row])
+    rows = list(rows_of_kind(found, "textured"))
+    assert equal(c["albedo"][rows], c["color"][rows])
     if "normal" in layout:
         check_light(traced, found)
 
