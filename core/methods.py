@@ -42,7 +42,7 @@ class Method:
     breaks_where: str = ""
     """Where it does not; empty: nowhere."""
     needs: tuple[str, ...] = ()
-    """What must hold of the input: ``positive-w``, ``projected``, ``perspective``, ``float64-edges``."""
+    """What must hold of the input: names of `core.stages.needs.NEEDS`, which says for which scenes it does not."""
     takes: tuple[str, ...] = ()
     """Other settings that it takes, beside those that every method of its family does: ``block_size``."""
     listing: Callable[..., Any] | None = None

@@ -9,7 +9,7 @@ import numpy as np
 
 from core.records.arrays import Floats, Integers, Singles, checked, checked_size, read_only
 from core.records.cached import cached_property
-from core.records.clip_region import checked_polygon_region, checked_region, is_convex, region_in_window
+from core.records.clip_region import checked_polygon_region, checked_region
 from core.records.depth_table import DepthTable
 from core.records.rings import checked_rings
 
@@ -327,16 +327,6 @@ class ClipScene:
         """(T,) int64, the number that each primitive goes by: of fragments that of their patch."""
         own = np.arange(len(self.clip)) if self.table is None or self.shared is None else self.shared[:, 0]
         return read_only(own)
-
-    @property
-    def has_convex_region(self) -> bool:
-        """Whether polygons are clipped to a convex region, whichever way it runs: the raster is one."""
-        region = self.clip_region
-        if region is None or region.ndim == 1:
-            return True
-        if self.region_rings is not None and len(self.region_rings) > 1:
-            return False
-        return is_convex(region_in_window(region, self.size))
 
     def _check_polygons(self) -> None:
         """Refuse polygons without a place in the window, and rings that are none."""

@@ -35,7 +35,7 @@ from app.files.state_scenes import (
 from app.session.document import Document, TeachingRaster
 from core.scene import AnyScene
 from core.settings import settings_from_texts, settings_record
-from core.stages.vertices import check_needs
+from core.stages.needs import check_needs
 from core.trace.conditions import parse_condition
 
 __all__ = ["EXTENSION", "OutsideSourceError", "State", "StateFileError", "load_state", "save_state"]

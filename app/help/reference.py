@@ -11,6 +11,7 @@ from core.methods import Method, table
 from core.records.listing import listing
 from core.settings import DEFAULTS, FAMILIES, FIELDS
 from core.stages.declared import DECLARED, stage_of
+from core.stages.needs import NEEDS
 from core.study.accuracy.families import study_families
 from core.study.stability import experiments
 from lessons.glossary import find_terms
@@ -32,17 +33,6 @@ TOGETHER = {
     "resolve_filter": {"antialiasing": "ssaa-4"},
 }
 """Other settings with which the methods of a family do something."""
-NEEDS = {
-    "positive-w": "all corners in front of the eye (w > 0), which clipping provides",
-    "projected": "corners divided by w",
-    "perspective": "a perspective camera",
-    "float64-edges": "edge functions in float64",
-    "mipmaps": "mipmaps of the texture",
-    "blending": "blending",
-    "rectangle": "a rectangle for each line",
-    "convex-window": "a convex clip window",
-}
-"""What a method needs, in words."""
 NO_LISTING = "It has no listing."
 
 
@@ -75,7 +65,7 @@ def family_page(name: str) -> HelpPage:
 def method_page(name: str, method_name: str) -> HelpPage:
     """Return the page of a method: source, where it is exact and where it breaks, listing, chart and map."""
     method, family = table.get(name, method_name), FAMILIES[name]
-    needs = ", ".join(NEEDS[need] for need in method.needs)
+    needs = ", ".join(NEEDS[need].noun for need in method.needs)
     takes = ", ".join(FIELDS[taken].title for taken in method.takes)
     rows = [
         ("Family", f"{_family_link(name)}, stage {link(f'do:stage/{family.stage}', _stage_title(family))}"),

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.geometry.ring_clipping.records import ClippedPolygon
+from core.geometry.vertex_stage import VertexStage
 from core.methods import table
 from core.records.arrays import Floats, Integers
 from core.records.clip_region import DIGITS, region_in_window
@@ -25,52 +26,39 @@ class PolygonClip:
     """All that is left, in the window."""
 
 
-def region_rings_in_window(
-    region: Floats | None, region_rings: Integers | None, size: tuple[int, int], center: float
-) -> list[Floats]:
+def region_in_pixels(vertices: VertexStage, center: float) -> list[Floats]:
     """Return the rings (M, 2) of the region that polygons are clipped to, in pixels; see `clip_polygons`."""
-    first = center - 0.5
-    places = np.array([first, first, size[0] + first, size[1] + first])
-    if region is not None:
-        places = region_in_window(region, size)
+    if vertices.clip_region is None:
+        first = center - 0.5
+        places = np.array([first, first, vertices.size[0] + first, vertices.size[1] + first])
+    else:
+        places = region_in_window(vertices.clip_region, vertices.size)
     if places.ndim == 2:
-        return np.split(places, region_rings[1:] if region_rings is not None else [])
+        return np.split(places, [] if vertices.region_rings is None else vertices.region_rings[1:])
     left, bottom, right, top = places
     return [np.array([[left, bottom], [right, bottom], [right, top], [left, top]])]
 
 
-def clip_polygons(
-    whole: Rings,
-    count: int,
-    method: str,
-    size: tuple[int, int],
-    center: float,
-    region: Floats | None,
-    region_rings: Integers | None,
-) -> PolygonClip:
-    """Clip polygons to the pixels of a raster, or to another region.
+def polygons_in_pixels(vertices: VertexStage, polygon: Integers) -> Rings:
+    """Return the rings of polygons (P,) in pixels, corners rounded as those of the region are."""
+    whole = vertices.rings_of(polygon)
+    return Rings(np.round(whole.corners, DIGITS), whole.starts, whole.polygon)
+
+
+def clip_polygons(vertices: VertexStage, polygon: Integers, method: str, center: float) -> PolygonClip:
+    """Clip polygons to the clip window of their scene, or else to the pixels of the raster.
 
     Parameters
     ----------
-    whole : Rings
-    count : int
-        P, polygons.
+    vertices : VertexStage
+    polygon : (P,) int64
+        Which of its polygons.
     method : str
         A method of the family ``polygon_clipping``.
-    size : (width, height)
     center : float
         Coordinate of the centre of pixel 0: the raster begins half a pixel before it.
-    region : (4,) or (M, 2) float64, optional
-        ``clip_region`` of ``ClipScene``.
-    region_rings : (R,) int64, optional
-
-    Raises
-    ------
-    ValueError
-        If the method refuses the polygon or the region: each says what it needs.
     """
-    rings = region_rings_in_window(region, region_rings, size, center)
-    rounded = Rings(np.round(whole.corners, DIGITS), whole.starts, whole.polygon)
+    region, rounded = region_in_pixels(vertices, center), polygons_in_pixels(vertices, polygon)
     clip = table.get("polygon_clipping", method).function
-    clipped = tuple(clip(rounded.rings_of(polygon), rings) for polygon in range(count))
-    return PolygonClip(rounded, tuple(rings), clipped, join_rings([found.rings for found in clipped]))
+    clipped = tuple(clip(rounded.rings_of(number), region) for number in range(len(polygon)))
+    return PolygonClip(rounded, tuple(region), clipped, join_rings([found.rings for found in clipped]))

@@ -228,10 +228,8 @@ class Geometry:
             return None
         from core.stages.clipped_polygons import clip_polygons
 
-        vertices, method = self.vertices, self.settings.polygon_clipping
-        whole, center = vertices.rings_of(self.primitives.triangle), resolve(self.settings).center
-        region, rings = vertices.clip_region, vertices.region_rings
-        return clip_polygons(whole, len(self.primitives), method, vertices.size, center, region, rings)
+        method, center = self.settings.polygon_clipping, resolve(self.settings).center
+        return clip_polygons(self.vertices, self.primitives.triangle, method, center)
 
     @property
     def is_cut_to_pixels(self) -> bool:

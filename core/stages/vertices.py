@@ -21,15 +21,15 @@ from core.records.arrays import Flags, Floats, Integers
 from core.records.frame import StageCount
 from core.records.primitives import CornerValues, DrawingOrder, IndexedPrimitives, index_corners, own_corners
 from core.resolved import resolve
-from core.scene import AnyScene, ClipScene, Scene
+from core.scene import AnyScene, ClipScene
 from core.settings import Settings, families, no_effect
 from core.stages.declared import GEOMETRY_STAGES
 from core.stages.geometry import Geometry, all_projected, clipping_distances
+from core.stages.needs import check_needs
 
 __all__ = [
     "Geometry",
     "assemble",
-    "check_needs",
     "choose_clipping",
     "clip",
     "corner_values",
@@ -39,18 +39,6 @@ __all__ = [
     "place",
     "process_geometry",
 ]
-
-
-def check_needs(scene: AnyScene, settings: Settings) -> None:
-    """Refuse, with a sentence, a method that the scene cannot serve."""
-    if not isinstance(scene, Scene) or scene.camera.projection == "perspective":
-        return
-    for family in families():
-        chosen = resolve(settings).method(family)
-        if "perspective" in chosen.needs:
-            raise ValueError(
-                f"{family} {chosen.name} needs a perspective camera: 1/w is constant for an orthographic one"
-            )
 
 
 _last: list[tuple[AnyScene, Settings, Geometry, dict[str, StageCount]]] = []

@@ -1,29 +1,21 @@
 """Every method and every stage has all that the program asks of it; what one lacks is named here, and only here."""
 
+import re
 from importlib import import_module
 
 import numpy as np
 import pytest
 
-from core import ClipScene, Settings, Texture, trace
+from core import ClipScene, Settings, Texture, render, trace
 from core.explain.stage_texts import ACCOUNTS
 from core.explain.steps import row_of
 from core.methods import Method, table
 from core.records.listing import listing
-from core.settings import FAMILIES, FIELDS
+from core.settings import FAMILIES, FIELDS, no_effect
 from core.stages.declared import DECLARED, STAGES, Stage
+from core.stages.needs import NEEDS, refusal
 from tests.core.trace.trace_cases import SCENES
 
-NEEDS = {
-    "positive-w",
-    "projected",
-    "perspective",
-    "float64-edges",
-    "mipmaps",
-    "blending",
-    "rectangle",
-    "convex-window",
-}
 TRIANGLE = np.array([[[-0.8, -0.7, 0.1, 1.0], [1.6, -0.9, 0.4, 2.0], [-0.2, 1.2, 0.2, 1.5]]])
 PLAIN = ClipScene(TRIANGLE, np.ones((1, 3, 4)), (9, 7))
 TEXTURED = ClipScene(
@@ -72,6 +64,25 @@ def lacking(method: Method) -> list[str]:
             if isinstance(each.label, str) and each.label not in labels
         ]
     return found
+
+
+def test_what_a_menu_refuses_is_what_drawing_refuses_with_the_same_words() -> None:
+    refused = {
+        (name, method.family, method.name): reason
+        for name, scene in SCENES.items()
+        for method in table
+        if not no_effect(Settings(), method.family, scene)
+        and (reason := refusal(method.family, method.name, scene))
+    }
+    assert {
+        ("pentagram", "polygon_clipping", "weiler-atherton"),
+        ("weiler-atherton", "polygon_clipping", "sutherland-hodgman"),
+        ("orthographic", "depth", "inverse-w"),
+    } <= refused.keys()
+    for (scene, family, name), reason in refused.items():
+        assert name != getattr(Settings(), family), "a default that does not draw every scene"
+        with pytest.raises(ValueError, match=re.escape(f"{family} {name} {reason}")):
+            render(SCENES[scene], Settings(**{family: name}))
 
 
 def unexplained(method: Method) -> list[str]:

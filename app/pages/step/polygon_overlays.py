@@ -6,7 +6,7 @@ from app.pages.step.cut_overlays import cross_segments
 from core import STAGES
 from core.records.arrays import Floats
 from core.records.rings import Rings, join_rings
-from core.stages.clipped_polygons import region_rings_in_window
+from core.stages.clipped_polygons import region_in_pixels
 from core.trace import StageTrace, TraceSource
 from widgets.grid.overlay import Overlay, SegmentOverlay
 
@@ -21,10 +21,7 @@ def polygon_overlays(stage: StageTrace, source: TraceSource, position: int) -> l
     origin = np.array(source.raster.bounds[:2], float)
     found: list[Overlay] = []
     if place <= STAGES.index("raster") and (clip is not None or vertices.clip_region is not None):
-        region = region_rings_in_window(
-            vertices.clip_region, vertices.region_rings, vertices.size, source.raster.center
-        )
-        lines = ring_sides(join_rings([region])) - origin
+        lines = ring_sides(join_rings([region_in_pixels(vertices, source.raster.center)])) - origin
         found.append(SegmentOverlay("clip window", lines, title="clip window"))
     if clip is None:
         return found

@@ -12,9 +12,9 @@ from app.session.session import Session
 from core.explain.kinds import of_kind
 from core.families import WholeNumber
 from core.methods import table
-from core.scene import ClipScene, Scene
 from core.settings import DEFAULTS, FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
 from core.stages.declared import DECLARED, stage_of
+from core.stages.needs import refusal
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
 
@@ -155,14 +155,7 @@ def _choice(document: Document, family: str, name: str) -> SettingChoice:
     found = table.get(family, name)
     breaks = f"\nBreaks: {found.breaks_where}." if found.breaks_where else ""
     tooltip = f"{name}\nSource: {found.source}.\nExact for {found.exact_for}.{breaks}"
-    refusal = ""
-    scene = document.scene
-    is_orthographic = isinstance(scene, Scene) and scene.camera.projection == "orthographic"
-    if "perspective" in found.needs and is_orthographic:
-        refusal = "It needs a perspective camera: 1/w is constant for an orthographic one."
-    region = scene.clip_region if isinstance(scene, ClipScene) else None
-    if "rectangle" in found.needs and region is not None and region.ndim == 2:
-        refusal = "It needs a rectangle, and the clip window is a polygon."
-    if "convex-window" in found.needs and isinstance(scene, ClipScene) and not scene.has_convex_region:
-        refusal = "It needs a convex clip window."
-    return SettingChoice(name, found.title, tooltip, refusal, name not in FAMILIES[family].classical)
+    reason = refusal(family, name, document.scene)
+    return SettingChoice(
+        name, found.title, tooltip, reason and f"It {reason}.", name not in FAMILIES[family].classical
+    )

@@ -144,6 +144,7 @@ def _linked(
     source="Weiler and Atherton 1977; Zwicker 2016, Clipping",
     exact_for="polygons and regions with holes, convex or not, that touch in any way: rational arithmetic",
     breaks_where="rings that cross or touch each other or themselves: refused",
+    needs=("simple-rings",),
     listing=walk_listing,
     traits=RingClipTraits({"wa-ring": turned, "wa-crossing": find_crossings, "wa-whole": is_in_region}),
     operations={

@@ -8,6 +8,7 @@ import numpy as np
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture
 from core.methods import table
 from core.settings import FAMILIES, families
+from core.stages.needs import refusal
 from lessons.scenes import make_scene, scene_names
 from tests.covering import covering, in_turn, is_everything
 
@@ -209,19 +210,9 @@ def settings_of(choice: dict[str, str | int], scene: ClipScene | Scene) -> Setti
     possible = {
         family: name
         for family, name in choice.items()
-        if family not in FAMILIES or not _refuses(family, str(name), scene)
+        if family not in FAMILIES or not refusal(family, str(name), scene)
     }
     return Settings(**possible)  # type: ignore[arg-type]
-
-
-def _refuses(family: str, name: str, scene: ClipScene | Scene) -> bool:
-    """Return whether a method can't draw a scene: an orthographic camera, or polygons that it does not clip."""
-    needs = table.get(family, name).needs
-    if isinstance(scene, Scene):
-        return "perspective" in needs and scene.camera.projection == "orthographic"
-    if name == "weiler-atherton":
-        return scene is SCENES["pentagram"]
-    return "convex-window" in needs and not scene.has_convex_region
 
 
 def name_of(choice: object) -> str:

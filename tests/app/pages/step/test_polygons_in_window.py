@@ -97,6 +97,16 @@ def test_clipping_is_marked_step_by_step(window: MainWindow) -> None:
     assert lengths[-1] > lengths[0]
 
 
+def test_rings_that_cross_are_refused_by_weiler_atherton(window: MainWindow) -> None:
+    open_scene(window, "pentagram")
+    (record,) = (r for r in settings_records(window.session.document) if r.family == "polygon_clipping")
+    (choice,) = (choice for choice in record.choices if choice.refusal)
+    assert choice.value == "weiler-atherton"
+    assert choice.refusal.startswith("It needs rings that do not cross or touch: side 0 of ring 0")
+    with pytest.raises(ValueError, match="weiler-atherton needs rings that do not cross or touch: side 0"):
+        window.session.set_setting("polygon_clipping", "weiler-atherton")
+
+
 def test_a_window_that_is_not_convex_is_refused_by_sutherland_hodgman(window: MainWindow) -> None:
     open_scene(window, "weiler-atherton")
     before = window.session.document
