@@ -4,10 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
+from PySide6.QtGui import QHideEvent, QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QGridLayout,
-    QLabel,
     QLineEdit,
     QScrollArea,
     QVBoxLayout,
@@ -49,7 +48,6 @@ class KeyHelp(QWidget):
         self.setAccessibleName("Keys")
         self._entries: tuple[KeyEntry, ...] = ()
         self._columns = 0
-        self._is_stale = True
         title = text_label("Keys", self, role="title")
         self.search = QLineEdit(self)
         self.search.setPlaceholderText("Find a key or what it does")
@@ -98,9 +96,14 @@ class KeyHelp(QWidget):
     def showEvent(self, event: QShowEvent) -> None:
         """Begin in the field that finds."""
         super().showEvent(event)
-        if self._is_stale:
-            self._build()
+        self._build()
         self.search.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    def hideEvent(self, event: QHideEvent) -> None:
+        """Leave no hundreds of labels behind, all of which another theme would be given."""
+        super().hideEvent(event)
+        if (body := self._scroll.takeWidget()) is not None:
+            body.deleteLater()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Clear the field with Escape, then close."""
@@ -135,12 +138,10 @@ class KeyHelp(QWidget):
     @Slot()
     def _rebuild(self) -> None:
         """Show what there is now, or when the page is opened: hundreds of labels that few ask for take their time."""
-        self._is_stale = True
         if self.isVisible():
             self._build()
 
     def _build(self) -> None:
-        self._is_stale = False
         self._columns = self._column_count()
         entries = self.shown_entries()
         self.none_found.setVisible(bool(self._entries) and not entries)
@@ -168,7 +169,6 @@ class KeyHelp(QWidget):
 
 
 def _group(name: str, entries: Sequence[KeyEntry], key_width: int) -> QWidget:
-    theme = current_theme()
     box = QWidget()
     grid = QGridLayout(box)
     grid.setContentsMargins(0, 0, 0, 0)
@@ -182,12 +182,7 @@ def _group(name: str, entries: Sequence[KeyEntry], key_width: int) -> QWidget:
         caps.setFixedWidth(key_width)
         row = FlowLayout(caps, 4)
         for key in entry.keys.split(", "):
-            cap = QLabel(key)
-            cap.setStyleSheet(
-                f"border: 1px solid {theme.outline}; border-radius: 3px; padding: 1px 5px;"
-                f"background: {theme.raised};"
-            )
-            row.addWidget(cap)
+            row.addWidget(text_label(key, None, role="key"))
         what = text_label(entry.what, None, wraps=True)
         grid.addWidget(caps, number, 0, Qt.AlignmentFlag.AlignTop)
         grid.addWidget(what, number, 1)

@@ -125,6 +125,7 @@ QLabel[role="title"] { font-size: ${title_px}px; font-weight: 600; }
 QLabel[role="strong"] { font-weight: 600; }
 QLabel[role="bad"] { color: $bad; }
 QLabel[role="good"] { color: $good; }
+QLabel[role="key"] { background: $raised; border: 1px solid $outline; border-radius: 3px; padding: 1px 5px; }
 QWidget[role="panel"] { background: $panel; border-radius: 4px; }
 QWidget[role="floating"] { background: $raised; border: 1px solid $outline; border-radius: 4px; }
 QWidget[role="floating"] QLabel { border: none; background: transparent; }
@@ -135,8 +136,8 @@ QWidget[role="kept"] { background: $raised; border-left: ${u}px solid $text; }
 def style_sheet(theme: Theme) -> str:
     """Return the application's style sheet for ``theme``.
 
-    Labels may set the property ``role`` to muted, title, strong, good or bad, containers to panel or kept, the one main
-    button of a page to primary, and buttons ``flat`` to true.
+    Labels may set the property ``role`` to muted, title, strong, key, good or bad, containers to panel or kept, the one
+    main button of a page to primary, and buttons ``flat`` to true.
     """
     unit = theme.unit
     names = (
@@ -180,7 +181,8 @@ def apply_theme(app: QApplication, theme: Theme) -> None:
     notifier.theme = theme
     # From no sheet to another one takes Qt a quarter of the time that it takes from one sheet to another.
     app.setStyleSheet("")
-    app.setStyle("Fusion")
+    if app.style().name() != "fusion":
+        app.setStyle("Fusion")
     app.setPalette(palette(theme))
     app.setFont(text_font(theme))
     app.setStyleSheet(sheet)
