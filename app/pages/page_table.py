@@ -71,7 +71,7 @@ PAGE_KINDS = (
         "Exercises",
         "Answer on the picture (Alt+5)",
         _make_exercises,
-        (".toml",),
+        (".toml", ".png", ".npz", ".csv"),
         hides_itself=True,
     ),
 )

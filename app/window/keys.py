@@ -243,6 +243,7 @@ ACTIONS: tuple[KeyAction, ...] = (
         KeyAction("try_next", ("Ctrl+Shift+N",), "Exercise to try next", ANSWERING, "Exercises"),
         KeyAction("show_progress", ("Ctrl+I",), "Progress, and who answers", ANSWERING, "Exercises"),
         KeyAction("add_exercises", (), "Add a folder of exercises…", ANSWERING, "Exercises"),
+        KeyAction("diagnose_picture", (), "Which mistake makes a picture?…", ANSWERING, "Exercises"),
         KeyAction("next_exercise", ("Ctrl+PgDown",), "Next exercise", ANSWERING, "Exercises"),
         KeyAction("previous_exercise", ("Ctrl+PgUp",), "Previous exercise", ANSWERING, "Exercises"),
     ),

@@ -14,11 +14,11 @@ from app.background.workers import is_work_left
 from app.cli.commands import UsageError
 from app.export.views import export_widget
 from app.files.open_any import Opened, open_any
-from app.pages.exercises.kept_question import KeptQuestion
 from app.pages.page_table import page_of_file
 from app.session.document import open_document
 from app.window.appearance import sized_theme, the_application
 from app.window.end_signals import EndSignals
+from app.window.kept_question import KeptQuestion
 from app.window.main_window import MainWindow
 from app.window.preferences import load_preferences
 from app.window.reopening import reopen

@@ -32,6 +32,8 @@ class Catalogue(QWidget):
     next_requested = Signal()
     """What to try next is wanted."""
     progress_requested = Signal()
+    picture_requested = Signal()
+    """A picture of the open scene is to be compared."""
     line_entered = Signal(str)
     """A line that gives a question, as it is handed out."""
 
@@ -46,6 +48,12 @@ class Catalogue(QWidget):
         self.next_button.clicked.connect(self.next_requested)
         self.progress_button = button_with_tip("Progress", "Points, mistakes, and who answers (Ctrl+I)", self)
         self.progress_button.clicked.connect(self.progress_requested)
+        self.picture_button = button_with_tip(
+            "Which mistake makes a picture?",
+            "Compare a picture that your own program drew of the open scene: PNG, npz or CSV",
+            self,
+        )
+        self.picture_button.clicked.connect(self.picture_requested)
         self.next_label = text_label("", self, role="muted", wraps=True)
         self.tree = QTreeWidget(self)
         self.tree.setAccessibleName("Exercises")
@@ -78,6 +86,7 @@ class Catalogue(QWidget):
         layout.addWidget(self.tree, 1)
         layout.addWidget(text_label("Open a question by its line", self, role="muted"))
         layout.addWidget(self.line)
+        layout.addWidget(self.picture_button)
         theme_notifier().theme_changed.connect(self._refresh)
 
     def show_exercises(self, groups: Sequence[ExerciseGroup], current: str, to_try: str) -> None:

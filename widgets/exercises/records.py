@@ -4,6 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
 
+import numpy as np
+from numpy.typing import NDArray
+
 from widgets.grid.buffer import GridBuffer
 
 Pixel = tuple[int, int]
@@ -73,6 +76,32 @@ class Feedback:
     sentences: tuple[str, ...]
     """The mistakes by name."""
     is_right: bool
+
+
+# What a picture of another program is.
+
+
+@dataclass(frozen=True)
+class FoundRun:
+    """A mistake or a method that makes a picture."""
+
+    sentence: str
+    has_run: bool
+    """Whether it can be stepped beside the right run."""
+
+
+@dataclass(frozen=True, eq=False)
+class DiagnosisRecord:
+    """A picture that another program drew of a scene, and what makes it."""
+
+    about: str
+    """The file, and what it was compared with."""
+    verdict: str
+    is_right: bool
+    found: tuple[FoundRun, ...]
+    picture: GridBuffer
+    differing: NDArray[np.bool_]
+    """(H, W), the pixels that are marked; row 0 at the bottom."""
 
 
 # What an answer is given in.

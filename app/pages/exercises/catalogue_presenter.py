@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.background.workers import Job, Progress
 from app.cli.attempts import attempt_file
 from app.files.exercise_folders import all_templates
-from app.pages.exercises.unfinished import UnfinishedFile
+from app.files.unfinished_answers import UnfinishedFile
 from core import STAGES
 from core.records.words import counted
 from core.stages.declared import stage_of

@@ -14,12 +14,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from app.files.drawn_pictures import ENDINGS
 from app.files.exercise_folders import add_folder
+from app.files.unfinished_answers import UnfinishedFile
 from app.pages.exercises.asked_scene import AskedScene
 from app.pages.exercises.catalogue_presenter import FIRST_COURSE, CataloguePresenter
+from app.pages.exercises.diagnosis_presenter import DiagnosisPresenter
 from app.pages.exercises.progress_presenter import ProgressPresenter
 from app.pages.exercises.question_presenter import QuestionPresenter
-from app.pages.exercises.unfinished import UnfinishedFile
 from app.pages.page_bar import Caption, Handlers, Page
 from app.pages.side_columns import SideColumns
 from app.session.session import Session
@@ -30,6 +32,7 @@ from widgets.basics.focus_order import give_focus, tab_stops
 from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.exercises.catalogue import Catalogue
+from widgets.exercises.diagnosis_view import DiagnosisView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.pixel_answer import PixelAnswerView
 from widgets.exercises.place_answer import PlaceAnswerView
@@ -60,13 +63,15 @@ class ExercisesPage(Page):
         self.progress_view = ProgressView(self)
         self.progress = ProgressPresenter(self.progress_view, self)
         self.panes = PaneSplitter(Qt.Orientation.Horizontal, self)
+        self.diagnosis_view = DiagnosisView(self)
+        self.diagnosis = DiagnosisPresenter(session, self.diagnosis_view, self)
         for pane, stretch in ((self.question_view, 2), (self.grid, 3)):
             self.panes.addWidget(pane)
             self.panes.setStretchFactor(self.panes.count() - 1, stretch)
         self.panes.setSizes([400, 600])
         self.stack = QStackedWidget(self)
-        self.stack.addWidget(self.panes)
-        self.stack.addWidget(self.progress_view)
+        for widget in (self.panes, self.progress_view, self.diagnosis_view):
+            self.stack.addWidget(widget)
         self.columns = SideColumns(self.catalogue, self.stack, self)
         self.columns.setSizes([CATALOGUE_WIDTH, 1000])
         layout = column_layout(self, margins=(8, 4, 8, 8))
@@ -82,7 +87,13 @@ class ExercisesPage(Page):
         self.questions.message_sent.connect(self.message_sent)
         self.questions.evidence.step_requested.connect(self.step_requested)
         self.catalogue.progress_requested.connect(self.toggle_progress)
-        self.progress_view.closed.connect(self.toggle_progress)
+        self.catalogue.picture_requested.connect(self.diagnosis.ask_picture)
+        self.progress_view.closed.connect(self.show_question)
+        self.diagnosis_view.closed.connect(self.show_question)
+        self.diagnosis.shown.connect(self._show_diagnosis)
+        self.diagnosis.hidden.connect(self.show_question)
+        self.diagnosis.step_requested.connect(self.step_requested)
+        self.diagnosis.work_progressed.connect(self.work_progressed)
         self.progress.user_changed.connect(self._set_user)
         self.progress.attempts_added.connect(self.exercises.begin)
         self.progress.message_sent.connect(self.message_sent)
@@ -93,6 +104,7 @@ class ExercisesPage(Page):
             self.exercises.refused,
             self.unfinished.failed,
             self.progress.refused,
+            self.diagnosis.refused,
         ):
             source.connect(self.edit_refused)
         self.hiding = AskedScene(session, self.questions, self)
@@ -147,9 +159,10 @@ class ExercisesPage(Page):
     def _focus_answer(self) -> None:
         """Let the next key answer: on the picture, or in the first field."""
         answer = self.question_view.answer
-        if self.stack.currentWidget() is self.progress_view:
-            give_focus(self.progress_view.close_button)
-            return
+        for view in (self.progress_view, self.diagnosis_view):
+            if self.stack.currentWidget() is view:
+                give_focus(view.close_button)
+                return
         if answer is None or not self.isVisible():
             return
         stops = [self.grid] if isinstance(answer, PixelAnswerView | PlaceAnswerView) else tab_stops([answer])
@@ -187,9 +200,22 @@ class ExercisesPage(Page):
     def toggle_progress(self) -> None:
         """Show points and mistakes in place of the question, or the question again."""
         is_shown = self.stack.currentWidget() is self.progress_view
-        self.stack.setCurrentWidget(self.panes if is_shown else self.progress_view)
+        self._put(self.panes if is_shown else self.progress_view)
         self._show_progress()
-        self.take_focus()
+
+    @Slot()
+    def show_question(self) -> None:
+        """Show the question again."""
+        self._put(self.panes)
+
+    @Slot()
+    def _show_diagnosis(self) -> None:
+        self._put(self.diagnosis_view)
+
+    def _put(self, view: QWidget) -> None:
+        self.stack.setCurrentWidget(view)
+        if self.isVisible():
+            self.take_focus()
 
     @Slot()
     def _show_progress(self) -> None:
@@ -205,11 +231,11 @@ class ExercisesPage(Page):
             self.questions.open(self.question.template, self.question.seed)
 
     def dismiss(self) -> bool:
-        """Close the progress."""
-        is_shown = self.stack.currentWidget() is self.progress_view
-        if is_shown:
-            self.toggle_progress()
-        return is_shown
+        """Show the question again in place of the progress or of a picture."""
+        is_covered = self.stack.currentWidget() is not self.panes
+        if is_covered:
+            self.show_question()
+        return is_covered
 
     @Slot()
     def ask_folder(self) -> None:
@@ -224,7 +250,10 @@ class ExercisesPage(Page):
                 self.exercises.begin()
 
     def open_path(self, path: str) -> None:
-        """Ask the exercise of a file."""
+        """Ask the exercise of a file, or say which mistake makes its picture."""
+        if path.lower().endswith(ENDINGS):
+            self.diagnosis.open(path)
+            return
         try:
             template = read_exercise(Path(path))
         except (OSError, ValueError) as problem:
@@ -270,6 +299,7 @@ class ExercisesPage(Page):
             "try_next": self.exercises.open_next,
             "show_progress": self.toggle_progress,
             "add_exercises": self.ask_folder,
+            "diagnose_picture": self.diagnosis.ask_picture,
         }
 
     def _toggle_rows(self) -> None:
@@ -285,25 +315,31 @@ class ExercisesPage(Page):
 
     def focus_panes(self) -> list[QWidget]:
         """Return what F6 goes through after the question: the picture, the catalogue, and the borders."""
-        return [self.grid, self.catalogue, self]
+        return [self.grid, self.diagnosis_view.grid, self.catalogue, self]
 
     def take_focus(self) -> None:
         """Give the keyboard to the answer."""
         self._focus_answer()
 
     def caption(self) -> Caption:
-        """Return the question."""
+        """Return the question, or what was found of a picture."""
+        if self.stack.currentWidget() is self.diagnosis_view:
+            return Caption(self.diagnosis_view.verdict.text())
         return Caption("" if self.question is None else self.question.draft.text)
 
     def settle(self) -> None:
         """Wait until the question is there."""
-        while self.questions.is_working or self.exercises.is_working:
+        while self.questions.is_working or self.exercises.is_working or self.diagnosis.is_working:
             QCoreApplication.processEvents()
             QThread.msleep(5)
 
     def splitters(self) -> dict[str, QSplitter]:
         """Return what divides the panes."""
-        return {"exercise columns": self.columns, "exercise panes": self.panes}
+        return {
+            "exercise columns": self.columns,
+            "exercise panes": self.panes,
+            "diagnosis panes": self.diagnosis_view.panes,
+        }
 
     def leave(self) -> None:
         """Keep the answer now: the program may end while another page is shown."""
@@ -311,6 +347,6 @@ class ExercisesPage(Page):
 
     def stop(self) -> None:
         """End all work, and keep the answer."""
-        self.questions.stop()
-        self.exercises.stop()
+        for work in (self.questions, self.exercises, self.diagnosis):
+            work.stop()
         self.unfinished.finish()

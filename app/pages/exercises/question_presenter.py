@@ -8,10 +8,10 @@ from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtGui import QGuiApplication
 
 from app.background.workers import JobGroup
+from app.files.unfinished_answers import Unfinished, UnfinishedFile
 from app.pages.exercises.answer_kind import Live
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.evidence import Evidence
-from app.pages.exercises.unfinished import Unfinished, UnfinishedFile
 from app.pages.exercises.work import Asked, Checked, Work, asking, asking_apart, checking, drawing, drawn
 from core.records.words import counted
 from lessons.attempts.practice import TRY_LIMIT

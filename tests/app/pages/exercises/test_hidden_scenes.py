@@ -7,10 +7,10 @@ import numpy as np
 from pytestqt.qtbot import QtBot
 
 from app.pages.exercises.asked_scene import EDITED
-from app.pages.exercises.kept_question import KeptQuestion
 from app.pages.exercises.page import ExercisesPage
 from app.pages.start.page import HIDDEN, StartPage
 from app.session.document import open_document
+from app.window.kept_question import KeptQuestion
 from app.window.main_window import MainWindow
 from core.scene import ClipScene
 from lessons.scenes import built_in_scene

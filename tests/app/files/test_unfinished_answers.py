@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.pages.exercises.unfinished import FILE_NAME, Unfinished, UnfinishedFile
+from app.files.unfinished_answers import FILE_NAME, Unfinished, UnfinishedFile
 from lessons.exercises.catalogue import TEMPLATES
 
 KEPT = Unfinished(version=1, seed=7, given=[[1, 2]], hints=1)

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import QObject, Slot
 
-from app.pages.exercises.unfinished import read_answers
+from app.files.unfinished_answers import read_answers
 from app.pages.page_bar import Pages
 from app.session.session import Session
 from core.scene import AnyScene

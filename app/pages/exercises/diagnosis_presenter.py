@@ -1,0 +1,231 @@
+"""Which mistake makes a picture: compares what another program drew with the open scene, and steps what was found."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtWidgets import QFileDialog
+
+from app.background.workers import Job, Progress
+from app.cli.diagnose import pixels_text
+from app.files.drawn_pictures import ENDINGS, read_drawn
+from app.pages.page_bar import COVERED, StepRequest
+from app.session.document import Document
+from app.session.session import Session
+from core import STAGES
+from core.records.words import counted
+from core.scene import AnyScene, ClipScene
+from core.settings import FAMILIES
+from core.study.accuracy.record import Opening
+from core.study.planner.phrases import capitalized
+from lessons.diagnosis import RIGHT, Candidate, Diagnosis, Drawn, diagnose
+from lessons.exercises.scene_digest import scene_digest
+from lessons.mistakes.shelf import SHELF
+from widgets.basics.message_bar import Progress as Done
+from widgets.exercises.diagnosis_view import DiagnosisView
+from widgets.exercises.records import DiagnosisRecord, FoundRun
+from widgets.grid.buffer import GridBuffer
+
+KINDS = f"Pictures ({' '.join(f'*{ending}' for ending in ENDINGS)});;All files (*)"
+MOST_FOUND = 8
+"""Runs that are listed; of more, a number is told."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Diagnosed:
+    name: str
+    document: Document
+    scene: AnyScene
+    """The open scene at the size of the picture."""
+    drawn: Drawn
+    diagnosis: Diagnosis
+
+
+class _CancelledError(Exception):
+    """Nobody waits for the comparison any more."""
+
+
+class DiagnosisPresenter(QObject):
+    """Fills the view of a picture."""
+
+    shown = Signal()
+    """A picture is in the view now."""
+    hidden = Signal()
+    """It must not be seen any more: an exercise asks about its scene."""
+    step_requested = Signal(object)
+    """A `StepRequest`."""
+    work_progressed = Signal(object)
+    refused = Signal(str)
+
+    def __init__(self, session: Session, view: DiagnosisView, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._session, self._view = session, view
+        self._diagnosed: _Diagnosed | None = None
+        self._job = Job(self)
+        self._job.progressed.connect(self._tell_progress)
+        self._job.ended.connect(self._end_progress)
+        self._job.succeeded.connect(self._show)
+        self._job.failed.connect(self._refuse)
+        view.open_requested.connect(self.ask_picture)
+        view.run_requested.connect(self._show_run)
+        session.asked_changed.connect(self._hide_asked)
+
+    @property
+    def is_working(self) -> bool:
+        """Whether a picture is being compared."""
+        return self._job.is_running
+
+    def stop(self) -> None:
+        """End all work."""
+        self._job.shut_down()
+
+    @Slot()
+    def ask_picture(self) -> None:
+        """Ask for a picture of the open scene."""
+        path, _ = QFileDialog.getOpenFileName(
+            self._view.window(), "Which mistake makes this picture?", "", KINDS
+        )
+        if path:
+            self.open(path)
+
+    def open(self, path: str) -> None:
+        """Compare a picture with what every mistake and method makes of the open scene."""
+        if self._session.is_asked_about:
+            self.refused.emit(COVERED)
+            return
+        document = self._session.document
+
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> _Diagnosed:
+            def report(fraction: float, doing: str) -> None:
+                if is_cancelled():
+                    raise _CancelledError
+                progress(fraction, doing)
+
+            scene, drawn = _read(Path(path), document)
+            found = diagnose(scene, document.settings, drawn, report)
+            return _Diagnosed(Path(path).name, document, scene, drawn, found)
+
+        self._job.start(work)
+
+    @Slot(object, str)
+    def _tell_progress(self, fraction: float, doing: str) -> None:
+        self.work_progressed.emit(Done(doing, round(100 * fraction), 100))
+
+    @Slot()
+    def _end_progress(self) -> None:
+        self.work_progressed.emit(None)
+
+    @Slot(object)
+    def _refuse(self, error: Exception) -> None:
+        if not isinstance(error, OSError | ValueError | MemoryError):
+            raise error
+        said = f"{error}"
+        if isinstance(error, OSError) and error.strerror:
+            said = f"{error.filename}: {error.strerror.lower()}"
+        self.refused.emit(f"The picture was not compared: {said}.")
+
+    @Slot(object)
+    def _show(self, diagnosed: _Diagnosed) -> None:
+        self._diagnosed = diagnosed
+        scene, diagnosis = diagnosed.scene, diagnosed.diagnosis
+        runs = diagnosis.found or (() if diagnosis.is_right else (diagnosis.nearest,))
+        found = [
+            FoundRun(_sentence(each), self._request(each) is not None)
+            for each in runs[:MOST_FOUND]
+            if each.name != RIGHT
+        ]
+        if len(runs) > MOST_FOUND:
+            found.append(FoundRun(f"{len(runs) - MOST_FOUND} more make the same picture.", has_run=False))
+        columns, rows = scene.size
+        title = diagnosed.document.title or "the open scene"
+        self._view.show_diagnosis(
+            DiagnosisRecord(
+                f"{diagnosed.name}, compared with {title}, {columns} x {rows} pixels",
+                _verdict(diagnosis),
+                diagnosis.is_right,
+                tuple(found),
+                _buffer(diagnosed.drawn),
+                diagnosis.from_right if diagnosis.found else diagnosis.differing,
+            )
+        )
+        self.shown.emit()
+
+    @Slot(int)
+    def _show_run(self, number: int) -> None:
+        if self._diagnosed is not None:
+            diagnosis = self._diagnosed.diagnosis
+            request = self._request((diagnosis.found or (diagnosis.nearest,))[number])
+            if request is not None:
+                self.step_requested.emit(request)
+
+    def _request(self, candidate: Candidate) -> StepRequest | None:
+        """Return what steps the right run beside that of a candidate; ``None``: it has only a picture."""
+        assert self._diagnosed is not None
+        document, scene = self._diagnosed.document, self._diagnosed.scene
+        changed = document.settings.differences(candidate.settings)
+        stages = [STAGES.index(FAMILIES[family].stage) for family in changed if family in FAMILIES]
+        stage = STAGES[min(stages)] if stages else "raster"
+        differing = self._diagnosed.diagnosis.from_right.nonzero()
+        pixel = int(differing[1][0]), int(differing[0][0])
+        opening = Opening(scene, document.settings, stage, pixel)
+        if not candidate.is_mistake:
+            return StepRequest(opening, document.title, candidate.settings)
+        twin = SHELF[candidate.name]
+        if not (twin.is_run if isinstance(scene, ClipScene) else twin.takes_any_scene):
+            return None
+        other = twin.change_scene(scene) if isinstance(scene, ClipScene) else scene
+        title = f"with the mistake: {candidate.name.replace('-', ' ')}"
+        return StepRequest(opening, document.title, candidate.settings, other_scene=other, other_title=title)
+
+    @Slot()
+    def _hide_asked(self) -> None:
+        """Forget a picture of the scene that an exercise asks about from now on."""
+        if (
+            self._diagnosed is not None
+            and scene_digest(self._diagnosed.document.scene) == self._session.asked_scene
+        ):
+            self._diagnosed = None
+            self.hidden.emit()
+
+
+def _read(path: Path, document: Document) -> tuple[AnyScene, Drawn]:
+    """Return the open scene at the size of a picture, as it is stepped or as a whole, and the picture."""
+    scene, stepped = document.scene, document.traced_scene.size
+    try:
+        return replace(scene, size=stepped), read_drawn(path, stepped)
+    except ValueError as problem:
+        try:
+            return scene, read_drawn(path, scene.size)
+        except ValueError:
+            raise problem from None
+
+
+def _verdict(diagnosis: Diagnosis) -> str:
+    if diagnosis.is_right:
+        return "Right: every pixel is as this scene and its settings draw it."
+    if diagnosis.found:
+        count = counted(len(diagnosis.found), "run")
+        verb = "makes" if len(diagnosis.found) == 1 else "make"
+        return f"{count} {verb} exactly this picture. {pixels_text(diagnosis.from_right, RIGHT)}."
+    nearest = pixels_text(diagnosis.differing, _name(diagnosis.nearest))
+    return f"Unknown: no mistake on the shelf and no method makes this picture. The nearest: {nearest}."
+
+
+def _name(candidate: Candidate) -> str:
+    return candidate.name.replace("-", " ") if candidate.is_mistake else candidate.name
+
+
+def _sentence(candidate: Candidate) -> str:
+    beginning = capitalized(_name(candidate)) if candidate.is_mistake else "Another method"
+    return f"{beginning}. {candidate.sentence}"
+
+
+def _buffer(drawn: Drawn) -> GridBuffer:
+    """Return a picture as the grid shows it."""
+    if drawn.colors is not None:
+        return GridBuffer("picture", drawn.colors, "color", title="the picture")
+    if drawn.primitive is not None:
+        return GridBuffer("picture", drawn.primitive, "ids", title="the picture")
+    assert drawn.covered is not None
+    return GridBuffer("picture", drawn.covered, "bool", title="the picture")
