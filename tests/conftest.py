@@ -71,6 +71,8 @@ def pytest_collection_finish() -> None:
     gc.enable()
     gc.collect()
     gc.freeze()
+    # Tests make many short-lived objects, few of them in rings: to search less often saves a twentieth of the time.
+    gc.set_threshold(10_000, 10, 10)
 
 
 def pytest_terminal_summary(config: pytest.Config) -> None:

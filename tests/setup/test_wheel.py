@@ -29,7 +29,7 @@ def scripts(wheel: Path) -> Path:
     environment = wheel.parent / "environment"
     subprocess.run([sys.executable, "-m", "venv", "--without-pip", str(environment)], check=True)
     python = environment / ("Scripts/python.exe" if os.name == "nt" else "bin/python")
-    options = ["--no-deps", "--no-index", "--disable-pip-version-check"]
+    options = ["--no-deps", "--no-index", "--no-compile", "--disable-pip-version-check"]
     command = [sys.executable, "-m", "pip", "--python", str(python), "install", *options, str(wheel)]
     done = subprocess.run(command, capture_output=True, text=True)
     assert done.returncode == 0, done.stdout + done.stderr
