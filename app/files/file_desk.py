@@ -18,7 +18,7 @@ from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings
 from app.pages.step.looks import look_of, show_look
 from app.pages.step.page import StepPage
-from app.session.session import stage_for
+from app.session.cursor import stage_for
 from app.session.tracing import trace_now
 from app.window.appearance import Appearance
 from app.window.message_words import sentences

@@ -1,10 +1,11 @@
 """The only mutable state of the program: what is open, where the cursor is, what is pointed at. With signals."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
+from app.session.cursor import Cursor, cursor_for, placed, stepped
 from app.session.document import Document
 from app.session.held_bytes import held_arrays
 from app.session.history import History
@@ -18,9 +19,7 @@ from app.session.tracing import (
     trace_now,
 )
 from core import STAGES, Settings, Trace
-from core.explain.stage_texts import skipped_because
 from core.records.steps import Level
-from core.scene import AnyScene
 from core.trace import Explanation, StageTrace
 from core.trace.incremental.draft import Draft
 
@@ -30,15 +29,6 @@ if TYPE_CHECKING:
 Pixel = tuple[int, int]
 REST_MS = 150
 """A drag rests where it has not moved for so long, in milliseconds."""
-
-
-@dataclass(frozen=True)
-class Cursor:
-    """Where the stepping is: operations of a stage that are done, and how large a step is."""
-
-    stage: str = "raster"
-    position: int = 0
-    level: Level = Level.PIXEL
 
 
 class Session(QObject):
@@ -71,7 +61,7 @@ class Session(QObject):
         self.tracing.failed.connect(self._refuse)
         self.tracing.busy_changed.connect(self.history_changed)
         self._history = History(document, held_arrays)
-        self._cursor = _cursor_for(document.scene, Cursor())
+        self._cursor = cursor_for(document.scene, Cursor())
         self._visited = History(self._cursor)
         self._pin: Pixel | None = None
         self._hover: Pixel | None = None
@@ -151,7 +141,7 @@ class Session(QObject):
             trace = trace_now(document, self._cursor.stage)
         self._history.put(document)
         self._pin = self._hover = None
-        self._cursor = _cursor_for(document.scene, self._cursor)
+        self._cursor = cursor_for(document.scene, self._cursor)
         self._document_replaced(trace)
         self.pin_changed.emit()
 
@@ -289,9 +279,7 @@ class Session(QObject):
         was_at_end = self._cursor.position >= self.stage_trace.steps.count > 0
         # The previous trace stays until everything shows the new one, which takes over what did not change.
         earlier, self._trace = self._trace, trace
-        count = self.stage_trace.steps.count
-        position = count if was_at_end else min(self._cursor.position, count)
-        self._cursor = replace(self._cursor, position=position)
+        self._cursor = placed(self._cursor, trace, None if was_at_end else self._cursor.position)
         has_lost_pin = self._pin is not None and not self.has_pixel(self._pin)
         if has_lost_pin:
             self._pin = None
@@ -307,35 +295,20 @@ class Session(QObject):
 
     def step(self, direction: int, level: Level | None = None) -> None:
         """Go one step forward (1) or back (-1), at the present level or another one, from stage to stage."""
-        cursor, steps = self._cursor, self.stage_trace.steps
-        level = cursor.level if level is None else level
-        move = steps.forward if direction > 0 else steps.back
-        position, index = move(cursor.position, level), STAGES.index(cursor.stage) + direction
-        while 0 <= index < len(STAGES) and skipped_because(STAGES[index], self.document.scene.corner_count):
-            index += direction
-        if position != cursor.position:
-            self._move(replace(cursor, position=position))
-        elif 0 <= index < len(STAGES):
-            end = 0 if direction > 0 else self._trace.stage(STAGES[index]).steps.count
-            self._move(replace(cursor, stage=STAGES[index], position=end))
+        level = self._cursor.level if level is None else level
+        self._move(stepped(self._cursor, self._trace, direction, level))
 
     def go_to(self, position: int) -> None:
         """Go to a position of the present stage; the jump can be undone by ``go_back``."""
-        count = self.stage_trace.steps.count
-        self._jump(replace(self._cursor, position=min(max(position, 0), count)))
+        self._jump(placed(self._cursor, self._trace, position))
 
     def scrub(self, position: int, stage: str = "") -> None:
         """Go to a position, of another stage if it is named, while a slider is dragged: not remembered."""
-        stage = stage or self._cursor.stage
-        count = self._trace.stage(stage).steps.count
-        self._move(replace(self._cursor, stage=stage, position=min(max(position, 0), count)))
+        self._move(placed(self._cursor, self._trace, position, stage))
 
     def set_stage(self, stage: str, position: int | None = None) -> None:
         """Go to another stage, to its end unless a position is given."""
-        count = self._trace.stage(stage).steps.count
-        self._jump(
-            Cursor(stage, count if position is None else min(max(position, 0), count), self._cursor.level)
-        )
+        self._jump(placed(self._cursor, self._trace, position, stage))
 
     def next_stage(self, direction: int) -> None:
         """Go to the start of the neighbouring stage."""
@@ -358,8 +331,7 @@ class Session(QObject):
             self._restore(self._visited.redo())
 
     def _restore(self, cursor: Cursor) -> None:
-        count = self._trace.stage(cursor.stage).steps.count
-        self._move(replace(cursor, position=min(cursor.position, count)))
+        self._move(placed(cursor, self._trace, cursor.position))
 
     def _jump(self, cursor: Cursor) -> None:
         if cursor == self._cursor:
@@ -376,6 +348,37 @@ class Session(QObject):
             self.cursor_changed.emit()
 
     # Pointing.
+
+    def place_of(self, pixel: Pixel) -> tuple[int, int]:
+        """Return column and row of a pixel in the buffers of the traced raster."""
+        first_column, first_row, _, _ = self._trace.source.raster.bounds
+        return pixel[0] - first_column, pixel[1] - first_row
+
+    def pixel_at(self, column: int, row: int) -> Pixel:
+        """Return the pixel that stands at a place in the buffers of the traced raster."""
+        first_column, first_row, _, _ = self._trace.source.raster.bounds
+        return column + first_column, row + first_row
+
+    @property
+    def pointed_places(self) -> tuple[tuple[int, int] | None, tuple[int, int] | None]:
+        """Where the pinned and the hovered pixel stand in the buffers."""
+        pin, hover = self._pin, self._hover
+        return None if pin is None else self.place_of(pin), None if hover is None else self.place_of(hover)
+
+    @Slot(int, int)
+    def pin_place(self, column: int, row: int) -> None:
+        """Pin the pixel at a place in the buffers."""
+        self.set_pin(self.pixel_at(column, row))
+
+    @Slot(int, int)
+    def hover_place(self, column: int, row: int) -> None:
+        """Say that the pointer is at a place in the buffers."""
+        self.set_hover(self.pixel_at(column, row))
+
+    @Slot()
+    def end_hover(self) -> None:
+        """Say that the pointer is on no pixel."""
+        self.set_hover(None)
 
     def set_pin(self, pixel: Pixel | None) -> None:
         """Pin a pixel, or none."""
@@ -426,15 +429,3 @@ class Session(QObject):
         """Return whether the traced raster has this pixel."""
         first_column, first_row, end_column, end_row = self._trace.source.raster.bounds
         return first_column <= pixel[0] < end_column and first_row <= pixel[1] < end_row
-
-
-def stage_for(scene: AnyScene, stage: str) -> str:
-    """Return a stage, or the next one that a scene goes through, if it skips this one."""
-    later = STAGES[STAGES.index(stage) :]
-    return next(name for name in later if not skipped_because(name, scene.corner_count))
-
-
-def _cursor_for(scene: AnyScene, cursor: Cursor) -> Cursor:
-    """Return the cursor, or the start of the next stage, if a scene skips the present one."""
-    stage = stage_for(scene, cursor.stage)
-    return cursor if stage == cursor.stage else replace(cursor, stage=stage, position=0)

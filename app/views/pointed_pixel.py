@@ -53,9 +53,8 @@ def shown_triangle(session: Session) -> int:
     if row >= 0 and session.stage_trace.triangle[row] >= 0:
         return int(session.stage_trace.triangle[row])
     if session.pin is not None:
-        column, line = session.pin
-        first_column, first_row, _, _ = session.trace.source.raster.bounds
-        seen = int(session.trace.source.picture.primitive[line - first_row, column - first_column])
+        column, line = session.place_of(session.pin)
+        seen = int(session.trace.source.picture.primitive[line, column])
         return max(seen, 0)
     return 0
 

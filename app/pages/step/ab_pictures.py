@@ -5,11 +5,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from app.pages.step.grid_records import buffers_of, mask_overlays
+from app.pages.step.grid_presenter import OUTLINING
+from app.pages.step.grid_records import buffers_of, geometry_of, mask_overlays
 from app.pages.step.step_mark import step_mark
 from app.pages.step.steps_ahead import sentence_at
-from app.session.session import Cursor
-from core import Trace
+from app.session.cursor import Cursor
+from app.session.document import Document
+from core import STAGES, Trace
 from core.records.arrays import Flags
 from widgets.grid.buffer import GridBuffer, number_text
 from widgets.grid.compare_view import Comparison, Side
@@ -34,6 +36,25 @@ class Place:
     """Steps of the level that there are."""
     waits: bool = False
     """Whether only the other run has steps left."""
+
+
+class Outlines:
+    """The triangles of two runs, made anew only where they change."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[Trace, str, int], GridGeometry] = {}
+
+    def of(self, document: Document, place: Place) -> GridGeometry:
+        """Return those of a run of a document at its place."""
+        cursor = place.cursor if place.cursor.stage in OUTLINING else Cursor(STAGES[-1])
+        key = place.trace, cursor.stage, cursor.position
+        if key not in self._known:
+            if len(self._known) > 2:
+                self._known.clear()
+            self._known[key] = geometry_of(
+                document, place.trace, stage=cursor.stage, position=cursor.position
+            )
+        return self._known[key]
 
 
 def buffers_at(place: Place) -> dict[str, GridBuffer]:

@@ -1,47 +1,30 @@
 """A | B | difference: the page's run and the same one under other settings, stepped together."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.background.workers import Job, Progress
-from app.pages.step.ab_pictures import Place, buffers_at, compare, first_comparable, side_of
+from app.background.workers import Job
+from app.pages.step.ab_choice import BChoice, OtherRun
+from app.pages.step.ab_pictures import Outlines, Place, buffers_at, compare, first_comparable, side_of
 from app.pages.step.ab_settings import first_difference, settings_difference
-from app.pages.step.grid_presenter import OUTLINING
-from app.pages.step.grid_records import geometry_of
 from app.pages.step.lock_step import LockStep
-from app.pages.step.scene_outline_presenter import settings_records
 from app.pages.step.vertex_drags import VertexDrags
-from app.session.session import Cursor, Session
+from app.session.session import Session
 from app.session.tracing import QUICK_SECONDS
-from core import STAGES, Settings, Trace
-from core.methods import ReplacedName
+from core import Settings, Trace
 from core.records.steps import Level
-from core.scene import AnyScene
 from core.settings import WHOLE_NUMBERS
-from widgets.basics.settings_panel import SettingChoice
 from widgets.grid.compare_view import CompareView, Comparison, Side
-from widgets.grid.geometry import GridGeometry
 
 if TYPE_CHECKING:
     from core.study.accuracy.divergence import Divergence  # Looked for long after the window is open.
 
 PREDICTING = "Prediction hides the pictures of A and B. P ends it."
 FAULTY = "B is a run with a mistake: the page cannot take it over."
-
-
-@dataclass(frozen=True, eq=False)
-class OtherRun:
-    """A run that B is beside one scene: that of a mistake, which may draw something else."""
-
-    of: AnyScene
-    """What A draws; beside another scene B is a run of the page again."""
-    scene: AnyScene
-    """What B draws."""
-    title: str
 
 
 class ComparePresenter(QObject):
@@ -56,25 +39,18 @@ class ComparePresenter(QObject):
     def __init__(self, session: Session, view: CompareView, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session, self._view = session, view
-        self._differences: dict[str, str | int] = {}
-        """What B does otherwise than A: family and value."""
-        self._is_chosen = False
-        """Whether the user has chosen it; else it follows the stage that is shown."""
+        self._b = BChoice()
         self._buffer = ""
         self._is_active = False
         self._second: Trace | None = None
         """The run of B; ``None``: it cannot be drawn, or is being drawn."""
-        self._geometry: dict[tuple[Trace, str, int], GridGeometry] = {}
+        self._outlines = Outlines()
         self._refusal = ""
         self._stage = ""
         self._meeting: tuple[int, int] | None = None
         """The pixel to which both runs go when B is drawn."""
-        self._run: OtherRun | None = None
-        """The run with a mistake that B is; ``None``: it is one that the settings can name."""
         self._seeks = False
         """Whether both runs go to their first divergence when B is drawn."""
-        self._printed = ""
-        """Name of the listing as printed that B runs; empty: none."""
         self._steps: LockStep | None = None
         self._job, self._search = Job(self), Job(self)
         self._job.succeeded.connect(self._take)
@@ -96,25 +72,26 @@ class ComparePresenter(QObject):
         view.swap_requested.connect(self._swap)
         view.use_requested.connect(self._use)
         view.divergence_requested.connect(self.go_to_divergence)
-        view.pixel_hovered.connect(self._hover)
-        view.pixel_left.connect(self._leave)
-        view.pixel_clicked.connect(self._pin)
+        view.pixel_hovered.connect(session.hover_place)
+        view.pixel_left.connect(session.end_hover)
+        view.pixel_clicked.connect(session.pin_place)
 
     # What is compared.
 
     @property
     def other(self) -> Settings:
         """Settings of B: those of the page, but for what it does otherwise."""
-        return replace(self._session.document.settings, **self._differences)  # type: ignore[arg-type]
+        return self._b.document(self._session.document).settings
 
     @property
     def differences(self) -> Mapping[str, str | int]:
         """What B does otherwise than A, family and value; empty: it follows the stage, or is a run with a mistake."""
-        return self._differences if self._is_chosen and self._faulty() is None else {}
+        return self._b.differences if self._b.is_chosen and not self._is_faulty else {}
 
-    def _faulty(self) -> OtherRun | None:
-        """Return the run with a mistake that B is beside the scene that is open."""
-        return self._run if self._run is not None and self._run.of is self._session.document.scene else None
+    @property
+    def _is_faulty(self) -> bool:
+        """Whether B is a run with a mistake."""
+        return self._b.run_beside(self._session.document) is not None
 
     @property
     def buffer(self) -> str:
@@ -130,13 +107,13 @@ class ComparePresenter(QObject):
         """Show both runs from now on, or stop computing the second one."""
         self._is_active = is_active
         self.refresh()
-        if is_active and self._differences:
-            self._view.show_family(next(iter(self._differences)))
+        if is_active and self._b.differences:
+            self._view.show_family(next(iter(self._b.differences)))
 
     @property
     def printed(self) -> str:
         """Name of the listing as printed that B runs; empty: none."""
-        return self._printed if self._faulty() is not None else ""
+        return self._b.printed if self._is_faulty else ""
 
     def show_printed(self, name: str, *, seeks: bool = True) -> None:
         """Let A run the right method, and B a listing as a slide prints it, see `lessons.printed`.
@@ -166,10 +143,10 @@ class ComparePresenter(QObject):
     def _compare(
         self, differences: Mapping[str, str | int], run: OtherRun | None, printed: str, seeks: bool
     ) -> None:
-        self._run, self._seeks, self._printed = run, seeks, printed
+        self._seeks = seeks
         mine = self._session.document.settings
-        self._differences = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
-        self._is_chosen = bool(differences) or run is not None
+        really = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
+        self._b = BChoice(really, bool(differences) or run is not None, run, printed)
         self.refresh()
         self.look_changed.emit()
 
@@ -185,19 +162,18 @@ class ComparePresenter(QObject):
         if not value:
             return  # The printed listing is still chosen.
         chosen: str | int = int(value) if family in WHOLE_NUMBERS else value
-        named = {name: of for name, of in self._differences.items() if not isinstance(of, ReplacedName)}
-        self.set_differences({**named, family: chosen})
+        self.set_differences({**self._b.named, family: chosen})
 
     @Slot()
     def _reset(self) -> None:
-        self._differences, self._is_chosen, self._run = {}, True, None
+        self._b = BChoice(is_chosen=True)
         self.refresh()
         self.look_changed.emit()
 
     @Slot()
     def _swap(self) -> None:
         mine = self._session.document.settings
-        self._edit({family: getattr(mine, family) for family in self._differences})
+        self._edit({family: getattr(mine, family) for family in self._b.differences})
 
     @Slot()
     def _use(self) -> None:
@@ -207,15 +183,15 @@ class ComparePresenter(QObject):
 
     def _edit(self, differences: dict[str, str | int]) -> bool:
         """Give the page the settings of B, and B other differences; return whether the page could take them."""
-        if self._faulty() is not None:
+        if self._is_faulty:
             self.message_sent.emit(FAULTY)
             return False
-        other, before = self.other, (self._differences, self._is_chosen)
-        self._differences, self._is_chosen = differences, True
+        other, before = self.other, self._b
+        self._b = replace(before, differences=differences, is_chosen=True)
         try:
             self._session.edit(replace(self._session.latest, settings=other))
         except ValueError as error:
-            self._differences, self._is_chosen = before
+            self._b = before
             self.edit_refused.emit(str(error))
             return False
         return True
@@ -236,24 +212,21 @@ class ComparePresenter(QObject):
             self._second, self._refusal = None, PREDICTING
             self._show()
             return
-        if not self._is_chosen:
-            self._differences = first_difference(document, session.trace, self._stage)
-        run = self._faulty()
-        other = replace(document, settings=self.other, scene=document.scene if run is None else run.scene)
-        shown = settings_records(other)
-        if self.printed and run is not None:
-            label = SettingChoice("", run.title)
-            shown = [
-                replace(each, choices=(label, *each.choices), current="")
-                if each.family in self._differences
-                else each
-                for each in shown
-            ]
-        self._view.show_settings(shown, frozenset(self._differences))
-        if not self._is_chosen and self._differences:
-            self._view.show_family(next(iter(self._differences)))
+        if not self._b.is_chosen:
+            self._b = replace(self._b, differences=first_difference(document, session.trace, self._stage))
+        b, other = self._b, self._b.document(document)
+        self._view.show_settings(b.shown_settings(document), frozenset(b.differences))
+        if not b.is_chosen and b.differences:
+            self._view.show_family(next(iter(b.differences)))
         self._view.set_pixel_center(document.settings.pixel_center)
-        work = partial(_trace, other.make_trace, self._second or session.trace, self._stage)
+        earlier, stage = self._second or session.trace, self._stage
+
+        def work(*_: object) -> Trace:
+            """Trace B up to the stage that is shown."""
+            trace = other.make_trace(earlier=earlier)
+            trace.stage(stage)
+            return trace
+
         if other.estimated_seconds > QUICK_SECONDS:
             self._second, self._refusal = None, "Drawing B …"
             self._show()
@@ -273,7 +246,7 @@ class ComparePresenter(QObject):
         self._meet(second)
         if self._seeks:
             self._seeks = False
-            if self._printed and self._land_where_pixels_differ(second):
+            if self._b.printed and self._land_where_pixels_differ(second):
                 return
             self._go_to_mistake(second)
 
@@ -317,7 +290,7 @@ class ComparePresenter(QObject):
             if self._steps is not None:
                 self._steps.follow(cursor.position, cursor.level)
             self._show()
-        elif self._second is None or not self._is_chosen:
+        elif self._second is None or not self._b.is_chosen:
             self.refresh()
         else:
             self._stage = cursor.stage
@@ -327,18 +300,13 @@ class ComparePresenter(QObject):
         """Put both runs where they differ first: of other corners, in the stage at hand, since all differ before."""
         from core.study.accuracy.divergence import stage_divergence
 
-        run, found = self._faulty(), None
+        run, found = self._b.run_beside(self._session.document), None
         if run is not None and run.scene is not run.of:
             found = stage_divergence(self._session.stage_trace, second.stage(self._stage), by_outcome=True)
         if found is None:
             self.go_to_divergence()
         else:
             self._land(found)
-
-    @property
-    def is_searching(self) -> bool:
-        """Whether the first step that differs is being searched for."""
-        return self._search.is_running
 
     @Slot()
     def go_to_divergence(self) -> None:
@@ -380,7 +348,7 @@ class ComparePresenter(QObject):
     def _put_at(self, stage: str, mine: int | None, theirs: int | None) -> None:
         """Put both runs just after a row of each; a run without one stays at its start."""
         # B is what was compared, whatever stage it shows in.
-        self._is_chosen = True
+        self._b = replace(self._b, is_chosen=True)
         steps = self._session.trace.stage(stage).steps
         self._session.set_stage(stage, 0 if mine is None else steps.position_after(mine))
         if self._steps is not None and self._second is not None and theirs is not None:
@@ -412,80 +380,28 @@ class ComparePresenter(QObject):
         names = {name: buffer.label for each in reversed(buffers) for name, buffer in each.items()}
         chosen = self._buffer if self._buffer in names else first_comparable(buffers)
         self._view.show_buffers(tuple(names.items()), chosen)
-        has_listings = bool(self.printed)
-        first = side_of(
-            "A",
-            "current settings",
-            mine,
-            self._outlines(mine),
-            buffers[0].get(chosen),
-            names[chosen],
-            has_listings,
-        )
-        run = self._faulty()
-        title = settings_difference(session.document.settings, self.other) or "the same settings"
-        title = title if run is None else run.title
+
+        def side(name: str, title: str, place: Place) -> Side:
+            buffer = buffers[name == "B"].get(chosen)
+            geometry = self._outlines.of(session.document, place)
+            return side_of(name, title, place, geometry, buffer, names[chosen], bool(self.printed))
+
+        first, title = side("A", "current settings", mine), self._b.title(session.document)
         if theirs is None:
             blank = Side("B", f"B: {title}", reason=self._refusal)
             comparison = Comparison(first, blank, None, self._refusal)
         else:
-            picture = buffers[1].get(chosen)
-            other = side_of("B", title, theirs, self._outlines(theirs), picture, names[chosen], has_listings)
-            comparison = compare(first, other)
+            comparison = compare(first, side("B", title, theirs))
         self._view.show_comparison(comparison)
         self.refresh_pointing()
-
-    def _outlines(self, place: Place) -> GridGeometry:
-        """Return the triangles of a run, made anew only where they change."""
-        cursor = place.cursor if place.cursor.stage in OUTLINING else Cursor(STAGES[-1])
-        key = place.trace, cursor.stage, cursor.position
-        if key not in self._geometry:
-            if len(self._geometry) > 2:
-                self._geometry.clear()
-            self._geometry[key] = geometry_of(
-                self._session.document, place.trace, stage=cursor.stage, position=cursor.position
-            )
-        return self._geometry[key]
 
     @Slot()
     def refresh_pointing(self) -> None:
         """Mark pin and hover."""
         if self._is_active:
-            first_column, first_row, _, _ = self._session.trace.source.raster.bounds
-            marks = [
-                None if pixel is None else (pixel[0] - first_column, pixel[1] - first_row)
-                for pixel in (self._session.pin, self._session.hover)
-            ]
-            self._view.show_pointing(marks[0], marks[1])
+            self._view.show_pointing(*self._session.pointed_places)
 
     @staticmethod
     def _no_triangle() -> int | None:
         """Return that only the document's own triangle has handles here."""
         return None
-
-    @Slot(int, int)
-    def _hover(self, column: int, row: int) -> None:
-        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
-        self._session.set_hover((column + first_column, row + first_row))
-
-    @Slot()
-    def _leave(self) -> None:
-        self._session.set_hover(None)
-
-    @Slot(int, int)
-    def _pin(self, column: int, row: int) -> None:
-        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
-        self._session.set_pin((column + first_column, row + first_row))
-
-
-def _trace(
-    make: Callable[..., Trace],
-    earlier: Trace,
-    stage: str,
-    progress: Progress | None = None,
-    is_cancelled: Callable[[], bool] | None = None,
-) -> Trace:
-    """Trace B up to the stage that is shown."""
-    trace = make(earlier=earlier)
-    trace.stage(stage)
-    return trace

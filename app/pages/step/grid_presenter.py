@@ -73,8 +73,8 @@ class GridPresenter(QObject):
         session.hover_changed.connect(self.refresh_pointing)
         session.predicting_changed.connect(self.refresh_step)
         for widget in (grid, strip):
-            widget.pixel_hovered.connect(self._hover)
-            widget.pixel_left.connect(self._leave)
+            widget.pixel_hovered.connect(session.hover_place)
+            widget.pixel_left.connect(session.end_hover)
             widget.pixel_clicked.connect(self._pin)
         grid.view_changed.connect(strip.set_view)
         strip.view_changed.connect(grid.set_view)
@@ -209,7 +209,7 @@ class GridPresenter(QObject):
     @Slot()
     def refresh_pointing(self) -> None:
         """Show pin and hover in all grids."""
-        pin, hover = self._local(self._session.pin), self._local(self._session.hover)
+        pin, hover = self._session.pointed_places
         for widget in (self._grid, self._strip):
             widget.show_pin(pin)
             widget.show_hover(hover)
@@ -244,28 +244,9 @@ class GridPresenter(QObject):
 
     # Acting.
 
-    def _local(self, pixel: tuple[int, int] | None) -> tuple[int, int] | None:
-        if pixel is None:
-            return None
-        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
-        return pixel[0] - first_column, pixel[1] - first_row
-
-    def _global(self, column: int, row: int) -> tuple[int, int]:
-        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
-        return column + first_column, row + first_row
-
-    @Slot(int, int)
-    def _hover(self, column: int, row: int) -> None:
-        self._session.set_hover(self._global(column, row))
-
-    @Slot()
-    def _leave(self) -> None:
-        self._session.set_hover(None)
-
     @Slot(int, int)
     def _pin(self, column: int, row: int) -> None:
-        pixel = self._global(column, row)
-        self._session.set_pin(pixel)
+        self._session.pin_place(column, row)
         if self._session.is_predicting:
             # The triangle that a pixel shows in the end is not known yet.
             return

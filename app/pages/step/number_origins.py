@@ -69,8 +69,8 @@ def writer_of(session: Session, buffer: str, pixel: tuple[int, int]) -> Origin |
     if track is None:
         return None
     done = stage.steps.rows_done(session.cursor.position)
-    first_column, first_row, _, _ = session.trace.source.raster.bounds
-    place = (pixel[1] - first_row) * track.initial.shape[1] + pixel[0] - first_column
+    column, row = session.place_of(pixel)
+    place = row * track.initial.shape[1] + column
     writers = track.rows[(track.places == place) & (track.rows < done)]
     if not len(writers):
         return None

@@ -7,7 +7,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job, Progress
 from app.pages.page_bar import StepRequest
-from app.pages.step.ab_presenter import OtherRun
+from app.pages.step.ab_choice import OtherRun
 from app.pages.step.opening_document import document_at
 from app.pages.step.page import StepPage
 from app.session.document import Document

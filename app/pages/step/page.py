@@ -293,8 +293,7 @@ class StepPage(Page):
         buffer = self.grid.buffer()
         if buffer is None or not self.session.has_pixel(pixel) or self.session.is_predicting:
             return ""
-        first_column, first_row, _, _ = self.session.trace.source.raster.bounds
-        return f"{buffer.label}: {self.grid.value_text((pixel[0] - first_column, pixel[1] - first_row))}"
+        return f"{buffer.label}: {self.grid.value_text(self.session.place_of(pixel))}"
 
     def toggle_compare(self) -> None:
         """Show A | B | difference, or the pixels again."""

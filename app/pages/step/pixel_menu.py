@@ -33,8 +33,7 @@ class PixelMenu(QObject):
 
     def fill(self, column: int, row: int) -> None:
         """Make the entries for a pixel of the grid."""
-        first_column, first_row, _, _ = self._session.trace.source.raster.bounds
-        self._pixel = column + first_column, row + first_row
+        self._pixel = self._session.pixel_at(column, row)
         self.menu.clear()
         heading = self.menu.addAction(f"Pixel ({self._pixel[0]}, {self._pixel[1]})")
         heading.setEnabled(False)

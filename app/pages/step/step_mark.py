@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.session.session import Cursor
+from app.session.cursor import Cursor
 from core.records.arrays import Floats, Integers
 from core.records.steps import Level
 from core.trace import StageTrace, Trace

@@ -61,7 +61,7 @@ def test_the_mistake_of_a_picture_is_named_marked_and_stepped(
     with qtbot.waitSignal(small.opening.opened):
         QTest.mouseClick(view.run_buttons[0], LEFT)
     comparing = small.page.comparing
-    qtbot.waitUntil(lambda: not comparing.is_searching)
+    qtbot.waitUntil(lambda: not comparing._search.is_running)
     assert small.page.current_view() == "compare"
     assert small.session.pin is not None
     small.run_action("page_exercises")
