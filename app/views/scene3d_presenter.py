@@ -4,15 +4,16 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from PySide6.QtCore import QObject, Qt, QTimer, Signal, Slot
+from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.session.document import Document
-from app.session.latest_call import LatestCall
+from app.session.drag_gestures import DragGestures
 from app.session.session import Session
+from app.views.frame_report import FrameReport
 from app.views.hidden_backs import HiddenBacks
 from app.views.pixel_ray import pixel_marks
 from app.views.pointed_pixel import pointed_pixels
-from app.views.scene_figures import OWN_SIZE, drawing_text, figures_text, fixed_size, size_choices
+from app.views.scene_figures import OWN_SIZE, fixed_size, size_choices
 from app.views.scene_picture import (
     MOST_TRIANGLES,
     DrawnScene,
@@ -34,12 +35,8 @@ from core.records.words import counted
 from core.scene import AnyScene, Scene
 from core.trace.geometry_progress import is_dropped
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.space.frame_corner import FrameRate
 from widgets.space.orbit import Orbit, fitted
 from widgets.space.scene_view import SceneHandle, SceneMark, ScenePicture, SceneView
-
-FIGURES_MS = 200
-"""Figures change at most this often: faster, nobody could read them."""
 
 
 class Scene3dPresenter(QObject):
@@ -67,11 +64,8 @@ class Scene3dPresenter(QObject):
         self._drawn_state = (False, b"")
         self._home = Orbit()
         self._size_name = OWN_SIZE
-        self._rate = FrameRate()
-        self._has_new_figures = False
         self._is_picture_due = False
         """Whether a picture is to be asked for as soon as the view is seen and has its size."""
-        self._drags = 0
         self._entered: int | None = None
         """A triangle that was clicked to go into it, until it is in focus."""
         self._band_workers, self._backs, self._thinning = BandWorkers(1), HiddenBacks(), Thinning()
@@ -83,20 +77,15 @@ class Scene3dPresenter(QObject):
         self._settled = QTimer(self)
         self._settled.setSingleShot(True)
         self._settled.timeout.connect(self._ask_for_picture)
-        self._figures_timer = QTimer(self)
-        self._figures_timer.setSingleShot(True)
-        self._figures_timer.setInterval(FIGURES_MS)
-        self._figures_timer.timeout.connect(self._tell_new_figures)
+        self._report = FrameReport(view, self)
         view.view_changed.connect(self._turned)
         view.size_changed.connect(self._resized)
         view.size_chosen.connect(self.choose_size)
-        # Queued: what the figures change is not to be laid out while the view is painted.
-        view.picture_painted.connect(self._count_frame, Qt.ConnectionType.QueuedConnection)
         view.picked.connect(self._pick)
-        self._moves = LatestCall(self._move, self)
-        view.vertex_dragged.connect(self._drag)
-        view.vertex_drag_finished.connect(self._end_drag)
-        view.vertex_drag_taken_back.connect(self._take_drag_back)
+        self._drags = DragGestures(session, "drag in space", self._move, self)
+        view.vertex_dragged.connect(self._drags.drag)
+        view.vertex_drag_finished.connect(self._drags.end)
+        view.vertex_drag_taken_back.connect(self._drags.take_back)
         theme_notifier().theme_changed.connect(self._theme_changed)
 
     def refresh(self) -> None:
@@ -166,7 +155,7 @@ class Scene3dPresenter(QObject):
     def stop(self) -> None:
         """End drawing, and the worker processes."""
         self._settled.stop()
-        self._figures_timer.stop()
+        self._report.stop()
         self._worker.forget()
         self._band_workers.close()  # first: a picture may be waiting for a process that has stopped
         self._worker.stop()
@@ -200,10 +189,9 @@ class Scene3dPresenter(QObject):
         self._worker.forget()
         self._picker.forget()
         self._drawn = None
-        self._rate = FrameRate()
+        self._report.begin_anew()
         self._view.empty_text = "Drawing…"
         self._view.show_picture(None)
-        self._view.show_figures("")
         self._offer_sizes()
         self._go_home()
 
@@ -252,6 +240,7 @@ class Scene3dPresenter(QObject):
         if self._document is not self._session.document:
             return  # of what was open before; the view is hidden, and is brought up to date when it is shown
         self._drawn = drawn
+        self._report.take(drawn)
         self._show(drawn)
 
     def _show(self, drawn: DrawnScene) -> None:
@@ -281,30 +270,13 @@ class Scene3dPresenter(QObject):
         )
         self._view.show_picture(picture)
 
-    # Figures.
+    # Sizes.
 
     def _offer_sizes(self) -> None:
         """Show the sizes that there are, and have the chosen one drawn."""
         size = self._session.document.scene.size
         self._view.show_sizes(size_choices(size), self._size_name)
         self._view.fix_picture_size(fixed_size(self._size_name, size))
-
-    @Slot(float)
-    def _count_frame(self, seconds: float) -> None:
-        """Take a picture that was painted, and report its figures unless others were reported just now."""
-        self._rate.add(seconds)
-        self._has_new_figures = True
-        if not self._figures_timer.isActive():
-            self._tell_new_figures()
-
-    @Slot()
-    def _tell_new_figures(self) -> None:
-        if self._has_new_figures and self._drawn is not None:
-            self._has_new_figures = False
-            self._figures_timer.start()
-            text = figures_text(self._drawn.figures, self._rate.per_second())
-            self._view.show_figures(of_kind(text, self._drawn.shot.scene.corner_count))
-            self._view.corner().show_details(drawing_text(self._drawn.figures))
 
     def _caption(self) -> str:
         document = self._session.document
@@ -380,10 +352,6 @@ class Scene3dPresenter(QObject):
             self._entered = None
             self.look_at_focus()
 
-    @Slot(int, float, float)
-    def _drag(self, index: int, x: float, y: float) -> None:
-        self._moves.call(index, x, y)
-
     def _move(self, index: int, x: float, y: float) -> None:
         latest, space, triangle = self._session.latest, self._space, self.focus
         if space is None or triangle is None or self._drawn is None:
@@ -395,23 +363,7 @@ class Scene3dPresenter(QObject):
         except ValueError as error:
             self.refused.emit(str(error))
             return
-        self._session.drag(replace(latest, scene=moved), self._gesture)
-
-    @Slot(int)
-    def _end_drag(self, index: int) -> None:
-        self._moves.flush()
-        self._session.come_to_rest()
-        self._drags += 1
-
-    @Slot(int)
-    def _take_drag_back(self, index: int) -> None:
-        self._moves.flush()
-        self._session.take_back(self._gesture)
-        self._drags += 1
-
-    @property
-    def _gesture(self) -> str:
-        return f"drag in space {self._drags}"
+        self._session.drag(replace(latest, scene=moved), self._drags.name)
 
 
 def _place_of(document: Document) -> tuple[str, str, int, bool]:

@@ -3,11 +3,11 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Signal
 
 from app.pages.step.grid_records import outlined_triangles
 from app.session.document import Document
-from app.session.latest_call import LatestCall
+from app.session.drag_gestures import DragGestures
 from app.session.scene_edits import move_corner
 from app.session.session import Session
 from widgets.grid.pixel_grid import PixelGrid
@@ -44,21 +44,12 @@ class VertexDrags(QObject):
         parent : QObject, optional
         """
         super().__init__(parent)
-        self._session, self._focus, self._take, self._name = session, focus, take, name
-        self._count = 0
-        self._moves = LatestCall(self._move, self)
+        self._session, self._focus, self._take = session, focus, take
+        self._drags = DragGestures(session, name, self._move, self)
         for grid in grids:
-            grid.vertex_dragged.connect(self._drag)
-            grid.vertex_drag_finished.connect(self._end)
-            grid.vertex_drag_taken_back.connect(self._take_back)
-
-    @property
-    def _gesture(self) -> str:
-        return f"{self._name} {self._count}"
-
-    @Slot(int, float, float)
-    def _drag(self, vertex: int, x: float, y: float) -> None:
-        self._moves.call(vertex, x, y)
+            grid.vertex_dragged.connect(self._drags.drag)
+            grid.vertex_drag_finished.connect(self._drags.end)
+            grid.vertex_drag_taken_back.connect(self._drags.take_back)
 
     def _move(self, vertex: int, x: float, y: float) -> None:
         document, latest, trace = self._session.document, self._session.latest, self._session.trace
@@ -69,18 +60,6 @@ class VertexDrags(QObject):
         position, size = (x + first_column, y + first_row), document.traced_scene.size
         try:
             scene = move_corner(latest.scene, triangle, corner, position, size)
-            self._take(replace(latest, scene=scene), self._gesture)
+            self._take(replace(latest, scene=scene), self._drags.name)
         except ValueError as error:
             self.refused.emit(f"The vertex was not moved: {error}")
-
-    @Slot(int)
-    def _end(self, vertex: int) -> None:
-        self._moves.flush()
-        self._session.come_to_rest()
-        self._count += 1
-
-    @Slot(int)
-    def _take_back(self, vertex: int) -> None:
-        self._moves.flush()
-        self._session.take_back(self._gesture)
-        self._count += 1

@@ -4,7 +4,8 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QApplication
 
 from widgets.basics.theme import current_theme
-from widgets.inspector.listing import ListingText, ListingView, token_formats
+from widgets.inspector.listing import ListingText, ListingView
+from widgets.inspector.listing_looks import token_formats
 
 SOURCE = '''def inside(a0, x, y):
     """Decide."""
@@ -83,10 +84,10 @@ def test_dragging_selects_and_asks_for_nothing(qtbot, view) -> None:
 def test_the_whole_margin_toggles_breakpoints(qtbot, view) -> None:
     seen = []
     view.breakpoint_toggled.connect(seen.append)
-    for x in (2, view.margin_width() - 3):
+    for x in (2, view._margin.wanted_width() - 3):
         qtbot.mouseClick(view._margin, Qt.MouseButton.LeftButton, pos=QPoint(x, line_middle(view, 5)))
     assert seen == [5, 5]
-    assert view.margin_width() >= 30
+    assert view._margin.wanted_width() >= 30
 
 
 def test_keys_choose_a_line_run_to_it_and_break_on_it(qtbot, view) -> None:
