@@ -195,7 +195,7 @@ TWINS = (
         "window-one-less",
         "The window was taken for one pixel narrower and lower. NDC from -1 to 1 covers all W pixels, not W - 1.",
         Case(FREE),
-        Case(triangle_scene([[(0, 0), (0, 0), (0, 0)]], (8, 8))),
+        Case(triangle_scene([[(4.5, 0.5), (4, 5.5), (0.5, 0.5)]], (8, 8))),
         change_scene=one_less,
     ),
     Twin(

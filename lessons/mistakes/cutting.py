@@ -190,7 +190,7 @@ RULES = (
         culled_faces,
         culled_by_view_direction,
         ([((1, 0, Fraction(-1, 4)), (-9, 0, -10))], (0, 0, 0)),
-        ([((0, 0, 1), (0, 0, -10))], (0, 0, 0)),
+        ([((0, 0, -1), (0, 0, -10))], (0, 0, 0)),
     ),
     WrongRule(
         "block-by-one-corner",

@@ -173,7 +173,7 @@ TWINS = (
         "flat-sides-lost",
         "A flat side was lost: the loop over its half has no rows. Both halves need their own rows.",
         Case(triangle_scene([[(1, 1), (7, 1), (4, 6)]], (8, 8))),
-        Case(triangle_scene([[(20, 1), (27, 2), (24, 6)]], (8, 8))),
+        Case(triangle_scene([[(6.5, 5.9), (0.2, 1.3), (6.8, 3.6)]], (8, 8))),
         change_settings=lambda settings: replace(settings, fill="scanline-lecture"),
     ),
     Twin(

@@ -25,6 +25,8 @@ from lessons.mistakes.twin import Twin, WrongRule, line_pixels, right_reading
 def test_a_mistake_shows_in_one_scene_and_hides_in_another(twin: Twin) -> None:
     assert twin.read(twin.shows) != right_reading(twin.shows)
     assert twin.read(twin.hides) == right_reading(twin.hides)
+    if twin.hides.reading is None:
+        assert (render(twin.hides.scene, twin.hides.settings).primitive >= 0).any(), "nothing is drawn"
     assert twin.sentence.endswith(".")
 
 
