@@ -5,6 +5,7 @@ from typing import Annotated, Literal, TypeVar
 
 from pydantic import Field, model_validator
 
+from core.records.words import counted
 from core.settings import settings_from_texts
 from lessons.exercises.answers.pixels import SIDE_LIMIT, read_art
 from lessons.exercises.fields import (
@@ -83,7 +84,8 @@ class TablePart(Part):
     def _is_complete(self) -> "TablePart":
         lengths = {len(row) for row in self.cells}
         if len(self.cells) != len(self.labels) or lengths != {len(self.columns)}:
-            raise ValueError(f"expected {len(self.labels)} rows of {len(self.columns)} cells")
+            rows, cells = counted(len(self.labels), "row"), counted(len(self.columns), "cell")
+            raise ValueError(f"expected {rows} of {cells}")
         return self
 
 

@@ -89,6 +89,12 @@ def _printable(text: str) -> str:
     return text
 
 
+def _one_line(text: str) -> str:
+    if "\n" in text:
+        raise ValueError(f"expected text of one line, got {text!a:.60}")
+    return _printable(text)
+
+
 def _settings(given: object) -> dict[str, str]:
     if not isinstance(given, dict):
         raise ValueError('expected methods by family, such as fill_rule = "inclusive"')
@@ -107,7 +113,7 @@ ExactNumber = Annotated[Any, BeforeValidator(_exact)]
 """A fraction from 0."""
 Tolerance = Annotated[float, BeforeValidator(_finite_positive)]
 Text = Annotated[str, Field(min_length=1, max_length=TEXT_LIMIT), AfterValidator(_printable)]
-Word = Annotated[str, Field(min_length=1, max_length=80), AfterValidator(_printable)]
+Word = Annotated[str, Field(min_length=1, max_length=80), AfterValidator(_one_line)]
 Side = Annotated[int, Field(ge=1, le=SIDE_LIMIT)]
 
 

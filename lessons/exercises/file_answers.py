@@ -97,6 +97,8 @@ def pixel_answer(part: PixelPart, drawn: DrawnScene | None, settings: Settings) 
     if part.art is None:
         if drawn is None:
             raise ValueError("expected art, or a scene to draw")
+        if drawn.places and part.triangle is not None and part.triangle >= len(drawn.places):
+            raise ValueError(f"expected a triangle from 0 to {len(drawn.places) - 1}, got {part.triangle}")
         return PixelAnswer(drawn.scene.size, seen_pixels(render(drawn.scene, settings), part.triangle))
     marks = read_art(part.art)
     columns, rows = (1 + max(place) for place in zip(*marks, strict=True))

@@ -1,5 +1,7 @@
 """The shelf of mistakes, by name: faulty runs, and wrong formulas."""
 
+from difflib import get_close_matches
+
 from lessons.mistakes import (
     clipping,
     coverage,
@@ -35,5 +37,6 @@ MISTAKES: dict[str, Twin | WrongRule] = {**SHELF, **RULES}
 def twin_named(name: str) -> Twin:
     """Return a faulty run, or raise ValueError with the names that there are."""
     if name not in SHELF:
-        raise ValueError(f"expected a mistake such as {', '.join(SHELF)}, got {name!r:.60}")
+        near = get_close_matches(name, SHELF) or ["corner-for-center"]
+        raise ValueError(f"expected a mistake such as {', '.join(near)}, got {name!r:.60}")
     return SHELF[name]

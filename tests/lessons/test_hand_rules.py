@@ -17,7 +17,7 @@ from lessons.exercises.draws import Draws
 from lessons.exercises.templates.on_picture import draw_box
 from lessons.mistakes import depths, transforms
 from lessons.mistakes.shelf import RULES, SHELF
-from lessons.mistakes.twin import line_pixels
+from lessons.mistakes.twin import Case, line_pixels
 from lessons.small_scenes import pixel_segments, triangle_scene
 
 
@@ -168,6 +168,12 @@ def test_figures_of_depth_blending_and_samples() -> None:
 
     assert [blended("multiplied-twice", 0), blended("not-multiplied", 0)] == [0.25, 1]
     assert [blended("alpha-of-source", 3), blended("alpha-squared", 3)] == [0.5, 0.75]
+
+    def layers(twin: str, case: Case = SHELF["order-reversed"].shows) -> list[float]:
+        drawn = SHELF[twin].draw(case.scene, case.settings) if twin else render(case.scene, case.settings)
+        return drawn.color[0, 0, :3].tolist()
+
+    assert (layers(""), layers("order-reversed")) == ([0.25, 0, 0.5], [0.5, 0, 0.25])
     assert wrong("one-sample-filled", (depths.Layer(frozenset(range(16)), 1, 16),), 16) == [1]
 
 
@@ -215,6 +221,11 @@ def test_figures_of_shared_edges_and_rows() -> None:
             edges = [(corners[a], corners[b]) for a, b in ((0, 1), (1, 2), (0, 2))]
             spans[row] = sorted(crossing(a, b, row)[0] for a, b in edges if a[1] <= row + half < b[1])
         return {(i, j) for i, j in places if len(spans[j]) == 2 and spans[j][0] <= i + half < spans[j][1]}
+
+    # At whole rows 2 and 3 the edge (0, 0)-(10, 4) loses pixels 5 and 7 where its height is made one larger.
+    taller = [wrong("height-plus-one", (0, 0), (10, 4), y - half)[0] for y in (2, 3)]
+    assert taller == [4, 6]
+    assert [RULES["height-plus-one"].right((0, 0), (10, 4), y - half)[0] for y in (2, 3)] == [5, F(15, 2)]
 
     rule = RULES["crossing-from-vertex"]
     assert (len(filled(rule.right)), len(filled(rule.right) ^ filled(rule.wrong))) == (20, 6)

@@ -143,15 +143,29 @@ def changed(old: str, new: str) -> str:
     [
         ("", "line 1: expected version here, which is missing"),
         (changed("version = 1\n", "version = 2\n"), "line 2: version: expected 1, got 2"),
-        (changed("points = 4", "points = nan"), "line 5: points: expected a valid integer, got 'nan'"),
-        (changed("points = 4", "punkte = 4"), "line 5: punkte: unknown 'punkte'"),
+        (changed("points = 4", "points = nan"), "line 5: points: expected a whole number, got 'nan'"),
+        (changed("points = 4", "point = 4"), "line 5: point: unknown 'point', expected points"),
+        (
+            changed("points = 4", "marks = 4"),
+            "line 5: marks: unknown 'marks', expected one of answer, hints, mi",
+        ),
+        (changed("size = [12, 9]", "sise = [12, 9]"), "line 13: scene.sise: unknown 'sise', expected size"),
+        (DRAWN + "triangel = 0\n", "line 23: answer.triangel: unknown 'triangel', expected triangle"),
+        (
+            HEAD + STEPS.replace("number", "numer"),
+            "line 8: answer.steps.0.numer: unknown 'numer', expected number",
+        ),
+        (HEAD + "typ = 3\n", "line 6: answer: expected type here, one of 'pixels', 'numbers', .* is missing"),
+        (HEAD + 'type = "table"\n' + ART, "line 8: expected TOML: cannot overwrite a value"),
+        (DRAWN + "triangle = 1\n", "line 21: answer: expected a triangle from 0 to 0, got 1"),
+        (changed("My triangle", r"My\ntriangle"), "line 3: title: expected text of one line, got"),
         (changed("My triangle", r"\u001b[31m"), "line 3: title: expected text without control characters"),
         (changed('"raster"', '"rasta"'), "line 4: stage: expected a stage of transform"),
         (
             changed("[12, 9]", "[1000, 1000]"),
             "line 13: scene.size.0: expected less than or equal to 128, got 1000",
         ),
-        (changed("[12, 9]", "[12]"), "line 13: scene.size: List must have at least 2 items"),
+        (changed("[12, 9]", "[12]"), "line 13: scene.size: expected at least 2 items, got"),
         (changed("1.5]", "1e400]"), r"line 14: scene.triangles.0.0.1: expected a number up to 1e300"),
         (changed("1.5]", "nan]"), r"line 14: scene.triangles.0.0.1: expected a number such as"),
         (changed("1.5]", '"١٢"]'), r"line 14: scene.triangles.0.0.1: expected a number such as"),
@@ -162,6 +176,10 @@ def changed(old: str, new: str) -> str:
         (
             changed('"corner-for-center"', '"\'; DROP TABLE twins"'),
             "line 10: mistakes.0: expected a mistake such as",
+        ),
+        (
+            changed("for-center", "for-centre"),
+            "expected a mistake such as corner-for-center, got 'corner-for-cent",
         ),
         (changed('"bounding-box"', '"magic"'), "line 18: settings: fill must be one of"),
         (changed('"pixels"', '"guess"'), "line 21: answer: expected type to be one of 'pixels', 'numbers'"),
@@ -185,8 +203,14 @@ def changed(old: str, new: str) -> str:
             HEAD + 'type = "choice"\noptions = ["a", "b"]\nright = ["a", "b"]\n',
             "expected one option to be right",
         ),
-        (HEAD + f'type = "numbers"\nvalues = [{"9" * 5000}]\n', "number or a list too long to read"),
-        (HEAD + f"type = {'[' * 5000}{']' * 5000}\n", "number or a list too long to read"),
+        (
+            HEAD + f'type = "numbers"\nvalues = [{"9" * 5000}]\n',
+            "line 8: expected TOML, got a number or a list too",
+        ),
+        (
+            HEAD + f"type = {'[' * 5000}{']' * 5000}\n",
+            "line 7: expected TOML, got a number or a list too long",
+        ),
         (
             HEAD + 'type = "places"\nnames = ["a"]\nplaces = [[1, 2]]\ncorner = [0, 1]\n',
             "expected either places or corner",
