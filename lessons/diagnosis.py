@@ -110,6 +110,8 @@ def _faulty(twin: Twin, scene: AnyScene, settings: Settings) -> Iterator[Callabl
         yield lambda: transposed(render(scene, settings), scene)
     if twin.name == "y-down":  # Drawn the right way up, and saved from the wrong end.
         yield lambda: upside_down(render(scene, settings), scene)
+    if twin.name == "weights-permuted" and isinstance(scene, ClipScene):  # The other way round.
+        yield lambda: twin.draw(twin.change_scene(scene), settings)
 
 
 def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report | None = None) -> Diagnosis:
@@ -183,7 +185,7 @@ def _compared(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report 
             from_right = differing
         if nearest is None or differing.sum() < nearest[1].sum():
             nearest = candidate, differing
-        if not differing.any():
+        if not differing.any() and candidate.name not in [each.name for each in fits]:
             fits.append(candidate)
     assert nearest is not None
     assert from_right is not None

@@ -47,6 +47,8 @@ def column_wrapped(frame: Frame, scene: ClipScene) -> Frame:
 
 def truncated_to_zero(scene: ClipScene) -> ClipScene:
     """Find the pixels of points by int(x), which turns -1 < x < 0 into 0."""
+    if scene.kind != "points":
+        return scene
     return with_places(scene, np.trunc(in_window(scene)) + 0.5)
 
 

@@ -18,46 +18,56 @@ from lessons.small_scenes import Point, pixel_segments, segment_scene
 LECTURE = Settings(line="bresenham-lecture")
 
 
-def faulty_listing(fault: str, x0: int, y0: int, x1: int, y1: int) -> Listed:
-    """List the pixels of the lecture's Bresenham between two pixels with one fault, and the D that chose each."""
+def faulty_listing(
+    fault: str, x0: int, y0: int, x1: int, y1: int, is_lecture: bool = True, last_pixel: bool = True
+) -> Listed:
+    """List the pixels of a Bresenham line between two pixels with one fault, and the D that chose each.
+
+    The lecture's version draws from left to right and keeps the row at a tie. The other one, ``bresenham``, draws from
+    the first end and steps at a tie.
+    """
     if fault == "from-other-end":
         # Seen from the other end, x and y run the other way, and so do the ties.
-        turned = faulty_listing("", -x0, -y0, -x1, -y1)
+        turned = faulty_listing("", -x0, -y0, -x1, -y1, is_lecture, last_pixel)
         return [(-x, -y, decision) for x, y, decision in turned[::-1]]
     is_steep = not abs(y1 - y0) < abs(x1 - x0) and fault != "one-octant"
     if is_steep:
         x0, y0, x1, y1 = y0, x0, y1, x1
+    x_step = y_step = 1
     if x0 > x1 and fault != "ends-not-ordered":
-        x0, y0, x1, y1 = x1, y1, x0, y0
-    dx, dy, y_step = x1 - x0, y1 - y0, 1
+        if is_lecture:
+            x0, y0, x1, y1 = x1, y1, x0, y0
+        else:
+            x_step = -1
+    dx, dy = (x1 - x0) * x_step, y1 - y0
     if dy < 0:
         y_step, dy = (1 if fault == "slope-always-up" else -1), -dy
-    x, y, D, chosen_by = x0, y0, 2 * dy - dx, nan
+    y, D, chosen_by = y0, 2 * dy - dx, nan
     if fault == "start-not-doubled":
         D = dy - dx
-    if fault == "first-pixel-lost":
-        x0 += 1
     pixels = []
-    while x <= x1 - (fault == "last-pixel-lost"):
-        shown = y0 + y_step * (x - x0) * dy // max(dx, 1) if fault == "row-truncated" else y
-        if x >= x0:
+    for number in range(dx + (last_pixel and fault != "last-pixel-lost")):
+        x = x0 + number * x_step
+        shown = y0 + y_step * number * dy // max(dx, 1) if fault == "row-truncated" else y
+        if number or fault != "first-pixel-lost":
             pixels.append((shown, x, chosen_by) if is_steep else (x, shown, chosen_by))
         chosen_by = D
-        if D > 0 or (D == 0 and fault == "ties-step"):
+        if D > 0 or (D == 0 and (fault == "ties-step" or not is_lecture)):
             y += y_step
             D -= 0 if fault == "not-corrected" else 2 * dx
         D += 2 * dy
-        x += 1
     return pixels
 
 
-def faulty_lines(fault: str, segments: Segments, last_pixel: bool) -> LineRun:
-    """Draw segments with one fault, as a method of the family ``line``."""
+def faulty_lines(fault: str, is_lecture: bool, segments: Segments, last_pixel: bool) -> LineRun:
+    """Draw segments with one fault, as a method of the family ``line``; the lecture's draws every last pixel."""
     ends = segments.pixel_indices.reshape(-1, 4).tolist()
     visited = [
         (owner, index, *pixel)
         for owner, (x0, y0, x1, y1) in enumerate(ends)
-        for index, pixel in enumerate(faulty_listing(fault, x0, y0, x1, y1))
+        for index, pixel in enumerate(
+            faulty_listing(fault, x0, y0, x1, y1, is_lecture, is_lecture or last_pixel)
+        )
     ]
     steps = np.array(visited, float).reshape(-1, 5).T
     owner, index, column, row = steps[:4].astype(np.int64)
@@ -81,8 +91,8 @@ def intensities(scene: ClipScene, settings: Settings) -> list[float]:
 
 
 def with_fault(fault: str) -> Callable[[Settings], Settings]:
-    """Return what replaces the line method of settings by a faulty one."""
-    return lambda settings: settings.replaced(line=partial(faulty_lines, fault))
+    """Return what replaces the line method of settings by a faulty one: of ``bresenham``, else of the lecture's."""
+    return lambda settings: settings.replaced(line=partial(faulty_lines, fault, settings.line != "bresenham"))
 
 
 def line(*ends: tuple[Point, Point]) -> Case:

@@ -203,6 +203,40 @@ def test_mistakes_off_the_shelf_are_unknown() -> None:
         assert diagnosis.differing.any()
 
 
+@pytest.mark.parametrize("turn", [1, 2])
+def test_weights_are_permuted_either_way(turn: int) -> None:
+    other = [
+        tuple((*triangle[k][:4], triangle[(k + turn) % 3][4]) for k in range(3)) for triangle in FLAT[2:3]
+    ]
+    found = diagnosed(FLAT[2:3], Homework().draw(other, *SIZE)).found
+    assert [each.name for each in found] == ["weights-permuted"]
+
+
+@pytest.mark.parametrize(
+    ("name", "planted"), [("last-pixel-lost", {"last": 0}), ("not-corrected", {"corrected": False})]
+)
+def test_a_line_is_known_by_the_rule_of_its_scene(name: str, planted: dict) -> None:
+    covered = np.zeros((12, 16), bool)
+    for column, row in bresenham(1, 1, 9, 4, ties=True, **planted):
+        covered[row, column] = True
+    found = diagnose(make_scene("segment"), DEFAULTS, Drawn(covered=covered)).found
+    assert name in [each.name for each in found]
+
+
+def test_each_mistake_is_named_once_and_only_where_it_can_be_made() -> None:
+    scene = replace(make_scene("cube"), size=(24, 16))
+    pixels = to_display(render(scene).color).pixels[::-1, :, :3]
+    names = [each.name for each in diagnose(scene, Settings(), Drawn(colors=pixels)).found]
+    assert len(names) == len(set(names))
+    # A mistake of points is none of triangles.
+    found = flat(center=(0, 0)).found
+    assert "truncated-to-zero" not in [each.name for each in found]
+    small = ALL_SCENES["zwicker-4x3"].make()
+    drawn = render(small, Settings(pixel_center="integer"))
+    found = diagnose(small, DEFAULTS, Drawn(primitive=drawn.primitive)).found
+    assert [each.name for each in found if each.is_mistake] == ["corner-for-center"]
+
+
 def test_how_near_the_nearest_is() -> None:
     picture = Homework().draw(FLAT, *SIZE)
     picture[4][3] = picture[0][15] = WHITE
