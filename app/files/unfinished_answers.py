@@ -10,14 +10,13 @@ from PySide6.QtCore import QObject, QTimer, Signal, Slot
 from app.background.workers import Job, Progress
 from app.files.file_writing import make_folder, write_file
 from app.files.input_files import read_input
-from app.files.user_folders import data_folder
+from app.files.user_folders import ANSWERS, data_folder
 from lessons.attempts.record import DEFAULT_USER
 from lessons.exercises.draws import SEED_LIMIT
 
 if TYPE_CHECKING:
     from lessons.exercises.question import Template  # All mistakes come along: not at every start.
 
-FILE_NAME = "answers.json"
 PAUSE = 200
 """Milliseconds after the last change."""
 VERSION: Literal[2] = 2
@@ -177,7 +176,7 @@ def _is_later() -> bool:
 
 
 def _path() -> Path:
-    return data_folder() / FILE_NAME
+    return data_folder() / ANSWERS
 
 
 def _write(answers: UnfinishedAnswers) -> None:

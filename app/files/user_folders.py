@@ -10,10 +10,21 @@ from app.files.file_writing import FileWriteError
 FOLDER_VARIABLE = "RASTERSCOPE_CONFIG"
 """Environment variable that names another folder for all of it."""
 
+ANSWERS = "answers.json"
+"""File of answers in progress, in the folder of data."""
+
 
 def data_folder() -> Path:
     """Return the folder of kept results, attempts and own exercises; see `user_folder`."""
     return user_folder(QStandardPaths.StandardLocation.GenericDataLocation, "data")
+
+
+def has_answers() -> bool:
+    """Return whether answers to exercises have been kept: what reads them is not imported before."""
+    try:
+        return (data_folder() / ANSWERS).is_file()
+    except OSError:
+        return False
 
 
 def preferences_folder() -> Path:

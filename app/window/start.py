@@ -14,11 +14,11 @@ from app.background.workers import is_work_left
 from app.cli.commands import UsageError
 from app.export.views import export_widget
 from app.files.open_any import Opened, open_any
+from app.files.user_folders import has_answers
 from app.pages.page_table import page_of_file
 from app.session.document import open_document
 from app.window.appearance import sized_theme, the_application
 from app.window.end_signals import EndSignals
-from app.window.kept_question import KeptQuestion
 from app.window.main_window import MainWindow
 from app.window.preferences import load_preferences
 from app.window.reopening import reopen
@@ -76,7 +76,10 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
     window = MainWindow(first.opened.document, preferences)
     window.page.views.scene_presenter.draw_with(BandWorkers())
     window.files.show_opened(first.opened, window.session.trace)
-    KeptQuestion(window.session, window.pages, window)
+    if has_answers():
+        from app.window.kept_question import KeptQuestion  # Who answers no exercises does not wait for it.
+
+        KeptQuestion(window.session, window.pages, window)
     window.resize(first_size(application))
     window.memory.restore(window)
     window.memory.autosave.begin(first.file, None if first.file else first.opened.document)

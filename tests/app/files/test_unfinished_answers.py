@@ -5,7 +5,8 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.files.unfinished_answers import FILE_NAME, Unfinished, UnfinishedFile
+from app.files.unfinished_answers import Unfinished, UnfinishedFile
+from app.files.user_folders import ANSWERS
 from lessons.exercises.catalogue import TEMPLATES
 
 KEPT = Unfinished(version=1, seed=7, given=[[1, 2]], hints=1)
@@ -21,7 +22,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 def test_a_change_is_on_the_disk_soon_and_after_the_end(qtbot: QtBot, folder: Path) -> None:
     first = UnfinishedFile()
     first.keep(TEMPLATES["shared-edge"], KEPT)
-    qtbot.waitUntil((folder / FILE_NAME).exists)
+    qtbot.waitUntil((folder / ANSWERS).exists)
     first.keep(TEMPLATES["facing"], KEPT)
     first.finish()
     second = UnfinishedFile()
@@ -32,7 +33,7 @@ def test_a_change_is_on_the_disk_soon_and_after_the_end(qtbot: QtBot, folder: Pa
 
 @pytest.mark.parametrize("content", [b"", b"{", b"[]", b'{"answers": {"a": {"seed": -1}}}', b"\xff\x00"])
 def test_a_broken_file_is_set_aside(qtbot: QtBot, folder: Path, content: bytes) -> None:
-    (folder / FILE_NAME).write_bytes(content)
+    (folder / ANSWERS).write_bytes(content)
     file = UnfinishedFile()
     assert (
         file.read() == "Answers in progress were broken. They are kept as answers.broken, and none is open."
@@ -42,16 +43,16 @@ def test_a_broken_file_is_set_aside(qtbot: QtBot, folder: Path, content: bytes) 
 
 def test_a_file_of_a_later_version_is_left_alone(qtbot: QtBot, folder: Path) -> None:
     content = b'{"program": "rasterscope answers", "version": 3, "more": 1}'
-    (folder / FILE_NAME).write_bytes(content)
+    (folder / ANSWERS).write_bytes(content)
     file = UnfinishedFile()
     assert "later version" in file.read()
     file.keep(TEMPLATES["facing"], KEPT)
     file.finish()
-    assert (folder / FILE_NAME).read_bytes() == content
+    assert (folder / ANSWERS).read_bytes() == content
 
 
 def test_what_cannot_be_written_is_reported_once(qtbot: QtBot, folder: Path) -> None:
-    (folder / FILE_NAME).mkdir()
+    (folder / ANSWERS).mkdir()
     file = UnfinishedFile()
     said: list[str] = []
     file.failed.connect(said.append)
@@ -63,7 +64,7 @@ def test_what_cannot_be_written_is_reported_once(qtbot: QtBot, folder: Path) -> 
 
 
 def test_a_file_of_version_1_is_read(qtbot: QtBot, folder: Path) -> None:
-    (folder / FILE_NAME).write_text(
+    (folder / ANSWERS).write_text(
         '{"program":"rasterscope answers","version":1,"user":"me","current":"facing",'
         '"answers":{"facing":{"version":1,"seed":7,"given":["A"],"hints":1,"is_shown":false}}}'
     )
