@@ -117,8 +117,12 @@ class Page(QWidget):
         by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
         first.setFocus(Qt.FocusReason.MouseFocusReason if by_mouse else GIVEN_BACK)
 
+    def first_pane(self) -> QWidget:
+        """Return what F6 and Tab begin with: the main view, or a part of it."""
+        return self.main_view()
+
     def focus_panes(self) -> list[QWidget]:
-        """Return what F6 goes through after the main view, each with a name; Tab takes the same way."""
+        """Return what F6 goes through after that, each with a name; Tab takes the same way."""
         return [self]
 
     def open_path(self, path: str) -> None:

@@ -40,7 +40,7 @@ class FocusWalk(QObject):
         for whole in (window.overlays.keys.editor, window.overlays.key_help):
             if whole.isVisible():
                 return [whole]
-        panes = [window.pages.current.main_view(), *window.pages.current.focus_panes()]
+        panes = [window.pages.current.first_pane(), *window.pages.current.focus_panes()]
         panes = [window.overlays.ask_bar, window.messages, *panes]
         return [*panes, window.help.dock] if window.help.dock is not None else panes
 

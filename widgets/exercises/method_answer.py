@@ -59,6 +59,8 @@ class MethodAnswerView(AnswerView):
         """Do nothing: the run decides, and words say what came of it."""
 
     def _show_cost(self) -> None:
+        for box in self.boxes:
+            box.setToolTip(box.currentText())  # The box may be too narrow for it.
         self.cost.setText(self._form.cost(self.given()) if all(self.given().values()) else "")
 
     @Slot()

@@ -313,9 +313,13 @@ class ExercisesPage(Page):
         """Return what is exported and copied: the question with its picture, or the progress."""
         return self.stack.currentWidget() or self.stack
 
+    def first_pane(self) -> QWidget:
+        """Return the question without its picture, or what stands in its place."""
+        return self.question_view if self.main_view() is self.panes else self.main_view()
+
     def focus_panes(self) -> list[QWidget]:
-        """Return what F6 goes through after the question: the picture, the catalogue, and the borders."""
-        return [self.grid, self.diagnosis_view.grid, self.catalogue, self]
+        """Return what F6 goes through after that: the picture, the catalogue, and the borders."""
+        return [self.grid, self.catalogue, self]
 
     def take_focus(self) -> None:
         """Give the keyboard to the answer."""
