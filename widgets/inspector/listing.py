@@ -25,7 +25,7 @@ from PySide6.QtWidgets import QApplication, QFrame, QPlainTextEdit, QTextEdit, Q
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.marks import blended
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.inspector.listing_looks import color_tokens
+from widgets.inspector.listing_looks import color_tokens, docstring_lines
 from widgets.inspector.listing_margin import ListingMargin
 
 _COMMANDS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
@@ -98,9 +98,19 @@ class ListingView(QPlainTextEdit):
         self.setPlainText(listing.source.rstrip("\n") if listing else "")
         self.setAccessibleName(f"Listing of {self._title}" if self._title else "Listing")
         color_tokens(self.document())
+        self._fold_docstring()
         self._place_margin()
         if self.toPlainText() not in self._in_turn:
             self.room_changed.emit()
+
+    def _fold_docstring(self) -> None:
+        """Leave the room to lines that run: what the function is for stands in the tooltip."""
+        source = self.toPlainText()
+        folded = docstring_lines(source)
+        for line in folded:
+            self.document().findBlockByNumber(line - 1).setVisible(False)
+        lines = source.split("\n")[folded.start - 1 : folded.stop - 1] if folded else []
+        self.setToolTip(" ".join(line.strip() for line in lines).strip(' "'))
 
     def keep_room_for(self, sources: Iterable[str]) -> None:
         """Be high enough for each of these listings, which are shown in turn: then none of them moves anything."""
@@ -143,7 +153,9 @@ class ListingView(QPlainTextEdit):
         """Return the lines (from 1) that are in sight, and where each stands in the viewport."""
         block = self.firstVisibleBlock()
         while block.isValid() and self.toPlainText():
-            yield block.blockNumber() + 1, self.blockBoundingGeometry(block).translated(self.contentOffset())
+            if block.isVisible():
+                box = self.blockBoundingGeometry(block).translated(self.contentOffset())
+                yield block.blockNumber() + 1, box
             block = block.next()
 
     def line_at(self, y: int) -> int | None:
@@ -219,7 +231,8 @@ class ListingView(QPlainTextEdit):
             cursor = self.textCursor()
             is_up = event.key() == Qt.Key.Key_Up
             way = QTextCursor.MoveOperation.PreviousBlock if is_up else QTextCursor.MoveOperation.NextBlock
-            cursor.movePosition(way)
+            while cursor.movePosition(way) and not cursor.block().isVisible():
+                pass
             self.setTextCursor(cursor)
             self._mark_line()
             return
@@ -282,11 +295,13 @@ class ListingView(QPlainTextEdit):
 
 @lru_cache(maxsize=1024)
 def _rows(source: str, lines: int, width: float, font: QFont, wrap: QTextOption.WrapMode) -> int:
-    """Return how many rows the first lines of a source take in a width; at least one for each."""
+    """Return how many rows the first lines of a source that are shown take in a width; at least one for each."""
+    folded = docstring_lines(source)
+    shown = [text for line, text in enumerate(source.split("\n"), 1) if line not in folded]
     option = QTextOption()
     option.setWrapMode(wrap)
     rows = lines
-    for text in source.split("\n")[:lines]:
+    for text in shown[:lines]:
         layout = QTextLayout(text, font)
         layout.setTextOption(option)
         layout.beginLayout()

@@ -42,6 +42,17 @@ def test_tokens_have_their_kinds() -> None:
     assert (1, 15) not in kinds
 
 
+def test_a_docstring_leaves_its_room_to_lines_that_run(view) -> None:
+    text = '"""Listing of a rule,' + "\n    in two lines." + '"""'
+    ran = [f"    value_{k} = {k}" for k in range(9)]
+    view.show_listing(ListingText("rule", "\n".join(["def rule():", f"    {text}", *ran])))
+    assert view.toolTip() == "Listing of a rule, in two lines."
+    view.resize(420, view.height_of(10))
+    bottom = view.blockBoundingGeometry(view.document().lastBlock()).translated(view.contentOffset()).bottom()
+    assert bottom <= view.viewport().height(), "all ten lines that run are seen, numbered as in the source"
+    assert [view.line_at(line_middle(view, line)) for line in (1, 4, 12)] == [1, 4, 12]
+
+
 def test_source_that_does_not_parse_is_shown_plainly(view) -> None:
     assert list(token_formats('x = """never closed')) == []
     view.show_listing(ListingText("broken", 'x = """never closed'))
@@ -95,7 +106,6 @@ def test_keys_choose_a_line_run_to_it_and_break_on_it(qtbot, view) -> None:
     view.line_clicked.connect(runs.append)
     view.breakpoint_toggled.connect(breaks.append)
     view.setFocus()
-    qtbot.keyClick(view, Qt.Key.Key_Down)
     qtbot.keyClick(view, Qt.Key.Key_Down)
     qtbot.keyClick(view, Qt.Key.Key_Return)
     qtbot.keyClick(view, Qt.Key.Key_Return, Qt.KeyboardModifier.ShiftModifier)
