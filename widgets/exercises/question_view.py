@@ -201,16 +201,16 @@ class QuestionView(QWidget):
         """Say how the answer is understood, or why it is not checked yet."""
         self.note.setText(text)
         self.note.setVisible(bool(text))
+        announce(self, text)
 
     def show_hints(self, shown: Sequence[str], count: int) -> None:
         """Show the hints so far, of ``count``."""
-        self.hints.setText(
-            "\n".join(f"Hint {number} of {count}: {hint}" for number, hint in enumerate(shown, 1))
-        )
+        before, numbered = self.hints.text(), enumerate(shown, 1)
+        self.hints.setText("\n".join(f"Hint {number} of {count}: {hint}" for number, hint in numbered))
         self.hints.setVisible(bool(shown))
         self.hint_button.setText(f"Hint {min(len(shown) + 1, count)} of {count}" if count else "Hint")
         self.hint_button.setEnabled(len(shown) < count)
-        if shown:
+        if shown and not before.endswith(shown[-1]):
             announce(self, shown[-1])
 
     def show_feedback(self, feedback: Feedback | None, *, is_stale: bool = False) -> None:

@@ -1,4 +1,4 @@
-"""What is said after a step: its sentence, the line of the algorithm, the formula, and the value at the pixel."""
+"""What is said after a step: sentence, line of the algorithm, formula, the value at the pixel, and what is asked."""
 
 from PySide6.QtCore import QObject, QTimer, Slot
 from PySide6.QtGui import QAccessible
@@ -27,13 +27,15 @@ class StepNarrator(QObject):
         listing: ListingView,
         grid: PixelGrid,
         timeline: Timeline,
+        question: QLabel,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
         self._session, self._sentence = session, sentence
         self._formula, self._listing, self._grid, self._timeline = formula, listing, grid, timeline
-        self._said = ("", "", "", "")
-        """Stage, level, step and value that were said last."""
+        self._question = question
+        self._said = ("", "", "", "", "")
+        """Stage, level, step, value and question that were said last."""
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.setInterval(REST_MILLISECONDS)
@@ -43,6 +45,7 @@ class StepNarrator(QObject):
             session.cursor_changed,
             session.pin_changed,
             session.hover_changed,
+            session.predicting_changed,
         ):
             changed.connect(self._owe)
 
@@ -58,7 +61,8 @@ class StepNarrator(QObject):
         stage = f"Stage {stage_of(self._session.cursor.stage).short_title}"
         texts = (self._sentence.text(), self._listing.accessibleDescription())
         step = ". ".join(text.rstrip(".") for text in (*texts, self._formula.spoken()) if text)
-        now = (stage, level, step, self._grid.spoken_description())
+        asked = self._question.text() if self._question.isVisible() else ""
+        now = (stage, level, step, self._grid.spoken_description(), asked)
         new = [text for text, before in zip(now, self._said, strict=True) if text and text != before]
         self._said = now
         announce(self._sentence, ". ".join(new), is_urgent=step in new)

@@ -89,7 +89,14 @@ class StepPage(Page):
         self.comparing = ComparePresenter(session, self.compare_view, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self.grids, self)
         self.narrator = StepNarrator(
-            session, self.sentence, self.formula, self.listing, self.grid, self.timeline, self
+            session,
+            self.sentence,
+            self.formula,
+            self.listing,
+            self.grid,
+            self.timeline,
+            self.prediction.question,
+            self,
         )
         self.navigator = Navigator(self.grid)
         self.navigation = NavigatorPresenter(session, self.navigator, self.grid, self)

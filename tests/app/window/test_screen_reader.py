@@ -5,11 +5,18 @@ from collections.abc import Iterator
 
 import pytest
 from PySide6.QtCore import QEvent, Qt
-from PySide6.QtGui import QAccessible, QAccessibleAnnouncementEvent, QAccessibleEvent, QTextDocumentFragment
+from PySide6.QtGui import (
+    QAccessible,
+    QAccessibleAnnouncementEvent,
+    QAccessibleEvent,
+    QGuiApplication,
+    QTextDocumentFragment,
+)
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.window.main_window import MainWindow
+from widgets.basics import accessible
 from widgets.basics.message_bar import MessageKind
 
 PAGES = ("start", "step", "compare", "stability", "plan", "exercises")
@@ -26,6 +33,7 @@ def heard(monkeypatch: pytest.MonkeyPatch) -> Iterator[Heard]:
             texts.append((event.politeness().name, event.message()))
 
     monkeypatch.setattr(QAccessible, "updateAccessibility", staticmethod(hear))
+    monkeypatch.setattr(accessible, "NOTICE_PLATFORMS", ())
     QAccessible.setActive(True)
     yield texts
     QAccessible.setActive(False)
@@ -99,6 +107,27 @@ def test_what_is_shown_of_the_pin_is_current(window: MainWindow, heard: Heard, q
     qtbot.waitUntil(lambda: any("Pinned pixel 21, 20: 1" in text for _, text in heard))
 
 
+def test_where_orca_listens_each_announcement_is_a_notice_that_appears(
+    window: MainWindow, monkeypatch: pytest.MonkeyPatch, heard: Heard
+) -> None:
+    said: list[str] = []
+
+    def hear(event: QAccessibleEvent) -> None:
+        if event.type() == QAccessible.Event.ObjectShow:
+            notice = event.accessibleInterface()
+            assert notice.role() == QAccessible.Role.Notification
+            said.append(notice.text(QAccessible.Text.Name))
+
+    monkeypatch.setattr(QAccessible, "updateAccessibility", staticmethod(hear))
+    monkeypatch.setattr(accessible, "NOTICE_PLATFORMS", (QGuiApplication.platformName(),))
+    for texts in (("First.",), ("Second.", "Third."), ("Second.",)):
+        for text in texts:
+            accessible.announce(window.page.sentence, text)
+        QApplication.processEvents()
+    assert said == ["First.", "Second. Third.", "Second."]
+    assert not heard
+
+
 def test_messages_are_announced(window: MainWindow, heard: Heard) -> None:
     """A warning interrupts; a hint does not."""
     window.notices.tell("nothing covers this pixel")
@@ -117,3 +146,15 @@ def test_the_timeline_is_a_slider(window: MainWindow) -> None:
     assert value.maximumValue() == window.session.stage_trace.steps.count
     value.setCurrentValue(17)
     assert window.session.cursor.position == 17
+
+
+def test_a_question_is_announced_after_the_step_it_follows(
+    window: MainWindow, heard: Heard, qtbot: QtBot
+) -> None:
+    window.session.set_stage("raster", 0)
+    window.run_action("predict")
+    window.run_action("step_forward")
+    page = window.page
+    qtbot.waitUntil(lambda: any(text.endswith(page.prediction.question.text()) for _, text in heard))
+    page.prediction.choice_buttons[0].click()
+    assert page.prediction.verdict.text() in [text for _, text in heard]
