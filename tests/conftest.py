@@ -1,5 +1,6 @@
 """What every test stands on: Qt without a display, one font, reproducible examples, and an orderly end."""
 
+import contextlib
 import gc
 import importlib.util
 import os
@@ -56,6 +57,15 @@ def pytest_configure(config: pytest.Config) -> None:
     settings.load_profile("all" if config.getoption("--all") else "everyday")
     if config.getoption("--all") and config.getoption("--hypothesis-seed") is None:
         config.option.hypothesis_seed = str(random.SystemRandom().getrandbits(32))
+
+
+def pytest_collection(session: pytest.Session) -> None:
+    """Import all tests from the end in the second worker: what one has compiled by then, the other need not."""
+    folders = [Path(argument).resolve() for argument in session.config.args]
+    if os.environ.get("PYTEST_XDIST_WORKER") == "gw1" and folders == [ROOT / "tests"]:
+        for path in sorted(ROOT.glob("tests/**/test_*.py"), reverse=True):
+            with contextlib.suppress(Exception):  # which is told when the file is collected
+                importlib.import_module(".".join(path.relative_to(ROOT).with_suffix("").parts))
 
 
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
