@@ -1,14 +1,18 @@
 """Combinations of choices to test: a few every day in which all choices meet, with --all every combination."""
 
-from collections.abc import Iterable, Mapping, Sequence
+import inspect
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import wraps
 from itertools import combinations, product
 from typing import Any, TypeVar
 
 import pytest
 from hypothesis import settings
+from hypothesis.errors import HypothesisException
 
 First = TypeVar("First")
 Second = TypeVar("Second")
+Law = TypeVar("Law", bound=Callable[..., None])
 
 
 def is_everything() -> bool:
@@ -36,6 +40,40 @@ def every_pair(**factors: Sequence[Any]) -> pytest.MarkDecorator:
     if is_everything():
         return pytest.mark.parametrize(tuple(factors), list(product(*factors.values())))
     return pytest.mark.parametrize(tuple(factors), [tuple(case.values()) for case in covering(factors)])
+
+
+def in_one(**factor: Sequence[Any]) -> Callable[[Law], Law]:
+    """Let one test go through all values of a factor, each with the same drawn examples, and name those that fail.
+
+    For laws of which a case takes less than it takes to draw its examples, or to run a test at all.
+    """
+    ((name, values),) = factor.items()
+
+    def of_all(law: Law) -> Law:
+        signature = inspect.signature(law)
+        drawn = signature.replace(
+            parameters=[each for each in signature.parameters.values() if each.name != name]
+        )
+
+        @wraps(law)
+        def tried(*arguments: Any, **options: Any) -> None:
+            given = drawn.bind(*arguments, **options).arguments
+            failed = []
+            for value in values:
+                try:
+                    law(**given, **{name: value})
+                except HypothesisException:
+                    raise  # not a failure: this example is not one
+                except Exception as problem:
+                    problem.add_note(f"{name} = {value!r}")
+                    failed.append(problem)
+            if failed:
+                raise failed[0] if len(failed) == 1 else ExceptionGroup("several cases fail", failed)
+
+        tried.__signature__ = drawn  # type: ignore[attr-defined]
+        return tried  # type: ignore[return-value]
+
+    return of_all
 
 
 def covering(factors: Mapping[str, Sequence[Any]]) -> list[dict[str, Any]]:

@@ -122,6 +122,11 @@ class StageTrace:
         return found
 
     @cached_property
+    def _latest(self) -> dict[int, Mapping[str, Value]]:
+        """The row that was explained last, to its variables: all of its operations are about these."""
+        return {}
+
+    @cached_property
     def _explained(self) -> dict[int, Explanation | None]:
         return {}
 
@@ -142,10 +147,15 @@ class StageTrace:
         kind = self.kind_of(row)
         operations: tuple[Operation, ...] = self.steps.operations[kind]
         done = operations[operation]
+        values = self._latest.get(row)
+        if values is None:
+            values = self.variables(row)
+            self._latest.clear()
+            self._latest[row] = values
         listing = self.listings.get(f"{kind}.{done.name}", self.listings.get(kind))
         return Explanation(
             key=f"{self.stage}.{kind}.{done.name}",
-            values=self.variables(row),
+            values=values,
             known=(*self.constants, *(name for o in operations[: operation + 1] for name in o.sets)),
             changed=done.sets,
             listing=listing,

@@ -11,6 +11,7 @@ from core.methods import table
 from core.raster.lines.drawing import draw_lines
 from core.raster.lines.traits import has_intensities
 from core.records.listing import listing
+from tests.covering import in_one
 
 ON_PIXELS = ["bresenham", "bresenham-lecture", "bresenham-float"]
 ANY_ENDS = ["midpoint", "dda", "dda-float32", "diamond-exit"]
@@ -52,9 +53,9 @@ def line_by_line(pixels, owner, count) -> list[np.ndarray]:
     return [pixels[owner == segment] for segment in range(count)]
 
 
-@pytest.mark.parametrize("line", METHODS + SEVERAL)
 @given(ends=SEGMENTS, last_pixel=st.booleans())
 @example(ends=[(0.0, 0.0, 0.3, 29.7)], last_pixel=True)
+@in_one(line=METHODS + SEVERAL)
 def test_the_listing_executed_gives_the_rows(line, ends, last_pixel):
     # With centres on whole numbers the listing gets the very numbers of the segment.
     segments = as_segments(ends)
@@ -78,9 +79,9 @@ def test_every_listing_names_the_line_that_draws(line):
     assert {"octant", "draw"} <= listing(table.get("line", line).listing).lines.keys()
 
 
-@pytest.mark.parametrize("line", METHODS + SEVERAL)
 @given(ends=SEGMENTS, last_pixel=st.booleans(), size=st.tuples(st.integers(1, 24), st.integers(1, 24)))
 @example(ends=[(0.0, 0.0, 0.0, 2.225073858507e-311)], last_pixel=True, size=(1, 1))
+@in_one(line=METHODS + SEVERAL)
 def test_clipping_is_restriction(line, ends, last_pixel, size):
     segments = as_segments(ends)
     clipped = draw_lines(segments, *size, line=line, last_pixel=last_pixel)
@@ -94,10 +95,8 @@ def test_clipping_is_restriction(line, ends, last_pixel, size):
         np.testing.assert_array_equal(values, getattr(complete.steps, name)[inside])
 
 
-@pytest.mark.parametrize(
-    "line", ["bresenham", "bresenham-lecture", "bresenham-float", "diamond-exit", "rectangle"]
-)
 @given(ends=SEGMENTS, last_pixel=st.booleans())
+@in_one(line=["bresenham", "bresenham-lecture", "bresenham-float", "diamond-exit", "rectangle"])
 def test_what_lies_left_and_below_is_cut_off_too(line, ends, last_pixel):
     # Moved by whole pixels, ends on the grid are decided the same: the whole line can be seen.
     segments = np.rint(as_segments(ends) * 256) / 256
@@ -109,8 +108,8 @@ def test_what_lies_left_and_below_is_cut_off_too(line, ends, last_pixel):
     np.testing.assert_array_equal(clipped.steps.decision, complete.steps.decision[inside])
 
 
-@pytest.mark.parametrize("line", METHODS)
 @given(ends=PIXEL_SEGMENTS)
+@in_one(line=METHODS)
 def test_one_pixel_per_major_step_connected_and_nearest(line, ends):
     segments = as_segments(ends) + 0.5
     pixels, drawn = whole(segments, line=line, last_pixel=True)
@@ -133,17 +132,25 @@ def test_one_pixel_per_major_step_connected_and_nearest(line, ends):
                 assert abs(exact - pixel[1 - major]) <= Fraction(1, 2) + slack
 
 
-SYMMETRIES = [
-    ("mirror x", lambda points: points * (-1, 1)),
-    ("mirror y", lambda points: points * (1, -1)),
-    ("swap axes", lambda points: points[..., ::-1]),
-]
+def mirror_x(points):
+    return points * (-1, 1)
 
 
-@pytest.mark.parametrize("line", ["bresenham", "bresenham-float"])
-@pytest.mark.parametrize(("name", "move"), SYMMETRIES)
+def mirror_y(points):
+    return points * (1, -1)
+
+
+def swap_axes(points):
+    return points[..., ::-1]
+
+
+SYMMETRIES = [mirror_x, mirror_y, swap_axes]
+
+
 @given(ends=st.lists(st.tuples(*[st.integers(-20, 20)] * 4), min_size=1, max_size=4))
-def test_these_methods_keep_every_symmetry_of_the_square(line, name, move, ends):
+@in_one(line=["bresenham", "bresenham-float"])
+@in_one(move=SYMMETRIES)
+def test_these_methods_keep_every_symmetry_of_the_square(line, move, ends):
     segments = as_segments(ends)
     pixels, _ = whole(segments, line=line, pixel_center="integer")
     moved, _ = whole(move(segments), line=line, pixel_center="integer")
@@ -172,8 +179,8 @@ def drawn_sets(segments, line):
     return [set(map(tuple, mine.tolist())) for mine in line_by_line(pixels, drawn.owner, len(segments))]
 
 
-@pytest.mark.parametrize("line", ["bresenham-lecture", "diamond-exit"])
 @given(ends=PIXEL_SEGMENTS)
+@in_one(line=["bresenham-lecture", "diamond-exit"])
 def test_these_methods_draw_the_same_backwards(line, ends):
     segments = as_segments(ends)
     assert drawn_sets(segments, line) == drawn_sets(segments[:, ::-1], line)
@@ -263,8 +270,8 @@ def test_a_line_drawn_in_pieces_draws_each_pixel_once(start, step):
     np.testing.assert_array_equal(together, at_once)
 
 
-@pytest.mark.parametrize("line", METHODS + SEVERAL)
 @given(ends=SEGMENTS)
+@in_one(line=METHODS + SEVERAL)
 def test_segments_do_not_depend_on_their_company(line, ends):
     segments = as_segments(ends)
     together, drawn = whole(segments, line=line)

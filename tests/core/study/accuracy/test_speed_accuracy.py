@@ -2,7 +2,6 @@
 
 import gc
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
@@ -48,17 +47,22 @@ def measured(family: str, work: str | None = None, **options) -> Study:
     return measure(family, kind.name, dials, rounds=1, grow=False, **options)
 
 
-measured_once = cache(measured)
-"""The same study for all tests that only look at it."""
-
-
 def by_method(study: Study) -> dict[str, Point]:
     return {point.method: point for point in study.points}
 
 
 @pytest.mark.parametrize(("family", "work"), CASES)
-def test_every_family_gives_numbers_or_reasons(family: str, work: str) -> None:
-    study = measured_once(family, work)
+def test_every_family_gives_numbers_or_reasons_and_has_pictures(
+    family: str, work: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(module, "BLOCK", 0.0)  # One run is a block.
+    study = measured(family, work)
+    check_numbers(study)
+    check_pictures(study)
+
+
+def check_numbers(study: Study) -> None:
+    """Check that every point has a number of every measure, or a reason."""
     names = {each.name for each in study.measures}
     assert study.points
     assert any(point.is_measured for point in study.points)
@@ -81,17 +85,16 @@ def test_every_family_gives_numbers_or_reasons(family: str, work: str) -> None:
         settings_of(study.settings, point.method)
 
 
-@pytest.mark.parametrize(("family", "work"), CASES)
-def test_every_point_has_pictures_and_opens(family: str, work: str) -> None:
-    study = measured_once(family, work)
+def check_pictures(study: Study) -> None:
+    """Check that the last point has pictures, and a scene that it opens in."""
     point = next(point for point in reversed(study.points) if point.is_measured)
-    scene = SCENE if family == "pipeline" else None
+    scene = SCENE if study.family == "pipeline" else None
     shown = pictures(study, point, scene)
     assert shown.result.shape == shown.reference.shape
     assert shown.difference.shape == shown.result.shape[:2]
     assert shown.result.dtype == shown.reference.dtype == shown.difference.dtype == np.float32
     where = opening(study, point, scene)
-    assert (where is None) == (family in NUMBERS_ONLY)
+    assert (where is None) == (study.family in NUMBERS_ONLY)
     if where is not None and where.pixel is not None:
         column, row = where.pixel
         width, height = where.scene.size
