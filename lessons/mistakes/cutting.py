@@ -25,29 +25,14 @@ def planes_outside(clip: Vector) -> frozenset[int]:
     return frozenset(np.flatnonzero(distances < 0).tolist())
 
 
-def planes_outside_divided(clip: Vector) -> frozenset[int]:
-    """Test x/w, y/w and z/w, whatever the sign of w."""
-    return planes_outside((*(c / clip[3] for c in clip[:3]), 1))
-
-
 def at_crossing(near: Any, far: Any, t: Any) -> Vector:
     """Return an attribute at t on the way from one end to another."""
     return (near + t * (far - near),)
 
 
-def copied_at_crossing(near: Any, far: Any, t: Any) -> Vector:
-    """Keep the attribute of the end that was cut off."""
-    return (far,)
-
-
 def triangles_after_clipping(inside: int) -> Vector:
     """Return how many triangles one plane leaves of a triangle of which so many vertices are inside."""
     return (Fraction((0, 1, 2, 1)[inside]),)
-
-
-def one_triangle_always(inside: int) -> Vector:
-    """Take the polygon that is left for a triangle."""
-    return (Fraction(min(inside, 1)),)
 
 
 def new_corners(corners: Sequence[Vector], border: int) -> tuple[Vector, Vector]:
@@ -77,22 +62,12 @@ def area_in_window(polygon: Polygon, window: Polygon) -> Vector:
     return (polygon_area(polygon) if polygon else 0.0,)
 
 
-def area_in_turned_window(polygon: Polygon, window: Polygon) -> Vector:
-    """Go round the window the other way."""
-    return area_in_window(polygon, window[::-1])
-
-
 def culled_faces(faces: Sequence[Face], eye: Vector) -> frozenset[int]:
     """Return the faces that face away from the eye: N . (point - eye) > 0."""
     rays = [tuple(p - e for p, e in zip(point, eye, strict=True)) for _, point in faces]
     return frozenset(
         k for k, ((normal, _), ray) in enumerate(zip(faces, rays, strict=True)) if dot(normal, ray) > 0
     )
-
-
-def culled_by_view_direction(faces: Sequence[Face], eye: Vector) -> frozenset[int]:
-    """Compare every normal with the one direction (0, 0, -1)."""
-    return frozenset(k for k, (normal, _) in enumerate(faces) if normal[2] < 0)
 
 
 def rejected_blocks(edges: Sequence[Edge], blocks: int, size: int) -> frozenset[tuple[int, int]]:
@@ -134,11 +109,6 @@ def doubled_area(width: int, height: int) -> Vector:
     return (Fraction(256 * width * 256 * height),)
 
 
-def doubled_area_in_32_bits(width: int, height: int) -> Vector:
-    """Keep the product in 32 bits with a sign."""
-    return (Fraction(int(np.array(256 * width * 256 * height, np.int64).astype(np.int32))),)
-
-
 SQUARE: Polygon = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
 SLANTED: list[Edge] = [(1.0, 1.0, -8.0, True)]
 
@@ -147,7 +117,7 @@ RULES = (
         "planes-after-divide",
         "The planes were tested after the divide. Compare x, y and z with -w and w while w still has its sign.",
         planes_outside,
-        planes_outside_divided,
+        lambda clip: planes_outside((*(c / clip[3] for c in clip[:3]), 1)),
         ((1, 1, Fraction(-14, 3), -2),),
         ((1, 3, 1, 2),),
     ),
@@ -155,7 +125,7 @@ RULES = (
         "attribute-copied",
         "The new vertex has the attribute of the end that was cut off. Interpolate it with t, as the position.",
         at_crossing,
-        copied_at_crossing,
+        lambda _near, far, _t: (far,),
         (Fraction(0), Fraction(1), Fraction(1, 2)),
         (Fraction(1), Fraction(1), Fraction(1, 2)),
     ),
@@ -163,7 +133,7 @@ RULES = (
         "quad-as-triangle",
         "Two vertices inside leave a quad, which is two triangles.",
         triangles_after_clipping,
-        one_triangle_always,
+        lambda inside: (Fraction(min(inside, 1)),),
         (2,),
         (1,),
     ),
@@ -180,7 +150,7 @@ RULES = (
         "window-clockwise",
         "The window was followed clockwise, so its outside was kept. Inside is on the left of counter-clockwise edges.",
         area_in_window,
-        area_in_turned_window,
+        lambda polygon, window: area_in_window(polygon, window[::-1]),
         ([(1.0, 1.0), (3.0, 1.0), (2.0, 3.0)], SQUARE),
         ([(5.0, 5.0), (7.0, 5.0), (6.0, 7.0)], SQUARE),
     ),
@@ -188,7 +158,7 @@ RULES = (
         "view-direction-fixed",
         "Normals were compared with one view direction. With perspective it is that from the eye to the face.",
         culled_faces,
-        culled_by_view_direction,
+        lambda faces, _eye: frozenset(k for k, (normal, _) in enumerate(faces) if normal[2] < 0),
         ([((1, 0, Fraction(-1, 4)), (-9, 0, -10))], (0, 0, 0)),
         ([((0, 0, -1), (0, 0, -10))], (0, 0, 0)),
     ),
@@ -212,7 +182,9 @@ RULES = (
         "product-overflows",
         "The product does not fit into 32 bits with a sign: from 2^31 on it turns over.",
         doubled_area,
-        doubled_area_in_32_bits,
+        lambda width, height: (
+            Fraction(int(np.array(256 * width * 256 * height, np.int64).astype(np.int32))),
+        ),
         (200, 200),
         (20, 20),
     ),

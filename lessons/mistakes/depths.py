@@ -67,16 +67,6 @@ def window_depth(near: Any, far: Any, distance: Any) -> Vector:
     return (Fraction(far) * (distance - near) / (Fraction(distance) * (far - near)),)
 
 
-def depth_of_distance(near: Any, far: Any, distance: Any) -> Vector:
-    """Take depth for linear in the distance."""
-    return (Fraction(distance - near) / (far - near),)
-
-
-def depth_of_tiny_near(near: Any, far: Any, distance: Any) -> Vector:
-    """Put the near plane at almost 0, so that all depths are almost 1."""
-    return window_depth(Fraction(near) / 1000, far, distance)
-
-
 def depth_between(t: Any, depths: Vector, distances: Vector) -> Vector:
     """Return the window depth at t along an edge in the window: it is linear there."""
     return (depths[0] + t * (depths[1] - depths[0]),)
@@ -93,19 +83,9 @@ def distance_between(t: Any, distances: Vector) -> Vector:
     return (1 / ((1 - t) / Fraction(distances[0]) + t / Fraction(distances[1])),)
 
 
-def distance_linear(t: Any, distances: Vector) -> Vector:
-    """Interpolate the distance itself."""
-    return (distances[0] + t * (distances[1] - distances[0]),)
-
-
 def painted_first(depths: Sequence[Vector]) -> Vector:
     """Return the triangles in the order of their farthest vertices, the farthest first."""
     return tuple(sorted(range(len(depths)), key=lambda k: -max(depths[k])))
-
-
-def painted_by_mean(depths: Sequence[Vector]) -> Vector:
-    """Sort by the mean depth."""
-    return tuple(sorted(range(len(depths)), key=lambda k: -sum(depths[k])))
 
 
 @dataclass(frozen=True)
@@ -148,11 +128,6 @@ def resolved_from_one(layers: Sequence[Layer], count: int) -> Vector:
 def line_greys(grey: int, counts: Sequence[int]) -> Vector:
     """Return the grey of a pixel of a line over black with so many samples: all of them are written."""
     return tuple(Fraction(grey) for _ in counts)
-
-
-def line_greys_of_one_sample(grey: int, counts: Sequence[int]) -> Vector:
-    """Write one sample of the pixel."""
-    return tuple(Fraction(grey, count) for count in counts)
 
 
 NEAR_AND_FAR = cards([0.25] * 3, [0.75] * 3)
@@ -219,7 +194,7 @@ RULES = (
         "depth-linear",
         "Depth was taken for linear in the distance. With perspective most of its range lies near the eye.",
         window_depth,
-        depth_of_distance,
+        lambda near, far, distance: (Fraction(distance - near) / (far - near),),
         (1, 10, 2),
         (1, 10, 10),
     ),
@@ -227,7 +202,7 @@ RULES = (
         "near-plane-tiny",
         "The near plane lies almost at the eye, so that every depth is almost 1.",
         window_depth,
-        depth_of_tiny_near,
+        lambda near, far, distance: window_depth(Fraction(near) / 1000, far, distance),
         (1, 10, 2),
         (1, 10, 10),
     ),
@@ -243,7 +218,7 @@ RULES = (
         "distance-linear",
         "The distance was interpolated in the window. Its reciprocal 1/w is linear there.",
         distance_between,
-        distance_linear,
+        lambda t, distances: (distances[0] + t * (distances[1] - distances[0]),),
         (Fraction(1, 2), (1, 10)),
         (Fraction(1, 2), (3, 3)),
     ),
@@ -251,7 +226,7 @@ RULES = (
         "sorted-by-mean",
         "The triangles were sorted by their mean depth. Here the farthest vertex decides.",
         painted_first,
-        painted_by_mean,
+        lambda depths: tuple(sorted(range(len(depths)), key=lambda k: -sum(depths[k]))),
         (((1, 1, 30), (12, 12, 12)),),
         (((1, 1, 1), (12, 12, 12)),),
     ),
@@ -275,7 +250,7 @@ RULES = (
         "line-in-one-sample",
         "The line was written to one sample of each pixel, so it fades as their number grows. Write all of them.",
         line_greys,
-        line_greys_of_one_sample,
+        lambda grey, counts: tuple(Fraction(grey, count) for count in counts),
         (240, (1, 4, 16)),
         (240, (1,)),
     ),

@@ -47,16 +47,6 @@ def divided_by_w(scene: ClipScene) -> ClipScene:
     return replace(scene, attributes=scene.attributes / scene.clip[..., 3:])
 
 
-def inverted_w(scene: ClipScene) -> ClipScene:
-    """Put 1/w in place of w; corners and depths stay where they are."""
-    return replace(scene, clip=scene.clip / scene.clip[..., 3:] ** 2)
-
-
-def without_w(scene: ClipScene) -> ClipScene:
-    """Put 1 in place of w; corners and depths stay where they are."""
-    return replace(scene, clip=scene.clip / scene.clip[..., 3:])
-
-
 def turned_attributes(scene: ClipScene) -> ClipScene:
     """Give each corner the attributes of the next one."""
     assert scene.attributes is not None
@@ -160,7 +150,7 @@ TWINS = (
         "w was 1 when it was used. The w of the clip position must be kept after the divide.",
         Case(TILTED),
         Case(UPRIGHT),
-        change_scene=without_w,
+        change_scene=lambda scene: replace(scene, clip=scene.clip / scene.clip[..., 3:]),
     ),
     Twin(
         "not-divided-back",
@@ -175,7 +165,7 @@ TWINS = (
         "The attribute was multiplied by w where it is divided by w.",
         Case(TILTED),
         Case(UPRIGHT),
-        change_scene=inverted_w,
+        change_scene=lambda scene: replace(scene, clip=scene.clip / scene.clip[..., 3:] ** 2),
     ),
     Twin(
         "not-divided",

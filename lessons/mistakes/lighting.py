@@ -18,21 +18,6 @@ def normal_in_world(scale: Vector, shift: Vector, normal: Vector) -> Vector:
     return unit(tuple(n / s for n, s in zip(normal, scale, strict=True)))
 
 
-def normal_as_position(scale: Vector, shift: Vector, normal: Vector) -> Vector:
-    """Return M N."""
-    return unit(tuple(n * s for n, s in zip(normal, scale, strict=True)))
-
-
-def normal_unchanged(scale: Vector, shift: Vector, normal: Vector) -> Vector:
-    """Leave the normal in object space."""
-    return unit(normal)
-
-
-def normal_moved(scale: Vector, shift: Vector, normal: Vector) -> Vector:
-    """Move the normal, too, as if its w were 1."""
-    return unit(shifted(shift, tuple(n / s for n, s in zip(normal, scale, strict=True))))
-
-
 def normal_in_camera(model_view: Matrix, focal: Vector, normal: Vector) -> Vector:
     """Return the normal by the normal matrix of V M, a rotation here."""
     return unit(image(model_view, normal))
@@ -46,21 +31,6 @@ def normal_by_projection(model_view: Matrix, focal: Vector, normal: Vector) -> V
 def diffuse(ambient: float, normal: Vector, to_light: Vector) -> Vector:
     """Return ambient + (1 - ambient) max(0, N . L), with unit vectors."""
     return (ambient + (1 - ambient) * max(0.0, dot(unit(normal), unit(to_light))),)
-
-
-def diffuse_of_long_normal(ambient: float, normal: Vector, to_light: Vector) -> Vector:
-    """Take the normal as it is."""
-    return (ambient + (1 - ambient) * max(0.0, dot(normal, unit(to_light))),)
-
-
-def diffuse_unclamped(ambient: float, normal: Vector, to_light: Vector) -> Vector:
-    """Let N . L be negative."""
-    return (ambient + (1 - ambient) * dot(unit(normal), unit(to_light)),)
-
-
-def diffuse_from_behind(ambient: float, normal: Vector, to_light: Vector) -> Vector:
-    """Take L from the light to the surface."""
-    return diffuse(ambient, normal, tuple(-c for c in to_light))
 
 
 def between_normals(first: Vector, second: Vector, t: Any, to_light: Vector) -> Vector:
@@ -81,16 +51,6 @@ def highlight(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) 
     return (max(0.0, dot(unit(normal), half)) ** shininess,)
 
 
-def highlight_at_light(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
-    """Take L for H."""
-    return (max(0.0, dot(unit(normal), unit(to_light))) ** shininess,)
-
-
-def highlight_at_eye(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
-    """Take V for H."""
-    return (max(0.0, dot(unit(normal), unit(to_eye))) ** shininess,)
-
-
 def highlight_inverted(normal: Vector, to_light: Vector, to_eye: Vector, shininess: int) -> Vector:
     """Take 1/s for s."""
     return (highlight(normal, to_light, to_eye, shininess)[0] ** (1 / shininess**2),)
@@ -101,19 +61,9 @@ def light_byte(ambient: Any, diffuse_light: Any) -> Vector:
     return (min(255, int(255 * (ambient + diffuse_light) + 0.5)),)
 
 
-def light_byte_overflown(ambient: Any, diffuse_light: Any) -> Vector:
-    """Keep the low eight bits."""
-    return (int(255 * (ambient + diffuse_light) + 0.5) % 256,)
-
-
 def lightings_by_fragment(triangles: int, vertices: int, fragments: int) -> Vector:
     """Return how often flat, Gouraud and Phong shading evaluate the light."""
     return triangles, vertices, fragments
-
-
-def lightings_by_vertex(triangles: int, vertices: int, fragments: int) -> Vector:
-    """Light "Phong" at the vertices."""
-    return triangles, vertices, vertices
 
 
 SLOPE = ((2, 1, 1), (0, 0, 0), (1, 1, 0))
@@ -128,7 +78,7 @@ RULES = (
         "normal-as-position",
         "The normal was transformed by M. It goes with the transposed inverse of M.",
         normal_in_world,
-        normal_as_position,
+        lambda scale, _shift, normal: unit(tuple(n * s for n, s in zip(normal, scale, strict=True))),
         SLOPE,
         ROUND,
     ),
@@ -136,7 +86,7 @@ RULES = (
         "normal-untransformed",
         "The normal was left in object space. It turns with the object.",
         normal_in_world,
-        normal_unchanged,
+        lambda _scale, _shift, normal: unit(normal),
         SLOPE,
         ROUND,
     ),
@@ -144,7 +94,9 @@ RULES = (
         "normal-moved",
         "The normal was moved with the object. It is a direction: its w is 0.",
         normal_in_world,
-        normal_moved,
+        lambda scale, shift, normal: unit(
+            shifted(shift, tuple(n / s for n, s in zip(normal, scale, strict=True)))
+        ),
         ((1, 1, 1), (5, 0, 0), (1, 1, 0)),
         ROUND,
     ),
@@ -160,7 +112,7 @@ RULES = (
         "normal-too-long",
         "The normal is not of length 1. Divide by its length first.",
         diffuse,
-        diffuse_of_long_normal,
+        lambda ambient, normal, to_light: (ambient + (1 - ambient) * max(0.0, dot(normal, unit(to_light))),),
         (0.25, (0, 0, 2), (0, 3, 4)),
         (0.25, (0, 0, 1), (0, 3, 4)),
     ),
@@ -168,7 +120,7 @@ RULES = (
         "light-unclamped",
         "N . L is negative on the dark side and took away from the ambient light: max(0, N . L).",
         diffuse,
-        diffuse_unclamped,
+        lambda ambient, normal, to_light: (ambient + (1 - ambient) * dot(unit(normal), unit(to_light)),),
         (0.25, (0, 0, 1), (0, 0, -1)),
         FACING,
     ),
@@ -176,7 +128,7 @@ RULES = (
         "light-reversed",
         "L points from the light to the surface. It points from the surface to the light.",
         diffuse,
-        diffuse_from_behind,
+        lambda ambient, normal, to_light: diffuse(ambient, normal, tuple(-c for c in to_light)),
         FACING,
         (0.25, (0, 0, 1), (1, 0, 0)),
     ),
@@ -192,7 +144,9 @@ RULES = (
         "highlight-at-light",
         "N . L was taken: the highlight lies under the light. H is halfway between L and V.",
         highlight,
-        highlight_at_light,
+        lambda normal, to_light, _to_eye, shininess: (
+            max(0.0, dot(unit(normal), unit(to_light))) ** shininess,
+        ),
         SHINE,
         STRAIGHT,
     ),
@@ -200,7 +154,9 @@ RULES = (
         "highlight-at-eye",
         "N . V was taken: the highlight follows the eye. H is halfway between L and V.",
         highlight,
-        highlight_at_eye,
+        lambda normal, _to_light, to_eye, shininess: (
+            max(0.0, dot(unit(normal), unit(to_eye))) ** shininess,
+        ),
         SHINE,
         STRAIGHT,
     ),
@@ -216,7 +172,7 @@ RULES = (
         "byte-overflows",
         "The sum was stored without a limit, and 256 became 0. Cut it off at 255.",
         light_byte,
-        light_byte_overflown,
+        lambda ambient, diffuse_light: (int(255 * (ambient + diffuse_light) + 0.5) % 256,),
         (0.4, 0.8),
         (0.1, 0.8),
     ),
@@ -224,7 +180,7 @@ RULES = (
         "phong-at-vertices",
         "Phong was lit at the vertices. It interpolates normals and lights every fragment.",
         lightings_by_fragment,
-        lightings_by_vertex,
+        lambda triangles, vertices, _fragments: (triangles, vertices, vertices),
         (1, 3, 40),
         (1, 3, 3),
     ),

@@ -58,24 +58,9 @@ def repeat_mirrored(index: Integers, size: int) -> Integers:
     return np.where(index < 0, -index - 1, index) % size
 
 
-def window_for_uv(scene: ClipScene) -> ClipScene:
-    """Look the texture up with places in the window."""
-    return replace(scene, attributes=in_window(scene) / np.array(scene.size))
-
-
 def mip_level(texels: int, uv_step: float) -> Vector:
     """Return the level for a step in u from pixel to pixel: log2 of the texels per pixel, at least 0."""
     return (max(0.0, log2(texels * uv_step)),)
-
-
-def mip_level_of_uv(texels: int, uv_step: float) -> Vector:
-    """Forget the size of the texture."""
-    return (log2(uv_step),)
-
-
-def mip_level_of_area(texels: int, uv_step: float) -> Vector:
-    """Take the logarithm of the area."""
-    return (max(0.0, 2 * log2(texels * uv_step)),)
 
 
 RAMP = strip([0.0, 0.25, 0.5, 0.75])
@@ -139,7 +124,7 @@ TWINS = (
         "The texture was looked up with the place in the window. It is glued on by u and v.",
         looked_up(strip([0.0, 0.25, 0.5, 0.75], 0.0, 2.0)),
         looked_up(EVEN),
-        change_scene=window_for_uv,
+        change_scene=lambda scene: replace(scene, attributes=in_window(scene) / np.array(scene.size)),
     ),
 )
 
@@ -148,7 +133,7 @@ RULES = (
         "level-without-size",
         "The step in u was not multiplied by the size of the texture: the level counts texels per pixel.",
         mip_level,
-        mip_level_of_uv,
+        lambda _texels, uv_step: (log2(uv_step),),
         (64, 1 / 16),
         (1, 2.0),
     ),
@@ -156,7 +141,7 @@ RULES = (
         "level-of-area",
         "The level was taken from the area, which doubles it. It is log2 of the longer side.",
         mip_level,
-        mip_level_of_area,
+        lambda texels, uv_step: (max(0.0, 2 * log2(texels * uv_step)),),
         (64, 1 / 32),
         (64, 1 / 64),
     ),

@@ -51,11 +51,6 @@ def move_and_turn(turn: Turn, shift: Vector, point: Vector) -> Vector:
     return turned(turn, shifted(shift, point))
 
 
-def turn_back_and_move(turn: Turn, shift: Vector, point: Vector) -> Vector:
-    """Return T R^-1 p."""
-    return shifted(shift, turned((turn[0], -turn[1]), point))
-
-
 def scale_and_move(scale: Vector, shift: Vector) -> Vector:
     """Return T S, a (3, 3) matrix for homogeneous points of the plane, row by row."""
     return (
@@ -71,30 +66,15 @@ def scale_and_move(scale: Vector, shift: Vector) -> Vector:
     )
 
 
-def move_and_scale(scale: Vector, shift: Vector) -> Vector:
-    """Return S T."""
-    return scale_and_move(scale, (scale[0] * shift[0], scale[1] * shift[1]))
-
-
 def about_pivot(turn: Turn, pivot: Vector, point: Vector) -> Vector:
     """Turn a point about a pivot."""
     return turn_and_move(turn, pivot, shifted(tuple(-c for c in pivot), point))
-
-
-def about_origin(turn: Turn, pivot: Vector, point: Vector) -> Vector:
-    """Turn a point about the origin."""
-    return turned(turn, point)
 
 
 def turned_by(degrees: int, point: Vector, in_radians: Callable[[float], float] = radians) -> Vector:
     """Turn a point by an angle in degrees."""
     angle = in_radians(degrees)
     return cos(angle) * point[0] - sin(angle) * point[1], sin(angle) * point[0] + cos(angle) * point[1]
-
-
-def turned_unconverted(degrees: int, point: Vector) -> Vector:
-    """Give degrees to functions that take radians."""
-    return turned_by(degrees, point, float)
 
 
 def translated(shift: Vector, point: Vector) -> Vector:
@@ -107,29 +87,9 @@ def translated_by_transpose(shift: Vector, point: Vector) -> Vector:
     return (*point, dot(shift, point) + 1)
 
 
-def translated_without_ones(shift: Vector, point: Vector) -> Vector:
-    """Return the product with a T that has no ones on its diagonal but the last."""
-    return (*shift, Fraction(1))
-
-
 def in_camera(axes: Matrix, eye: Vector, target: Vector, point: Vector) -> Vector:
     """Return C^-1 p: the point from the eye, along the camera's right, up and backward axes (one a row)."""
     return image(axes, shifted(tuple(-c for c in eye), point))
-
-
-def eye_not_turned(axes: Matrix, eye: Vector, target: Vector, point: Vector) -> Vector:
-    """Return R p - eye."""
-    return shifted(tuple(-c for c in eye), image(axes, point))
-
-
-def target_for_eye(axes: Matrix, eye: Vector, target: Vector, point: Vector) -> Vector:
-    """Return R (p - target)."""
-    return in_camera(axes, target, eye, point)
-
-
-def camera_not_inverted(axes: Matrix, eye: Vector, target: Vector, point: Vector) -> Vector:
-    """Return C p."""
-    return shifted(eye, image(tuple(zip(*axes, strict=True)), point))
 
 
 def projected(half: Fraction, aspect: Fraction, near: int, far: int, point: Vector) -> Vector:
@@ -137,26 +97,6 @@ def projected(half: Fraction, aspect: Fraction, near: int, far: int, point: Vect
     x, y, z = point
     depth = (-(far + near) * z - 2 * far * near) / Fraction(far - near)
     return x / (half * aspect), y / half, depth, -z
-
-
-def angle_not_halved(half: Fraction, aspect: Fraction, near: int, far: int, point: Vector) -> Vector:
-    """Take tan(fov) for tan(fov/2)."""
-    return projected(2 * half / (1 - half * half), aspect, near, far, point)
-
-
-def aspect_inverted(half: Fraction, aspect: Fraction, near: int, far: int, point: Vector) -> Vector:
-    """Take height over width."""
-    return projected(half, 1 / aspect, near, far, point)
-
-
-def planes_negated(half: Fraction, aspect: Fraction, near: int, far: int, point: Vector) -> Vector:
-    """Put -near and -far into the matrix."""
-    return projected(half, aspect, -near, -far, point)
-
-
-def w_is_one(half: Fraction, aspect: Fraction, near: int, far: int, point: Vector) -> Vector:
-    """Leave w at 1."""
-    return (*projected(half, aspect, near, far, point)[:3], Fraction(1))
 
 
 def divided(clip: Vector) -> Vector:
@@ -169,19 +109,9 @@ def not_divided(clip: Vector) -> Vector:
     return clip[:3]
 
 
-def z_not_divided(clip: Vector) -> Vector:
-    """Divide x and y alone."""
-    return (*divided(clip)[:2], clip[2])
-
-
 def skinned(weights: Vector, places: Vector) -> Vector:
     """Return the mean of places with weights that need not sum to 1."""
     return (dot(weights, places) / sum(weights),)
-
-
-def skinned_unnormalized(weights: Vector, places: Vector) -> Vector:
-    """Sum without dividing by the sum of the weights."""
-    return (dot(weights, places),)
 
 
 F = Fraction
@@ -203,7 +133,7 @@ RULES = (
         "turned-clockwise",
         "The turn went clockwise: the signs of the sines are exchanged. A positive angle turns counter-clockwise.",
         turn_and_move,
-        turn_back_and_move,
+        lambda turn, shift, point: shifted(shift, turned((turn[0], -turn[1]), point)),
         (QUARTER, (2, 0), (1, 1)),
         ((F(-1), F(0)), (2, 0), (1, 1)),
     ),
@@ -211,7 +141,7 @@ RULES = (
         "scaled-after-moving",
         "The shift was scaled, too: that is S T. In T S the scaling acts first.",
         scale_and_move,
-        move_and_scale,
+        lambda scale, shift: scale_and_move(scale, (scale[0] * shift[0], scale[1] * shift[1])),
         ((2, 3), (1, 1)),
         ((2, 3), (0, 0)),
     ),
@@ -219,7 +149,7 @@ RULES = (
         "pivot-left-out",
         "The point was turned about the origin. Move the pivot to the origin, turn, and move back.",
         about_pivot,
-        about_origin,
+        lambda turn, _pivot, point: turned(turn, point),
         (QUARTER, (2, 0), (3, 0)),
         (QUARTER, (0, 0), (3, 0)),
     ),
@@ -227,7 +157,7 @@ RULES = (
         "degrees-for-radians",
         "The angle in degrees was taken for radians. Multiply by pi/180 first.",
         turned_by,
-        turned_unconverted,
+        lambda degrees, point: turned_by(degrees, point, float),
         (90, (1, 0)),
         (0, (1, 0)),
     ),
@@ -243,7 +173,7 @@ RULES = (
         "ones-missing",
         "The diagonal of the translation has no ones, so every point falls on one place.",
         translated,
-        translated_without_ones,
+        lambda shift, _point: (*shift, Fraction(1)),
         ((1, 0, 0), (1, 1, 1)),
         ((1, 0, 0), (0, 0, 0)),
     ),
@@ -251,7 +181,7 @@ RULES = (
         "eye-not-turned",
         "The eye was subtracted after the rotation. The translation of the view is -R eye, not -eye.",
         in_camera,
-        eye_not_turned,
+        lambda axes, eye, _target, point: shifted(tuple(-c for c in eye), image(axes, point)),
         SEEN,
         STRAIGHT,
     ),
@@ -259,7 +189,7 @@ RULES = (
         "target-for-eye",
         "The point was measured from the target. Camera space begins at the eye.",
         in_camera,
-        target_for_eye,
+        lambda axes, eye, target, point: in_camera(axes, target, eye, point),
         SEEN,
         STRAIGHT,
     ),
@@ -267,7 +197,7 @@ RULES = (
         "camera-not-inverted",
         "The camera's own matrix was applied. Points go to camera space by its inverse.",
         in_camera,
-        camera_not_inverted,
+        lambda axes, eye, _target, point: shifted(eye, image(tuple(zip(*axes, strict=True)), point)),
         SEEN,
         STRAIGHT,
     ),
@@ -275,7 +205,9 @@ RULES = (
         "angle-not-halved",
         "tan(fov) was taken. Half of the opening angle lies on each side of the axis: tan(fov/2).",
         projected,
-        angle_not_halved,
+        lambda half, aspect, near, far, point: projected(
+            2 * half / (1 - half * half), aspect, near, far, point
+        ),
         VIEW,
         (*VIEW[:4], (F(0), F(0), F(-4))),
     ),
@@ -283,7 +215,7 @@ RULES = (
         "aspect-inverted",
         "The aspect is inverted: it is width over height, and divides x.",
         projected,
-        aspect_inverted,
+        lambda half, aspect, near, far, point: projected(half, 1 / aspect, near, far, point),
         VIEW,
         (F(1, 2), F(1), *VIEW[2:]),
     ),
@@ -291,7 +223,7 @@ RULES = (
         "near-far-signs",
         "near and far have the wrong sign: they are positive distances, while z in front of the eye is negative.",
         projected,
-        planes_negated,
+        lambda half, aspect, near, far, point: projected(half, aspect, -near, -far, point),
         VIEW,
         (*VIEW[:2], 0, 10, VIEW[4]),
     ),
@@ -299,7 +231,7 @@ RULES = (
         "w-is-one",
         "w stayed 1. Perspective puts the distance -z into w.",
         projected,
-        w_is_one,
+        lambda half, aspect, near, far, point: (*projected(half, aspect, near, far, point)[:3], Fraction(1)),
         VIEW,
         (*VIEW[:4], (F(1), F(2), F(-1))),
     ),
@@ -315,7 +247,7 @@ RULES = (
         "z-not-divided",
         "z was not divided by w: all three coordinates are.",
         divided,
-        z_not_divided,
+        lambda clip: (*divided(clip)[:2], clip[2]),
         ((F(2), F(1), F(1), F(4)),),
         ((F(2), F(1), F(1), F(1)),),
     ),
@@ -323,7 +255,7 @@ RULES = (
         "weights-not-normalized",
         "The weights do not sum to 1. Divide by their sum, or the vertex moves towards the origin.",
         skinned,
-        skinned_unnormalized,
+        lambda weights, places: (dot(weights, places),),
         ((F(1, 2), F(12, 25)), (100, 100)),
         ((F(1, 2), F(1, 2)), (100, 100)),
     ),
