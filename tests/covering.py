@@ -35,6 +35,15 @@ def in_turn(first: Iterable[First], second: Iterable[Second]) -> list[tuple[Firs
     return [(first[k], second[turn]) for k, turn in enumerate(turns)]
 
 
+def in_turns(**factors: Sequence[Any]) -> pytest.MarkDecorator:
+    """Parametrize a test so that every value of each factor occurs; with --all, all combinations."""
+    values = list(factors.values())
+    count = max(map(len, values))
+    # Every factor goes round and round, and a step further every time.
+    cases = [tuple(each[(k + k // len(each)) % len(each)] for each in values) for k in range(count)]
+    return pytest.mark.parametrize(tuple(factors), list(product(*values)) if is_everything() else cases)
+
+
 def every_pair(**factors: Sequence[Any]) -> pytest.MarkDecorator:
     """Parametrize a test so that every two values of two factors meet; with --all, all combinations."""
     if is_everything():

@@ -22,22 +22,15 @@ def icosphere(subdivisions: int) -> tuple[np.ndarray, np.ndarray]:
     ]
     triangles += [(10, 7, 6), (7, 1, 8), (3, 9, 4), (3, 4, 2), (3, 2, 6), (3, 6, 8), (3, 8, 9), (4, 9, 5)]
     triangles += [(2, 4, 11), (6, 2, 10), (8, 6, 7), (9, 8, 1)]
+    found, faces = np.array(positions), np.array(triangles)
     for _ in range(subdivisions):
-        middles: dict[tuple[int, int], int] = {}
-
-        def middle(i: int, j: int, middles=middles) -> int:
-            edge = (min(i, j), max(i, j))
-            if edge not in middles:
-                middles[edge] = len(positions)
-                positions.append((positions[i] + positions[j]) / np.linalg.norm(positions[i] + positions[j]))
-            return middles[edge]
-
-        finer = []
-        for i, j, k in triangles:
-            a, b, c = middle(i, j), middle(j, k), middle(k, i)
-            finer += [(i, a, c), (j, b, a), (k, c, b), (a, b, c)]
-        triangles = finer
-    return np.array(positions), np.array(triangles)
+        ends = np.sort(faces[:, [[0, 1], [1, 2], [2, 0]]], axis=2).reshape(-1, 2)
+        edges, middle = np.unique(ends, axis=0, return_inverse=True)
+        sums = found[edges[:, 0]] + found[edges[:, 1]]
+        (i, j, k), (a, b, c) = faces.T, len(found) + middle.reshape(-1, 3).T
+        found = np.concatenate([found, sums / np.linalg.norm(sums, axis=1, keepdims=True)])
+        faces = np.stack([[i, a, c], [j, b, a], [k, c, b], [a, b, c]]).transpose(2, 0, 1).reshape(-1, 3)
+    return found, faces
 
 
 def torus(around: int, through: int, radius: float = 1.0, tube: float = 0.4) -> tuple[np.ndarray, np.ndarray]:

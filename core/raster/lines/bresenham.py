@@ -272,11 +272,13 @@ def _float_errors(first: Integers, last: Integers, slope: Floats, longest: int) 
     running = np.searchsorted(-np.where(counts[order] > 0, last, 0), -np.arange(longest), side="left")
     error, climbed = np.zeros(len(order)), np.zeros(len(order), np.int64)
     decision = np.full(len(order), nan)
+    earliest = int(first[: running[0]].min()) if longest else 0
     for i in range(longest):
         n = int(running[i])
-        is_seen = first[:n] <= i
-        at = place[:n][is_seen] + i
-        climbed_at[at], decision_at[at] = climbed[:n][is_seen], decision[:n][is_seen]
+        if i >= earliest:
+            is_seen = first[:n] <= i
+            at = place[:n][is_seen] + i
+            climbed_at[at], decision_at[at] = climbed[:n][is_seen], decision[:n][is_seen]
         decision[:n] = error[:n] + slope[:n]
         has_stepped = decision[:n] > 0.5
         climbed[:n] += has_stepped

@@ -4,7 +4,6 @@ from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -18,6 +17,7 @@ from lessons.scenes import make_scene
 from tests.core.antialiasing.many_samples import many_samples
 from tests.core.framebuffer.test_pixel_pieces import area, clipped
 from tests.core.trace.trace_cases import SCENES
+from tests.covering import in_turns
 
 STEP = st.integers(-200, 1000)
 CORNERS = st.lists(st.tuples(STEP, STEP), min_size=3, max_size=3)
@@ -79,9 +79,11 @@ def test_a_pixel_inside_one_triangle_has_the_colour_of_its_centre():
         assert np.array_equal(getattr(plain, buffer), getattr(smooth, buffer))
 
 
-@pytest.mark.parametrize("choice", [{}, {"blend": "over"}, {"visibility": "last-drawn"}, {"cull": "back"},
-                                    {"depth": "fixed-38"}, {"clipping": "sutherland-hodgman"}], ids=str)  # fmt: skip
-@pytest.mark.parametrize("name", ["lit", "clip", "intersecting", "shared-edge"])
+@in_turns(
+    choice=[{}, {"blend": "over"}, {"visibility": "last-drawn"}, {"cull": "back"},
+            {"depth": "fixed-38"}, {"clipping": "sutherland-hodgman"}],
+    name=["lit", "clip", "intersecting", "shared-edge"],
+)  # fmt: skip
 def test_many_samples_come_near(name, choice):
     scene = SCENES[name]
     exact = render(scene, Settings(antialiasing="area", **choice)).color

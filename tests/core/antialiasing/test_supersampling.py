@@ -96,9 +96,11 @@ def test_centres_on_whole_numbers_have_their_samples_around_them():
         assert np.allclose(frame.color[..., 3], wanted, atol=1e-12), antialiasing
 
 
-@pytest.mark.parametrize("resolve_filter", ["box", "tent"])
-@pytest.mark.parametrize("antialiasing", ["ssaa-4", "ssaa-16", "ssaa-n", "msaa-4", "area"])
-@pytest.mark.parametrize("pixel_center", ["half", "integer"])
+@every_pair(
+    resolve_filter=["box", "tent"],
+    antialiasing=["ssaa-4", "ssaa-16", "ssaa-n", "msaa-4", "area"],
+    pixel_center=["half", "integer"],
+)
 def test_a_region_is_the_crop_of_the_picture(antialiasing, resolve_filter, pixel_center):
     scene = SCENES["clip"]
     settings = Settings(antialiasing=antialiasing, resolve_filter=resolve_filter, pixel_center=pixel_center)

@@ -11,6 +11,7 @@ from core.fast_path.record import Coloring, Visibility
 from core.fast_path.workers import BandWorkers
 from core.fast_path.workers.cost_model import COLOR, FRAGMENT
 from lessons.scenes import make_scene
+from tests.covering import in_turns
 
 SETTINGS = {
     "one sample": Settings(),
@@ -22,8 +23,10 @@ SETTINGS = {
 }
 
 
-@pytest.mark.parametrize("settings", SETTINGS.values(), ids=SETTINGS)
-@pytest.mark.parametrize("name", ["single-triangle", "shared-edge", "near-plane", "intersecting", "cube"])
+@in_turns(
+    settings=list(SETTINGS.values()),
+    name=["single-triangle", "shared-edge", "near-plane", "intersecting", "cube"],
+)
 def test_a_fast_picture_counts_as_the_plain_one_does(name: str, settings: Settings) -> None:
     scene = make_scene(name)
     plain, fast = render(scene, settings).statistics, draw_picture(scene, settings).statistics

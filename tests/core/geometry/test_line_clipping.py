@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from core import ClippedLines, clip_lines
 from core.geometry.line_clipping.records import LINE_CLIP_LIMIT
 from core.methods import table
-from tests.covering import in_turn, is_everything
+from tests.covering import in_turn, in_turns, is_everything
 
 WINDOW = (0.0, 0.0, 16.0, 11.0)
 CLIPPERS = ["cohen-sutherland", "liang-barsky", "cyrus-beck", "exact"]
@@ -124,8 +124,7 @@ def random_segments(count: int, scale: float, seed: int) -> np.ndarray:
     return segments
 
 
-@pytest.mark.parametrize("scale", [1.0, 50.0, 1e9])
-@pytest.mark.parametrize("clipper", CLIPPERS)
+@in_turns(scale=[1.0, 50.0, 1e9], clipper=CLIPPERS)
 def test_many_random_segments(clipper: str, scale: float) -> None:
     check_against_fractions(random_segments(10_000 if is_everything() else 400, scale, 7), clipper)
 

@@ -6,6 +6,7 @@ import pytest
 from core import ClipScene, Settings, render
 from core.pixel_history.pieces import pixel_pieces
 from core.trace.source import TraceSource
+from tests.covering import in_turns
 
 AREA = Settings(antialiasing="area")
 
@@ -19,17 +20,15 @@ def random_scene(seed: int) -> ClipScene:
     return ClipScene(clip, colors, size=(6, 5))
 
 
-@pytest.mark.parametrize(
-    "settings",
-    [
+@in_turns(
+    settings=[
         AREA,
         Settings(antialiasing="area", blend="over"),
         Settings(antialiasing="area", visibility="last-drawn"),
         Settings(antialiasing="area", clipping="sutherland-hodgman"),
     ],
-    ids=["nearest", "blended", "last drawn", "clipped"],
+    seed=range(4),
 )
-@pytest.mark.parametrize("seed", range(4))
 def test_the_last_colour_is_that_of_the_picture(seed: int, settings: Settings) -> None:
     scene = random_scene(seed)
     color = render(scene, settings).color

@@ -8,6 +8,7 @@ from core.raster.pixel_runs import make_raster
 from core.raster.spans.bands import bands, rows_of_triangles, strips
 from core.raster.spans.lanes import set_up_lanes, tie_owners
 from core.raster.spans.rows import Carried, bounds_of_rows
+from tests.covering import in_turns
 
 TRIANGLES = {
     "slanted both ways": [(3.0, 2.0), (400.5, 180.25), (20.0, 390.0)],
@@ -38,8 +39,7 @@ def pixels_of(rows):
     }
 
 
-@pytest.mark.parametrize("region", list(REGIONS))
-@pytest.mark.parametrize("names", [list(TRIANGLES), *([name] for name in TRIANGLES)], ids=str)
+@in_turns(region=list(REGIONS), names=[list(TRIANGLES), *([name] for name in TRIANGLES)])
 def test_rows_of_triangles_have_the_pixels_that_walking_their_lanes_finds(names, region):
     raster, found = rows_of(names, REGIONS[region])
     owners = tie_owners("shared-edge")
