@@ -1,11 +1,18 @@
 """A main window with a folder for preferences of its own."""
 
 from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import fields
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import QEvent
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.files.open_any import Opened
+from app.files.state_files import State
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from lessons.scenes import built_in_scene
@@ -13,26 +20,19 @@ from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import LIGHT, current_theme
 
 
-@pytest.fixture
-def window(qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[MainWindow]:
-    """Return a shown window with two triangles that share an edge, in the middle of the raster stage."""
-    monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path / "config"))
-    from PySide6.QtCore import QEvent
-    from PySide6.QtWidgets import QApplication
-
-    application = QApplication.instance()
-    assert isinstance(application, QApplication)
+@contextmanager
+def shown_window(application: QApplication) -> Iterator[MainWindow]:
+    """Show two triangles that share an edge, in the middle of the raster stage; close and delete the window at last."""
     if current_theme() != LIGHT or application.style().name() != "fusion":
         apply_theme(application, LIGHT)
     application.setStyleSheet("")  # half the time that a window takes goes into its style sheet
     scene = built_in_scene("shared-edge")
     made = MainWindow(open_document(scene.make(), scene.title))
     made.resize(1280, 800)
+    made.session.set_stage("raster", 4000)  # before it is painted
     made.show()
     made.activateWindow()
-    qtbot.waitExposed(made)
-    qtbot.waitUntil(made.isActiveWindow)
-    made.session.set_stage("raster", 4000)
+    assert QTest.qWaitForWindowActive(made)
     yield made
     made.close()
     made.deleteLater()
@@ -40,3 +40,70 @@ def window(qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Ite
     application.sendPostedEvents(made, QEvent.Type.DeferredDelete)
     if current_theme() != LIGHT:
         apply_theme(application, LIGHT)
+
+
+@pytest.fixture
+def window(request: pytest.FixtureRequest) -> MainWindow:
+    """Return a shown window: one of the test's own, or the one that the tests of its module share."""
+    marks = {mark.name for mark in request.node.iter_markers()}
+    is_shared = "shared_window" in marks and "own_window" not in marks
+    found = request.getfixturevalue("kept_window" if is_shared else "new_window")
+    assert isinstance(found, MainWindow)
+    return found
+
+
+@pytest.fixture
+def new_window(
+    qtbot: QtBot, qapp: QApplication, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> Iterator[MainWindow]:
+    """Return a shown window of the test's own."""
+    monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path / "config"))
+    with shown_window(qapp) as made:
+        yield made
+
+
+@pytest.fixture(scope="module")
+def window_of_module(
+    qapp: QApplication, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[tuple[MainWindow, State]]:
+    """Return a shown window and what it shows."""
+    with pytest.MonkeyPatch.context() as patch, shown_window(qapp) as made:
+        patch.setenv("RASTERSCOPE_CONFIG", str(tmp_path_factory.mktemp("config")))
+        yield made, made.files.state()
+
+
+@pytest.fixture
+def kept_window(window_of_module: tuple[MainWindow, State], qtbot: QtBot) -> Iterator[MainWindow]:
+    """Return the module's window, and bring it back to where it was but for what can be undone.
+
+    It is shown while a test runs only: it would be styled and painted with the windows of other tests.
+    """
+    made, before = window_of_module
+    made.show()
+    made.activateWindow()
+    assert QTest.qWaitForWindowActive(made)
+    yield made
+    made.hide()
+    put_back(made, before)
+
+
+def put_back(window: MainWindow, before: State) -> None:
+    """Bring a window back to what it showed, as a user would: nothing lies over it, the saved state is opened."""
+    while window.overlays.close_top():
+        pass
+    window.help.close()
+    window.presenter.leave()
+    if window.session.is_predicting:
+        window.run_action("predict")
+    if current_theme() != LIGHT:
+        window.appearance.set_text_size(100)
+        window.appearance.set_theme("light")
+    window.pages.show_page("step")
+    window.files.show_opened(Opened(before.document, state=before))
+    window.messages.clear()
+    window.statusBar().clearMessage()
+    window.resize(1280, 800)
+    after = window.files.state()
+    assert after.document is before.document
+    for name in {field.name for field in fields(State)} - {"document"}:
+        assert getattr(after, name) == getattr(before, name), name

@@ -10,6 +10,8 @@ from pytestqt.qtbot import QtBot
 from app.help import pane
 from app.window.main_window import MainWindow
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture(autouse=True)
 def pointer_outside(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -17,6 +19,7 @@ def pointer_outside(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(pane.QApplication, "widgetAt", lambda point: None)
 
 
+@pytest.mark.own_window
 def test_f1_opens_the_contents_and_escape_closes_them(window: MainWindow) -> None:
     window.page.grid.setAccessibleName("")
     window.page.grid.setFocus()

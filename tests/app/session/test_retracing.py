@@ -19,6 +19,8 @@ from core.trace import Trace, source
 from core.trace.incremental.draft import Draft
 from core.trace.incremental.retrace import Retrace
 
+pytestmark = pytest.mark.shared_window
+
 SIZE = (48, 36)
 
 

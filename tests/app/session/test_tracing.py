@@ -13,6 +13,8 @@ from app.window.main_window import MainWindow
 from core import ClipScene, Settings
 from lessons.scenes import make_scene
 
+pytestmark = pytest.mark.shared_window
+
 SPHERE = "sphere"
 
 

@@ -19,6 +19,8 @@ from widgets.space.diagram import CUBE, Diagram
 from widgets.space.view import SpaceView
 from widgets.tables.step_table_view import StepTableView
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.mark.parametrize(
     ("scene", "beside"),

@@ -1,5 +1,6 @@
 """The table of keys: complete, without a key twice, and what menus, tooltips and the page of keys are made from."""
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtTest import QTest
@@ -11,6 +12,8 @@ from app.window.main_window import MainWindow
 from app.window.menus import MENUS
 from core import STAGES
 from widgets.basics.theme import DARK, current_theme
+
+pytestmark = pytest.mark.shared_window
 
 
 def test_no_key_stands_twice() -> None:

@@ -19,6 +19,8 @@ from app.window.main_window import MainWindow
 from widgets.basics import accessible
 from widgets.basics.message_bar import MessageKind
 
+pytestmark = pytest.mark.shared_window
+
 PAGES = ("start", "step", "compare", "stability", "plan", "exercises")
 Heard = list[tuple[str, str]]
 

@@ -100,7 +100,8 @@ def put_back(window: MainWindow, document: Document) -> None:
         window.appearance.set_theme("light")
     window.page.show_view("pixels")
     window.page.stepping.set_places()
-    window.session.open(document)
+    if window.session.document is not document:
+        window.session.open(document)
     window.session.set_level(Level.OPERATION)
     window.session.set_stage("raster", 4000)
 
@@ -118,9 +119,10 @@ def test_every_key_does_something(
     monkeypatch.setattr(QPrintPreviewDialog, "exec", lambda dialog: 1)
     document, files, comparing = window.session.document, window.files, window.page.comparing
     idle = []
-    # A new theme for the window takes long, and without a window there is nothing more to try.
-    late = ["presenter", "toggle_theme", "quit"]
-    for action in sorted(STEPPED, key=lambda action: action.name in late and 1 + late.index(action.name)):
+    # A new theme takes the longer the more pages there are, and without a window there is nothing more to try.
+    early = ["presenter", "toggle_theme", "text_larger", "text_smaller"]
+    order = dict.fromkeys(early, -1) | {"quit": 1}
+    for action in sorted(STEPPED, key=lambda action: order.get(action.name, 0)):
         put_back(window, document)
         prepare(window, action.name)
         window.statusBar().clearMessage()

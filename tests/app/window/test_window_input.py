@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QToolButton
@@ -13,6 +14,8 @@ from app.window.main_window import MainWindow
 from core.records.steps import Level
 from core.scene import ClipScene, Scene
 from lessons.scenes import make_scene
+
+pytestmark = pytest.mark.shared_window
 
 
 def type_value(window: MainWindow, qtbot: QtBot, path: str, text: str) -> None:
@@ -142,6 +145,7 @@ def test_a_method_that_the_scene_cannot_serve(window: MainWindow) -> None:
     assert window.page.settings_panel.combo("depth").currentData() == document.settings.depth
 
 
+@pytest.mark.own_window
 def test_space_presses_the_button_that_tab_has_reached(window: MainWindow, qtbot: QtBot) -> None:
     button = window.page.timeline.first_button
     button.setFocus(Qt.FocusReason.TabFocusReason)
@@ -198,6 +202,7 @@ def test_a_condition_is_a_breakpoint(window: MainWindow, qtbot: QtBot) -> None:
     assert window.page.stepping.condition == "covered and row == 20"
 
 
+@pytest.mark.own_window
 def test_escape_closes_one_thing_at_a_time(window: MainWindow, qtbot: QtBot) -> None:
     window.session.set_pin((3, 3))
     window.run_action("go_to_pixel")
@@ -211,6 +216,7 @@ def test_escape_closes_one_thing_at_a_time(window: MainWindow, qtbot: QtBot) -> 
     assert window.session.pin is None
 
 
+@pytest.mark.own_window
 def test_escape_takes_a_drag_back_and_leaves_the_pin(window: MainWindow) -> None:
     grid, session = window.page.grid, window.session
     session.set_pin((3, 3))

@@ -1,9 +1,11 @@
 """Every main view at every stage of every built-in scene, and scenes that show next to nothing."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from itertools import cycle
 
 import numpy as np
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QScrollArea
 from pytestqt.qtbot import QtBot
@@ -21,6 +23,8 @@ from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, PRESENTER
 from widgets.space.orbit import fitted
 from widgets.space.scene_view import SceneView
+
+pytestmark = pytest.mark.shared_window
 
 SIZE = (24, 16)
 
@@ -43,38 +47,47 @@ POOR = {
 }
 
 
-def look_at_everything(window: MainWindow, views: Iterable[str], stages: tuple[str, ...] = STAGES) -> None:
-    """Go through views at stages, from the first step to the last, with a pin; pytest-qt fails on what is raised."""
+def look_at_everything(
+    window: MainWindow, turn: Iterator[int], views: Iterable[str], stages: tuple[str, ...] = STAGES
+) -> None:
+    """Go through views at stages, from the first step to the last; pytest-qt fails on what is raised.
+
+    In every second turn there is a pin; with --all each view at each stage has one, and none.
+    """
     session = window.session
     first_column, first_row, end_column, end_row = session.trace.source.raster.bounds
+    pins = [None, ((first_column + end_column) // 2, (first_row + end_row) // 2)]
     for view, stage in in_turn(views, stages):
         window.page.show_view(view)
         assert window.page.current_view() == view
         session.set_stage(stage, 0)
         session.step(1)
         session.go_to(session.stage_trace.steps.count)
-        QApplication.processEvents()
         assert window.page.grid.buffer() is not None
         assert window.page.sentence.text()
-        session.set_pin(((first_column + end_column) // 2, (first_row + end_row) // 2))
-        QApplication.processEvents()
-        session.set_pin(None)
+        for pin in pins if is_everything() else [pins[next(turn)]]:
+            session.set_pin(pin)
+            QApplication.processEvents()
 
 
 def test_every_view_at_every_stage_of_every_scene(window: MainWindow) -> None:
+    turn = cycle((0, 1))
+    window.resize(853, 533)  # Small is painted sooner.
     for name in scene_names():
         if name in LEFT_OUT and name != "sphere" and not is_everything():
             continue  # They have no step or view of another kind.
         scene = built_in_scene(name)
         window.session.open(open_document(scene.make(), scene.title))
-        look_at_everything(window, window.page.view_names())
+        look_at_everything(window, turn, window.page.view_names())
 
 
 def test_scenes_that_show_next_to_nothing(window: MainWindow) -> None:
+    turn = cycle((0, 1))
+    window.resize(853, 533)
     for (name, scene), cull in in_turn(POOR.items(), ["none", "back"]):
         window.session.open(replace(open_document(scene, name), settings=Settings(cull=cull)))
-        look_at_everything(window, ("pixels",), ("clip", "bin", "raster", "resolve"))
-        look_at_everything(window, ("scene", "clip", "pyramid"), ("clip", "raster"))
+        look_at_everything(window, turn, ("pixels",), ("clip", "bin", "raster", "resolve"))
+        look_at_everything(window, turn, ("scene", "clip", "pyramid"), ("clip", "raster"))
 
 
 def test_all_levels_both_ways(window: MainWindow) -> None:
@@ -133,6 +146,7 @@ def test_dark_and_light_take_turns(window: MainWindow) -> None:
     apply_theme(application, LIGHT)
 
 
+@pytest.mark.own_window
 def test_after_a_click_and_another_view_the_arrows_go_on_stepping(window: MainWindow, qtbot: QtBot) -> None:
     window.activateWindow()
     qtbot.waitUntil(window.isActiveWindow)

@@ -19,6 +19,8 @@ from app.window.main_window import MainWindow
 from core.study import measure
 from tests.app.pages.compare.compare_pages import WRONG, compare_page, hand_made, measured
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def page(window: MainWindow) -> ComparePage:

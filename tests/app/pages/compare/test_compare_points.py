@@ -11,6 +11,8 @@ from app.pages.compare.page import ComparePage
 from app.window.main_window import MainWindow
 from tests.app.pages.compare.compare_pages import WRONG, click, compare_page, measured, wait_for_pictures
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def page(window: MainWindow) -> ComparePage:
@@ -110,6 +112,7 @@ def test_two_points_that_never_part_say_so(window: MainWindow, page: ComparePage
     assert (window.pages.current_name == "step") or not np.count_nonzero(buffers[2].values)
 
 
+@pytest.mark.own_window
 def test_without_a_point_the_keys_say_what_to_do(window: MainWindow, page: ComparePage) -> None:
     QTest.keyClick(window, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
     assert "Click a point first" in window.statusBar().currentMessage()

@@ -1,6 +1,7 @@
 """The Plan page: looking, choices and how they turned out, applying, pictures, and the point on the chart."""
 
 import time
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -33,10 +34,37 @@ CTRL = Qt.KeyboardModifier.ControlModifier
 def page(window: MainWindow) -> PlanPage:
     """Return the page, reached by its key."""
     QTest.keyClick(window, Qt.Key.Key_4, Qt.KeyboardModifier.AltModifier)
+    return plan_page(window)
+
+
+@pytest.fixture
+def looked_page(kept_window: MainWindow, qtbot: QtBot) -> Iterator[PlanPage]:
+    """Return the page after a look at the scene that is open, for tests that change nothing in the end."""
+    before = kept_window.session.document
+    kept_window.pages.show_page("plan")
+    page = plan_page(kept_window)
+    if page.plans.shown is None:
+        looked(page, qtbot)
+    yield page
+    after = kept_window.session.document
+    assert (after.scene, after.settings) == (before.scene, before.settings)
+    assert page.plans.shown is not None
+    assert not page.plans.is_stale
+    kept_window.messages.clear()
+
+
+def plan_page(window: MainWindow) -> PlanPage:
     found = window.pages.current
     assert isinstance(found, PlanPage)
     found.controls.rounds_box.setValue(1)
     return found
+
+
+def report_of(page: PlanPage) -> PlanReport:
+    shown = page.plans.shown
+    assert shown is not None
+    assert shown.report is not None
+    return shown.report
 
 
 def looked(page: PlanPage, qtbot: QtBot) -> PlanReport:
@@ -45,10 +73,7 @@ def looked(page: PlanPage, qtbot: QtBot) -> PlanReport:
     assert page.plans.is_running
     qtbot.waitUntil(lambda: not page.plans.is_running, timeout=60000)
     QApplication.processEvents()  # Rows that have just been made are shown a moment later.
-    shown = page.plans.shown
-    assert shown is not None
-    assert shown.report is not None
-    return shown.report
+    return report_of(page)
 
 
 def wait_for_pictures(page: PlanPage, qtbot: QtBot) -> None:
@@ -76,8 +101,8 @@ def test_empty_it_says_what_it_is_for(page: PlanPage) -> None:
     assert not page.controls.apply_button.isEnabled()
 
 
-def test_a_look_shows_every_stage_with_reason_and_numbers(page: PlanPage, qtbot: QtBot) -> None:
-    report = looked(page, qtbot)
+def test_a_look_shows_every_stage_with_reason_and_numbers(looked_page: PlanPage) -> None:
+    page, report = looked_page, report_of(looked_page)
     assert tuple(page.rows.rows) == STAGES
     for decision in report.plan.decisions:
         view = page.rows.rows[decision.setting]
@@ -108,17 +133,21 @@ def test_the_tolerance_is_the_one_that_was_set(page: PlanPage, qtbot: QtBot) -> 
     assert "exact" in page.summary.about.text()
 
 
-def test_findings_are_read_and_folded_away(page: PlanPage, qtbot: QtBot) -> None:
-    report = looked(page, qtbot)
+def test_findings_are_read_and_folded_away(looked_page: PlanPage) -> None:
+    page, report = looked_page, report_of(looked_page)
     assert page.findings.findings.text.isVisible()
     QTest.keyClick(page.window(), Qt.Key.Key_I)
     assert not page.findings.findings.text.isVisible()
     for fact in report.plan.findings.facts:
         assert fact.title in page.findings.findings.text.text()
+    QTest.keyClick(page.window(), Qt.Key.Key_I)
+    assert page.findings.findings.text.isVisible()
 
 
-def test_applying_is_one_step_that_undo_takes_back(window: MainWindow, page: PlanPage, qtbot: QtBot) -> None:
-    report = looked(page, qtbot)
+def test_applying_is_one_step_that_undo_takes_back(
+    kept_window: MainWindow, looked_page: PlanPage, qtbot: QtBot
+) -> None:
+    window, page, report = kept_window, looked_page, report_of(looked_page)
     before = window.session.document
     QTest.mouseClick(page.controls.apply_button, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: window.session.document is not before, timeout=60000)
@@ -136,9 +165,9 @@ def test_applying_is_one_step_that_undo_takes_back(window: MainWindow, page: Pla
 
 
 def test_applying_says_what_changed_and_undo_is_beside_it(
-    window: MainWindow, page: PlanPage, qtbot: QtBot
+    kept_window: MainWindow, looked_page: PlanPage, qtbot: QtBot
 ) -> None:
-    report = looked(page, qtbot)
+    window, page, report = kept_window, looked_page, report_of(looked_page)
     before = window.session.document.settings
     changed = before.differences(report.plan.settings)
     assert changed
@@ -153,9 +182,9 @@ def test_applying_says_what_changed_and_undo_is_beside_it(
 
 
 def test_another_scene_leaves_the_results_as_those_of_the_earlier(
-    window: MainWindow, page: PlanPage, qtbot: QtBot
+    kept_window: MainWindow, looked_page: PlanPage
 ) -> None:
-    looked(page, qtbot)
+    window, page = kept_window, looked_page
     assert not page.summary.stale.isVisible()
     another_scene(window)
     assert "earlier scene" in page.summary.stale.text()
@@ -198,9 +227,9 @@ def test_cancelling_leaves_what_was_found_before(page: PlanPage, qtbot: QtBot) -
 
 
 def test_a_scene_that_is_too_large_is_told(
-    window: MainWindow, page: PlanPage, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+    kept_window: MainWindow, looked_page: PlanPage, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    report = looked(page, qtbot)
+    window, page, report = kept_window, looked_page, report_of(looked_page)
 
     def refuse(*arguments: object) -> None:
         raise MemoryError("the scene is too large")

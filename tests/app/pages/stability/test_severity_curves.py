@@ -17,6 +17,8 @@ from widgets.basics.theme import LIGHT, paint_as
 from widgets.charts.chart import Chart
 from widgets.charts.records import ChartEmpty, ChartPicture
 
+pytestmark = pytest.mark.shared_window
+
 AXIS = Axis("gap", "Gap", "pixels", (0.001, 0.01, 0.1), True)
 WEAK, STRONG = "coverage=float16", "coverage=exact"
 

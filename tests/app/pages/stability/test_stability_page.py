@@ -29,12 +29,15 @@ from tests.app.pages.stability.stability_pages import (
 from widgets.atlas.format_probe import HEAD
 from widgets.atlas.records import UNKNOWN, CellPlace
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def page(window: MainWindow) -> StabilityPage:
     return stability_page(window)
 
 
+@pytest.mark.own_window
 def test_every_experiment_is_offered_and_the_open_scene_last(page: StabilityPage) -> None:
     titles = [page.entries.item(row).text() for row in range(page.entries.count())]
     assert titles == [*(each.info.title for each in experiments), "Watertightness of the open scene"]
@@ -124,6 +127,7 @@ def test_hover_reads_the_cell_and_leaving_reads_the_experiment(page: StabilityPa
     assert fails[0] > fails[-1] == 0
 
 
+@pytest.mark.own_window
 def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbot: QtBot) -> None:
     run(page, qtbot)
     canvas = page.maps.canvas

@@ -21,6 +21,8 @@ from lessons.scenes import make_scene
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.compare_view import Side
 
+pytestmark = pytest.mark.shared_window
+
 
 def test_the_difference_in_words() -> None:
     assert settings_difference(Settings(), Settings(block_size=4)) == "block size: 4"

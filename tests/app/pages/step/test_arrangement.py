@@ -26,6 +26,8 @@ from widgets.basics.style_sheet import style_sheet
 from widgets.basics.theme import current_theme
 from widgets.inspector.listing import ListingView
 
+pytestmark = pytest.mark.shared_window
+
 
 def area_of_the_view(window: MainWindow) -> float:
     """Return the part of the window that the main view has."""
@@ -184,6 +186,7 @@ def test_nothing_is_cut_that_stands_nowhere_else(window: MainWindow) -> None:
                 assert least <= widget.viewport().height(), (where, rows)
 
 
+@pytest.mark.own_window
 def test_the_listing_leaves_room_for_variables_and_the_history_of_a_pixel(window: MainWindow) -> None:
     column = window.page.column
     window.resize(1280, 760)  # what a title bar leaves of 800

@@ -19,6 +19,8 @@ from core.records.depth_table import DepthTable
 from core.scene import ClipScene
 from lessons.depth_tables import two_triangles
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def editing(window: MainWindow) -> MainWindow:

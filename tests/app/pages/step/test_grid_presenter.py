@@ -13,6 +13,8 @@ from core import STAGES, ClipScene
 from lessons.scenes import make_scene
 from widgets.grid.overlay import MaskOverlay
 
+pytestmark = pytest.mark.shared_window
+
 
 def test_tiles_show_the_arrays_of_the_trace(window: MainWindow) -> None:
     window.page.toggle_pane("thumbnails")

@@ -20,6 +20,8 @@ from core.records.steps import Level
 from widgets.inspector.listing import ListingView
 from widgets.timeline.chapter_button import ChapterButton
 
+pytestmark = pytest.mark.shared_window
+
 SIDEWAYS = {Qt.Key.Key_Left, Qt.Key.Key_Right}
 UP_DOWN = {Qt.Key.Key_Up, Qt.Key.Key_Down}
 KEYS = (*SIDEWAYS, *UP_DOWN, Qt.Key.Key_Home, Qt.Key.Key_3, Qt.Key.Key_N)
@@ -88,6 +90,7 @@ def test_a_number_that_was_typed_gives_the_keys_back(window: MainWindow) -> None
         ("next_at_pin", "Pin a pixel first"),
     ],
 )
+@pytest.mark.own_window
 def test_a_command_that_can_do_nothing_says_why(window: MainWindow, action: str, said: str) -> None:
     session = window.session
     session.set_stage(STAGES[-1])

@@ -14,6 +14,8 @@ from app.window.main_window import MainWindow
 from core.records.steps import Level
 from lessons.scenes import built_in_scene
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def model(window: MainWindow) -> MainWindow:
@@ -66,6 +68,7 @@ def test_a_click_on_a_model_goes_into_the_triangle(model: MainWindow) -> None:
     assert view.orbit().extent < home.extent / 4  # type: ignore[attr-defined]
 
 
+@pytest.mark.own_window
 def test_the_navigator_moves_the_region(model: MainWindow, qtbot: QtBot) -> None:
     page = model.page
     page.show_view("pixels")

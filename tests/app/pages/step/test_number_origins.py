@@ -16,6 +16,8 @@ from core.explain.latex import plain_text, split_cells
 from lessons.scenes import make_scene
 from widgets.inspector.formula_layout import FormulaNumber
 
+pytestmark = pytest.mark.shared_window
+
 CONSTANTS = ("s", "0", "12.92", "n_x", "n_y")
 """Symbols of what no variable holds: the sign of a triangle's area, constants, a box's columns and rows."""
 

@@ -17,6 +17,8 @@ from core.records.steps import Level
 from core.settings import settings_from_texts
 from lessons.scenes import built_in_scene
 
+pytestmark = pytest.mark.shared_window
+
 
 def open_scene(window: MainWindow, name: str) -> None:
     """Open a built-in scene with its settings."""

@@ -15,6 +15,8 @@ from core.records.steps import Level
 from core.trace import StageTrace
 from widgets.grid.overlay import Mark, MaskOverlay
 
+pytestmark = pytest.mark.shared_window
+
 SETTINGS = Settings(fill="bounding-box", coverage="float64")
 HAIR = 1e-9
 """How far a corner is moved: less than any text or line shows, enough to decide another way."""

@@ -7,6 +7,8 @@ from app.window.main_window import MainWindow
 from core import STAGES
 from core.explain import question
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def asking(window: MainWindow) -> MainWindow:

@@ -13,6 +13,8 @@ from app.session.printed_run import runnable
 from app.window.main_window import MainWindow
 from core.methods import table
 
+pytestmark = pytest.mark.shared_window
+
 
 def opened(window: MainWindow, scene: str) -> MainWindow:
     window.session.open(open_any(scene).document)

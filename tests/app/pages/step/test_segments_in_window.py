@@ -19,6 +19,8 @@ from core.scene import ClipScene
 from lessons.scenes import make_scene
 from widgets.timeline.chapter_button import ChapterState
 
+pytestmark = pytest.mark.shared_window
+
 
 def open_scene(window: MainWindow, name: str) -> ClipScene:
     """Open a built-in scene of segments or points."""

@@ -12,6 +12,8 @@ from app.pages.step.steps_ahead import load_stages
 from app.window.main_window import MainWindow
 from core.records.steps import Level
 
+pytestmark = pytest.mark.shared_window
+
 
 class EventCount(QObject):
     """Counts layouts and paintings by widget."""

@@ -15,6 +15,8 @@ from widgets.space.diagram import Diagram
 from widgets.space.scene_view import SceneView
 from widgets.space.view import SpaceView
 
+pytestmark = pytest.mark.shared_window
+
 CASES = {
     "single-triangle": Settings(fill="bounding-box"),
     "near-plane": Settings(fill="hierarchy", clipping="sutherland-hodgman"),

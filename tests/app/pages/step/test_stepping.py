@@ -17,6 +17,8 @@ from core.stages.declared import stage_of
 from lessons.scenes import make_scene
 from widgets.basics.marks import Mark
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.mark.parametrize("event", ["covered", "rejected"])
 def test_runs_to_events_and_back(window: MainWindow, event: str) -> None:
