@@ -1,6 +1,6 @@
 """Answers in progress: kept in a file soon after every change, so that leaving or the end of the program loses none."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Set
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -71,6 +71,8 @@ class UnfinishedFile(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.answers = UnfinishedAnswers()
+        self._changed: frozenset[str] = frozenset()
+        """Exercises whose answers this window has changed; those of others are left to other windows."""
         self._has_failed = self._is_dirty = self._is_foreign = False
         """The last: the file is of a later version, and is left alone."""
         self._job = Job(self)
@@ -104,6 +106,7 @@ class UnfinishedFile(QObject):
     def keep(self, template: "Template", unfinished: Unfinished, asked_scene: str = "") -> None:
         """Keep the answer to an exercise, that it is the one that is open, and the scene that is hidden for it."""
         name = template.name
+        self._changed |= {name}
         answers = {**self.answers.answers, name: unfinished}
         changed = {"current": name, "path": template.path, "asked_scene": asked_scene, "answers": answers}
         self._change(self.answers.model_copy(update=changed))
@@ -125,10 +128,10 @@ class UnfinishedFile(QObject):
         if self._job.is_running:
             self._timer.start()
             return
-        answers, self._is_dirty = self.answers, False
+        answers, changed, self._is_dirty = self.answers, self._changed, False
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> None:
-            _write(answers)
+            _write(answers, changed)
 
         self._job.start(work)
 
@@ -151,7 +154,7 @@ class UnfinishedFile(QObject):
         self._job.shut_down()
         if self._is_dirty:
             try:
-                _write(self.answers)
+                _write(self.answers, self._changed)
             except OSError as error:
                 self._fail(error)
 
@@ -179,6 +182,14 @@ def _path() -> Path:
     return data_folder() / ANSWERS
 
 
-def _write(answers: UnfinishedAnswers) -> None:
+def _write(answers: UnfinishedAnswers, changed: Set[str]) -> None:
+    """Write answers; of the same learner those that another window has kept stay, but for the ``changed`` ones."""
     make_folder(data_folder())
+    try:
+        kept = read_answers()
+    except (OSError, ValidationError):
+        kept = answers
+    if kept.user == answers.user:
+        own = {name: answer for name, answer in answers.answers.items() if name in changed}
+        answers = answers.model_copy(update={"answers": {**answers.answers, **kept.answers, **own}})
     write_file(_path(), answers.model_dump_json().encode() + b"\n")

@@ -51,6 +51,8 @@ class MarkGrid(PixelGrid):
         self._last: Pixel | None = None
         self._points = PointLayer()
         self._dragged: int | None = None
+        self.gesture = 0
+        """Number of the stroke, drag or key that changes the answer now."""
         self.pixel_clicked.connect(self._paint_at)
 
     def show_raster(self, size: tuple[int, int], geometry: GridGeometry | None, pixel: Pixel | None) -> None:
@@ -163,6 +165,7 @@ class MarkGrid(PixelGrid):
     def mousePressEvent(self, event: QMouseEvent) -> None:
         """Begin a stroke, whose first pixel decides whether it marks or clears; or take or place a point."""
         self._stroke = self._last = None
+        self.gesture += 1
         if self._points.names and self._is_paintable and event.button() == Qt.MouseButton.LeftButton:
             taken = self._points.near(self.placement(), event.position())
             self._dragged = self._points.next_free() if taken is None else taken
@@ -223,6 +226,7 @@ class MarkGrid(PixelGrid):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Go with the arrows and mark with Space, or choose a point with Space and move it with the arrows."""
+        self.gesture += 1
         key, is_shifted = Qt.Key(event.key()), bool(event.modifiers() & Qt.KeyboardModifier.ShiftModifier)
         is_own = key in _MOVES or key in (Qt.Key.Key_Space, Qt.Key.Key_Home, Qt.Key.Key_End)
         if not self._is_paintable or not is_own or event.modifiers() & _WINDOWS_OWN:

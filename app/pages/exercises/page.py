@@ -290,6 +290,8 @@ class ExercisesPage(Page):
             "next_hint": self.questions.show_hint,
             "new_variant": self.questions.ask_variant,
             "start_again": self.questions.ask_again,
+            "undo": lambda: self.questions.go_back(-1),
+            "redo": lambda: self.questions.go_back(1),
             "step_mistake": self.questions.evidence.show_mistake,
             "model_answer": self.questions.show_model,
             "step_question": self.questions.evidence.step_hidden,

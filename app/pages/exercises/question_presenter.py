@@ -9,6 +9,7 @@ from PySide6.QtGui import QGuiApplication
 
 from app.background.workers import JobGroup
 from app.files.unfinished_answers import Unfinished, UnfinishedFile
+from app.pages.exercises.answer_history import AnswerHistory
 from app.pages.exercises.answer_kind import Live
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.evidence import Evidence
@@ -16,6 +17,7 @@ from app.pages.exercises.work import Asked, Checked, Work, asking, asking_apart,
 from core.records.words import counted
 from lessons.attempts.practice import TRY_LIMIT
 from lessons.exercises.answers.answer import NotCheckedError, Response
+from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.question import Question, Template, ask
 from lessons.exercises.scene_digest import scene_digest
 from widgets.exercises.mark_grid import MarkGrid
@@ -57,6 +59,7 @@ class QuestionPresenter(QObject):
         self._hints = 0
         self._has_answer = self._is_checked = self._is_shown = self._is_sure = False
         self._digest = ""
+        self._history = AnswerHistory(grid, self)
         self._begun = monotonic()
         self.evidence = Evidence(view, grid, self)
         self._jobs = JobGroup(self)
@@ -160,6 +163,7 @@ class QuestionPresenter(QObject):
             except (TypeError, ValueError, LookupError):
                 self.refused.emit("The answer that was kept is of another form. It is empty now.")
                 answer.show_given(None)
+        self._history.begin(answer.given())
         self._draw_live()
         self._show_state()
         self._keep()
@@ -182,6 +186,24 @@ class QuestionPresenter(QObject):
 
     @Slot()
     def _change(self) -> None:
+        """Take over a change of the answer."""
+        assert self._view.answer is not None
+        self._history.put(self._view.answer.given())
+        self._follow_answer()
+
+    def go_back(self, direction: int) -> None:
+        """Take the last change of the answer back (-1), or make it again (1)."""
+        question, view = self.question, self._view.answer
+        if question is None or view is None or self._is_shown or not self._history.can_go(direction):
+            word = "undo" if direction < 0 else "redo"
+            self.message_sent.emit(f"There is no change of the answer to {word}.")
+        elif question.draft.answer.kind == StepsAnswer.kind:
+            self.message_sent.emit("A step that was tried counts. Try it again, or have it put right.")
+        else:
+            view.show_given(self._history.go(direction))
+            self._follow_answer()
+
+    def _follow_answer(self) -> None:
         """Keep the answer at once; what was found of an earlier one holds no longer."""
         self._has_answer = True
         self.evidence.end_picture()

@@ -71,3 +71,18 @@ def test_a_file_of_version_1_is_read(qtbot: QtBot, folder: Path) -> None:
     file = UnfinishedFile()
     assert file.read() == ""
     assert file.answers.answers["facing"] == Unfinished(version=1, seed=7, given=["A"], hints=1)
+
+
+def test_two_windows_lose_no_answer_of_each_other(qtbot: QtBot, folder: Path) -> None:
+    """Each writes only what it has changed; somebody else begins with nothing."""
+    first, second = UnfinishedFile(), UnfinishedFile()
+    for file, name in ((first, "facing"), (second, "shared-edge"), (first, "clip-ends")):
+        file.keep(TEMPLATES[name], KEPT)
+        file.finish()
+    third = UnfinishedFile()
+    third.read()
+    assert set(third.answers.answers) == {"facing", "shared-edge", "clip-ends"}
+    third.keep_user("Ada")
+    third.finish()
+    second.read()
+    assert (second.answers.user, second.answers.answers) == ("Ada", {})

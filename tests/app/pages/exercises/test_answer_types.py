@@ -7,11 +7,12 @@ from pytestqt.qtbot import QtBot
 
 from app.cli.attempts import attempt_file
 from app.pages.exercises.answer_kinds import KINDS
+from app.window.main_window import MainWindow
 from lessons.exercises.answers.spots import SpotAnswer
 from lessons.exercises.answers.trials import BreakAnswer
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask
-from tests.app.pages.exercises.acting import LEFT, Page, at, check
+from tests.app.pages.exercises.acting import LEFT, Page, at, check, paint
 from widgets.exercises.choice_answer import ChoiceAnswerView
 from widgets.exercises.dial_answer import DialAnswerView
 from widgets.exercises.field_answer import FieldAnswerView
@@ -51,6 +52,33 @@ def check_that_pixels_are_marked_by_keyboard_alone(page: Page) -> None:
     QTest.keyClicks(field, "2-3, 5")
     assert shown.grid.marked() == {(2, 0), (3, 0), (5, 0)}
     assert shown.grid.spoken_description() == "Pixel 4, 0: not marked. 3 marked."
+
+
+def check_that_strokes_are_undone(page: Page, window: MainWindow) -> None:
+    """A stroke at a time; the scene of the Step page stays as it is."""
+    shown = page("shared-edge")
+    shown.questions.ask_again()
+    shown.settle()
+    document = window.session.document
+    first, second = frozenset({(1, 1), (2, 1), (3, 1)}), frozenset({(1, 2)})
+    paint(shown, first)
+    paint(shown, second)
+    answer = shown.question_view.answer
+    assert isinstance(answer, PixelAnswerView)
+    QTest.mouseClick(answer.clear_button, LEFT)
+    for action, marked in (
+        ("undo", first | second),
+        ("undo", first),
+        ("undo", frozenset()),
+        ("undo", frozenset()),
+        ("redo", first),
+    ):
+        window.run_action(action)
+        assert shown.grid.marked() == marked
+    assert answer.count.text() == "3 pixels marked"
+    assert window.session.document is document
+    shown.questions.ask_again()
+    shown.settle()
 
 
 def check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page: Page) -> None:
@@ -183,6 +211,8 @@ def check_that_steps_are_judged_at_once_and_put_right(page: Page) -> None:
     assert isinstance(answer, StepsAnswerView)
     QTest.keyClicks(answer.field, "77")
     QTest.keyClick(answer.field, Qt.Key.Key_Return)
+    shown.questions.go_back(-1)
+    assert answer.given() == [["77"]], "a step that was tried counts"
     assert shown.question_view.note.text() == "Step 1: 77 is not right. Try again, or have it put right."
     QTest.mouseClick(answer.fix_button, LEFT)
     for step in steps[1:]:
@@ -239,8 +269,9 @@ def test_every_form_takes_every_answer_of_its_questions() -> None:
             assert draft.answer.is_same(read, response), template.name
 
 
-def test_every_type_is_answered_in_one_window(page: Page) -> None:
+def test_every_type_is_answered_in_one_window(page: Page, window: MainWindow) -> None:
     """One window for all of them: making one takes longer than answering."""
+    check_that_strokes_are_undone(page, window)
     check_that_pixels_are_marked_by_keyboard_alone(page)
     check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page)
     check_that_nonsense_costs_nothing(page)
