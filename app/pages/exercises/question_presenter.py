@@ -28,6 +28,7 @@ VARIANTS = 10_000
 """Seeds that new variants are drawn from: short ones, to be read out."""
 SURE = "The model answer ends this question without points. Choose Model answer again to show it."
 SHOWN = "What is right was shown before, so this earns nothing."
+CORRECTED = "The first check of a question counts. A new variant earns points of its own."
 
 
 def new_seed() -> int:
@@ -57,7 +58,7 @@ class QuestionPresenter(QObject):
         self._checked: Checked | None = None
         """What the last check found; ``None``: nothing was checked since the question was asked."""
         self._hints = 0
-        self._has_answer = self._is_checked = self._is_shown = self._is_sure = False
+        self._has_answer = self._is_checked = self._is_corrected = self._is_shown = self._is_sure = False
         self._digest = ""
         self._history = AnswerHistory(grid, self)
         self._begun = monotonic()
@@ -269,6 +270,7 @@ class QuestionPresenter(QObject):
     def _show_checked(self, checked: Checked) -> None:
         """Show marks, points and the mistake."""
         assert self._view.answer is not None
+        self._is_corrected = self._checked is not None
         self._checked, self._is_checked = checked, True
         self._view.answer.show_marks(checked.marks)
         self._view.show_feedback(self._feedback(checked))
@@ -285,7 +287,8 @@ class QuestionPresenter(QObject):
         heading = f"{judgement.points:.3g} of {counted(most, 'point')}"
         is_right = judgement.verdict.score == 1
         reveal = (self.question.draft.reveal,) if is_right and self.question.draft.reveal else ()
-        sentences = (*judgement.sentences, *reveal, *((SHOWN,) if self._is_shown else ()))
+        counted_before = (SHOWN,) if self._is_shown else (CORRECTED,) if self._is_corrected else ()
+        sentences = (*judgement.sentences, *reveal, *counted_before)
         return Feedback(heading, judgement.verdict.counts, sentences, is_right)
 
     # Help.

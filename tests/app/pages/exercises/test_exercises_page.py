@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from app.cli.attempts import attempt_file
 from app.pages.exercises.page import ExercisesPage
+from app.pages.exercises.question_presenter import CORRECTED
 from app.window.main_window import MainWindow
 from lessons.exercises.catalogue import SUBJECTS, TEMPLATES
 from lessons.exercises.question import ask
@@ -37,6 +38,8 @@ def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
     assert marks[Mark.EXTRA].sum() == len(wrong - draft.answer.reference)
     (attempt,) = attempt_file().attempts()
     assert attempt.mistakes == ("corner-for-center",)
+    assert CORRECTED not in said
+    assert CORRECTED in check(shown), "progress counts the first check"
     with qtbot.waitSignal(window.opening.opened):
         QTest.mouseClick(shown.question_view.twin_button, LEFT)
     comparing = window.page.comparing
