@@ -58,6 +58,8 @@ class UnfinishedAnswers(BaseModel):
     """Its file; empty: it has none."""
     asked_scene: str = ""
     """Digest of the scene that it asks about, as long as that is hidden; empty: nothing is."""
+    hidden: tuple[str, str] | None = None
+    """Title and file of what was open and hidden for it, perhaps edited; ``None``: nothing was."""
     answers: dict[str, Unfinished] = {}
     """By the name of the exercise."""
 
@@ -110,6 +112,10 @@ class UnfinishedFile(QObject):
         answers = {**self.answers.answers, name: unfinished}
         changed = {"current": name, "path": template.path, "asked_scene": asked_scene, "answers": answers}
         self._change(self.answers.model_copy(update=changed))
+
+    def keep_hidden(self, hidden: tuple[str, str] | None) -> None:
+        """Keep what is open and hidden."""
+        self._change(self.answers.model_copy(update={"hidden": hidden}))
 
     def keep_user(self, user: str) -> None:
         """Keep who answers; answers in progress are those of nobody else."""

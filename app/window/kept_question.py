@@ -17,21 +17,24 @@ class KeptQuestion(QObject):
         self._session, self._pages = session, pages
         self._seen: AnyScene | None = None
         try:
-            asked = read_answers().asked_scene
+            kept = read_answers()
         except (OSError, ValueError):
             return  # The page says what is wrong with the file.
-        if asked:
-            session.set_asked(asked, is_open=False)
+        self._hidden = kept.hidden
+        if kept.asked_scene:
+            session.set_asked(kept.asked_scene, is_open=False)
             session.document_changed.connect(self._look)
             self._look()
 
     @Slot()
     def _look(self) -> None:
         """Have the question asked once its scene is open."""
-        scene = self._session.document.scene
+        document = self._session.document
+        scene = document.scene
         if self._pages.is_made("exercises"):
             self._session.document_changed.disconnect(self._look)
         elif scene is not self._seen:
             self._seen = scene
-            if scene_digest(scene) == self._session.asked_scene:
+            is_hidden = self._hidden == (document.title, document.path)
+            if is_hidden or scene_digest(scene) == self._session.asked_scene:
                 self._pages.page("exercises").resume()

@@ -6,6 +6,7 @@ that was hidden stays so while it is edited: a corner moved by a hair would show
 
 from PySide6.QtCore import QObject, Signal, Slot
 
+from app.files.unfinished_answers import UnfinishedFile
 from app.pages.exercises.question_presenter import QuestionPresenter
 from app.session.session import Session
 from core import STAGES
@@ -22,13 +23,17 @@ class AskedScene(QObject):
     """The Step page is to predict from now on, or no longer."""
     message_sent = Signal(str)
 
-    def __init__(self, session: Session, questions: QuestionPresenter, parent: QObject | None = None) -> None:
+    def __init__(
+        self,
+        session: Session,
+        questions: QuestionPresenter,
+        unfinished: UnfinishedFile,
+        parent: QObject | None = None,
+    ) -> None:
         super().__init__(parent)
-        self._session, self._questions = session, questions
+        self._session, self._questions, self._unfinished = session, questions, unfinished
         self._is_hidden = self._is_edited = False
         """Whether it is hidden for the question's sake, and whether an edit has made another scene of it since."""
-        self._hidden: tuple[str, str] | None = None
-        """Title and file of what is hidden."""
         session.document_changed.connect(self._look)
         session.predicting_changed.connect(self._follow_predicting)
         session.cursor_changed.connect(self._follow_steps)
@@ -41,7 +46,8 @@ class AskedScene(QObject):
         asked, document = self._questions.asked_scene, self._session.document
         if not asked:
             return False
-        return self._hidden == (document.title, document.path) or scene_digest(document.scene) == asked
+        hidden = self._unfinished.answers.hidden
+        return hidden == (document.title, document.path) or scene_digest(document.scene) == asked
 
     @Slot()
     def _look(self) -> None:
@@ -55,7 +61,7 @@ class AskedScene(QObject):
         self._is_edited = is_open and scene_digest(document.scene) != self._questions.asked_scene
         if self._is_edited and not was_edited:
             self.message_sent.emit(EDITED)
-        self._hidden = (document.title, document.path) if is_open else None
+        self._unfinished.keep_hidden((document.title, document.path) if is_open else None)
         if is_open and self._here() > self._start():
             number, position = self._start()
             session.scrub(position, STAGES[number])

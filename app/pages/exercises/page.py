@@ -107,7 +107,7 @@ class ExercisesPage(Page):
             self.diagnosis.refused,
         ):
             source.connect(self.edit_refused)
-        self.hiding = AskedScene(session, self.questions, self)
+        self.hiding = AskedScene(session, self.questions, self.unfinished, self)
         self.hiding.hiding_toggled.connect(self._toggle_hiding)
         self.hiding.message_sent.connect(self.message_sent)
         self._begin()

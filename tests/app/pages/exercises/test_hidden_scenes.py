@@ -77,7 +77,7 @@ def test_the_next_start_hides_what_is_asked(window: MainWindow, qtbot: QtBot) ->
         each.close()
 
 
-def test_a_scene_stays_hidden_while_it_is_edited(window: MainWindow) -> None:
+def test_a_scene_stays_hidden_while_it_is_edited(window: MainWindow, qtbot: QtBot) -> None:
     page = ask_value(window)
     document = window.session.document
     assert isinstance(document.scene, ClipScene)
@@ -89,6 +89,12 @@ def test_a_scene_stays_hidden_while_it_is_edited(window: MainWindow) -> None:
     assert window.statusBar().currentMessage() == EDITED
     window.run_action("page_step")
     assert window.page.pointed_text((30, 20)) == ""
+    page.unfinished.finish()
+    second = MainWindow(window.session.document)
+    qtbot.addWidget(second)
+    KeptQuestion(second.session, second.pages, second)
+    assert second.session.is_predicting, "also after a new start"
+    second.close()
     window.run_action("predict")
     assert not page.questions.is_asked
     assert not window.session.is_asked_about
