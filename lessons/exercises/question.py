@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from itertools import combinations
 
 from core import Settings
+from core.records.sketch import Sketch
 from core.scene import AnyScene
 from core.settings import DEFAULTS
 from lessons.exercises.answers.answer import Answer, Response, Verdict
@@ -41,6 +42,8 @@ class Draft:
     """A sentence with what is right, to be shown after the answer; empty: the answer says it."""
     refutations: Mapping[Response, Refutation] = field(default_factory=dict)
     """By wrong answers behind which a belief stands, what refutes it."""
+    sketch: Sketch | None = None
+    """The plane that the question is about, with what is given in it; ``None``: it is about no plane."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,6 +17,7 @@ from widgets.exercises.answer_forms import make_view
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.records import AnswerForm, Feedback, QuestionRecord
+from widgets.exercises.sketch_view import SketchView
 
 MODEL_TIP = "Show the right answer; before a check this ends the variant without points (Ctrl+M)"
 _ART = re.compile(r"^[.#?A-Z]{4,}$", re.MULTILINE)
@@ -65,6 +66,7 @@ class QuestionView(QWidget):
             text_label("", self, role=role, wraps=True, is_selectable=True)
             for role in ("", "strong", "muted")
         )
+        self.sketch = SketchView(self)
         self.note = text_label("", self, role="muted", wraps=True)
         self.hints = text_label("", self, wraps=True, is_selectable=True, name="Hints")
         self.check_button = self._button("Check", "Check the answer (Return)")
@@ -116,6 +118,7 @@ class QuestionView(QWidget):
         column.addLayout(head)
         for label in (self.text, self.given, self.credit):
             column.addWidget(label)
+        column.addWidget(self.sketch)
         self._answer_place = column_layout(spacing=4)
         column.addLayout(self._answer_place)
         column.addWidget(self.note)
@@ -171,6 +174,7 @@ class QuestionView(QWidget):
         ):
             label.setText(text)
             label.setVisible(bool(text))
+        self.sketch.show_sketch(record.sketch)
         self._has_art = _ART.search(record.given) is not None
         self._follow_theme()
         if self.answer is not None:

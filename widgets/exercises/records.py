@@ -7,6 +7,7 @@ from enum import Enum
 import numpy as np
 from numpy.typing import NDArray
 
+from core.records.sketch import Sketch
 from widgets.grid.buffer import GridBuffer
 
 Pixel = tuple[int, int]
@@ -63,6 +64,8 @@ class QuestionRecord:
     given: str
     credit: str
     """The points, and how they are given."""
+    sketch: Sketch | None = None
+    """Of the plane that is asked about; ``None``: there is none."""
 
 
 @dataclass(frozen=True)

@@ -6,6 +6,7 @@ from fractions import Fraction
 from typing import Any
 
 from core.records.frame import Frame
+from core.records.sketch import Place
 from lessons.exercises.answers.answer import NotCheckedError, Response, Verdict
 from lessons.exercises.numbers import Number, read_number
 from lessons.exercises.question import Draft, Question
@@ -51,6 +52,11 @@ class AnswerKind:
     def size(self, draft: Draft) -> tuple[int, int] | None:
         """Return columns and rows of the picture; ``None``: the question has none."""
         return None if draft.scene is None else draft.scene.size
+
+    def place(self, answer: Any, given: Any) -> Place | None:
+        """Return the point of the plane that is in the form; ``None``: it is none, or not typed yet."""
+        del answer, given
+        return None
 
     def live(self, draft: Draft, response: Response | None) -> Live | None:
         """Return what is drawn of a response, or before there is one; ``None``: nothing."""

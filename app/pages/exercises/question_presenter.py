@@ -155,7 +155,9 @@ class QuestionPresenter(QObject):
         if size is not None:
             self._grid.show_raster(size, asked.outline, draft.pixel)
         credit = f"{counted(template.points, 'point')}. {draft.answer.credit}"
-        record = QuestionRecord(template.title, question.mark, draft.text, kind.numbers(draft), credit)
+        record = QuestionRecord(
+            template.title, question.mark, draft.text, kind.numbers(draft), credit, draft.sketch
+        )
         answer = self._view.show_question(record, kind.form(draft.answer))
         answer.answer_changed.connect(self._change)
         if kept.given is not None:
@@ -219,6 +221,9 @@ class QuestionPresenter(QObject):
     def _draw_live(self) -> None:
         """Draw what is shown of an answer while it is given."""
         if self.question is not None and self._view.answer is not None:
+            draft, given = self.question.draft, self._view.answer.given()
+            if draft.sketch is not None:
+                self._view.sketch.show_answer(KINDS[draft.answer.kind].place(draft.answer, given))
             work = drawing(self.question, self._view.answer.given())
             if work is not None:
                 self._drawing.start(work)

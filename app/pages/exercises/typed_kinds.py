@@ -1,6 +1,7 @@
 """Answers in fields and lists: numbers, tables, orders, choices, and the line of a listing."""
 
-from app.pages.exercises.answer_kind import AnswerKind, plain_number, understood
+from app.pages.exercises.answer_kind import AnswerKind, number_of, plain_number, understood
+from core.records.sketch import Place
 from lessons.exercises.answers.amounts import NumberAnswer, read_entry
 from lessons.exercises.answers.answer import Response, Verdict
 from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
@@ -17,6 +18,9 @@ from widgets.exercises.records import (
     OrderForm,
     Understood,
 )
+
+FARTHEST = 100.0
+"""Farthest coordinate that a sketch of the plane shows."""
 
 
 class NumberKind(AnswerKind):
@@ -48,6 +52,14 @@ class NumberKind(AnswerKind):
         if len(answer.shape) == 2:
             return given
         return [row[0] for row in given] if answer.shape else given[0][0]
+
+    def place(self, answer: NumberAnswer, given: list[list[str]]) -> Place | None:
+        """Return x and y where both are numbers that can be shown."""
+        numbers = [number_of(row[0]) for row in given]
+        if answer.names != ("x", "y") or any(n is None or abs(n) > FARTHEST for n in numbers):
+            return None
+        x, y = (n for n in numbers if n is not None)
+        return x, y
 
     def marks(self, question: Question, response: Response, verdict: Verdict) -> FieldMarks:
         """Return the wrong fields."""

@@ -1,5 +1,6 @@
 """Beliefs about spaces: w, the divide, clipping, the viewport, depth, and the order of transforms."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 from core.scene import Scene
@@ -8,6 +9,7 @@ from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.refutation import Refutation
 from lessons.exercises.templates.believing import believed, eye_scene
+from lessons.exercises.templates.transforms import sketched
 from lessons.small_scenes import triangle_scene
 
 BASE = ((-1, -1, -3), (1, -1, -3))
@@ -262,7 +264,9 @@ def draw_own_center(draws: Draws) -> Draft | None:
     )
     text = f"A square has its centre at ({a}, 0). R turns by 90 degrees counter-clockwise. Where is its centre then?"
     hints = ("About which point does a rotation matrix turn?", "Apply R to the centre itself.")
-    return believed(draws, text, f"(0, {a})", [f"({a}, 0)"], [f"(0, -{a})", f"(-{a}, 0)"], refutation, hints)
+    asked = believed(draws, text, f"(0, {a})", [f"({a}, 0)"], [f"(0, -{a})", f"(-{a}, 0)"], refutation, hints)
+    square = ((a - 1, -1), (a + 1, -1), (a + 1, 1), (a - 1, 1))
+    return None if asked is None else replace(asked, sketch=sketched({"centre": (a, 0)}, square))
 
 
 TEMPLATES = (

@@ -1,5 +1,6 @@
 """Edge functions, who owns an edge, and the part of the raster that a triangle may touch."""
 
+from dataclasses import replace
 from fractions import Fraction
 from math import floor
 from typing import Any
@@ -15,7 +16,7 @@ from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
 from lessons.exercises.templates.drafting import by_rule, numbers, one_of, place_text, several, table
-from lessons.exercises.templates.transforms import wholes
+from lessons.exercises.templates.transforms import sketched, wholes
 from lessons.mistakes.coverage import owns_level, owns_slanted
 from lessons.mistakes.shelf import RULES
 from lessons.small_scenes import triangle_scene
@@ -56,7 +57,8 @@ def draw_coefficients(draws: Draws) -> Draft | None:
         "c follows from E = 0 at the first end.",
     )
     given = f"Edge from {place_text(start)} to {place_text(end)}."
-    return numbers(text, given, coefficients(start, end), hints, names=("a", "b", "c"))
+    draft = numbers(text, given, coefficients(start, end), hints, names=("a", "b", "c"))
+    return replace(draft, sketch=sketched({"start": start, "end": end}, (start, end)))
 
 
 def draw_values(draws: Draws) -> Draft | None:

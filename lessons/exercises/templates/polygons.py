@@ -12,7 +12,7 @@ from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.clipping import SIZE, Ends, code_of
 from lessons.exercises.templates.coverage import corner_text
 from lessons.exercises.templates.drafting import by_rule, one_of, place_text, several
-from lessons.exercises.templates.transforms import wholes
+from lessons.exercises.templates.transforms import sketched, wholes
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.twin import clipped_ends
 from lessons.small_scenes import segment_scene
@@ -95,7 +95,8 @@ def draw_area(draws: Draws) -> Draft | None:
         "Which border does it cross?",
         "Find the new corners, then the area of the polygon, or of what is cut off.",
     )
-    return by_rule(text, given, tuple(polygons), (rule.name,), hints)
+    draft = by_rule(text, given, tuple(polygons), (rule.name,), hints)
+    return replace(draft, sketch=sketched({}, corners, window))
 
 
 VERDICTS = (

@@ -1,9 +1,12 @@
 """Matrices, cameras, projections and the window, by hand."""
 
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
 from core.geometry.matrices import viewport
+from core.records.sketch import Sketch
 from lessons.exercises.answers.choices import OrderAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
@@ -22,6 +25,14 @@ def wholes(draws: Draws, count: int, low: int, high: int) -> tuple[Any, ...]:
     return tuple(Fraction(draws.whole(low, high)) for _ in range(count))
 
 
+def sketched(points: Mapping[str, Any], *outlines: Sequence[Any]) -> Sketch:
+    """Return a sketch of named points and of outlines."""
+    return Sketch(
+        tuple((name, (float(x), float(y))) for name, (x, y) in points.items()),
+        tuple(tuple((float(x), float(y)) for x, y in outline) for outline in outlines),
+    )
+
+
 def turn_text(turn: Turn) -> str:
     """Return an angle by its cosine and sine."""
     c, s = turn
@@ -38,7 +49,8 @@ def draw_order(draws: Draws) -> Draft:
         "R p = (c x - s y, s x + c y) with the cosine c and the sine s.",
         "Turn p first, then add the shift.",
     )
-    return by_rule(text, given, (turn, shift, point), ("factors-reversed", "turned-clockwise"), hints, XY)
+    draft = by_rule(text, given, (turn, shift, point), ("factors-reversed", "turned-clockwise"), hints, XY)
+    return replace(draft, sketch=sketched({"p": point}))
 
 
 def draw_pivot(draws: Draws) -> Draft:
@@ -47,7 +59,8 @@ def draw_pivot(draws: Draws) -> Draft:
     text = "A point is turned about a pivot, counter-clockwise. Where does it land?"
     given = f"Angle with {turn_text(turn)}.\nPivot: {place_text(pivot)}\nPoint: {place_text(point)}"
     hints = ("Three transforms do it.", "Move the pivot to the origin, turn, move back.")
-    return by_rule(text, given, (turn, pivot, point), ("pivot-left-out",), hints, XY)
+    draft = by_rule(text, given, (turn, pivot, point), ("pivot-left-out",), hints, XY)
+    return replace(draft, sketch=sketched({"pivot": pivot, "point": point}))
 
 
 def draw_degrees(draws: Draws) -> Draft:
@@ -56,7 +69,8 @@ def draw_degrees(draws: Draws) -> Draft:
     text = "A point is turned about the origin, counter-clockwise. Where does it land?"
     given = f"Angle: {degrees} degrees.\nPoint: {place_text(point)}"
     hints = ("x' = cos x - sin y, y' = sin x + cos y.", "Does your calculator take degrees?")
-    return by_rule(text, given, (degrees, tuple(map(float, point))), ("degrees-for-radians",), hints, XY)
+    draft = by_rule(text, given, (degrees, tuple(map(float, point))), ("degrees-for-radians",), hints, XY)
+    return replace(draft, sketch=sketched({"point": point}))
 
 
 def draw_scaling(draws: Draws) -> Draft:
@@ -162,7 +176,9 @@ def draw_map(draws: Draws) -> Draft | None:
         "The other columns are the images of the axes, less that of the origin.",
     )
     right = [columns[column][row] for row in range(2) for column in range(3)]
-    return numbers(text, given, right, hints, shape=(2, 3))
+    corners = {"of (0, 0)": origin, "of (1, 0)": first, "of (0, 1)": second}
+    sketch = sketched(corners, ((0, 0), (1, 0), (0, 1)), (origin, first, second))
+    return replace(numbers(text, given, right, hints, shape=(2, 3)), sketch=sketch)
 
 
 def draw_shader(draws: Draws) -> Draft:

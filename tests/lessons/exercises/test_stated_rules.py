@@ -13,6 +13,7 @@ from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.drawn_scene import seen_pixels
 from lessons.exercises.numbers import are_close
 from lessons.exercises.question import ask
+from lessons.exercises.templates.drafting import place_text
 from lessons.exercises.templates.filling import is_decided
 
 HALF = Fraction(1, 2)
@@ -151,6 +152,14 @@ def test_every_exercise_has_variants_and_none_always_one_number() -> None:
         answers = {draft.answer.text(draft.answer.reference) for draft in drafts}
         if drafts[0].answer.kind in ("numbers", "pixels", "places", "table"):
             assert len(answers) > 1, template.name
+
+
+def test_a_sketch_shows_what_is_given_and_nothing_else() -> None:
+    for template in TEMPLATES.values():
+        draft = ask(template, 1).draft
+        if draft.sketch is not None:
+            for _, place in draft.sketch.points:
+                assert place_text(place) in draft.given + draft.text, template.name
 
 
 def test_a_square_is_as_its_two_triangles_with_their_borders() -> None:

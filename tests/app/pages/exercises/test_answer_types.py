@@ -106,6 +106,24 @@ def check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page: Page) -
     assert answer.fields.field(0, 0).accessibleDescription() == "right"
 
 
+def check_that_a_typed_point_stands_in_the_sketch(page: Page) -> None:
+    """What is given of the plane is drawn beside the question, and the point that is typed; not what is right."""
+    shown = page("turn-about-pivot")
+    sketch = shown.question_view.sketch
+    assert sketch.isVisible()
+    names = ["pivot", "point"]
+    assert [name for name, _ in sketch.shown.points] == names
+    answer = shown.question_view.answer
+    assert isinstance(answer, FieldAnswerView)
+    for row, (text, typed) in enumerate((("-3/2", names), ("7", [*names, "your answer"]))):
+        QTest.keyClicks(answer.fields.field(row, 0), text)
+        assert [name for name, _ in sketch.shown.points] == typed
+    assert sketch.shown.points[-1] == ("your answer", (-1.5, 7))
+    assert sketch.accessibleName().endswith("your answer at (-1.5, 7)")
+    sketch.grab()
+    assert page("bresenham-table").question_view.sketch.isHidden()
+
+
 def check_that_nonsense_costs_nothing(page: Page) -> None:
     shown = page("barycentric-weights")
     before = attempt_file().attempts()
@@ -274,6 +292,7 @@ def test_every_type_is_answered_in_one_window(page: Page, window: MainWindow) ->
     check_that_strokes_are_undone(page, window)
     check_that_pixels_are_marked_by_keyboard_alone(page)
     check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page)
+    check_that_a_typed_point_stands_in_the_sketch(page)
     check_that_nonsense_costs_nothing(page)
     check_that_an_order_is_moved_by_keys(page)
     check_that_options_are_chosen_by_space_and_marked(page)
