@@ -28,7 +28,7 @@ def show_look(page: StepPage, look: Look) -> None:
     page.comparing.set_differences(look.other)
     if look.printed:
         page.comparing.show_printed(look.printed, seeks=False)
-    page.choose_event(look.event)
+    page.events.choose(look.event)
     if look.panes is not None:
         page.show_panes(look.panes)
     page.grids.show_look(look.grid)

@@ -4,13 +4,14 @@ from collections.abc import Iterable
 from functools import partial
 
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, QThread, Signal, Slot
-from PySide6.QtWidgets import QComboBox, QScrollArea, QSplitter, QStackedWidget, QWidget
+from PySide6.QtWidgets import QScrollArea, QSplitter, QStackedWidget, QWidget
 
 from app.pages.page_bar import Caption, Handlers, Page
 from app.pages.step.ab_presenter import ComparePresenter
 from app.pages.step.actions import step_handlers
 from app.pages.step.ask_this import AskThis
 from app.pages.step.depth_table_presenter import DepthTablePresenter
+from app.pages.step.event_choice import EventChoice
 from app.pages.step.grid_presenter import GridPresenter
 from app.pages.step.inspector_column import InspectorColumn
 from app.pages.step.inspector_presenter import InspectorPresenter
@@ -21,12 +22,12 @@ from app.pages.step.pixel_menu import PixelMenu
 from app.pages.step.prediction_presenter import PredictionPresenter
 from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
 from app.pages.step.step_columns import StepColumns
-from app.pages.step.stepping_presenter import EVENT_TITLES, SteppingPresenter
+from app.pages.step.stepping_presenter import SteppingPresenter
 from app.pages.step.view_keys import view_handlers
 from app.session.session import Session
 from app.views.stage_views import StageViews
 from widgets.basics.accessible import announce
-from widgets.basics.controls import column_layout, flat_button, row_layout
+from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.scene_outline import SceneOutline
 from widgets.basics.settings_panel import SettingsPanel
 from widgets.basics.side_tabs import SideTabs
@@ -69,9 +70,9 @@ class StepPage(Page):
         self.card, self.sentence, self.formula = column.card, column.sentence, column.formula
         self.listing, self.variables, self.history = column.listing, column.variables, column.history
         self.prediction, self.detail_tabs = column.prediction, column.detail_tabs
-        self.event_box = QComboBox(self)
 
         self.stepping = SteppingPresenter(session, self.timeline, self)
+        self.events = EventChoice(self.stepping, self.timeline, self)
         self.inspector = InspectorPresenter(
             session,
             self.stepping,
@@ -152,7 +153,6 @@ class StepPage(Page):
         row.addWidget(self.side_tabs)
         row.addWidget(self.columns, 1)
         page.addLayout(row, 1)
-        self._add_run_to()
         page.addWidget(self.timeline)
 
     @Slot()
@@ -182,33 +182,6 @@ class StepPage(Page):
         layout.addWidget(self.legend)
         layout.addStretch(1)
         return pane
-
-    def _add_run_to(self) -> None:
-        """Put the choice of events, with a button to each side, above the timeline's bar."""
-        for name, title in EVENT_TITLES.items():
-            self.event_box.addItem(f"Run to: {title}", name)
-        self.event_box.setAccessibleName("Kind of event")
-        self.event_box.setToolTip("What N (next) and Shift+N (previous) run to")
-        self.event_box.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-        self.event_box.activated.connect(self._choose_event)
-        buttons = []
-        for text, name, key in (("<", "Previous event", "Shift+N"), (">", "Next event", "N")):
-            button = flat_button(text, name, f"{name} of this kind ({key})", self)
-            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
-            buttons.append(button)
-        self.previous_event_button, self.next_event_button = buttons
-        self.previous_event_button.clicked.connect(self._run_back)
-        self.next_event_button.clicked.connect(self._run_on)
-        for widget in (self.previous_event_button, self.event_box, self.next_event_button):
-            self.timeline.add_control(widget)
-
-    @Slot()
-    def _run_back(self) -> None:
-        self.stepping.run_to_event(-1)
-
-    @Slot()
-    def _run_on(self) -> None:
-        self.stepping.run_to_event(1)
 
     # Panes.
 
@@ -317,16 +290,6 @@ class StepPage(Page):
         self.predicting.set_active(is_on)
         if not is_on:
             self.main_area.show_own_view()
-
-    @Slot(int)
-    def _choose_event(self, index: int) -> None:
-        self.stepping.event_kind = self.event_box.itemData(index)
-
-    def choose_event(self, name: str) -> None:
-        """Choose the kind of event that N runs to."""
-        if name in EVENT_TITLES:
-            self.event_box.setCurrentIndex(self.event_box.findData(name))
-            self.stepping.event_kind = name
 
     def settle(self) -> None:
         """Wait until everything that is drawn a moment later (formulas, the 3D view) is there."""

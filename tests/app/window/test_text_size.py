@@ -56,7 +56,7 @@ def test_nothing_of_the_step_page_lies_off_the_window(
     for widget in (
         *page.timeline.transport_buttons(),
         *page.timeline.level_buttons.values(),
-        page.event_box,
+        page.events.box,
         page.timeline.position_box,
         page.timeline.speed_box,
         page.timeline.chapters,

@@ -183,7 +183,7 @@ def test_a_state_keeps_everything_that_was_chosen(window: MainWindow, qtbot: QtB
     page.grid.set_view(GridView(0.25, 0.75, 3.0))
     page.comparing.set_differences({"coverage": "float32"})
     page.comparing.set_buffer("depth")
-    page.choose_event("tie")
+    page.events.choose("tie")
     page.show_panes(["overlays", "thumbnails"])
     page.show_view("clip")
     page.views.look_from({"clip": Orbit(1.0, 0.5, (0.0, 0.0, 0.0), 2.0)})

@@ -39,11 +39,11 @@ def test_runs_to_events_and_back(window: MainWindow, event: str) -> None:
 
 def test_the_buttons_beside_the_choice_run_too(window: MainWindow) -> None:
     window.session.go_to(0)
-    window.page.next_event_button.click()
+    window.page.events.next_button.click()
     after = window.session.cursor.position
     assert after > 0
-    window.page.next_event_button.click()
-    window.page.previous_event_button.click()
+    window.page.events.next_button.click()
+    window.page.events.previous_button.click()
     assert window.session.cursor.position == after
 
 
@@ -72,7 +72,7 @@ def test_a_hint_goes_when_it_is_true_no_longer(window: MainWindow) -> None:
 
 
 def test_every_event_can_be_chosen(window: MainWindow) -> None:
-    box = window.page.event_box
+    box = window.page.events.box
     assert [box.itemData(k) for k in range(box.count())] == list(EVENT_TITLES)
     box.setCurrentIndex(2)
     box.activated.emit(2)
