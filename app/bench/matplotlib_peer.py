@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 
 from app.bench.contender import Contender, Prepared
-from app.bench.painting import back_to_front
+from app.bench.painting import back_to_front, not_sorted
 from app.bench.projection import lit_colors
 from app.bench.records import Bytes, ViewedMesh, WindowTriangles, Work
 
@@ -17,8 +17,7 @@ DOTS_PER_INCH = 100
 def contender(work: Work) -> Contender | None:
     """Return matplotlib drawing ``work``, or ``None`` where it has no way to."""
     if isinstance(work, WindowTriangles) and work.is_flat:
-        less = "" if work.is_blended or len(work.corners) == 1 else "no depth, sorting not timed"
-        return Contender(LIBRARY, "painter", lambda _: prepare_triangles(work), less, True)
+        return Contender(LIBRARY, "painter", lambda _: prepare_triangles(work), not_sorted(work), True)
     if isinstance(work, ViewedMesh) and work.texture is None and work.lighting is not None:
         less = "no depth, one colour a face"
         return Contender(LIBRARY, "painter", lambda _: prepare_mesh(work), less, True)

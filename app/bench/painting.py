@@ -1,8 +1,38 @@
 """What a library that draws 2D shapes is given: an order instead of a depth test, a warp instead of a floor."""
 
+from collections.abc import Callable
+
 import numpy as np
 
-from app.bench.records import Floats, Integers, ViewedMesh, WindowTriangles
+from app.bench.contender import Contender, Prepared
+from app.bench.records import Floats, Integers, Lines, ViewedMesh, WindowTriangles, Work
+
+
+def painter(
+    library: str,
+    work: Work,
+    prepare: tuple[
+        Callable[[WindowTriangles], Prepared], Callable[[Lines], Prepared], Callable[[ViewedMesh], Prepared]
+    ],
+    *,
+    is_top_down: bool,
+    blends: bool = True,
+) -> Contender | None:
+    """Return a library drawing flat triangles, lines or a textured floor; ``None`` for other work."""
+    triangles, lines, floor = prepare
+    if isinstance(work, WindowTriangles) and work.is_flat and (blends or not work.is_blended):
+        less = not_sorted(work)
+        return Contender(library, "painter", lambda _: triangles(work), less, is_top_down)
+    if isinstance(work, Lines):
+        return Contender(library, "painter", lambda _: lines(work), "", is_top_down)
+    if isinstance(work, ViewedMesh) and work.texture is not None and work.lighting is None:
+        return Contender(library, "painter", lambda _: floor(work), "warps one image, no geometry", True)
+    return None
+
+
+def not_sorted(work: WindowTriangles) -> str:
+    """Return what a painter of triangles does less than ours."""
+    return "" if work.is_blended or len(work.corners) == 1 else "no depth, sorting not timed"
 
 
 def back_to_front(work: WindowTriangles) -> Integers:

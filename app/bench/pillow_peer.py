@@ -3,7 +3,7 @@
 import numpy as np
 
 from app.bench.contender import Contender, Prepared
-from app.bench.painting import back_to_front, floor_homography
+from app.bench.painting import back_to_front, floor_homography, painter
 from app.bench.records import Bytes, Lines, ViewedMesh, WindowTriangles, Work
 
 LIBRARY = "Pillow"
@@ -12,16 +12,7 @@ DISTRIBUTION = "pillow"
 
 def contender(work: Work) -> Contender | None:
     """Return Pillow drawing ``work``, or ``None`` where it has no way to."""
-    if isinstance(work, WindowTriangles) and work.is_flat:
-        less = "" if work.is_blended or len(work.corners) == 1 else "no depth, sorting not timed"
-        return Contender(LIBRARY, "painter", lambda _: prepare_triangles(work), less, True)
-    if isinstance(work, Lines):
-        return Contender(LIBRARY, "painter", lambda _: prepare_lines(work), "", True)
-    if isinstance(work, ViewedMesh) and work.texture is not None and work.lighting is None:
-        return Contender(
-            LIBRARY, "painter", lambda _: prepare_floor(work), "warps one image, no geometry", True
-        )
-    return None
+    return painter(LIBRARY, work, (prepare_triangles, prepare_lines, prepare_floor), is_top_down=True)
 
 
 def prepare_triangles(work: WindowTriangles) -> Prepared:

@@ -37,7 +37,7 @@ def blended(color: str, ground: str, share: float) -> QColor:
     return QColor(*channels)
 
 
-def draw_mark(painter: QPainter, mark: Mark, box: QRectF, theme: Theme | None = None) -> None:
+def draw_mark(painter: QPainter, mark: Mark, box: QRectF) -> None:
     """Draw a mark inside a square box with the painter's present transform.
 
     Parameters
@@ -48,12 +48,10 @@ def draw_mark(painter: QPainter, mark: Mark, box: QRectF, theme: Theme | None = 
         Which shape.
     box : QRectF
         Square that the shape fills, in logical pixels.
-    theme : Theme, optional
-        Default: the present one.
     """
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-    _PAINTERS[mark](painter, box, theme or current_theme())
+    _PAINTERS[mark](painter, box, current_theme())
     painter.restore()
 
 

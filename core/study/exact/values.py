@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.records.arrays import Floats, Integers
-from core.study.exact.coverage import ExactSpans, doubled_center, exact_spans, homogeneous_corner
+from core.study.exact.coverage import doubled_center, exact_spans, homogeneous_corner
 
 Whole = NDArray[Any]
 """Python integers, as an array of objects."""
@@ -121,25 +121,18 @@ class ExactFragments:
     """By triangle, to compare depths that round to the same number."""
 
 
-def exact_fragments(
-    clip: Floats, size: tuple[int, int], spans: ExactSpans | None = None, pixel_center: str = "half"
-) -> ExactFragments:
-    """Return the pixels of triangles (T, 3, 4) that lie between the near and the far plane.
-
-    Parameters
-    ----------
-    spans : ExactSpans, optional
-        Which pixels are covered; by default those of corners on the grid.
+def exact_fragments(clip: Floats, size: tuple[int, int]) -> ExactFragments:
+    """Return the pixels of triangles (T, 3, 4), of corners on the grid, that lie between the near and the far plane.
 
     Notes
     -----
     Depth comes from the corners before snapping. A triangle that is in range as a whole keeps all its pixels, as its
     depth is clamped where snapping makes it reach a hair farther; only others are decided pixel by pixel.
     """
-    triangle, column, row = (spans or exact_spans(clip, size, pixel_center=pixel_center)).pixels()
+    triangle, column, row = exact_spans(clip, size).pixels()
     depth, keeps = np.zeros(len(triangle)), np.ones(len(triangle), bool)
     planes: dict[int, ExactPlanes] = {}
-    center = doubled_center(pixel_center)
+    center = doubled_center("half")
     ends = np.flatnonzero(np.diff(triangle, append=-1)) + 1
     for first, end in zip([0, *ends][:-1], ends, strict=True):
         part, number = slice(first, end), int(triangle[first])
@@ -157,7 +150,7 @@ def exact_fragments(
     return ExactFragments(triangle[keeps], column[keeps], row[keeps], depth[keeps], planes)
 
 
-def exact_visible(fragments: ExactFragments, size: tuple[int, int], pixel_center: str = "half") -> Integers:
+def exact_visible(fragments: ExactFragments, size: tuple[int, int]) -> Integers:
     """Return the triangle that is nearest at every pixel, (H, W) int64, -1 for none; a tie keeps the first drawn."""
     width, height = size
     pixel = fragments.row * width + fragments.column
@@ -171,15 +164,13 @@ def exact_visible(fragments: ExactFragments, size: tuple[int, int], pixel_center
     close = (pixel[first] == pixel[second]) & (fragments.depth[second] - fragments.depth[first] <= 2.0**-50)
     for at in np.unique(pixel[first[close]]):
         candidates = np.flatnonzero(pixel == at)
-        nearest = min(
-            candidates, key=lambda k: (_exact_depth(fragments, int(k), pixel_center), fragments.triangle[k])
-        )
+        nearest = min(candidates, key=lambda k: (_exact_depth(fragments, int(k)), fragments.triangle[k]))
         seen[at] = fragments.triangle[nearest]
     return seen.reshape(height, width)
 
 
-def _exact_depth(fragments: ExactFragments, index: int, pixel_center: str) -> Fraction:
+def _exact_depth(fragments: ExactFragments, index: int) -> Fraction:
     a, b, c, below = fragments.planes[int(fragments.triangle[index])].depth
-    center = doubled_center(pixel_center)
+    center = doubled_center("half")
     x, y = 2 * int(fragments.column[index]) + center, 2 * int(fragments.row[index]) + center
     return min(max(Fraction(a * x + b * y + c, below), Fraction(0)), Fraction(1))

@@ -2,6 +2,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
+from tests.widgets.showing import shown
 from widgets.basics.key_help import KeyEntry, KeyHelp
 
 KEYS = [
@@ -14,12 +15,8 @@ KEYS = [
 @pytest.fixture
 def page(qtbot) -> KeyHelp:
     result = KeyHelp()
-    qtbot.addWidget(result)
-    result.resize(900, 400)
     result.show_keys(KEYS)
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, result, 900, 400)
 
 
 def shown_texts(page: KeyHelp) -> list[str]:

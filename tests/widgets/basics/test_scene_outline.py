@@ -2,6 +2,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QToolButton
 
+from tests.widgets.showing import shown
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 
 
@@ -15,12 +16,8 @@ def groups(x: float = 2.25) -> tuple[OutlineGroup, ...]:
 @pytest.fixture
 def outline(qtbot) -> SceneOutline:
     result = SceneOutline()
-    qtbot.addWidget(result)
-    result.resize(304, 360)
     result.show_groups(groups())
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, result, 304, 360)
 
 
 def type_value(qtbot, outline: SceneOutline, path: str, text: str) -> None:
@@ -93,11 +90,8 @@ def test_every_field_has_a_name(outline) -> None:
 def test_four_numbers_fit_the_wanted_width(qtbot) -> None:
     values = tuple(OutlineValue(name, -12.345) for name in ("x", "y", "depth", "w"))
     outline = SceneOutline()
-    qtbot.addWidget(outline)
-    outline.resize(outline.sizeHint())
     outline.show_groups((OutlineGroup("t", "Triangle 0", (OutlineRow("t/v0", "Vertex 0", values, 0),)),))
-    outline.show()
-    qtbot.waitExposed(outline)
+    shown(qtbot, outline, outline.sizeHint())
     assert outline.horizontalScrollBar().maximum() == 0
 
 

@@ -3,6 +3,7 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication, QToolButton
 
+from tests.widgets.showing import shown
 from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
 
 
@@ -22,11 +23,8 @@ def settings(fill: str = "blocks", line_refusal: str = "polygons are filled") ->
 @pytest.fixture
 def panel(qtbot) -> SettingsPanel:
     result = SettingsPanel()
-    qtbot.addWidget(result)
     result.show_settings(settings())
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, result)
 
 
 def test_a_choice_by_key_is_handed_on_once(qtbot, panel) -> None:

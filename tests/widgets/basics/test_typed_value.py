@@ -5,6 +5,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
 
 from core.explain.number_text import fraction_text, full_text, number_text, parse_number
+from tests.widgets.showing import shown
 from widgets.basics.typed_value import TypedValue
 
 
@@ -180,11 +181,8 @@ def test_showing_the_same_value_again_leaves_the_field_alone(qtbot, field) -> No
 
 def test_a_narrow_field_rounds_rather_than_cutting_digits_off(qtbot) -> None:
     field = TypedValue("x", is_compact=True)
-    qtbot.addWidget(field)
     field.show_value(-1 / 3)
-    field.resize(field.fontMetrics().horizontalAdvance("−0.33") + 14, 24)
-    field.show()
-    qtbot.waitExposed(field)
+    shown(qtbot, field, field.fontMetrics().horizontalAdvance("−0.33") + 14, 24)
     assert field.edit.text() == "−0.33"
 
 

@@ -8,6 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
+from tests.widgets.showing import shown
 from widgets.basics.drawn_text import LabelPlaces
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, contrast
@@ -33,11 +34,7 @@ PICTURE = ChartPicture(TIME, ERROR, POINTS, ("fast", "middle", "exact"))
 
 @pytest.fixture
 def chart(qtbot: QtBot) -> Chart:
-    made = Chart("Error against time")
-    qtbot.addWidget(made)
-    made.resize(600, 400)
-    made.show()
-    qtbot.waitExposed(made)
+    made = shown(qtbot, Chart("Error against time"), 600, 400)
     made.show_picture(PICTURE)
     return made
 

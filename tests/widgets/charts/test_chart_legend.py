@@ -6,6 +6,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
+from tests.widgets.showing import shown
 from widgets.charts.legend import ChartLegend
 from widgets.charts.records import ChartSeries
 
@@ -17,11 +18,7 @@ LEFT = Qt.MouseButton.LeftButton
 
 @pytest.fixture
 def legend(qtbot: QtBot) -> ChartLegend:
-    made = ChartLegend()
-    qtbot.addWidget(made)
-    made.resize(200, 300)
-    made.show()
-    qtbot.waitExposed(made)
+    made = shown(qtbot, ChartLegend(), 200, 300)
     made.show_series(SERIES, ("method3",))
     return made
 

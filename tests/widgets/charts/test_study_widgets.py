@@ -8,6 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
+from tests.widgets.showing import shown
 from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import ElidedLabel
 from widgets.basics.message_bar import Progress
@@ -35,12 +36,8 @@ CHOICES = StudyChoices(
 @pytest.fixture
 def controls(qtbot: QtBot) -> StudyControls:
     made = StudyControls()
-    qtbot.addWidget(made)
     made.show_choices(CHOICES)
-    made.resize(900, 120)
-    made.show()
-    qtbot.waitExposed(made)
-    return made
+    return shown(qtbot, made, 900, 120)
 
 
 def test_a_dial_is_slid_and_typed(controls: StudyControls, qtbot: QtBot) -> None:
@@ -173,11 +170,7 @@ TABLE = TableRecord(
 
 @pytest.fixture
 def table(qtbot: QtBot) -> StudyTable:
-    made = StudyTable()
-    qtbot.addWidget(made)
-    made.resize(700, 300)
-    made.show()
-    qtbot.waitExposed(made)
+    made = shown(qtbot, StudyTable(), 700, 300)
     made.show_table(TABLE)
     return made
 
@@ -251,11 +244,7 @@ def test_families_are_chosen_and_ticked(qtbot: QtBot) -> None:
 
 @pytest.fixture
 def pictures(qtbot: QtBot) -> StudyPictures:
-    made = StudyPictures()
-    qtbot.addWidget(made)
-    made.resize(900, 320)
-    made.show()
-    qtbot.waitExposed(made)
+    made = shown(qtbot, StudyPictures(), 900, 320)
     result = np.arange(12, dtype=np.float32).reshape(3, 4)
     reference = np.full((3, 4), 5, np.float32)
     made.show_pictures(

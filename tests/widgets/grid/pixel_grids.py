@@ -6,6 +6,7 @@ from PySide6.QtGui import QImage, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
+from tests.widgets.showing import shown
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.pixel_grid import PixelGrid
@@ -17,12 +18,8 @@ TRIANGLE = GridGeometry(np.array([[2.0, 2.0], [20.0, 3.0], [8.0, 13.0]]), np.arr
 def shown_grid(qtbot) -> PixelGrid:
     """Return a grid of 24 x 16 pixels in a window."""
     widget = PixelGrid()
-    qtbot.addWidget(widget)
-    widget.resize(800, 560)
     widget.show_buffer(GridBuffer("z", np.linspace(0, 1, 24 * 16).reshape(16, 24).astype(np.float32)))
-    widget.show()
-    qtbot.waitExposed(widget)
-    return widget
+    return shown(qtbot, widget, 800, 560)
 
 
 def at(grid: PixelGrid, x: float, y: float) -> QPoint:

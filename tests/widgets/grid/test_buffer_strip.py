@@ -3,6 +3,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
+from tests.widgets.showing import shown
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.buffer_strip import BufferStrip
 from widgets.grid.geometry import GridGeometry
@@ -24,12 +25,8 @@ def three(offset: float = 0.0) -> list[GridBuffer]:
 @pytest.fixture
 def strip(qtbot) -> BufferStrip:
     widget = BufferStrip()
-    qtbot.addWidget(widget)
-    widget.resize(700, 200)
     widget.show_buffers(three())
-    widget.show()
-    qtbot.waitExposed(widget)
-    return widget
+    return shown(qtbot, widget, 700, 200)
 
 
 def center(grid: PixelGrid, column: int, row: int) -> QPoint:

@@ -13,6 +13,7 @@ from core.explain.latex import (
     without_macros,
 )
 from core.explain.records import Formula
+from tests.widgets.showing import shown
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT
 from widgets.inspector.formula_view import FormulaView
@@ -103,12 +104,7 @@ def test_the_cache_forgets_the_oldest() -> None:
 @pytest.fixture
 def view(qtbot) -> FormulaView:
     apply_theme(QApplication.instance(), LIGHT)
-    result = FormulaView(typesetter=Typesetter())
-    qtbot.addWidget(result)
-    result.resize(420, 120)
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, FormulaView(typesetter=Typesetter()), 420, 120)
 
 
 def wait_for_typesetting(qtbot, view: FormulaView) -> None:

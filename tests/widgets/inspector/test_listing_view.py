@@ -3,6 +3,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QApplication
 
+from tests.widgets.showing import shown
 from widgets.basics.theme import current_theme
 from widgets.inspector.listing import ListingText, ListingView
 from widgets.inspector.listing_looks import token_formats
@@ -19,12 +20,8 @@ SOURCE = '''def inside(a0, x, y):
 @pytest.fixture
 def view(qtbot) -> ListingView:
     result = ListingView()
-    qtbot.addWidget(result)
-    result.resize(420, 240)
     result.show_listing(ListingText("inside", SOURCE))
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, result, 420, 240)
 
 
 def line_middle(view: ListingView, line: int) -> int:

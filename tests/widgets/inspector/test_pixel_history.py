@@ -2,6 +2,7 @@ import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication
 
+from tests.widgets.showing import shown
 from widgets.basics.marks import Mark
 from widgets.basics.theme import current_theme
 from widgets.inspector.history_row import is_stacked, value_columns
@@ -25,12 +26,8 @@ STORY = PixelStory(
 @pytest.fixture
 def history(qtbot) -> PixelHistory:
     result = PixelHistory()
-    qtbot.addWidget(result)
-    result.resize(480, 320)
     result.show_story(STORY)
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, result, 480, 320)
 
 
 def row_box(history: PixelHistory, row: int):

@@ -2,6 +2,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from core.explain.records import AnswerKind, Question, Verdict
+from tests.widgets.showing import shown
 from widgets.inspector.prediction import PredictionView
 
 NUMBER = Question("What is the depth? (within 0.01)", AnswerKind.NUMBER)
@@ -10,12 +11,7 @@ CHOICE = Question("Is the pixel covered?", AnswerKind.CHOICE)
 
 @pytest.fixture
 def view(qtbot) -> PredictionView:
-    result = PredictionView()
-    qtbot.addWidget(result)
-    result.resize(500, 160)
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, PredictionView(), 500, 160)
 
 
 def test_a_typed_number_is_handed_on(qtbot, view) -> None:

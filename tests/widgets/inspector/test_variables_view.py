@@ -6,18 +6,14 @@ from PySide6.QtGui import QColor, QGuiApplication
 
 from core.explain.number_text import latex_text
 from core.explain.records import Variable
+from tests.widgets.showing import shown
 from widgets.basics.theme import current_theme
 from widgets.inspector.variables import VariablesView, value_text
 
 
 @pytest.fixture
 def view(qtbot) -> VariablesView:
-    result = VariablesView()
-    qtbot.addWidget(result)
-    result.resize(360, 260)
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, VariablesView(), 360, 260)
 
 
 STEP = (

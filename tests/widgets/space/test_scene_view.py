@@ -7,6 +7,7 @@ from PySide6.QtGui import QColor, QContextMenuEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from tests.widgets.showing import shown
 from widgets.basics.theme import current_theme
 from widgets.space.frame_corner import SizeChoice
 from widgets.space.orbit import turned
@@ -17,12 +18,7 @@ LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 
 @pytest.fixture
 def view(qtbot) -> SceneView:
-    widget = SceneView()
-    qtbot.addWidget(widget)
-    widget.resize(400, 300)
-    widget.show()
-    qtbot.waitExposed(widget)
-    return widget
+    return shown(qtbot, SceneView(), 400, 300)
 
 
 def picture_of(columns: int, rows: int, **more) -> ScenePicture:
@@ -171,11 +167,7 @@ def test_turning_paints_nothing_before_the_next_picture(qtbot):
             painted.append(self.orbit())
             super().paintEvent(event)
 
-    view = CountingView()
-    qtbot.addWidget(view)
-    view.resize(400, 300)
-    view.show()
-    qtbot.waitExposed(view)
+    view = shown(qtbot, CountingView(), 400, 300)
     view.show_picture(picture_of(4, 3))
     QApplication.processEvents()
     before = len(painted)

@@ -5,6 +5,7 @@ from PySide6.QtGui import QImage, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
+from tests.widgets.showing import shown
 from widgets.basics.drawn_text import LabelPlaces
 from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word
 from widgets.space.paint import clip_polygon
@@ -23,12 +24,8 @@ DIAGRAM = Diagram(
 @pytest.fixture
 def view(qtbot) -> SpaceView:
     widget = SpaceView()
-    qtbot.addWidget(widget)
-    widget.resize(500, 400)
     widget.show_diagram(DIAGRAM)
-    widget.show()
-    qtbot.waitExposed(widget)
-    return widget
+    return shown(qtbot, widget, 500, 400)
 
 
 def picture(widget: QWidget) -> QImage:

@@ -5,6 +5,7 @@ from PySide6.QtGui import QColor, QImage, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
+from tests.widgets.showing import shown
 from widgets.space.texture_paint import outside_image
 from widgets.space.texture_picture import TexelFootprint, TexturePicture
 from widgets.space.texture_view import TextureView
@@ -27,12 +28,8 @@ FOOTPRINT = TexelFootprint(
 @pytest.fixture
 def view(qtbot) -> TextureView:
     widget = TextureView()
-    qtbot.addWidget(widget)
-    widget.resize(500, 300)
     widget.show_picture(TexturePicture(PIXELS, footprints=(FOOTPRINT,)))
-    widget.show()
-    qtbot.waitExposed(widget)
-    return widget
+    return shown(qtbot, widget, 500, 300)
 
 
 def color_at(view: TextureView, x: float, y: float) -> tuple[int, ...]:

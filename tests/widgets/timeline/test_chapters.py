@@ -5,6 +5,7 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QApplication
 
+from tests.widgets.showing import shown
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import LIGHT
 from widgets.timeline.chapter_button import Chapter, ChapterState, Spelling
@@ -42,12 +43,8 @@ def chapters(current: int = 5) -> list[Chapter]:
 def row(qtbot) -> ChapterRow:
     apply_theme(QApplication.instance(), LIGHT)
     result = ChapterRow()
-    qtbot.addWidget(result)
     result.show_chapters(chapters())
-    result.resize(1264, result.sizeHint().height())
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, result, 1264, result.sizeHint().height())
 
 
 def test_a_click_enters_a_chapter_and_leaves_the_arrow_keys_to_stepping(qtbot, row) -> None:

@@ -2,6 +2,7 @@ import pytest
 from PySide6.QtCore import Qt
 
 from core.explain.records import StageCard
+from tests.widgets.showing import shown
 from widgets.timeline.stage_card import StageCardView
 
 CARD = StageCard(
@@ -11,12 +12,7 @@ CARD = StageCard(
 
 @pytest.fixture
 def view(qtbot) -> StageCardView:
-    result = StageCardView()
-    qtbot.addWidget(result)
-    result.resize(300, 200)
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, StageCardView(), 300, 200)
 
 
 def test_it_says_what_the_stage_gets_gives_and_is_for(view) -> None:

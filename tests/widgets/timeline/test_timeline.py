@@ -7,6 +7,7 @@ from PySide6.QtGui import QColor, QWheelEvent
 from PySide6.QtWidgets import QApplication
 
 from core.records.steps import Level
+from tests.widgets.showing import shown
 from widgets.basics.marks import Mark
 from widgets.basics.theme import current_theme
 from widgets.timeline.bar import TimelineBar
@@ -28,24 +29,16 @@ RUN = TimelineRun(
 @pytest.fixture
 def timeline(qtbot) -> Timeline:
     result = Timeline()
-    qtbot.addWidget(result)
-    result.resize(1200, 110)
     result.show_run(RUN)
     result.show_position(134)
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, result, 1200, 110)
 
 
 @pytest.fixture
 def bar(qtbot) -> TimelineBar:
     result = TimelineBar()
-    qtbot.addWidget(result)
-    result.resize(1000, 80)
     result.show_run(RUN)
-    result.show()
-    qtbot.waitExposed(result)
-    return result
+    return shown(qtbot, result, 1000, 80)
 
 
 def wheel(widget: TimelineBar, x: float, turns: int, modifiers=Qt.KeyboardModifier.NoModifier) -> None:
@@ -149,11 +142,8 @@ def test_a_million_positions_paint_fast(qtbot) -> None:
     kinds = np.random.default_rng(1).integers(0, 3, count)
     marks = {Mark.COVERED: np.flatnonzero(kinds == 0), Mark.REJECTED: np.flatnonzero(kinds == 1)}
     bar = TimelineBar()
-    qtbot.addWidget(bar)
-    bar.resize(1280, 80)
     bar.show_run(TimelineRun(count, {**marks, Mark.PINNED: np.arange(0, count, 50, dtype=np.int64)}))
-    bar.show()
-    qtbot.waitExposed(bar)
+    shown(qtbot, bar, 1280, 80)
     bar.grab()
     start = time.process_time()
     for _ in range(20):
