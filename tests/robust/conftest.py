@@ -1,5 +1,5 @@
 """The window of the tests of ``app``, for what is done to a whole program."""
 
-from tests.app.conftest import window
+from tests.app.conftest import new_window, window
 
-__all__ = ["window"]
+__all__ = ["new_window", "window"]
