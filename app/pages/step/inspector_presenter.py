@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 
 from PySide6.QtCore import QObject, Slot
-from PySide6.QtWidgets import QLabel
 
+from app.pages.step.inspector_column import InspectorColumn
 from app.pages.step.number_origins import variable_of, writer_of
 from app.pages.step.pixel_stories import story_of
 from app.pages.step.stepping_presenter import SteppingPresenter
@@ -17,12 +17,8 @@ from core.records.listing import Listing
 from core.stages.declared import stage_of
 from core.trace.origins import Origin, origin
 from widgets.inspector.formula_layout import FormulaNumber
-from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.history_view import HINT as NO_HISTORY
-from widgets.inspector.history_view import PixelHistory
-from widgets.inspector.listing import HINT, ListingText, ListingView
-from widgets.inspector.variables import VariablesView
-from widgets.timeline.stage_card import StageCardView
+from widgets.inspector.listing import HINT, ListingText
 
 HIDDEN_HISTORY = "Turn prediction off (P) to see the pixel's history."
 NO_FORMULA, NO_LISTING = "This step has no formula.", "This step has no listing."
@@ -35,38 +31,33 @@ class InspectorPresenter(QObject):
         self,
         session: Session,
         stepping: SteppingPresenter,
-        sentence_label: QLabel,
-        card: StageCardView,
-        formula_view: FormulaView,
-        listing: ListingView,
-        variables_view: VariablesView,
-        history: PixelHistory,
+        column: InspectorColumn,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
         self._session, self._stepping = session, stepping
-        self._sentence, self._card, self._formula = sentence_label, card, formula_view
-        self._listing, self._variables, self._history = listing, variables_view, history
+        self._sentence, self._card, self._formula = column.sentence, column.card, column.formula
+        self._listing, self._variables, self._history = column.listing, column.variables, column.history
         self._function = ""
         self._stage = ""
         self._triangles: list[int | None] = []
         self._told: tuple[object, ...] = ()
         """What the history shows: it is made anew only if this changes."""
         self._folded = set(STAGES)
-        self.ahead = StepsAhead(session, formula_view, self)
+        self.ahead = StepsAhead(session, column.formula, self)
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_step)
         session.pin_changed.connect(self.refresh_history)
         session.hover_changed.connect(self.refresh_history)
         session.predicting_changed.connect(self.refresh_run)
-        variables_view.origin_requested.connect(self._go_to_variable)
-        formula_view.number_pointed.connect(self._tell_origin)
-        formula_view.number_clicked.connect(self._go_to_number)
-        listing.line_clicked.connect(self._run_to_line)
-        listing.breakpoint_toggled.connect(self._toggle_breakpoint)
-        history.row_activated.connect(self._go_to_event)
-        history.history_shown.connect(self.refresh_history)
-        card.card_folded.connect(self._fold)
+        column.variables.origin_requested.connect(self._go_to_variable)
+        column.formula.number_pointed.connect(self._tell_origin)
+        column.formula.number_clicked.connect(self._go_to_number)
+        column.listing.line_clicked.connect(self._run_to_line)
+        column.listing.breakpoint_toggled.connect(self._toggle_breakpoint)
+        column.history.row_activated.connect(self._go_to_event)
+        column.history.history_shown.connect(self.refresh_history)
+        column.card.card_folded.connect(self._fold)
         self.refresh_run()
 
     @Slot()

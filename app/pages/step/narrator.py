@@ -2,14 +2,12 @@
 
 from PySide6.QtCore import QObject, QTimer, Slot
 from PySide6.QtGui import QAccessible
-from PySide6.QtWidgets import QLabel
 
+from app.pages.step.inspector_column import InspectorColumn
 from app.session.session import Session
 from core.stages.declared import stage_of
 from widgets.basics.accessible import announce
 from widgets.grid.pixel_grid import PixelGrid
-from widgets.inspector.formula_view import FormulaView
-from widgets.inspector.listing import ListingView
 from widgets.timeline.transport import Timeline
 
 REST_MILLISECONDS = 150
@@ -22,18 +20,13 @@ class StepNarrator(QObject):
     def __init__(
         self,
         session: Session,
-        sentence: QLabel,
-        formula: FormulaView,
-        listing: ListingView,
+        column: InspectorColumn,
         grid: PixelGrid,
         timeline: Timeline,
-        question: QLabel,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self._session, self._sentence = session, sentence
-        self._formula, self._listing, self._grid, self._timeline = formula, listing, grid, timeline
-        self._question = question
+        self._session, self._column, self._grid, self._timeline = session, column, grid, timeline
         self._said = ("", "", "", "", "")
         """Stage, level, step, value and question that were said last."""
         self._rest = QTimer(self)
@@ -59,10 +52,11 @@ class StepNarrator(QObject):
         """Say what differs from what was said last."""
         level = self._timeline.level_buttons[self._session.cursor.level].accessibleName()
         stage = f"Stage {stage_of(self._session.cursor.stage).short_title}"
-        texts = (self._sentence.text(), self._listing.accessibleDescription())
-        step = ". ".join(text.rstrip(".") for text in (*texts, self._formula.spoken()) if text)
-        asked = self._question.text() if self._question.isVisible() else ""
+        column, question = self._column, self._column.prediction.question
+        texts = (column.sentence.text(), column.listing.accessibleDescription(), column.formula.spoken())
+        step = ". ".join(text.rstrip(".") for text in texts if text)
+        asked = question.text() if question.isVisible() else ""
         now = (stage, level, step, self._grid.spoken_description(), asked)
         new = [text for text, before in zip(now, self._said, strict=True) if text and text != before]
         self._said = now
-        announce(self._sentence, ". ".join(new), is_urgent=step in new)
+        announce(column.sentence, ". ".join(new), is_urgent=step in new)

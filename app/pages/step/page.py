@@ -73,32 +73,13 @@ class StepPage(Page):
 
         self.stepping = SteppingPresenter(session, self.timeline, self)
         self.events = EventChoice(self.stepping, self.timeline, self)
-        self.inspector = InspectorPresenter(
-            session,
-            self.stepping,
-            self.sentence,
-            self.card,
-            self.formula,
-            self.listing,
-            self.variables,
-            self.history,
-            self,
-        )
+        self.inspector = InspectorPresenter(session, self.stepping, column, self)
         self.grids = GridPresenter(session, self.main_area, self.legend, self)
         self.scene = SceneOutlinePresenter(session, self.outline, self.settings_panel, self)
         self.table_editing = DepthTablePresenter(session, self.depth_tables, self)
         self.comparing = ComparePresenter(session, self.compare_view, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self.grids, self)
-        self.narrator = StepNarrator(
-            session,
-            self.sentence,
-            self.formula,
-            self.listing,
-            self.grid,
-            self.timeline,
-            self.prediction.question,
-            self,
-        )
+        self.narrator = StepNarrator(session, column, self.grid, self.timeline, self)
         self.navigator = Navigator(self.grid)
         self.navigation = NavigatorPresenter(session, self.navigator, self.grid, self)
         self.navigation.message_sent.connect(self.message_sent)
