@@ -61,6 +61,29 @@ def check_moves(steps: Steps, level: Level, position: int) -> None:
         assert position == 0 or steps.forward(behind, level) == position
 
 
+def check_explanations(found: StageTrace) -> None:
+    """Check that explanations name variables that are known, and lines that exist."""
+    kinds_seen = np.unique(found.steps.kind, return_index=True)[1]
+    assert found.explain(0) is None
+    for row in kinds_seen.tolist():
+        kind = found.kind_of(row)
+        for place, operation in enumerate(found.steps.operations[kind]):
+            explained = found.explain(int(found.steps.starts[row]) + place + 1)
+            assert explained is not None
+            assert explained.key == f"{found.stage}.{kind}.{operation.name}"
+            assert set(explained.known) <= set(explained.values), explained.key
+            assert set(explained.changed) <= set(explained.known), explained.key
+            label = operation.label_at(found.columns, row)
+            if explained.listing is None:
+                assert explained.key in WITHOUT_LISTING
+            elif label:
+                assert explained.line == explained.listing.lines[label], (explained.key, label)
+                lines = explained.listing.source.splitlines()
+                assert lines[explained.line - 1].strip(), explained.key
+            else:
+                assert explained.line == 0, explained.key
+
+
 def check_rows(steps: Steps, position: int) -> None:
     row, operation = steps.row_at(position)
     if position == 0:
@@ -77,8 +100,9 @@ def check_rows(steps: Steps, position: int) -> None:
     in_turn(["clip", "lit", "textured-clip", "near-plane"], [*CHOICES, *MIXES]),
     ids=name_of,
 )
-def test_every_stage_steps_both_ways(name, choice):
+def test_every_stage_steps_both_ways_and_is_explained(name, choice):
     for found in traces_of(name, choice):
+        check_explanations(found)
         check_ends(found.steps)
         for position in positions_of(found.steps, 6):
             check_rows(found.steps, position)
@@ -139,32 +163,6 @@ def test_positions_of_a_small_case():
     assert steps.forward(3, Level.PIXEL) == 4
     assert steps.back(3, Level.PIXEL) == 1
     assert steps.back(3, Level.GROUP) == 1
-
-
-@pytest.mark.parametrize(
-    ("name", "choice"), in_turn(["clip", "lit", "textured-clip"], [*CHOICES, *MIXES]), ids=name_of
-)
-def test_explanations_name_known_variables_and_lines_that_exist(name, choice):
-    for found in traces_of(name, choice):
-        kinds_seen = np.unique(found.steps.kind, return_index=True)[1]
-        assert found.explain(0) is None
-        for row in kinds_seen.tolist():
-            kind = found.kind_of(row)
-            for place, operation in enumerate(found.steps.operations[kind]):
-                explained = found.explain(int(found.steps.starts[row]) + place + 1)
-                assert explained is not None
-                assert explained.key == f"{found.stage}.{kind}.{operation.name}"
-                assert set(explained.known) <= set(explained.values), explained.key
-                assert set(explained.changed) <= set(explained.known), explained.key
-                label = operation.label_at(found.columns, row)
-                if explained.listing is None:
-                    assert explained.key in WITHOUT_LISTING
-                elif label:
-                    assert explained.line == explained.listing.lines[label], (explained.key, label)
-                    lines = explained.listing.source.splitlines()
-                    assert lines[explained.line - 1].strip(), explained.key
-                else:
-                    assert explained.line == 0, explained.key
 
 
 @pytest.mark.parametrize("name", list(SCENES))
