@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any, Protocol
 
 from PySide6.QtCore import QEvent, Qt, Slot
-from PySide6.QtWidgets import QPushButton, QSplitter, QWidget
+from PySide6.QtWidgets import QPushButton, QScrollArea, QSplitter, QWidget
 
 from app.background.background_task import BackgroundTask
 from app.background.workers import JobGroup
@@ -56,7 +56,12 @@ class WorkPage(Page):
         for widget, stretch in above:
             layout.addWidget(widget, stretch)
         self.panes = splitter(Qt.Orientation.Vertical, ((top, 3, 440), (below, 2, 280)), self)
-        self.columns = SideColumns(left, self.panes, self)
+        # Where all of it has no room, as in large type on a low screen, it scrolls: nothing lies over something else.
+        scroll = QScrollArea(self)
+        scroll.setWidget(self.panes)
+        scroll.setWidgetResizable(True)
+        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.columns = SideColumns(left, scroll, self)
         page = column_layout(self, margins=(8, 4, 8, 8))
         page.addWidget(self.columns)
 

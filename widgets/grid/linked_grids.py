@@ -2,18 +2,21 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtCore import QSize, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
 
 from widgets.basics.accessible import announce
 from widgets.basics.controls import closing_button
 from widgets.basics.labels import text_label
+from widgets.basics.theme import current_theme
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
 
 NOTHING_YET = "Nothing to show yet"
+LEAST_HEIGHT = 9
+"""Of the pictures with their titles, in heights of the text."""
 
 
 class LinkedGrids(QWidget):
@@ -44,6 +47,10 @@ class LinkedGrids(QWidget):
             layout.addWidget(grid, 1, column)
             layout.setColumnStretch(column, 1)
         layout.setRowStretch(1, 1)
+
+    def minimumSizeHint(self) -> QSize:
+        """Return a size in which the pictures can be seen below their titles."""
+        return super().minimumSizeHint().expandedTo(QSize(0, LEAST_HEIGHT * current_theme().text_px))
 
     def show_buffers(self, buffers: Sequence[GridBuffer], titles: Sequence[str]) -> None:
         """Show a picture in every grid."""

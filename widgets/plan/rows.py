@@ -41,6 +41,9 @@ class PlanRow:
     can_draw: bool = False
     """Whether there is a difference to show."""
 
+LONGEST_WORD = 9
+"""Width of the longest word in the name of a method, in heights of the text."""
+
 
 class PlanRowView(QWidget):
     """One row; its button asks for the difference picture."""
@@ -104,6 +107,7 @@ class PlanRowView(QWidget):
     @Slot()
     def _paint_mark(self) -> None:
         side = current_theme().text_px + 2
+        self.chosen.setMinimumWidth(LONGEST_WORD * current_theme().text_px)
         shape = {Verdict.HELD: Mark.RIGHT, Verdict.WRONG: Mark.WRONG}.get(self._row.verdict)
         self.mark.setFixedSize(side, side)
         empty = QPixmap(side, side)

@@ -5,7 +5,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QFontMetricsF, QImage
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.window.main_window import MainWindow
@@ -176,3 +176,14 @@ def test_a_b_has_the_whole_width(window: MainWindow) -> None:
     assert raster.width() >= 0.25 * window.width()
     window.page.show_view("pixels")
     assert "inspector" in window.page.shown_panes()
+
+
+def test_pages_scroll_where_large_type_has_no_room(window: MainWindow) -> None:
+    present(window, (1280, 720))
+    for name in ("compare", "stability"):
+        window.pages.show_page(name)
+        panes = window.pages.current.panes
+        panes.widget(1).show()
+        QApplication.processEvents()
+        assert panes.height() >= panes.minimumSizeHint().height(), name
+        assert window.pages.minimumSizeHint().height() <= 720, name
