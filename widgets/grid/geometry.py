@@ -219,7 +219,7 @@ def paint_focus(
         _paint_snapped(painter, placement, geometry, corners, scale)
         painter.setFont(_name_font(theme))
         for box, text, color in name_boxes(placement, geometry, theme):
-            _paint_chip(painter, box, text, color, theme)
+            paint_chip(painter, box, text, color, theme)
     painter.restore()
 
 
@@ -346,7 +346,7 @@ def _facing(geometry: GridGeometry, vertex: int, place: tuple[float, float]) -> 
     return right, up
 
 
-def _paint_chip(painter: QPainter, box: QRectF, text: str, color: str, theme: Theme) -> None:
+def paint_chip(painter: QPainter, box: QRectF, text: str, color: str, theme: Theme) -> None:
     """Write a name on a ground of its own."""
     chip = QColor(theme.panel)
     chip.setAlphaF(0.88)

@@ -160,6 +160,8 @@ class SegmentOverlay(NamedOverlay):
     title: str = field(default="lines", kw_only=True)
     is_polygon: bool = False
     """Whether they are the sides of one polygon in order, whose inside is tinted."""
+    label: str = ""
+    """Written where they begin, at their upper left."""
 
     def __post_init__(self) -> None:
         if self.segments.ndim != 3 or self.segments.shape[1:] != (2, 2):

@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from widgets.basics.image import mask_image
 from widgets.basics.mark_patterns import is_pattern, mark_color, pattern_brush, transparent_image
 from widgets.basics.theme import Theme, faded, text_font
+from widgets.grid.geometry import moved_inside, paint_chip
 from widgets.grid.line_clip import widget_lines
 from widgets.grid.overlay import (
     BlockOverlay,
@@ -36,6 +37,8 @@ _STROKES = {
 """Glyphs drawn as lines: the corners of each, x to the right and y down, 1 is the glyph's reach."""
 _COUNT_CELL = 18.0
 """Side of a cell from which counts are written as numbers."""
+_LABEL_CELL = 8.0
+"""Side of a cell from which lines have their label."""
 
 
 def paint_below(
@@ -294,6 +297,22 @@ def _paint_segments(
     for edge in (-1, 0, 1, 2):
         color = QColor(theme.text if edge < 0 else theme.vertex[edge])
         _stroke(painter, [lines[index] for index in np.flatnonzero(edges == edge)], color, 1.5, theme, style)
+    if overlay.label and placement.cell >= _LABEL_CELL:
+        _paint_label(painter, placement, overlay, theme)
+
+
+def _paint_label(painter: QPainter, placement: GridPlacement, overlay: SegmentOverlay, theme: Theme) -> None:
+    """Write the label inside the upper left corner of all segments."""
+    x, y = overlay.segments[..., 0].min(), overlay.segments[..., 1].max()
+    if not np.isfinite([x, y]).all():
+        return
+    painter.save()
+    painter.setFont(text_font(theme, theme.small_px))
+    metrics = painter.fontMetrics()
+    box = QRectF(0, 0, metrics.horizontalAdvance(overlay.label) + 6, metrics.height())
+    box.moveTopLeft(placement.to_widget(float(x), float(y)) + QPointF(3, 3))
+    paint_chip(painter, moved_inside(box, QRectF(placement.viewport)), overlay.label, theme.text, theme)
+    painter.restore()
 
 
 def _tint_polygon(painter: QPainter, placement: GridPlacement, overlay: SegmentOverlay, theme: Theme) -> None:

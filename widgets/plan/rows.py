@@ -41,6 +41,7 @@ class PlanRow:
     can_draw: bool = False
     """Whether there is a difference to show."""
 
+
 LONGEST_WORD = 9
 """Width of the longest word in the name of a method, in heights of the text."""
 

@@ -69,6 +69,7 @@ class _Cells(QTableView):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self._items = QStandardItemModel(self)
+        self._row = -1
         self.setModel(self._items)
         self.setItemDelegate(_CellDelegate(self))
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
@@ -102,8 +103,17 @@ class _Cells(QTableView):
                 if item.model() is None:
                     items.setItem(row, place, item)
         self._fit()
-        if table.row >= 0:
-            self.scrollTo(items.index(table.row, 0))
+        self._row = table.row
+        self._bring_row_into_view()
+
+    def _bring_row_into_view(self) -> None:
+        if self._row >= 0:
+            self.scrollTo(self._items.index(self._row, 0))
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep the row of the step in view."""
+        super().resizeEvent(event)
+        self._bring_row_into_view()
 
     def _fit(self) -> None:
         self.setFont(tabular_font(text_font(current_theme())))

@@ -29,7 +29,9 @@ def clip_overlays(stage: StageTrace, source: TraceSource, position: int) -> list
     else:
         return []
     borders = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1) - origin
-    regions = SegmentOverlay("clip window", borders, extended=clip is not None, title="clip window")
+    regions = SegmentOverlay(
+        "clip window", borders, extended=clip is not None, title="clip window", label="window"
+    )
     if clip is None:
         return [regions]
     done = stage.steps.rows_done(position)

@@ -27,8 +27,6 @@ LEAST_ROOM_OF_BOTH = 34
 """Heights of the text below which the area shows one side of a stage only."""
 STACKED_GAIN = 1.05
 """How much larger two pictures alike must be one above the other to lie so."""
-MOST_CUT = 1.1
-"""How much wider than half the area a table may be beside the view: wider ones stand below it."""
 CHOICES_WIDTH = 24
 """Heights of the text that the choice of a buffer and its range take at most."""
 
@@ -196,7 +194,7 @@ class MainArea(QWidget):
 
     def _are_stacked(self, companion: Companion) -> bool:
         """Return whether both sides are larger one above the other, or can only be read so."""
-        if companion.wanted_width() > MOST_CUT * self.rows.width() / 2:
+        if companion.wanted_width() > self.rows.width() / 2:
             return True
         raster = self._session.document.raster
         width, height = self.rows.width() / raster.columns, self.rows.height() / raster.rows

@@ -22,7 +22,7 @@ def polygon_overlays(stage: StageTrace, source: TraceSource, position: int) -> l
     found: list[Overlay] = []
     if place <= STAGES.index("raster") and (clip is not None or vertices.clip_region is not None):
         lines = ring_sides(join_rings([region_in_pixels(vertices, source.raster.center)])) - origin
-        found.append(SegmentOverlay("clip window", lines, title="clip window"))
+        found.append(SegmentOverlay("clip window", lines, title="clip window", label="window"))
     if clip is None:
         return found
     lines = clipped_lines(stage, position) if stage.stage == "clip" else ring_sides(clip.rings)

@@ -64,3 +64,17 @@ def test_the_bar_of_a_step_covers_no_digit(qtbot: QtBot) -> None:
         for y in range(other.top() + 2, other.bottom() - 2)
     }
     assert len(ground) == 1, "digits begin beside the place of the bar"
+
+
+def test_the_row_of_a_step_stays_in_view_in_a_table_that_shrinks(qtbot: QtBot) -> None:
+    view = StepTableView()
+    qtbot.addWidget(view)
+    view.resize(300, 600)
+    cell, labels = TableCell("1", "1", 4), tuple("abcdefghijkl")
+    view.show_table(
+        StepTable("Rows", "", COLUMNS, labels, ((cell, cell),) * 12, frozenset({(11, 0)}), 11, "")
+    )
+    view.show()
+    view.resize(300, 200)
+    cells = view.cells
+    assert cells.visualRect(cells.model().index(11, 0)).bottom() <= cells.viewport().height()
