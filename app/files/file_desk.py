@@ -116,8 +116,9 @@ class FileActions(QObject):
         if state is None:
             page.stepping.set_places()
             session.set_stage(stage_for(opened.document.scene, STAGES[0]), 0)
+            # As at first, also where the same scene was magnified before, or looked at in another view.
+            page.main_area.views_by_hand.clear()
             page.show_own_view()
-            # As at first, also where the same scene was magnified before.
             page.grid.fit()
             page.views.look_from({})
             return

@@ -7,6 +7,7 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
+from app.files.open_any import open_any
 from app.pages.step.grid_records import buffers_of
 from app.pages.step.stepping_presenter import EVENT_TITLES
 from app.session.document import open_document
@@ -237,6 +238,9 @@ def test_a_stage_is_entered_at_its_start_in_the_view_that_shows_it(window: MainW
     assert page.current_view() == "pixels"
     window.run_action("stage_2")
     assert page.current_view() == "pyramid", "chosen by hand for this stage"
+    window.files.show_opened(open_any("near-plane"))
+    window.run_action("stage_2")
+    assert page.current_view() == "clip", "another scene begins with the views of its own"
 
 
 def test_buffers_hold_nothing_that_comes_later(window: MainWindow) -> None:
