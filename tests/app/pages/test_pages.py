@@ -16,7 +16,10 @@ from core import Settings
 from core.study.accuracy.record import Opening
 from lessons.scenes import built_in_scene, make_scene
 
+pytestmark = pytest.mark.shared_window
 
+
+@pytest.mark.own_window
 def test_a_click_in_the_bar_shows_a_page_that_is_made_only_then(window: MainWindow) -> None:
     assert [type(page).__name__ for page in window.pages.made] == ["StepPage"]
     bar = window.pages.bar
@@ -99,6 +102,7 @@ def test_playing_ends_when_the_page_is_left(window: MainWindow) -> None:
     assert not window.page.timeline.is_playing()
 
 
+@pytest.mark.own_window
 def test_the_page_comes_back(window: MainWindow, qtbot: QtBot) -> None:
     window.pages.show_page("compare")
     window.close()
@@ -191,6 +195,7 @@ def test_b_goes_to_a_pixel_that_only_it_looks_at(window: MainWindow, qtbot: QtBo
     assert window.page.comparing.second_position == other.steps.position_after(row)
 
 
+@pytest.mark.own_window
 def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWindow, qtbot: QtBot) -> None:
     window.page.toggle_pane("scene")
     window.resize(1200, 700)

@@ -14,6 +14,8 @@ from app.window.main_window import MainWindow
 from app.window.preferences import load_preferences
 from lessons.scenes import CATALOGUE, built_in_scene
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def page(window: MainWindow, qtbot: QtBot) -> StartPage:
@@ -52,6 +54,7 @@ def test_right_steps_what_is_open(window: MainWindow, page: StartPage) -> None:
     assert (window.pages.current_name, window.session.cursor.position > 0) == ("step", True)
 
 
+@pytest.mark.own_window
 def test_arrows_go_from_card_to_card_and_return_opens(
     window: MainWindow, page: StartPage, qtbot: QtBot
 ) -> None:
@@ -81,6 +84,7 @@ def test_recent_files_and_the_first_triangle_open(
     assert window.session.cursor.stage == "transform"
 
 
+@pytest.mark.own_window
 def test_the_choice_is_remembered_and_the_page_is_not_where_one_stopped(
     window: MainWindow, page: StartPage
 ) -> None:
@@ -103,6 +107,7 @@ def test_what_a_start_shows(target: str | None, is_restored: bool, is_wanted: bo
     assert start.shows_start_page(target, is_restored, is_wanted) == (shown == "start")
 
 
+@pytest.mark.own_window
 def test_the_page_is_reached_by_tab_from_begin_to_the_last_card(window: MainWindow, page: StartPage) -> None:
     page.begin_button.setFocus(Qt.FocusReason.TabFocusReason)
     reached = [QApplication.focusWidget()]

@@ -21,6 +21,7 @@ from tests.app.pages.stability.stability_pages import (
     EXCLUSIVE,
     LEFT,
     click,
+    ran,
     run,
     stability_page,
     status,
@@ -102,7 +103,7 @@ def test_a_failed_run_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBo
 
 
 def test_atlases_are_kept_for_every_experiment(page: StabilityPage, qtbot: QtBot) -> None:
-    atlas = run(page, qtbot)
+    atlas = ran(page, qtbot)
     QTest.keyClick(page.window(), Qt.Key.Key_PageDown, Qt.KeyboardModifier.ControlModifier)
     assert page.results.choice.name == "mesh-through-the-eye"
     assert page.maps.canvas.record is None
@@ -113,7 +114,7 @@ def test_atlases_are_kept_for_every_experiment(page: StabilityPage, qtbot: QtBot
 
 
 def test_hover_reads_the_cell_and_leaving_reads_the_experiment(page: StabilityPage, qtbot: QtBot) -> None:
-    run(page, qtbot)
+    ran(page, qtbot)
     place = page.maps.canvas.cell_area(CellPlace(EXCLUSIVE, 0, 0)).center()
     QTest.mouseMove(page.maps.canvas, place)
     for wanted in ("Fill rule: exclusive", "Outcome: <b>hole</b>", "of 1,024 pixels missing", "Severity"):
@@ -148,7 +149,7 @@ def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbo
 def test_a_click_shows_the_case_and_another_opens_it_in_the_stepper(
     window: MainWindow, page: StabilityPage, qtbot: QtBot
 ) -> None:
-    run(page, qtbot)
+    ran(page, qtbot)
     before = window.session.document
     place = CellPlace(EXCLUSIVE, 0, 0)
     click(page, place)
@@ -172,7 +173,7 @@ def test_a_click_shows_the_case_and_another_opens_it_in_the_stepper(
 
 @pytest.mark.parametrize("by", ["double click", "enter"])
 def test_a_cell_is_opened_at_once(window: MainWindow, page: StabilityPage, qtbot: QtBot, by: str) -> None:
-    run(page, qtbot)
+    ran(page, qtbot)
     place = CellPlace("fill_rule=inclusive", 0, 0)
     with qtbot.waitSignal(window.opening.opened, timeout=60000):
         click(page, place)
@@ -206,7 +207,7 @@ def test_a_picture_that_is_too_large_is_only_opened(
 
 
 def test_escape_closes_the_case(page: StabilityPage, qtbot: QtBot) -> None:
-    run(page, qtbot)
+    ran(page, qtbot)
     click(page, CellPlace(EXCLUSIVE, 0, 0))
     wait_for_case(page, qtbot)
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
@@ -253,7 +254,7 @@ def test_every_kind_of_cell_is_shrunk_and_opens_in_the_stepper(
 def test_a_failing_cell_is_shrunk_saved_and_opened(
     window: MainWindow, page: StabilityPage, qtbot: QtBot, tmp_path: Path
 ) -> None:
-    run(page, qtbot)
+    ran(page, qtbot)
     click(page, CellPlace(EXCLUSIVE, 0, 0))
     wait_for_case(page, qtbot)
     QTest.keyClick(window, Qt.Key.Key_S)
@@ -276,7 +277,7 @@ def test_a_failing_cell_is_shrunk_saved_and_opened(
 
 
 def test_a_right_cell_cannot_be_shrunk(page: StabilityPage, qtbot: QtBot) -> None:
-    run(page, qtbot)
+    ran(page, qtbot)
     click(page, CellPlace("coverage=exact", 0, 0))
     wait_for_case(page, qtbot)
     assert not page.case.shrink_button.isEnabled()
@@ -314,7 +315,7 @@ def test_the_precision_dial_of_a_cell_and_of_another_pixel(page: StabilityPage, 
 
 
 def test_the_dial_of_a_crack_reads_the_triangles_at_it(page: StabilityPage, qtbot: QtBot) -> None:
-    run(page, qtbot)
+    ran(page, qtbot)
     click(page, CellPlace(EXCLUSIVE, 1, 0))
     wait_for_case(page, qtbot)
     qtbot.waitUntil(lambda: bool(page.case.formats.rows), timeout=60000)
@@ -343,7 +344,7 @@ def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbo
 
 
 def test_cells_grow_with_the_type(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:
-    run(page, qtbot)
+    ran(page, qtbot)
     window.appearance.set_theme("presenter")
     QApplication.processEvents()
     assert page.maps.canvas.cell_area(CellPlace(EXCLUSIVE, 0, 0)).width() >= 24
