@@ -55,8 +55,11 @@ UNIX_SOCKETS: int = getattr(socket, "AF_UNIX", 0)  # Windows has none, and is no
 RUN_PINS = ("requirements/run.txt",)
 TEST_PINS = ("requirements/run.txt", "requirements/gpu.txt", "requirements/test.txt")
 BENCH_PINS = ("requirements/run.txt", "requirements/gpu.txt", "requirements/bench.txt")
-HEADLESS_COMMANDS = ("render", "trace", "methods", "scenes", "screenshot", "opengl-check", "bench")
-QT_COMMANDS = ("screenshot", "bench")
+QT_COMMANDS = ("screenshot", "study", "stress", "bench")
+HEADLESS_COMMANDS = (
+    *("render", "trace", "methods", "scenes", "slides", "opengl-check", "plan", "exercise", "diagnose"),
+    *QT_COMMANDS,
+)
 ANSWERING_OPTIONS = ("-h", "--help", "--version")
 USAGE = """usage: python3 bootstrap.py run [FILE | arguments of the program]
        python3 bootstrap.py test [--all] [arguments of pytest]

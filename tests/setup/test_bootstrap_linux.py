@@ -12,6 +12,7 @@ from pathlib import Path
 import pytest
 
 import bootstrap
+from app.cli.commands import COMMANDS
 
 Start = Callable[..., "subprocess.CompletedProcess[str]"]
 pytestmark = pytest.mark.skipif(bootstrap.SYSTEM != "linux", reason="about Linux")
@@ -197,6 +198,11 @@ def test_display_that_answers(tmp_path: Path) -> None:
         server.bind(str(tmp_path / "wayland-0"))
         server.listen()
         assert bootstrap.has_display({"WAYLAND_DISPLAY": "wayland-0", "XDG_RUNTIME_DIR": str(tmp_path)})
+
+
+def test_every_command_runs_without_a_display() -> None:
+    assert set(bootstrap.HEADLESS_COMMANDS) == {command.name for command in COMMANDS}
+    assert set(bootstrap.QT_COMMANDS) < set(bootstrap.HEADLESS_COMMANDS)
 
 
 @pytest.mark.parametrize("platform", ["offscreen", "minimal", "vnc:size=800x600"])
