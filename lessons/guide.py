@@ -1,4 +1,4 @@
-"""The guide of five minutes: what to do, step by step, with links that do it."""
+"""The guides of Help: what to do, step by step, with links that do it."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -16,12 +16,19 @@ class GuideStep:
     """``{name}`` stands for the key of an action."""
     links: Mapping[str, str]
     """What the step runs, as ``do:stage/raster``, by what the link says."""
+    listing: str = ""
+    """A file that the step shows; empty: none."""
 
 
 @cache
-def guide() -> tuple[GuideStep, ...]:
-    """Return the steps in order."""
+def guide(name: str = "guide") -> tuple[GuideStep, ...]:
+    """Return the steps of a guide in order: the one of five minutes, or ``own_exercise``."""
     import tomllib  # As the glossary.
 
-    rows = tomllib.loads((FOLDER / "guide.toml").read_text(encoding="utf-8"))["step"]
-    return tuple(GuideStep(row["title"], row["text"], row["links"]) for row in rows)
+    def text(file: str) -> str:
+        return (FOLDER / file).read_text(encoding="utf-8")
+
+    return tuple(
+        GuideStep(row["title"], row["text"], row["links"], text(row["file"]) if "file" in row else "")
+        for row in tomllib.loads(text(f"{name}.toml"))["step"]
+    )

@@ -21,6 +21,7 @@ def home_page() -> HelpPage:
     """Return the first page: what there is, and how to come to a term."""
     rows = (
         f"{link('help:guide', 'Five-minute guide')}: one scene from its vertices to its bytes.",
+        f"{link('help:exercise', 'Your own exercise')}: a question for a class, in ten minutes.",
         f"{link('help:glossary', 'Glossary')}: {len(glossary())} terms in plain English.",
         f"{link('help:methods', 'Methods')}: source, limits and listing of all {len(tuple(table))}.",
         f"{link('do:action/show_keys', 'Keys')}: everything that a key does on this page.",
@@ -35,12 +36,25 @@ def home_page() -> HelpPage:
 
 def guide_page() -> HelpPage:
     """Return the guide, one step after the other."""
+    return HelpPage("Five-minute guide", _steps("guide"))
+
+
+def own_exercise_page() -> HelpPage:
+    """Return how a teacher writes a first exercise."""
+    return HelpPage("Your own exercise", _steps("own_exercise"))
+
+
+def _steps(name: str) -> str:
+    """Return the steps of a guide."""
     parts, seen = [], set[str]()
-    for number, step in enumerate(guide(), start=1):
+    for number, step in enumerate(guide(name), start=1):
         text = re.sub(r"\{(\w+)\}", lambda found: _keys_of(found[1]), step.text)
         runs = " · ".join(link(address, label) for label, address in step.links.items())
-        parts.append(f"<h2>{number}. {escape(step.title)}</h2><p>{linked(text, seen)}</p><p>▸ {runs}</p>")
-    return HelpPage("Five-minute guide", "".join(parts))
+        listing = f"<pre>{escape(step.listing)}</pre>" if step.listing else ""
+        parts.append(
+            f"<h2>{number}. {escape(step.title)}</h2><p>{linked(text, seen)}</p>{listing}<p>▸ {runs}</p>"
+        )
+    return "".join(parts)
 
 
 def _keys_of(action: str) -> str:
@@ -120,6 +134,7 @@ def _capital(text: str) -> str:
 PAGES: Mapping[str, Callable[..., HelpPage]] = {
     "home": home_page,
     "guide": guide_page,
+    "exercise": own_exercise_page,
     "glossary": glossary_page,
     "term": term_page,
     "here": here_page,

@@ -10,6 +10,10 @@ if TYPE_CHECKING:
     from app.window.main_window import MainWindow
 
 
+HELP_PAGES = ("guide", "exercise", "glossary", "methods")
+"""Pages of Help that the menu opens."""
+
+
 def window_handlers(window: "MainWindow") -> dict[str, Callable[[], object]]:
     """Return what the actions of ``app.window.keys.ACTIONS`` do that a page cannot do alone."""
     pages, overlays, edits, exports = window.pages, window.overlays, window.edits, window.exports
@@ -29,7 +33,7 @@ def window_handlers(window: "MainWindow") -> dict[str, Callable[[], object]]:
         "text_smaller": partial(window.appearance.change_text_size, -1),
         "presenter": window.presenter.toggle,
         "help": window.help.toggle,
-        **{f"help_{page}": partial(window.help.show_page, page) for page in ("guide", "glossary", "methods")},
+        **{f"help_{page}": partial(window.help.show_page, page) for page in HELP_PAGES},
         "show_keys": overlays.toggle_keys,
         "change_keys": overlays.change_keys,
         "next_pane": partial(window.focus_walk.go_pane, 1),

@@ -153,6 +153,7 @@ ACTIONS: tuple[KeyAction, ...] = (
     ),
     KeyAction("help", ("F1",), "Help on what is pointed at", HELP, "Help"),
     KeyAction("help_guide", (), "Five-minute guide", HELP, "Help"),
+    KeyAction("help_exercise", (), "Your own exercise", HELP, "Help"),
     KeyAction("help_glossary", (), "Glossary", HELP, "Help"),
     KeyAction("help_methods", (), "Methods: sources, limits, listings", HELP, "Help"),
     KeyAction("show_keys", ("?",), "All keys", HELP, "Help"),

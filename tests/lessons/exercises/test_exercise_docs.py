@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from lessons.guide import guide
 from lessons.mistakes.shelf import SHELF
 from tests.app.cli.cli_runs import run_program
 
@@ -32,3 +33,6 @@ def test_the_first_exercise_of_the_page_works(tmp_path: Path, monkeypatch: pytes
         part in said["show"] for part in ("Right answer:", "corner-for-center:", "all-edges-inclusive:")
     )
     assert SHELF["all-edges-inclusive"].sentence in said["check"]
+    steps = guide("own_exercise")
+    assert steps[0].listing == exercise, "Help shows the same file"
+    assert mark in " ".join(step.text for step in steps)
