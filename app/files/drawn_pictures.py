@@ -99,6 +99,8 @@ def _npz(content: bytes, size: Size) -> Drawn:
         raise ValueError(f"expected color (H, W, 3 or 4) as bytes or floats, got {array.shape} {array.dtype}")
     if array.dtype == np.uint8:
         return Drawn(colors=array[..., :3].astype(np.uint8))
+    if not np.isfinite(array).all():
+        raise ValueError("expected finite numbers as color, got NaN or infinity")
     return Drawn(colors=to_display(array.astype(np.float32)).pixels[..., :3])
 
 

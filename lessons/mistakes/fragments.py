@@ -133,8 +133,8 @@ def alpha_of_source(source: Floats, destination: Singles) -> Singles:
 
 
 def with_blend(rule: Callable[[Floats, Singles], Singles]) -> Callable[[Settings], Settings]:
-    """Return what replaces the blending of settings."""
-    return lambda settings: settings.replaced(blend=rule)
+    """Return what replaces the blending of settings that blend at all."""
+    return lambda settings: settings if settings.blend == "opaque" else settings.replaced(blend=rule)
 
 
 TWINS = (

@@ -121,6 +121,11 @@ HUGE = b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999,9), }".l
         ("a.npz", npz(depth=np.zeros((48, 64))), "expected an array color, primitive or pixels"),
         ("a.npz", npz(color=np.zeros((64, 48, 3))), "expected a picture of 64 x 48 pixels, got 48 x 64"),
         ("a.npz", npz(color=np.zeros((48, 64))), "expected color"),
+        (
+            "a.npz",
+            npz(color=np.full((48, 64, 3), np.nan)),
+            "expected finite numbers as color, got NaN or infinity",
+        ),
         ("a.npz", npz(color=np.array([{}])), "expected up to 64 MiB of numbers as color"),
         ("a.npz", npz(primitive=np.zeros((48, 64))), "expected whole numbers"),
         ("a.npz", npz(pixels=np.array([[64, 0]])), "expected pixels inside of 64 x 48, got (64, 0)"),

@@ -237,6 +237,12 @@ def test_each_mistake_is_named_once_and_only_where_it_can_be_made() -> None:
     assert [each.name for each in found if each.is_mistake] == ["corner-for-center"]
 
 
+def test_a_mistake_of_blending_is_none_where_nothing_is_blended() -> None:
+    black = Drawn(colors=np.zeros((12, 16, 3), np.uint8))
+    found = diagnose(scene_of(FLAT), DEFAULTS, black).found
+    assert [each.name for each in found if each.is_mistake] == ["cleared-to-near"]
+
+
 def test_how_near_the_nearest_is() -> None:
     picture = Homework().draw(FLAT, *SIZE)
     picture[4][3] = picture[0][15] = WHITE
