@@ -9,6 +9,8 @@ from core.scene import ClipScene
 from lessons.scenes import assembled, window_triangle
 
 Point = tuple[float, float]
+EVERYWHERE: tuple[Point, ...] = ((-20, -20), (40, -20), (-20, 40))
+"""A triangle over the whole of a small window."""
 
 
 def triangle_scene(

@@ -46,10 +46,10 @@ class DrawnScene:
 
     def text(self, hidden: Sequence[int] = ()) -> str:
         """Return the numbers as text, but for a corner that is ``hidden``."""
-        columns, rows = self.scene.size
         if not self.places:
+            columns, rows = self.scene.size
             return f"Scene {self.name}, {columns} x {rows} pixels."
-        lines = [f"Window of {columns} x {rows} pixels, row 0 at the bottom."]
+        lines = [window_text(self.scene.size)]
         for number, corners in enumerate(self.places):
             texts = [
                 "?" if [number, k] == list(hidden) else f"({number_text(x)}, {number_text(y)})"
@@ -58,6 +58,11 @@ class DrawnScene:
             noun = "Triangle" if len(corners) == 3 else "Segment"
             lines.append(f"{noun} {number}: {', '.join(texts)}")
         return "\n".join(lines)
+
+
+def window_text(size: tuple[int, int]) -> str:
+    """Return the columns and rows of a window as a question states them."""
+    return f"Window of {size[0]} x {size[1]} pixels, row 0 at the bottom."
 
 
 def draw_scene(part: ScenePart, draws: Draws) -> DrawnScene:

@@ -22,6 +22,7 @@ from core.trace.stage_trace import BufferTrack
 from lessons.exercises.answers.amounts import NumberAnswer
 from lessons.exercises.answers.answer import Answer
 from lessons.exercises.answers.choices import ChoiceAnswer
+from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.next_step import TOLERANCE, row_draft
 from lessons.exercises.question import Draft, Template
@@ -220,8 +221,7 @@ def _draw(screen: Screen, scene: AnyScene, settings: Settings, draws: Draws) -> 
 
 
 def _corners_text(scene: AnyScene) -> str:
-    columns, rows = scene.size
-    lines = [f"Window of {columns} x {rows} pixels, row 0 at the bottom."]
+    lines = [window_text(scene.size)]
     if isinstance(scene, ClipScene) and len(scene.clip) <= 4 and scene.corner_count <= 3:
         places = np.asarray(window_position(scene.clip, scene.size))
         for number, corners in enumerate(places.tolist()):

@@ -13,10 +13,9 @@ from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.refutation import Refutation
 from lessons.exercises.templates.believing import believed
-from lessons.small_scenes import rectangle_corners, triangle_scene
+from lessons.small_scenes import EVERYWHERE, rectangle_corners, triangle_scene
 
 BLACK, WHITE = np.array([0.0, 0.0, 0.0, 1.0]), np.array([1.0, 1.0, 1.0, 1.0])
-EVERYWHERE = ((-20, -20), (40, -20), (-20, 40))
 
 
 def gray_scene(light: float) -> ClipScene:

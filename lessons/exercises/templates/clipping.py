@@ -10,6 +10,7 @@ from lessons.exercises.answers.tables import ENTERS, LEAVES, Cell, Column, Row, 
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import Number
 from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.drafting import TOLERANCE
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import segment_scene
 
@@ -20,7 +21,6 @@ SIZE = (8, 6)
 BORDERS = (0, SIZE[0], 0, SIZE[1])
 """Left, right, bottom, top."""
 PARAMETERS = Settings(line_clipping="liang-barsky")
-TOLERANCE = 0.005
 
 
 def parameter_rows(ends: Ends, settings: Settings) -> Rows:

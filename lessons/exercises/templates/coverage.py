@@ -8,7 +8,7 @@ from core import Settings, render
 from core.scene import ClipScene
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.pixels import PixelAnswer
-from lessons.exercises.drawn_scene import seen_pixels
+from lessons.exercises.drawn_scene import seen_pixels, window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
@@ -43,9 +43,7 @@ def _covered(
     scene = triangle_scene(np.array([corners], float), SIZE)
     right = seen_pixels(render(scene))
     wrong = {name: seen_pixels(SHELF[name].draw(scene, Settings())) for name in names}
-    given = (
-        f"Window of {SIZE[0]} x {SIZE[1]} pixels, row 0 at the bottom.\nTriangle A: {corner_text(corners)}"
-    )
+    given = f"{window_text(SIZE)}\nTriangle A: {corner_text(corners)}"
     return Draft(f"{text} {RULE}", given, PixelAnswer(SIZE, right), hints, wrong, scene)
 
 

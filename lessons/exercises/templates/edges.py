@@ -11,6 +11,7 @@ from core import Settings, render
 from core.raster.edges.fill_rule import shared_edge
 from core.raster.edges.snapping import snap_one
 from lessons.exercises.answers.pixels import PixelAnswer
+from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
@@ -234,7 +235,7 @@ def draw_blocks(draws: Draws) -> Draft | None:
         "Only one pixel of a block has to be tested: the one where E is largest.",
         "It is on the right where a > 0, and at the top where b > 0.",
     )
-    given = f"Window of {side} x {side} pixels.\nTriangle: {corner_text(corners)}"
+    given = f"{window_text((side, side))}\nTriangle: {corner_text(corners)}"
     wrong = {rule.name: rule.wrong(edges, BLOCKS, BLOCK)}
     return Draft(text, given, answer, hints, wrong, scene, Settings(fill="blocks", block_size=BLOCK))
 
@@ -275,7 +276,7 @@ def draw_tests(draws: Draws) -> Draft | None:
         "the box where its centre (i + 1/2, j + 1/2) does."
     )
     hints = ("Brute force asks every pixel of the window.", "The box has columns times rows.")
-    given = f"Window of {SIZE[0]} x {SIZE[1]} pixels.\nTriangle: {corner_text(corners)}"
+    given = f"{window_text(SIZE)}\nTriangle: {corner_text(corners)}"
     names = ("brute force", "bounding box")
     return numbers(
         text, given, right, hints, names=names, scene=scene, settings=Settings(fill="bounding-box")

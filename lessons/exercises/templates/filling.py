@@ -10,7 +10,7 @@ from core.records.frame import Frame
 from core.scene import ClipScene
 from core.settings import DEFAULTS
 from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer
-from lessons.exercises.drawn_scene import seen_pixels
+from lessons.exercises.drawn_scene import seen_pixels, window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, twice_area
@@ -22,7 +22,7 @@ from lessons.scenes import assembled
 from lessons.small_scenes import triangle_scene
 
 HALF = Fraction(1, 2)
-WINDOW = f"Window of {SIZE[0]} x {SIZE[1]} pixels, row 0 at the bottom."
+WINDOW = window_text(SIZE)
 SORTED_EDGES = ((0, 1), (1, 2), (0, 2))
 """Of vertices sorted by y: the two short edges, and the long one."""
 

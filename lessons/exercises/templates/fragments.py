@@ -16,12 +16,11 @@ from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import corner_text, twice_area
+from lessons.exercises.templates.drafting import TOLERANCE, WITHIN
 from lessons.mistakes.shelf import SHELF
-from lessons.small_scenes import triangle_scene
+from lessons.small_scenes import EVERYWHERE, triangle_scene
 
 NAMES = ("alpha", "beta", "gamma")
-TOLERANCE = 0.005
-WITHIN = "Fractions, or decimals within 0.005."
 
 
 def attributes_at(frame: Frame, pixel: tuple[int, int]) -> Numbers:
@@ -155,10 +154,9 @@ def draw_blend(draws: Draws) -> Draft:
     color = [Fraction(0)] * 3
     for name, alpha in zip(names, alphas, strict=True):
         color = [alpha * new + (1 - alpha) * old for new, old in zip(COLORS[name], color, strict=True)]
-    everywhere = [(-20, -20), (40, -20), (-20, 40)]
     layers = [[(*COLORS[name], float(alpha))] * 3 for name, alpha in zip(names, alphas, strict=True)]
     scene = replace(
-        triangle_scene([everywhere] * 2, (2, 2), attributes=layers), background=np.array([0.0, 0.0, 0.0, 1.0])
+        triangle_scene([EVERYWHERE] * 2, (2, 2), attributes=layers), background=np.array([0.0, 0.0, 0.0, 1.0])
     )
     settings = Settings(blend="over", visibility="last-drawn")
     twins = ("order-reversed", "multiplied-twice", "blended-in-srgb", "factors-exchanged")

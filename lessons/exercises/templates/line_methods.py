@@ -7,6 +7,7 @@ from math import floor
 from core import Settings
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.answers.tables import Cell, Row
+from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
@@ -19,7 +20,7 @@ from lessons.printed.catalogue import printed_listing
 from lessons.small_scenes import pixel_segments, segment_scene
 
 HALF = Fraction(1, 2)
-WINDOW = f"Window of {SIZE[0]} x {SIZE[1]} pixels, row 0 at the bottom."
+WINDOW = window_text(SIZE)
 
 
 def slope(ends: Ends) -> Fraction:

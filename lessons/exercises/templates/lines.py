@@ -6,6 +6,7 @@ from fractions import Fraction
 from core import Settings, draw_lines
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.answers.tables import Cell, Column, Row, Rows, TableAnswer, number_rows
+from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template
 from lessons.mistakes.lines import LECTURE
@@ -79,7 +80,7 @@ def draw_pixels(draws: Draws) -> Draft:
         "Keep D beside each pixel; its sign chooses the row of the next one.",
         f"{_lengths(ends)}.",
     )
-    given = f"From pixel {ends[0]} to pixel {ends[1]}, in a window of {SIZE[0]} x {SIZE[1]} pixels."
+    given = f"{window_text(SIZE)}\nFrom pixel {ends[0]} to pixel {ends[1]}."
     return Draft(f"Which pixels does the line draw? {RULE}", given, answer, hints, wrong, scene, LECTURE)
 
 

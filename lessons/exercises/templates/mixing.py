@@ -15,7 +15,7 @@ from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.drafting import by_rule, numbers
 from lessons.mistakes.depths import Layer, cards
 from lessons.mistakes.shelf import SHELF
-from lessons.small_scenes import triangle_scene
+from lessons.small_scenes import EVERYWHERE, triangle_scene
 
 BLENDED = Settings(blend="over", visibility="last-drawn")
 
@@ -23,9 +23,8 @@ BLENDED = Settings(blend="over", visibility="last-drawn")
 def draw_alpha(draws: Draws) -> Draft:
     """The alpha of the result."""
     alphas = [Fraction(draws.whole(1, 4), 5) for _ in range(2)]
-    everywhere = [(-20, -20), (40, -20), (-20, 40)]
     layers = [[(1, 1, 1, float(alpha))] * 3 for alpha in alphas]
-    scene = triangle_scene([everywhere] * 2, (2, 2), attributes=layers)
+    scene = triangle_scene([EVERYWHERE] * 2, (2, 2), attributes=layers)
     twins = ("alpha-of-source", "alpha-squared", "alpha-kept")
     wrong = {twin: [float(SHELF[twin].draw(scene, BLENDED).color[0, 0, 3])] for twin in twins}
     text = (
@@ -40,8 +39,7 @@ def draw_alpha(draws: Draws) -> Draft:
 def draw_straight(draws: Draws) -> Draft:
     """A straight colour over another."""
     alpha, color, there = (Fraction(draws.whole(1, 9), 10) for _ in range(3))
-    everywhere = [(-20, -20), (40, -20), (-20, 40)]
-    scene = triangle_scene([everywhere], (2, 2), attributes=[[(*[float(color)] * 3, float(alpha))] * 3])
+    scene = triangle_scene([EVERYWHERE], (2, 2), attributes=[[(*[float(color)] * 3, float(alpha))] * 3])
     scene = replace(scene, background=np.array([*[float(there)] * 3, 1.0]))
     twins = ("multiplied-twice", "not-multiplied", "factors-exchanged")
     wrong = {twin: [float(SHELF[twin].draw(scene, BLENDED).color[0, 0, 0])] for twin in twins}

@@ -10,6 +10,7 @@ from core.explain.records import Value
 from core.explain.steps import variables
 from core.trace import StageTrace
 from lessons.exercises.answers.choices import ChoiceAnswer
+from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.next_step import row_draft
 from lessons.exercises.question import Draft, Template
@@ -85,7 +86,7 @@ def draw_step(stage_name: str, draws: Draws) -> Draft | None:
         for number, (one, depth) in enumerate(zip(corners, depths, strict=True))
     )
     # Where the corners lie in the window is what the transform finds.
-    shown = [f"Window of {SIZE[0]} x {SIZE[1]} pixels.", *([] if stage_name == "transform" else [places])]
+    shown = [window_text(SIZE), *([] if stage_name == "transform" else [places])]
     given = "\n".join([RULES[stage_name], *shown, "Before the step:", known])
     return Draft(
         draft.text,

@@ -12,7 +12,7 @@ from core.records.arrays import Flags
 from core.records.frame import Frame
 from core.scene import ClipScene
 from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer, Pixels
-from lessons.exercises.drawn_scene import seen_pixels
+from lessons.exercises.drawn_scene import seen_pixels, window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
@@ -25,7 +25,7 @@ from lessons.small_scenes import rectangle_corners, triangle_scene
 
 SIZE = (12, 9)
 HALF = Fraction(1, 2)
-WINDOW = f"Window of {SIZE[0]} x {SIZE[1]} pixels, row 0 at the bottom."
+WINDOW = window_text(SIZE)
 
 
 def marked(is_marked: Flags) -> Pixels:

@@ -7,7 +7,7 @@ import numpy as np
 from core import Settings, clip_lines
 from lessons.exercises.answers.places import PlaceAnswer, Places
 from lessons.exercises.answers.tables import ENTERS, LEAVES
-from lessons.exercises.drawn_scene import DrawnScene
+from lessons.exercises.drawn_scene import DrawnScene, window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.file_answers import NoQuestionError, corner_answer
 from lessons.exercises.numbers import number_text
@@ -94,8 +94,8 @@ def draw_ndc(draws: Draws) -> Draft | None:
     columns, rows = SIZE
     right = tuple(((x + 1) / 2 * columns, (y + 1) / 2 * rows) for x, y in points)
     down = tuple((x, rows - y) for x, y in right)
-    text = "Place these points of NDC in the window. Row 0 is the bottom row."
-    given = f"Window of {columns} x {rows} pixels. " + ", ".join(
+    text = "Place these points of NDC in the window."
+    given = f"{window_text(SIZE)} " + ", ".join(
         f"{name}: {corner_text([point])}" for name, point in zip("ABC", points, strict=True)
     )
     hints = (
@@ -122,7 +122,7 @@ def draw_weights(draws: Draws) -> Draft | None:
     )
     shown = ", ".join(f"{name} = {number_text(weight)}" for name, weight in zip(NAMES, weights, strict=True))
     text = "Place the point with these barycentric weights; alpha belongs to vertex 0."
-    given = f"Window of {CORNER_SIZE[0]} x {CORNER_SIZE[1]} pixels. Vertices 0, 1, 2: {corner_text(corners)}\n{shown}"
+    given = f"{window_text(CORNER_SIZE)}\nVertices 0, 1, 2: {corner_text(corners)}\n{shown}"
     hints = (
         "With equal weights the point is in the middle; it moves towards the vertex that weighs more.",
         "The point is the sum of weight times vertex.",
@@ -156,7 +156,7 @@ def draw_new_corners(draws: Draws) -> Draft | None:
     )
     names = ("on side 0 to 1", "on side 2 to 0")
     answer = PlaceAnswer(CORNER_SIZE, names, rule.right(exact, BORDER), (), Fraction(1, 4), TOLERANCE)
-    given = f"Window of {CORNER_SIZE[0]} x {CORNER_SIZE[1]} pixels. Vertices 0, 1, 2: {corner_text(exact)}"
+    given = f"{window_text(CORNER_SIZE)}\nVertices 0, 1, 2: {corner_text(exact)}"
     scene = triangle_scene(np.array([corners], float), CORNER_SIZE)
     return Draft(text, given, answer, hints, {rule.name: rule.wrong(exact, BORDER)}, scene)
 

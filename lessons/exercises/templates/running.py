@@ -10,14 +10,14 @@ import numpy as np
 from core import Settings, render
 from core.scene import ClipScene
 from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Dial, Family, Values
-from lessons.exercises.drawn_scene import Corner
+from lessons.exercises.drawn_scene import Corner, window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.file_answers import FAILS, byte_error, is_drawn_twice
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import SIZE, corner_text
 from lessons.scenes import make_scene
-from lessons.small_scenes import triangle_scene
+from lessons.small_scenes import EVERYWHERE, triangle_scene
 
 SEARCH_LIMIT = 200
 """Most values of the dials that are tried to find some that break the weak method."""
@@ -77,8 +77,7 @@ def draw_shared_corner(draws: Draws) -> Draft | None:
         "Two triangles share an edge. Move its lower corner so that the rule E >= 0 on all edges draws a pixel twice, "
         "and the rule that gives each centre to one triangle does not."
     )
-    window = f"Window of {SIZE[0]} x {SIZE[1]} pixels."
-    given = f"{window} Triangle A: {corner_text(first)}. Triangle B: {corner_text(second)}."
+    given = f"{window_text(SIZE)} Triangle A: {corner_text(first)}. Triangle B: {corner_text(second)}."
     hints = (
         "Only centres that lie exactly on the common edge are in both triangles.",
         "Where must both ends of an edge lie so that it runs through centres?",
@@ -173,11 +172,10 @@ def draw_depth_format(draws: Draws) -> Draft | None:
     base = Fraction(draws.whole(20, 80), 100)
     step = Fraction(1, 400_000)
     dials = (Dial("gap", Fraction(0), 20 * step, step),)
-    everywhere = [(-20, -20), (40, -20), (-20, 40)]
 
     def scene_of(values: Values) -> ClipScene:
         depth = [[float(base)] * 3, [float(base - values[0])] * 3]
-        return triangle_scene([everywhere] * 2, (2, 2), depth=depth)
+        return triangle_scene([EVERYWHERE] * 2, (2, 2), depth=depth)
 
     weak, robust = Settings(depth="z-16"), Settings()
     rule = "triangle 0 is seen"
@@ -222,8 +220,7 @@ def draw_samples(draws: Draws) -> Draft | None:
         f"{number_text(limit)} of 255 from 16 samples."
     )
     places = ", ".join(f"({x:g}, {y:g})" for x, y in corners)
-    window = f"Window of {SIZE[0]} x {SIZE[1]} pixels."
-    given = f"{window} Corners: {places}.\nCosts: coverage tests and shader runs at a pixel."
+    given = f"{window_text(SIZE)} Corners: {places}.\nCosts: coverage tests and shader runs at a pixel."
     hints = (
         "Only pixels on the rim differ.",
         "One sample is all or nothing: how far is it off at a pixel that is half covered?",

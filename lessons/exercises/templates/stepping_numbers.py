@@ -9,7 +9,8 @@ from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import corner_text, twice_area
-from lessons.exercises.templates.fragments import COLORS, NAMES, TOLERANCE, WITHIN
+from lessons.exercises.templates.drafting import TOLERANCE, WITHIN
+from lessons.exercises.templates.fragments import COLORS, NAMES
 from lessons.small_scenes import triangle_scene
 
 HALF = Fraction(1, 2)

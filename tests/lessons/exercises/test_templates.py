@@ -29,6 +29,7 @@ from lessons.exercises.templates.clipping import outcode_table, parameter_table
 from lessons.exercises.templates.lines import d_table
 from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.twin import Twin
+from tests.lessons.exercises.first_questions import first_question
 
 ROOT = Path(__file__).parents[3]
 SEGMENT = ((-1, -2), (9, 7))
@@ -36,12 +37,12 @@ SEGMENT = ((-1, -2), (9, 7))
 
 @pytest.mark.parametrize("template", TEMPLATES.values(), ids=TEMPLATES)
 def test_a_template_asks_fairly(template: Template) -> None:
-    assert question_problems(ask(template, 0)) == []
+    assert question_problems(first_question(template.name)) == []
 
 
 @pytest.mark.parametrize("template", TEMPLATES.values(), ids=TEMPLATES)
 def test_the_scene_of_a_question_can_be_stepped_in_its_stage(template: Template) -> None:
-    draft = ask(template, 0).draft
+    draft = first_question(template.name).draft
     if draft.scene is not None:
         assert trace(draft.scene, draft.settings).stage(template.stage).steps.row_count > 0
 
