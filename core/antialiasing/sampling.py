@@ -89,7 +89,8 @@ def one_sample(samples_across: int) -> Sampling:
     "Supersampling, 2 x 2 samples",
     source="LMU 2020, Super Sampling Antialiasing; Jubair, Anti-aliasing",
     exact_for="area in steps of 1/4 pixel, shading included",
-    breaks_where="nearly horizontal or vertical edges: only two steps a pixel. Four times the work",
+    breaks_where="nearly horizontal or vertical edges: only two steps a pixel. Lines and points: they are one "
+    "sample wide, and fade. Four times the work",
     takes=("resolve_filter",),
 )
 def supersample_by_2(samples_across: int) -> Sampling:
@@ -103,7 +104,8 @@ def supersample_by_2(samples_across: int) -> Sampling:
     "Supersampling, 4 x 4 samples",
     source="LMU 2020, Super Sampling Antialiasing; Jubair, Anti-aliasing",
     exact_for="area in steps of 1/16 pixel, shading included",
-    breaks_where="nearly horizontal or vertical edges: only four steps a pixel. Sixteen times the work",
+    breaks_where="nearly horizontal or vertical edges: only four steps a pixel. Lines and points: they are one "
+    "sample wide, and fade. Sixteen times the work",
     takes=("resolve_filter",),
 )
 def supersample_by_4(samples_across: int) -> Sampling:
@@ -117,7 +119,8 @@ def supersample_by_4(samples_across: int) -> Sampling:
     "Supersampling, n x n samples",
     source="LMU 2020, Super Sampling Antialiasing; Jubair, Anti-aliasing",
     exact_for="area in steps of 1/n^2 pixel, shading included (n is samples_across)",
-    breaks_where="nearly horizontal or vertical edges: only n steps a pixel. n^2 times the work",
+    breaks_where="nearly horizontal or vertical edges: only n steps a pixel. Lines and points: they are one "
+    "sample wide, and fade. n^2 times the work",
     takes=("resolve_filter", "samples_across"),
 )
 def supersample_by_n(samples_across: int) -> Sampling:
