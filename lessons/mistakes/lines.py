@@ -114,7 +114,7 @@ TWINS = (
     ),
     Twin(
         "from-other-end",
-        "The line was drawn from its right end, which turns ties over. This version draws from left to right.",
+        "The line was drawn from its other end, which turns ties over. Begin at the end that the rule names.",
         line(((0, 0), (8, 3))),
         line(((0, 0), (7, 3))),
         change_settings=with_fault("from-other-end"),
