@@ -3,12 +3,13 @@
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from datetime import UTC, datetime
+from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job, Progress
 from app.cli.attempts import attempt_file
-from app.files.exercise_folders import all_templates
+from app.files.exercise_folders import add_folder, all_templates
 from app.files.unfinished_answers import UnfinishedFile
 from core import STAGES
 from core.records.words import counted
@@ -16,6 +17,7 @@ from core.stages.declared import stage_of
 from lessons.attempts.practice import Choice, next_question
 from lessons.attempts.record import DEFAULT_USER, Attempt
 from lessons.exercises.catalogue import SUBJECTS, TEMPLATES
+from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Question, Template
 from lessons.exercises.screen import PREFIX, screen_template
 from widgets.exercises.catalogue import Catalogue
@@ -198,6 +200,36 @@ class CataloguePresenter(QObject):
         if name.startswith(PREFIX) and name not in self.templates:
             self.templates[name] = screen_template(name)
         return self.templates.get(name)
+
+    def last(self) -> Template | None:
+        """Return the exercise that was open last, if there is such."""
+        kept = self._unfinished.answers
+        try:
+            template = self.template(kept.current)
+            if template is None and kept.path:
+                template = self.templates[kept.current] = read_exercise(Path(kept.path))
+        except (OSError, ValueError):
+            return None  # About a screen of another version, or in a file that is gone or broken: it is asked no more.
+        return template
+
+    def open_file(self, path: str) -> None:
+        """Ask the exercise of a file."""
+        try:
+            template = read_exercise(Path(path))
+        except (OSError, ValueError) as problem:
+            self.refused.emit(f"{problem}. The page is unchanged.")
+        else:
+            self.templates[template.name] = template
+            self.question_chosen.emit(template, None)
+
+    def add_folder(self, folder: str) -> None:
+        """Take a folder of own exercises into the catalogue."""
+        try:
+            add_folder(folder)
+        except (OSError, ValueError) as problem:
+            self.refused.emit(f"The folder was not added: {problem}.")
+        else:
+            self.begin()
 
     @Slot(object)
     def show_question(self, question: Question) -> None:

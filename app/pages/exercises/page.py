@@ -1,6 +1,5 @@
 """The Exercises page: the catalogue, a question with its picture, the check, and the runs behind an answer."""
 
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
@@ -15,7 +14,6 @@ from PySide6.QtWidgets import (
 )
 
 from app.files.drawn_pictures import ENDINGS
-from app.files.exercise_folders import add_folder
 from app.files.unfinished_answers import UnfinishedFile
 from app.pages.exercises.asked_scene import AskedScene
 from app.pages.exercises.catalogue_presenter import FIRST_COURSE, CataloguePresenter
@@ -25,7 +23,6 @@ from app.pages.exercises.question_presenter import QuestionPresenter
 from app.pages.page_bar import Caption, Handlers, Page
 from app.pages.side_columns import SideColumns
 from app.session.session import Session
-from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Template
 from widgets.basics.controls import column_layout
 from widgets.basics.focus_order import give_focus, tab_stops
@@ -125,29 +122,18 @@ class ExercisesPage(Page):
         self.exercises.user = self.questions.user = self.unfinished.answers.user
         self.exercises.found.connect(self._open_last)
         self.exercises.begin()
-        if not self.unfinished.answers.current or self._last() is not None:
+        if not self.unfinished.answers.current or self.exercises.last() is not None:
             self._open_last()
 
     @Slot()
     def _open_last(self) -> None:
         """Show the exercise that was open last, or else the first: a teacher's once the folders are read."""
         if self.question is None and not self.questions.is_working:
-            self.questions.open(self._last() or self.exercises.templates[FIRST_COURSE[0]])
-
-    def _last(self) -> Template | None:
-        """Return the exercise that was open last, if there is such."""
-        kept = self.unfinished.answers
-        try:
-            template = self.exercises.template(kept.current)
-            if template is None and kept.path:
-                template = self.exercises.templates[kept.current] = read_exercise(Path(kept.path))
-        except (OSError, ValueError):
-            return None  # About a screen of another version, or in a file that is gone or broken: it is asked no more.
-        return template
+            self.questions.open(self.exercises.last() or self.exercises.templates[FIRST_COURSE[0]])
 
     def resume(self) -> None:
         """Ask the question that was open when the program ended, and hide its scene."""
-        template = self._last()
+        template = self.exercises.last()
         if template is not None:
             self.questions.open(template, at_once=True)
 
@@ -242,25 +228,14 @@ class ExercisesPage(Page):
         """Ask for a folder of own exercises, and take them into the catalogue."""
         folder = QFileDialog.getExistingDirectory(self.window(), "Add a folder of exercises")
         if folder:
-            try:
-                add_folder(folder)
-            except (OSError, ValueError) as problem:
-                self.edit_refused.emit(f"The folder was not added: {problem}.")
-            else:
-                self.exercises.begin()
+            self.exercises.add_folder(folder)
 
     def open_path(self, path: str) -> None:
         """Ask the exercise of a file, or say which mistake makes its picture."""
         if path.lower().endswith(ENDINGS):
             self.diagnosis.open(path)
-            return
-        try:
-            template = read_exercise(Path(path))
-        except (OSError, ValueError) as problem:
-            self.edit_refused.emit(f"{problem}. The page is unchanged.")
         else:
-            self.exercises.templates[template.name] = template
-            self._open(template, None)
+            self.exercises.open_file(path)
 
     # The catalogue takes its room last.
 
