@@ -160,7 +160,7 @@ class FileActions(QObject):
             level=int(cursor.level),
             pin=self._session.pin,
             bookmarks=tuple(self._page.stepping.bookmarks.marks),
-            breakpoints=self._page.stepping.breakpoints(),
+            breakpoints=self._page.stepping.breaks.record(),
             look=look_of(self._page, self._appearance.text_size),
         )
 

@@ -90,7 +90,7 @@ class Overlays(QObject):
         """Ask for the condition of a breakpoint."""
         names = ", ".join(variable_names(self._session.stage_trace))
         hint = f"F5 stops where the condition holds. Names: {names}. Leave it empty for no condition."
-        self._ask("condition", "Break where", hint, self._page.stepping.condition)
+        self._ask("condition", "Break where", hint, self._page.stepping.breaks.condition)
 
     def ask_note(self) -> None:
         """Ask for the note of the bookmark at this step, which is made if there is none."""

@@ -106,7 +106,7 @@ class InspectorPresenter(QObject):
             return
         self._function = function
         self._listing.show_listing(ListingText(function, listing.source) if listing else None)
-        lines = {line for name, line in self._stepping.line_breakpoints if name == function}
+        lines = {line for name, line in self._stepping.breaks.lines if name == function}
         self._listing.show_breakpoints(lines)
 
     @Slot()
@@ -225,5 +225,5 @@ class InspectorPresenter(QObject):
     @Slot(int)
     def _toggle_breakpoint(self, line: int) -> None:
         self._stepping.toggle_line_breakpoint(self._function, line)
-        lines = {at for name, at in self._stepping.line_breakpoints if name == self._function}
+        lines = {at for name, at in self._stepping.breaks.lines if name == self._function}
         self._listing.show_breakpoints(lines)

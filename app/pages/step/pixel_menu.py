@@ -39,7 +39,7 @@ class PixelMenu(QObject):
         heading.setEnabled(False)
         is_pinned = self._session.pin == self._pixel
         self._add("Remove the pin" if is_pinned else "Pin", "pin")
-        has_breakpoint = self._pixel in self._stepping.pixel_breakpoints
+        has_breakpoint = self._pixel in self._stepping.breaks.pixels
         self._add("Remove the breakpoint" if has_breakpoint else "Breakpoint", "breakpoint")
         self._add("Where does this value come from?", "origin")
         self._add("Ask for this value", "ask")

@@ -1,7 +1,6 @@
 """Stepping: the timeline with its chapters, and running to events, breakpoints and bookmarks."""
 
 from collections.abc import Callable, Iterable
-from contextlib import suppress
 from functools import partial
 
 import numpy as np
@@ -9,6 +8,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.files.state_models import Bookmark, Breakpoints
 from app.pages.step.bookmarks import Bookmarks
+from app.pages.step.breaks import Breaks, line_positions
 from app.pages.step.chapters import chapters_of
 from app.session.session import Session
 from core import STAGES
@@ -16,11 +16,9 @@ from core.explain.kinds import of_kind
 from core.methods import table
 from core.raster.fills.tested import effective_fill
 from core.raster.fills.traits import fill_traits
-from core.records.arrays import Flags, Integers
+from core.records.arrays import Integers
 from core.records.steps import Level
 from core.stages.declared import stage_of
-from core.trace import StageTrace
-from core.trace.conditions import Condition, parse_condition
 from core.trace.run_to import next_at_pixel, next_marked
 from widgets.basics.marks import Mark
 from widgets.timeline.run_picture import TimelineRun
@@ -76,13 +74,10 @@ class SteppingPresenter(QObject):
         """Steps a run beside this one where only that one has steps left, and returns whether that was so."""
         self.event_kind = "covered"
         """Kind of event that N runs to."""
-        self.pixel_breakpoints: set[tuple[int, int]] = set()
-        self.line_breakpoints: set[tuple[str, int]] = set()
-        """Name of the listing's function and line."""
+        self.breaks = Breaks()
         self.bookmarks = Bookmarks(session, self)
         self.bookmarks.message_sent.connect(self.tell)
         self.bookmarks.bookmarks_changed.connect(self._show_places)
-        self._condition: Condition | None = None
         self._told = ""
         session.document_changed.connect(self.refresh_run)
         session.cursor_changed.connect(self.refresh_cursor)
@@ -156,7 +151,7 @@ class SteppingPresenter(QObject):
         marks = {MARKS[name]: starts[1:][flags] - 1 for name, flags in trace.marks.items()}
         if self._session.pin is not None:
             marks[Mark.PINNED] = starts[1:][trace.rows_at_pixel(*self._session.pin)] - 1
-        marks[Mark.BREAKPOINT] = self._break_positions(trace) - 1
+        marks[Mark.BREAKPOINT] = self.breaks.positions(trace) - 1
         here = [mark.position - 1 for mark in self.bookmarks.marks if mark.stage == trace.stage]
         marks[Mark.BOOKMARK] = np.array(sorted(set(here)), np.int64)
         place, last = STAGES.index(trace.stage), len(STAGES) - 1
@@ -268,7 +263,7 @@ class SteppingPresenter(QObject):
         if self._is_hidden(direction):
             return
         trace, position = self._session.stage_trace, self._session.cursor.position
-        reached = nearest(self._break_positions(trace), position, direction)
+        reached = nearest(self.breaks.positions(trace), position, direction)
         if reached is not None:
             self._session.go_to(reached)
         else:
@@ -302,76 +297,26 @@ class SteppingPresenter(QObject):
         if self._session.pin is None:
             self.tell("Pin a pixel first: click it.")
             return
-        self.pixel_breakpoints ^= {self._session.pin}
+        self.breaks.pixels ^= {self._session.pin}
         self._show_places()
-
-    @property
-    def condition(self) -> str:
-        """Text of the condition that is a breakpoint, empty: none."""
-        return self._condition.text if self._condition else ""
 
     def set_condition(self, text: str) -> None:
-        """Stop where a condition holds, as ``E0 < 0.5 and covered``; an empty text takes it away.
-
-        Raises
-        ------
-        ValueError
-            If the text is not a condition, or names what no stage has; the old condition stays.
-        """
-        condition = parse_condition(text) if text.strip() else None
-        if condition is not None:
-            condition.holds(self._session.stage_trace)
-        self._condition = condition
+        """Stop where a condition holds, see `Breaks.set_condition`."""
+        self.breaks.set_condition(text, self._session.stage_trace)
         self._show_places()
-        self.condition_changed.emit(self.condition)
+        self.condition_changed.emit(self.breaks.condition)
 
     def toggle_line_breakpoint(self, function: str, line: int) -> None:
         """Set or take away a breakpoint on a line of a listing."""
-        self.line_breakpoints ^= {(function, line)}
+        self.breaks.lines ^= {(function, line)}
         self._show_places()
 
     def run_to_line(self, function: str, line: int) -> None:
         """Go to the next step of a line of a listing."""
         if self._is_hidden(1):
             return
-        positions = self._line_positions(self._session.stage_trace, function, line)
+        positions = line_positions(self._session.stage_trace, function, line)
         self._go_on(nearest(positions, self._session.cursor.position, 1), 1, f"at line {line}")
-
-    def _break_positions(self, trace: StageTrace) -> Integers:
-        """Return the positions, rising, just after a step that a breakpoint stands on."""
-        of_rows = trace.steps.starts[1:][self._break_rows(trace)]
-        if not self.line_breakpoints:
-            return of_rows
-        of_lines = [self._line_positions(trace, function, line) for function, line in self.line_breakpoints]
-        return np.unique(np.concatenate([of_rows, *of_lines]))
-
-    def _break_rows(self, trace: StageTrace) -> Flags:
-        """Return (R,) bool, the rows of a breakpoint's pixel or of the condition."""
-        found = np.zeros(trace.steps.row_count, bool)
-        for pixel in self.pixel_breakpoints:
-            found[trace.rows_at_pixel(*pixel)] = True
-        if self._condition is not None:
-            # A stage without the variables of the condition has no such row.
-            with suppress(ValueError):
-                found |= self._condition.holds(trace)
-        return found
-
-    def _line_positions(self, trace: StageTrace, function: str, line: int) -> Integers:
-        steps = trace.steps
-        found = [np.empty(0, np.int64)]
-        for number, kind in enumerate(steps.kinds):
-            for place, operation in enumerate(steps.operations[kind]):
-                listing = trace.listings.get(f"{kind}.{operation.name}", trace.listings.get(kind))
-                if listing is None or listing.function.__name__ != function:
-                    continue
-                rows = np.flatnonzero(steps.kind == number)
-                if isinstance(operation.label, str):
-                    rows = rows[: len(rows) * (listing.lines.get(operation.label) == line)]
-                else:
-                    ran = operation.label(trace.columns, rows)
-                    rows = rows[np.isin(ran, [name for name, at in listing.lines.items() if at == line])]
-                found.append(steps.starts[:-1][rows] + place + 1)
-        return np.unique(np.concatenate(found))
 
     # Bookmarks and breakpoints.
 
@@ -381,19 +326,8 @@ class SteppingPresenter(QObject):
         self.refresh_marks()
         self.places_changed.emit()
 
-    def breakpoints(self) -> Breakpoints:
-        """Return all breakpoints."""
-        return Breakpoints(
-            pixels=sorted(self.pixel_breakpoints),
-            lines=sorted(self.line_breakpoints),
-            condition=self.condition,
-        )
-
     def set_places(self, bookmarks: Iterable[Bookmark] = (), breakpoints: Breakpoints | None = None) -> None:
         """Have these bookmarks and breakpoints, those of another scene, and no others."""
-        breakpoints = breakpoints or Breakpoints()
-        self.pixel_breakpoints = set(breakpoints.pixels)
-        self.line_breakpoints = set(breakpoints.lines)
-        self._condition = parse_condition(breakpoints.condition) if breakpoints.condition else None
+        self.breaks = Breaks(breakpoints)
         self.bookmarks.set_marks(bookmarks)
-        self.condition_changed.emit(self.condition)
+        self.condition_changed.emit(self.breaks.condition)

@@ -98,7 +98,7 @@ def test_a_clicker_steps_starts_and_blacks_out_here_and_only_here(window: MainWi
     before = session.cursor
     session.set_pin((20, 20))
     QTest.keyClick(window, Qt.Key.Key_B)
-    assert stepping.pixel_breakpoints == {(20, 20)}
+    assert stepping.breaks.pixels == {(20, 20)}
     QTest.keyClick(window, Qt.Key.Key_PageDown)
     assert session.cursor == before
     present(window, (1280, 720))
@@ -113,7 +113,7 @@ def test_a_clicker_steps_starts_and_blacks_out_here_and_only_here(window: MainWi
         QTest.keyClick(window, Qt.Key.Key_PageDown)
         assert window.grab().toImage().pixelColor(640, 5) != Qt.GlobalColor.black
         assert session.cursor == before
-    assert stepping.pixel_breakpoints == {(20, 20)}
+    assert stepping.breaks.pixels == {(20, 20)}
     QTest.keyClick(window, Qt.Key.Key_F5)
     assert (session.cursor.stage, session.cursor.position) == (STAGES[0], 0)
     window.overlays.ask_pixel()

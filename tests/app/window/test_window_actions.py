@@ -35,7 +35,7 @@ def seen(window: MainWindow) -> tuple[object, ...]:
         page.grid.view(),
         page.prediction.isVisible(),
         tuple(page.shown_panes()),
-        frozenset(page.stepping.pixel_breakpoints),
+        frozenset(page.stepping.breaks.pixels),
         tuple(page.stepping.bookmarks.marks),
         window.overlays.ask_bar.isVisible(),
         window.overlays.key_help.isVisible(),

@@ -199,7 +199,7 @@ def test_a_condition_is_a_breakpoint(window: MainWindow, qtbot: QtBot) -> None:
     window.overlays.ask_bar.field.setText("no_such_name > 1")
     QTest.keyClick(window.overlays.ask_bar.field, Qt.Key.Key_Return)
     assert "no_such_name" in window.overlays.ask_bar.hint.text()
-    assert window.page.stepping.condition == "covered and row == 20"
+    assert window.page.stepping.breaks.condition == "covered and row == 20"
 
 
 @pytest.mark.own_window
