@@ -51,8 +51,7 @@ def buffer_image(buffer: GridBuffer, theme: Theme) -> QImage:
     elif values.ndim == 3:
         pixels = _channel_pixels(values, value_range(buffer), theme)
     else:
-        name = buffer.colormap or ("diverging" if buffer.kind == "signed" else "viridis")
-        pixels = _scalar_pixels(values, value_range(buffer), name, theme)
+        pixels = _scalar_pixels(values, value_range(buffer), buffer.colormap, theme)
     if buffer.known is not None:
         pixels = np.where(buffer.known, pixels, _pack(np.array([theme.empty]))[0])
     return _to_image(pixels)

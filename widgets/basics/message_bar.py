@@ -53,8 +53,6 @@ class Progress:
 class MessageBar(QWidget):
     """Shows one message or one piece of long work; takes no room when it has nothing to say."""
 
-    message_dismissed = Signal()
-    """The user has closed the message."""
     action_requested = Signal(object)
     """The user wants what this ``Message`` offers."""
     cancel_requested = Signal()
@@ -157,7 +155,6 @@ class MessageBar(QWidget):
         """Take away the message that is shown."""
         self._end_standing()
         self.clear()
-        self.message_dismissed.emit()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Escape dismisses a message or cancels the work."""

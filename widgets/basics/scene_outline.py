@@ -37,7 +37,6 @@ class OutlineRow:
     """0, 1 or 2 where it is a vertex of that colour."""
     note: str = ""
     """Text instead of numbers (``968 triangles``), or the tooltip where there are numbers."""
-    is_editable: bool = True
 
 
 @dataclass(frozen=True)
@@ -108,8 +107,6 @@ class SceneOutline(QScrollArea):
     """The user has typed several numbers of a row in one field: path to value."""
     row_selected = Signal(str)
     """The user has selected a row."""
-    group_folded = Signal(str, bool)
-    """The user has folded (True) or opened (False) a group."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -253,7 +250,6 @@ class SceneOutline(QScrollArea):
         field = TypedValue(f"{row.label} {value.name}", parent, is_compact=True)
         field.setObjectName(path)
         field.set_range(value.lowest, value.highest)
-        field.edit.setReadOnly(not row.is_editable)
         field.edit.installEventFilter(self)
         field.set_most_numbers(len(row.values) - row.values.index(value))
         field.value_committed.connect(self._edit)
@@ -281,7 +277,6 @@ class SceneOutline(QScrollArea):
             is_open = self._bodies[heading.objectName()].isHidden()
             heading.setArrowType(Qt.ArrowType.DownArrow if is_open else Qt.ArrowType.RightArrow)
             self._bodies[heading.objectName()].setVisible(is_open)
-            self.group_folded.emit(heading.objectName(), not is_open)
 
     @Slot()
     def _follow_theme(self) -> None:
@@ -301,7 +296,6 @@ def _skeleton(groups: Sequence[OutlineGroup]) -> list[object]:
                     r.label,
                     r.vertex,
                     r.note,
-                    r.is_editable,
                     [(v.name, v.lowest, v.highest) for v in r.values],
                 )
                 for r in group.rows

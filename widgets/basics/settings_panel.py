@@ -64,8 +64,6 @@ class SettingsPanel(QWidget):
     """The user has chosen another value: family and value."""
     reference_requested = Signal(str, str)
     """The user asks what a choice is: family and its present value."""
-    more_unfolded = Signal(bool)
-    """The user has unfolded (True) the others, or folded them away."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -121,7 +119,6 @@ class SettingsPanel(QWidget):
         for setting in self._settings:
             self._fill(setting)
         self._show_rows()
-        self.more_unfolded.emit(is_unfolded)
 
     def _show_rows(self) -> None:
         """Show the rows that are wanted, and the headings that something stands under."""

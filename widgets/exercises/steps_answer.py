@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from PySide6.QtCore import QSize, Qt, Signal, Slot
+from PySide6.QtCore import QSize, Qt, Slot
 from PySide6.QtGui import QIcon, QKeyEvent
 from PySide6.QtWidgets import QLineEdit, QListWidget, QPushButton, QSizePolicy, QWidget
 
@@ -38,8 +38,6 @@ class StepsAnswerView(AnswerView):
     """The steps so far, the one that is asked, and what may be done about a wrong try."""
 
     uses_grid = True
-    step_done = Signal()
-    """A step is right now, or was put right."""
 
     def __init__(self, form: StepsForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
@@ -151,8 +149,6 @@ class StepsAnswerView(AnswerView):
         )
         announce(self, f"{said}, {WORDS[self._state.lines[number].standing]}")
         self.answer_changed.emit()
-        if has_gone_on:
-            self.step_done.emit()
 
     def _show(self) -> None:
         """Show the steps, and what is asked now."""

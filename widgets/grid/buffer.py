@@ -38,8 +38,6 @@ class GridBuffer:
     """Values at the two ends of the colormap; None: those of the finite values."""
     title: str = ""
     """What the user reads; empty: the name."""
-    colormap: str = ""
-    """Name in :mod:`widgets.basics.colormaps`; empty: viridis for scalars, diverging for signed."""
     description: str = ""
     """One sentence for the tooltip."""
     origin: tuple[int, int] = (0, 0)
@@ -107,13 +105,14 @@ class GridBuffer:
         text = lines[0] if len(lines) == 1 else "(" + ", ".join(lines) + ")"
         return f"{text} {self.unit}" if self.unit else text
 
+    @property
+    def colormap(self) -> str:
+        """Name in :mod:`widgets.basics.colormaps` of the map of its values, one channel each."""
+        return "grey" if self.channels > 1 else "diverging" if self.kind == "signed" else "viridis"
+
     def is_same_picture(self, other: "GridBuffer | None") -> bool:
-        """Return whether ``other`` looks the same: equal values, kind, range and colormap."""
-        if other is None or (self.kind, self.range, self.colormap) != (
-            other.kind,
-            other.range,
-            other.colormap,
-        ):
+        """Return whether ``other`` looks the same: equal values, kind and range."""
+        if other is None or (self.kind, self.range) != (other.kind, other.range):
             return False
         if (self.known is None) != (other.known is None):
             return False

@@ -99,8 +99,6 @@ class BufferStrip(QWidget):
     """The new :class:`~widgets.grid.view.GridView` after the user zoomed or panned; all grids followed."""
     strip_shown = Signal()
     """The strip has come into sight: what it shows may be of an earlier step."""
-    hidden_changed = Signal(object)
-    """Names of the buffers that are hidden, a frozenset of str, after the user changed them."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         """Make an empty strip."""
@@ -303,10 +301,9 @@ class BufferStrip(QWidget):
         self.buffer_chosen.emit(name)
 
     def _choose_hidden(self, action: QAction) -> None:
-        """Show or hide the buffer of a menu entry, and report it."""
+        """Show or hide the buffer of a menu entry."""
         name = str(action.data())
         self.set_hidden_names(self._hidden - {name} if action.isChecked() else self._hidden | {name})
-        self.hidden_changed.emit(self._hidden)
 
     def _show_values(self) -> None:
         """Write the value at the hovered pixel, or else at the pinned one, under every grid."""

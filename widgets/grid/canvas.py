@@ -87,14 +87,9 @@ class GridCanvas:
             return False
         if before.values.shape != buffer.values.shape:
             self._hidden = None
-        alike = (before.kind, before.colormap, before.values.dtype, before.known is None) == (
-            buffer.kind,
-            buffer.colormap,
-            buffer.values.dtype,
-            buffer.known is None,
-        )
+        looks = [(each.kind, each.values.dtype, each.known is None) for each in (before, buffer)]
         if (
-            not alike
+            looks[0] != looks[1]
             or before.values.shape != buffer.values.shape
             or value_range(before) != value_range(buffer)
         ):

@@ -51,8 +51,6 @@ class GridGeometry:
     """Whether the vertices of the triangle in focus can be dragged."""
     names: tuple[str, ...] = ()
     """A name per triangle, for who writes them; empty: none."""
-    labels: tuple[str, ...] = ()
-    """A name per vertex; empty: 0, 1, 2 for those of the primitive in focus."""
     behind: NDArray[np.float64] | None = field(default=None, repr=False)
     """(V, 3) float64 homogeneous window coordinates (x w, y w, w) of the vertices at w <= 0, else NaN; None: none."""
 
@@ -70,10 +68,6 @@ class GridGeometry:
             raise ValueError(f"snapped must be {self.vertices.shape}, got {self.snapped.shape}")
         if self.behind is not None and self.behind.shape != (len(self.vertices), 3):
             raise ValueError(f"behind must be {(len(self.vertices), 3)}, got {self.behind.shape}")
-        if self.labels and len(self.labels) != len(self.vertices):
-            raise ValueError(
-                f"labels must have one entry per vertex ({len(self.vertices)}), got {len(self.labels)}"
-            )
 
     @property
     def focus_vertices(self) -> tuple[int, ...]:
@@ -103,9 +97,7 @@ class GridGeometry:
         return edge_segments(self.vertices, self.behind, pairs)
 
     def label(self, vertex: int) -> str:
-        """Return the name of a vertex."""
-        if self.labels:
-            return self.labels[vertex]
+        """Return the name of a vertex: 0, 1 or 2 of the primitive in focus, else nothing."""
         return str(self.focus_vertices.index(vertex)) if vertex in self.focus_vertices else ""
 
 

@@ -52,8 +52,6 @@ class PixelGrid(GridDisplay):
     """Column and row; while a brush is on, also of each further pixel of a drag."""
     pixel_menu_requested = Signal(int, int, QPoint)
     """Column, row and global position of a right click."""
-    vertex_drag_started = Signal(int)
-    """Vertex."""
     vertex_dragged = Signal(int, float, float)
     """Vertex and its new window position (y up)."""
     vertex_drag_finished = Signal(int)
@@ -116,7 +114,6 @@ class PixelGrid(GridDisplay):
         if vertex is None or geometry is None or not geometry.draggable or self._drag is not _Drag.NONE:
             return False
         x, y = geometry.vertices[vertex].tolist()
-        self.vertex_drag_started.emit(vertex)
         self.vertex_dragged.emit(vertex, x + across, y + up)
         self.vertex_drag_finished.emit(vertex)
         return True
@@ -172,7 +169,6 @@ class PixelGrid(GridDisplay):
             delta = position - self._pressed_at
             if self._drag is _Drag.VERTEX:
                 self._set_pointed(None)  # the pixel where the drag began is not the one under the pointer
-                self.vertex_drag_started.emit(self._vertex)
             self._update_cursor()
         if not self._has_moved:
             return

@@ -41,8 +41,7 @@ class RangeButton(QToolButton):
         if text != self.text():
             self.setText(text)
             self.setAccessibleName(f"Colour range {number_text(low, 3)} to {number_text(high, 3)}")
-        colormap = buffer.colormap or ("diverging" if buffer.kind == "signed" else "viridis")
-        self._show_colors(colormap if buffer.channels == 1 else "grey")
+        self._show_colors(buffer.colormap)
         self.show()
         if self.isChecked():
             self._control.show_buffer(buffer)

@@ -73,8 +73,7 @@ class RangeControl(QWidget):
             part.setVisible(has_range)
         if buffer is None or not has_range:
             return
-        colormap = buffer.colormap or ("diverging" if buffer.kind == "signed" else "viridis")
-        self._histogram.show_values(buffer.values, colormap if buffer.channels == 1 else "grey")
+        self._histogram.show_values(buffer.values, buffer.colormap)
         self.show_range(*value_range(buffer))
 
     def show_range(self, low: float, high: float) -> None:

@@ -44,8 +44,6 @@ class FormulaView(QWidget):
 
     spoken_role = QAccessible.Role.Equation
 
-    formula_copied = Signal(str)
-    """The user has copied the formula; the argument says as what (``latex`` or ``png``)."""
     number_pointed = Signal(object)
     """The pointer is on another `FormulaNumber`: `show_where` says where it comes from."""
     number_clicked = Signal(object)
@@ -176,14 +174,12 @@ class FormulaView(QWidget):
         if self._formula is not None:
             lines = [without_macros(self._formula.symbolic), without_macros(self._formula.substituted)]
             QGuiApplication.clipboard().setText(" \\\\\n".join(line for line in lines if line))
-            self.formula_copied.emit("latex")
 
     @Slot()
     def copy_picture(self) -> None:
         """Put the formula on the clipboard as a picture."""
         if self._formula is not None:
             QGuiApplication.clipboard().setImage(self.to_image())
-            self.formula_copied.emit("png")
 
     def hasHeightForWidth(self) -> bool:
         """Tell the layout that a narrow view needs more lines."""

@@ -31,8 +31,6 @@ class EntryDelegate(QStyledItemDelegate):
         entry: HistoryEntry = index.data(ENTRY_ROLE)
         box: QRect = option.rect
         ground = QColor(theme.window if index.row() % 2 else theme.panel)
-        if entry.is_current:
-            ground = blended(theme.accent, ground.name(), 0.12)
         if option.state & QStyle.StateFlag.State_Selected:
             ground = QColor(theme.selection)
         painter.save()
@@ -40,8 +38,6 @@ class EntryDelegate(QStyledItemDelegate):
         if option.state & QStyle.StateFlag.State_Selected:
             painter.setPen(QColor(theme.text))
             painter.drawRect(box.adjusted(0, 0, -1, -1))
-        if entry.is_current:
-            painter.fillRect(QRect(box.left(), box.top(), 4, box.height()), QColor(theme.accent))
         text_height = QFontMetrics(_text_font()).height()
         top = box.top() + 5
         mark_side = text_height - 2
@@ -56,7 +52,6 @@ class EntryDelegate(QStyledItemDelegate):
         else:
             title.setRight(cells[0].left() - 3)
         font = _text_font()
-        font.setBold(entry.is_current)
         painter.setFont(font)
         painter.setPen(QColor(theme.text))
         painter.drawText(title, _LEFT, QFontMetrics(font).elidedText(entry.title, _ELIDE, title.width()))

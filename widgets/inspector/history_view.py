@@ -1,7 +1,7 @@
 """Everything that happened to one pixel: the verdict, then each event with before, out, after and reason."""
 
 from PySide6.QtCore import QModelIndex, Qt, Signal, Slot
-from PySide6.QtGui import QAction, QGuiApplication, QKeySequence, QResizeEvent, QShowEvent
+from PySide6.QtGui import QAction, QGuiApplication, QKeySequence, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QCheckBox,
@@ -112,7 +112,6 @@ class PixelHistory(QWidget):
         self.place.setVisible(not is_hint)
         if story:
             self.place.setText(f"Pixel column {story.column}, row {story.row}")
-        self._bring_current_into_view()
         self._follow_theme()
 
     def showEvent(self, event: QShowEvent) -> None:
@@ -120,22 +119,10 @@ class PixelHistory(QWidget):
         super().showEvent(event)
         self.history_shown.emit()
 
-    def resizeEvent(self, event: QResizeEvent) -> None:
-        """Keep the row of the step just done in view."""
-        super().resizeEvent(event)
-        self._bring_current_into_view()
-
     @Slot(bool)
     def show_rejected(self, is_shown: bool) -> None:
         """Show or leave out rejected fragments."""
         self.rejected_box.setChecked(is_shown)
-
-    def _bring_current_into_view(self) -> None:
-        entries = self._story.entries if self._story else ()
-        current = next((k for k, entry in enumerate(entries) if entry.is_current), None)
-        if current is not None:
-            self.view.doItemsLayout()
-            self.view.scrollTo(self._filter.mapFromSource(self._model.index(current)))
 
     @Slot(QModelIndex)
     def _activate(self, index: QModelIndex) -> None:

@@ -37,8 +37,6 @@ class HistoryEntry:
     reason: str = ""
     """Why it was kept or rejected, in words."""
     is_rejected: bool = False
-    is_current: bool = False
-    """The step just done belongs to it."""
 
 
 @dataclass(frozen=True)

@@ -86,8 +86,6 @@ class _ChangeDelegate(QStyledItemDelegate):
 class VariablesView(QTreeWidget):
     """A table of name, now and before; vectors open into their components."""
 
-    values_copied = Signal(str)
-    """The user has copied the selected variables; the argument is the text."""
     origin_requested = Signal(object)
     """The user asks where the value of this `Variable` comes from."""
     meaning_requested = Signal(str, str)
@@ -169,9 +167,7 @@ class VariablesView(QTreeWidget):
                 continue
             lines.append(f"{f'{owner.text(0)}.{name}' if owner else name} = {value}")
         if lines:
-            text = "\n".join(lines)
-            QGuiApplication.clipboard().setText(text)
-            self.values_copied.emit(text)
+            QGuiApplication.clipboard().setText("\n".join(lines))
 
     @Slot()
     def _ask_for_current(self) -> None:

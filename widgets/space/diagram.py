@@ -58,8 +58,6 @@ class Spot:
     shape: SpotShape = "disc"
     radius: float = 4.0
     label: str = ""
-    handle: int | None = None
-    """Number that signals report when it is dragged; ``None``: it cannot be dragged."""
 
     def __post_init__(self) -> None:
         if self.point.shape != (3,):
@@ -95,10 +93,6 @@ class Diagram:
     """Radians, the direction from which it is first seen; see :class:`~widgets.space.orbit.Orbit`."""
     caption: str = ""
     """What the drawing shows, in one to three sentences."""
-
-    def spot_of(self, handle: int) -> Spot | None:
-        """Return the point with a handle's number."""
-        return next((spot for spot in self.spots if spot.handle == handle), None)
 
 
 def _check_points(name: str, points: NDArray[np.float64]) -> None:

@@ -63,9 +63,9 @@ def projection_of(orbit: Orbit, area: QRectF) -> Projection:
 
 
 def paint_diagram(
-    painter: QPainter, diagram: Diagram, projection: Projection, area: QRectF, theme: Theme, held: int | None
+    painter: QPainter, diagram: Diagram, projection: Projection, area: QRectF, theme: Theme
 ) -> None:
-    """Paint faces and lines from far to near, then points, then words; ``held`` is the handle in the hand."""
+    """Paint faces and lines from far to near, then points, then words."""
     painter.save()
     painter.setClipRect(area)
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
@@ -94,7 +94,7 @@ def paint_diagram(
     for spot in diagram.spots:
         place = projection.place(spot.point)
         if place is not None:
-            paint_spot(painter, place, spot, theme, spot.handle is not None and spot.handle == held)
+            paint_spot(painter, place, spot, theme)
     _paint_words(painter, diagram, projection, area, theme)
     painter.restore()
 
@@ -200,8 +200,16 @@ def clip_polygon(corners: NDArray[np.float64], box: tuple[float, float, float, f
     return polygon
 
 
-def paint_spot(painter: QPainter, place: QPointF, spot: Spot, theme: Theme, is_held: bool) -> None:
-    """Paint the mark of a point."""
+def paint_spot(
+    painter: QPainter,
+    place: QPointF,
+    spot: Spot,
+    theme: Theme,
+    *,
+    is_handle: bool = False,
+    is_held: bool = False,
+) -> None:
+    """Paint the mark of a point; a handle, which can be dragged, has a ring, and is larger in the hand."""
     radius = spot.radius * theme.text_px / 13 + (1.5 if is_held else 0.0)
     color = QColor(ink_color(spot.ink, theme))
     halo = faded(theme.halo(), 0.75)
@@ -222,7 +230,7 @@ def paint_spot(painter: QPainter, place: QPointF, spot: Spot, theme: Theme, is_h
             painter.drawRect(QRectF(place.x() - radius, place.y() - radius, 2 * radius, 2 * radius))
         else:
             painter.drawEllipse(place, radius, radius)
-    if spot.handle is not None:
+    if is_handle:
         painter.setBrush(Qt.BrushStyle.NoBrush)
         painter.setPen(QPen(QColor("#000000"), 0.8))
         painter.drawEllipse(place, radius + 1.2, radius + 1.2)

@@ -84,8 +84,6 @@ class SceneView(OrbitArea):
 
     picked = Signal(int, int)
     """Column and row of the picture that was clicked, row 0 at the bottom."""
-    vertex_drag_started = Signal(int)
-    """Vertex 0, 1 or 2 of the triangle in focus."""
     vertex_dragged = Signal(int, float, float)
     """Vertex and its new place: fractions of the picture's width and height, y up."""
     vertex_drag_finished = Signal(int)
@@ -251,8 +249,8 @@ class SceneView(OrbitArea):
             place = self._place(handle.x, handle.y)
             if place is not None:
                 ink = f"vertex {handle.color}"
-                spot = Spot(np.zeros(3), ink, radius=radius, handle=handle.index)
-                paint_spot(painter, place, spot, theme, handle.index == self._handle)
+                spot, is_held = Spot(np.zeros(3), ink, radius=radius), handle.index == self._handle
+                paint_spot(painter, place, spot, theme, is_handle=True, is_held=is_held)
                 reach = 8.0 * scale
                 paint_label(painter, places, place, str(handle.index), ink, theme, reach, is_bold=True)
         for x, y, text, ink in picture.labels:
@@ -290,7 +288,7 @@ class SceneView(OrbitArea):
             return
         if mark.shape in ("ring", "disc", "cross"):
             spot = Spot(np.zeros(3), mark.ink, mark.shape, 4.0)  # type: ignore[arg-type]
-            paint_spot(painter, last, spot, theme, is_held=False)
+            paint_spot(painter, last, spot, theme)
             places.take(QRectF(last.x() - 5, last.y() - 5, 10, 10))
         if mark.label:
             paint_label(painter, places, last, mark.label, mark.ink, theme, 7.0)
@@ -317,7 +315,6 @@ class SceneView(OrbitArea):
     def _handle_taken(self, handle: int) -> None:
         handles = self._picture.handles if self._picture is not None else ()
         self._origin = next(((h.x, h.y) for h in handles if h.index == handle), (0.5, 0.5))
-        self.vertex_drag_started.emit(handle)
 
     def _handle_moved(self, handle: int, from_press: QPointF) -> None:
         area = self._space_area()

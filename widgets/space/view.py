@@ -1,14 +1,12 @@
-"""A drawing in space under the pointer: turn, move, magnify, and drag the points that can be dragged."""
+"""A drawing in space under the pointer: turn, move and magnify."""
 
-import numpy as np
-from PySide6.QtCore import QLineF, QPointF, Signal
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
 from widgets.basics.theme import Theme
 from widgets.space.diagram import Diagram
 from widgets.space.orbit import Orbit, framed
-from widgets.space.orbit_area import GRAB_RADIUS, OrbitArea
+from widgets.space.orbit_area import OrbitArea
 from widgets.space.paint import Projection, paint_diagram, projection_of
 
 
@@ -19,16 +17,10 @@ class SpaceView(OrbitArea):
     turned or moved it.
     """
 
-    point_dragged = Signal(int, object)
-    """Handle and its new position, (3,) float64, in the plane through the old one that faces the viewer."""
-    point_drag_finished = Signal(int)
-    """Handle."""
-
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._diagram: Diagram | None = None
         self._longest_caption = ""
-        self._origin = np.zeros(3)
         self._is_own_view = False
         """Whether the user has chosen the view."""
         self.setAccessibleName("Drawing in space")
@@ -68,7 +60,7 @@ class SpaceView(OrbitArea):
     def _paint_drawing(self, painter: QPainter, theme: Theme) -> None:
         if self._diagram is not None:
             area = self._space_area()
-            paint_diagram(painter, self._diagram, self.projection(), area, theme, self._handle)
+            paint_diagram(painter, self._diagram, self.projection(), area, theme)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the whole drawing in view."""
@@ -89,32 +81,3 @@ class SpaceView(OrbitArea):
     def _keep_view(self, orbit: Orbit) -> None:
         """Leave a view that the user has chosen as it is."""
         self._is_own_view = orbit != self._home
-
-    def _handle_near(self, position: QPointF) -> int | None:
-        best, reach = None, GRAB_RADIUS
-        if self._diagram is None:
-            return None
-        projection = self.projection()
-        for spot in self._diagram.spots:
-            place = projection.place(spot.point) if spot.handle is not None else None
-            if place is not None:
-                distance = QLineF(place, position).length()
-                if distance <= reach:
-                    best, reach = spot.handle, distance
-        return best
-
-    def _handle_taken(self, handle: int) -> None:
-        spot = self._diagram.spot_of(handle) if self._diagram is not None else None
-        if spot is not None:
-            self._origin = spot.point
-
-    def _handle_moved(self, handle: int, from_press: QPointF) -> None:
-        projection = self.projection()
-        right, up, _ = projection.axes
-        moved = self._origin + (right * from_press.x() - up * from_press.y()) / projection.scale
-        self.point_dragged.emit(handle, moved)
-
-    def _handle_dropped(self, handle: int, is_taken_back: bool) -> None:
-        if is_taken_back:
-            self.point_dragged.emit(handle, self._origin)
-        self.point_drag_finished.emit(handle)

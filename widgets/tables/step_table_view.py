@@ -134,7 +134,6 @@ class StepTableView(QWidget):
 
     step_requested = Signal(int)
     """A position in the trace: the user asks for the step that made a number."""
-    table_copied = Signal(str)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -192,7 +191,6 @@ class StepTableView(QWidget):
         """Put the table on the clipboard, with all digits."""
         if self._table is not None:
             QGuiApplication.clipboard().setText(self._table.text())
-            self.table_copied.emit(self._table.text())
 
     @Slot()
     def _choose_current(self) -> None:

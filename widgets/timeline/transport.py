@@ -61,8 +61,6 @@ class Timeline(QWidget):
     """The user wants to go on (1) or back (-1) by many steps."""
     level_chosen = Signal(object)
     """The user has chosen another `Level`."""
-    play_toggled = Signal(bool)
-    """The user has started (True) or paused (False) playing."""
     speed_changed = Signal(float)
     """The user has chosen another number of steps a second."""
 
@@ -171,7 +169,6 @@ class Timeline(QWidget):
         if is_playing and not self._can_go_on():
             return
         self.show_playing(is_playing)
-        self.play_toggled.emit(is_playing)
 
     @Slot(int)
     def change_speed(self, steps: int) -> None:

@@ -62,8 +62,6 @@ class SteppingPresenter(QObject):
     """Something to tell: there is no further event."""
     message_ended = Signal(str)
     """The last message no longer holds: the cursor or the pin has moved."""
-    condition_changed = Signal(str)
-    """The condition of a breakpoint, empty: none."""
     places_changed = Signal()
     """There are other bookmarks or breakpoints, or a bookmark has another note."""
 
@@ -304,7 +302,6 @@ class SteppingPresenter(QObject):
         """Stop where a condition holds, see `Breaks.set_condition`."""
         self.breaks.set_condition(text, self._session.stage_trace)
         self._show_places()
-        self.condition_changed.emit(self.breaks.condition)
 
     def toggle_line_breakpoint(self, function: str, line: int) -> None:
         """Set or take away a breakpoint on a line of a listing."""
@@ -330,4 +327,3 @@ class SteppingPresenter(QObject):
         """Have these bookmarks and breakpoints, those of another scene, and no others."""
         self.breaks = Breaks(breakpoints)
         self.bookmarks.set_marks(bookmarks)
-        self.condition_changed.emit(self.breaks.condition)

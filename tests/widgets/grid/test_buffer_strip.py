@@ -110,9 +110,7 @@ def test_hidden_buffers_are_remembered(strip: BufferStrip, qtbot) -> None:
     assert strip.tile("z").isVisible()
     entries = {action.text(): action for action in strip.menu().actions()}
     assert [entries["depth"].isChecked(), entries["coverage"].isChecked()] == [True, False]
-    with qtbot.waitSignal(strip.hidden_changed) as changed:
-        entries["coverage"].trigger()
-    assert changed.args == [frozenset()]
+    entries["coverage"].trigger()
     assert strip.tile("c").isVisible()
 
 

@@ -96,12 +96,11 @@ def test_an_unmoved_right_click_asks_for_a_menu(grid: PixelGrid, qtbot) -> None:
 def test_a_vertex_is_dragged(grid: PixelGrid, qtbot) -> None:
     grid.show_geometry(TRIANGLE)
     heard: list[tuple[str, tuple[float, ...]]] = []
-    grid.vertex_drag_started.connect(lambda *args: heard.append(("started", args)))
     grid.vertex_dragged.connect(lambda *args: heard.append(("dragged", args)))
     grid.vertex_drag_finished.connect(lambda *args: heard.append(("finished", args)))
     with qtbot.assertNotEmitted(grid.pixel_clicked):
         drag(grid, at(grid, 20.0, 3.0), at(grid, 22.0, 6.0))
-    assert [name for name, _ in heard] == ["started", "dragged", "dragged", "finished"]
+    assert [name for name, _ in heard] == ["dragged", "dragged", "finished"]
     vertex, x, y = heard[-2][1]
     assert vertex == 1
     assert (x, y) == pytest.approx((22.0, 6.0), abs=0.05)
@@ -163,7 +162,7 @@ def test_a_vertex_is_not_moved_while_there_are_no_pixels(grid: PixelGrid, qtbot)
 
 def test_a_click_on_a_vertex_is_a_click_on_its_pixel(grid: PixelGrid, qtbot) -> None:
     grid.show_geometry(TRIANGLE)
-    with qtbot.assertNotEmitted(grid.vertex_drag_started), qtbot.waitSignal(grid.pixel_clicked) as clicked:
+    with qtbot.assertNotEmitted(grid.vertex_dragged), qtbot.waitSignal(grid.pixel_clicked) as clicked:
         QTest.mouseClick(grid, LEFT, Qt.KeyboardModifier.NoModifier, at(grid, 20.2, 3.2))
     assert clicked.args == [20, 3]
 

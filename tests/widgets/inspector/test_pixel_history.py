@@ -18,7 +18,7 @@ STORY = PixelStory(
     (
         HistoryEntry("Clear", None, None, GROUND),
         HistoryEntry("Triangle 3", GROUND, None, GROUND, Mark.REJECTED, "outside edge 1", is_rejected=True),
-        HistoryEntry("Triangle 12", GROUND, ORANGE, ORANGE, Mark.COVERED, "nearer", is_current=True),
+        HistoryEntry("Triangle 12", GROUND, ORANGE, ORANGE, Mark.COVERED, "nearer"),
     ),
 )
 

@@ -84,8 +84,6 @@ def test_a_vector_opens_and_stays_open_while_stepping(view) -> None:
 
 
 def test_full_precision_on_hover_and_copy(qtbot, view) -> None:
-    seen = []
-    view.values_copied.connect(seen.append)
     view.show_variables(STEP)
     item = view.topLevelItem(2)
     assert item.text(1) == "0.3333"
@@ -93,7 +91,6 @@ def test_full_precision_on_hover_and_copy(qtbot, view) -> None:
     view.setCurrentItem(item)
     qtbot.keyClick(view, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
     assert QGuiApplication.clipboard().text() == "alpha = 0.3333333333333333"
-    assert seen == ["alpha = 0.3333333333333333"]
 
 
 def test_exact_fractions_on_demand(view) -> None:

@@ -15,7 +15,7 @@ SQUARE = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])
 DIAGRAM = Diagram(
     patches=(Patch(SQUARE, "vertex 0", 0.5),),
     strokes=(Stroke(SQUARE, "text", 2.0, "dash", is_closed=True),),
-    spots=(Spot(np.array([0.5, 0.5, 0.0]), "vertex 1", label="1", handle=1),),
+    spots=(Spot(np.array([0.5, 0.5, 0.0]), "vertex 1", label="1"),),
     words=(Word(np.array([-1.0, 1.0, 0.0]), "corner"),),
     caption="A square with a point that can be dragged.",
 )
@@ -101,32 +101,6 @@ def test_a_double_click_fits_from_the_present_direction(view):
     assert view.orbit().target != turned_to.target
 
 
-def test_dragging_a_point_moves_it_in_the_plane_of_the_view(view, qtbot):
-    told: list[tuple[int, np.ndarray]] = []
-    view.point_dragged.connect(lambda handle, point: told.append((handle, point)))
-    start = view.projection().place(DIAGRAM.spots[0].point).toPoint()
-    orbit = view.orbit()
-    with qtbot.waitSignal(view.point_drag_finished):
-        drag(view, start, start + QPoint(30, -20))
-    handle, point = told[-1]
-    assert handle == 1
-    assert view.orbit() == orbit
-    delta = point - DIAGRAM.spots[0].point
-    assert delta @ orbit.axes()[2] == pytest.approx(0)
-    moved = view.projection().place(point) - view.projection().place(DIAGRAM.spots[0].point)
-    assert (moved.x(), moved.y()) == pytest.approx((30, -20))
-
-
-def test_escape_takes_a_drag_back(view):
-    told: list[np.ndarray] = []
-    view.point_dragged.connect(lambda _, point: told.append(point))
-    start = view.projection().place(DIAGRAM.spots[0].point).toPoint()
-    QTest.mousePress(view, Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, start)
-    QTest.mouseMove(view, start + QPoint(40, 0))
-    QTest.keyClick(view, Qt.Key.Key_Escape)
-    assert told[-1].tolist() == DIAGRAM.spots[0].point.tolist()
-
-
 def test_another_diagram_keeps_a_view_that_was_chosen(view):
     drag(view, QPoint(100, 300), QPoint(160, 320))
     chosen = view.orbit()
@@ -146,12 +120,11 @@ def test_any_coordinates_can_be_drawn(view):
         Diagram(
             patches=(Patch(wild), Patch(wild[3:]), Patch(SQUARE * 1e15)),
             strokes=(Stroke(wild, "vertex 2", dash="dash"), Stroke(wild[3:], dash="dot", is_closed=True)),
-            spots=tuple(Spot(point, label="p", handle=k) for k, point in enumerate(wild)),
+            spots=tuple(Spot(point, label="p") for point in wild),
             words=tuple(Word(point, "word") for point in wild),
         )
     )
     assert not picture(view).isNull()
-    assert view._handle_near(QPointF(-1e6, 0)) is None
 
 
 def test_an_empty_view_says_why(view):

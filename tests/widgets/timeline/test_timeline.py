@@ -176,7 +176,7 @@ def test_at_the_ends_the_buttons_are_off(timeline) -> None:
 
 
 def test_playing_asks_for_steps_in_time_and_stops_at_the_end(qtbot, timeline) -> None:
-    steps, toggles = [], []
+    steps = []
     position = [509]
 
     def follow(direction: int) -> None:
@@ -185,7 +185,6 @@ def test_playing_asks_for_steps_in_time_and_stops_at_the_end(qtbot, timeline) ->
         timeline.show_position(position[0])
 
     timeline.step_requested.connect(follow)
-    timeline.play_toggled.connect(toggles.append)
     timeline.show_speed(60.0)
     timeline.show_position(509)
     qtbot.mouseClick(timeline.play_button, Qt.MouseButton.LeftButton)
@@ -194,16 +193,6 @@ def test_playing_asks_for_steps_in_time_and_stops_at_the_end(qtbot, timeline) ->
     assert steps == [1, 1, 1]
     assert not timeline.is_playing()
     assert timeline.play_button.accessibleName() == "Play"
-    assert toggles == [True]
-
-
-def test_pausing_tells(qtbot, timeline) -> None:
-    toggles = []
-    timeline.play_toggled.connect(toggles.append)
-    timeline.toggle_play()
-    timeline.toggle_play()
-    assert toggles == [True, False]
-    assert not timeline.is_playing()
 
 
 def test_levels_are_chosen_by_click_and_named_by_the_stage(qtbot, timeline) -> None:
