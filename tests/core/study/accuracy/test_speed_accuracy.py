@@ -51,11 +51,16 @@ def by_method(study: Study) -> dict[str, Point]:
     return {point.method: point for point in study.points}
 
 
+@pytest.fixture
+def quick(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let one run be a block, and fill small pictures."""
+    monkeypatch.setattr(module, "BLOCK", 0.0)
+    monkeypatch.setattr("core.study.accuracy.fill.SIZE", (64, 64))
+
+
+@pytest.mark.usefixtures("quick")
 @pytest.mark.parametrize(("family", "work"), CASES)
-def test_every_family_gives_numbers_or_reasons_and_has_pictures(
-    family: str, work: str, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(module, "BLOCK", 0.0)  # One run is a block.
+def test_every_family_gives_numbers_or_reasons_and_has_pictures(family: str, work: str) -> None:
     study = measured(family, work)
     check_numbers(study)
     check_pictures(study)
@@ -121,6 +126,7 @@ def test_all_methods_of_a_family_are_points() -> None:
     assert methods == [f"fill={name}" for name in table.names("fill")]
 
 
+@pytest.mark.usefixtures("quick")
 def test_the_work_is_the_same_for_the_same_seed() -> None:
     first, second = (by_method(measured("coverage", "slivers", seed=4)) for _ in range(2))
     other = by_method(measured("coverage", "slivers", seed=5))
