@@ -5,7 +5,7 @@ import re
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.pages.step.number_origins import variable_of
@@ -26,7 +26,10 @@ def place_of(window: MainWindow, symbol: str) -> QPoint:
     """Return a place of the formula's view where the number of a symbol stands."""
     view = window.page.formula
     window.page.settle()
-    QTest.qWait(60)  # the view takes the height of its lines a moment later
+    while not view.is_complete():
+        QApplication.processEvents()
+    for _ in range(3):  # The view takes the height of its lines a moment later.
+        QApplication.processEvents()
     for y in range(view.height() - 1, 0, -5):
         for x in range(0, view.width(), 4):
             number = view.number_under(QPointF(x, y))
