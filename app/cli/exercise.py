@@ -3,6 +3,7 @@
 import argparse
 from pathlib import Path
 
+import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from app.cli import attempts, exercise_folders
@@ -172,8 +173,12 @@ def _selftest(count: int) -> int:
     if count < 1:
         raise UsageError("argument --seeds: must be 1 or more, got 0")
     problems = 0
+    asking: list[float] = []
+    naming: list[float] = []
     for template in TEMPLATES.values():
         found = check_template(template, range(count))
+        asking += found.asking
+        naming += found.naming
         alike = (
             "; one answer: " + ", ".join(sorted(" = ".join(pair) for pair in found.equal))
             if found.equal
@@ -186,4 +191,9 @@ def _selftest(count: int) -> int:
         for problem in found.problems:
             print(f"  {problem}")
         problems += len(found.problems)
+    for said, times in (("a question and its check", asking), ("a mistake named", naming)):
+        print(
+            f"{said}: {1000 * np.percentile(times, 95):.3g} ms at the 95th percentile, {1000 * max(times):.3g} at most "
+            "(processor time)"
+        )
     return 1 if problems else 0

@@ -4,6 +4,7 @@ import re
 from dataclasses import dataclass
 from hashlib import sha256
 from math import sqrt
+from time import process_time
 
 from lessons.exercises.answers.answer import Response
 from lessons.exercises.draws import SEED_LIMIT, Draws
@@ -35,22 +36,34 @@ class Findings:
     """Mistakes that gave one answer at some seed."""
     digest: str
     """Of all questions and answers as text: the same on every machine."""
+    asking: tuple[float, ...]
+    """Processor time of drawing each question and checking its right answer, in seconds."""
+    naming: tuple[float, ...]
+    """Likewise of naming each mistake."""
 
 
 def check_template(template: Template, seeds: range) -> Findings:
     """Check the questions of seeds."""
     problems: list[str] = []
     equal: set[tuple[str, str]] = set()
+    asking: list[float] = []
+    naming: list[float] = []
     guessed = chance = named = 0.0
     is_many, count = True, len(seeds)
     guesses = min(max(GUESSES // count, LEAST_GUESSES), MOST_GUESSES)
     digest = sha256()
     for seed in seeds:
+        begun = process_time()
         question = ask(template, seed)
         answer = question.draft.answer
+        answer.check(answer.reference)
+        asking.append(process_time() - begun)
         problems += [f"seed {seed}: {problem}" for problem in question_problems(question)]
         for name, wrong in question.draft.mistakes.items():
-            equal.update((name, other) for other in judge(question, wrong).mistakes if other > name)
+            begun = process_time()
+            found = judge(question, wrong)
+            naming.append(process_time() - begun)
+            equal.update((name, other) for other in found.mistakes if other > name)
         # Of another seed than the question: its first draw would be the first draw of the question, too.
         draws = Draws(SEED_LIMIT - seed)
         judged = [judge(question, answer.random(draws)) for _ in range(guesses)]
@@ -66,7 +79,15 @@ def check_template(template: Template, seeds: range) -> Findings:
     if is_many and named > NAMED_LIMIT:
         problems.append(f"{named:.1%} of random answers are called a mistake")
     return Findings(
-        template.name, count, tuple(problems), guessed, chance, frozenset(equal), digest.hexdigest()[:16]
+        template.name,
+        count,
+        tuple(problems),
+        guessed,
+        chance,
+        frozenset(equal),
+        digest.hexdigest()[:16],
+        tuple(asking),
+        tuple(naming),
     )
 
 

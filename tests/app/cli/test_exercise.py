@@ -107,4 +107,7 @@ def test_bad_input_is_one_sentence(
 def test_the_selftest_passes_for_one_seed() -> None:
     tested = run_program("exercise", "selftest", "--seeds", "1")
     assert tested.returncode == 0, tested.stdout
-    assert len(tested.stdout.splitlines()) == len(TEMPLATES)
+    *of_templates, asking, naming = tested.stdout.splitlines()
+    assert len(of_templates) == len(TEMPLATES)
+    assert asking.startswith("a question and its check: ")
+    assert naming.endswith(" at most (processor time)")
