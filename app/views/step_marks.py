@@ -119,8 +119,8 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     else:
         place = "behind the eye" if kind == "behind" else f"outside the {trace.columns['plane'][row]} plane"
         what = "kept" if kind == "kept" else f"not {place}"
-        label = f"{name}: {what}"
-        marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label))
+        label, shape = f"{name}: {what}", "ring" if source.scene.corner_count == 1 else "none"
+        marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label, shape))
     return marks
 
 

@@ -71,6 +71,7 @@ _WORDS = {
             "gives each pixel the values of its point.",
         ),
         (r"(all )?three (vertices|corners) are|all vertices are|all of its corners (is|are)", "it is"),
+        (r"\(distances", "(distance"),
         (r"vertices", "positions"),
         (r"vertex(?! \d+ of)", "position"),
         (r"which pixels a line has", "which pixel contains a point"),

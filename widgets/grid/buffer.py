@@ -88,6 +88,10 @@ class GridBuffer:
         """Return whether the pixel has a value yet."""
         return self.known is None or bool(self.known[row, column])
 
+    def is_cleared(self, column: int, row: int) -> bool:
+        """Return whether a pixel of a picture has no colour: its alpha is 0."""
+        return self.kind == "color" and self.channels == 4 and bool(self.values[row, column, 3] == 0)
+
     def lines_at(self, column: int, row: int, digits: int = 4, width: int | None = None) -> list[str]:
         """Return the value of a pixel as text, one line per channel; see :func:`number_text`."""
         if not self.is_known(column, row):

@@ -194,8 +194,8 @@ def paint_numbers(
             if (hidden is not None and hidden[row, column]) or not buffer.is_known(column, row):
                 continue
             color = image.pixelColor(column, placement.rows - 1 - row)
-            if buffer.kind == "color" and color.alpha() == 0:
-                continue  # cleared: four zeros in every cell would hide what is drawn over them
+            if buffer.is_cleared(column, row):
+                continue  # four zeros in every cell would hide what is drawn over them
             painter.setPen(dark if _is_light(color, backdrop) else light)
             rect = placement.cells_rect(column, row)
             lines = buffer.lines_at(column, row, 4, width)
@@ -263,7 +263,7 @@ def number_boxes(
     font, height, width, top = writing
     digit = QFontMetricsF(font).horizontalAdvance("0")
     for column, row in cells:
-        if buffer.is_known(column, row):
+        if buffer.is_known(column, row) and not buffer.is_cleared(column, row):
             lines = buffer.lines_at(column, row, 4, width)
             across = max(len(line) for line in lines) * digit
             middle = placement.cells_rect(column, row).center()

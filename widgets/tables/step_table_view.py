@@ -35,7 +35,7 @@ _FULL, _MADE, _HERE = _POSITION + 1, _POSITION + 2, _POSITION + 3
 _MARK_WIDTH, _MARK_ROOM = 4, 6
 """Pixels of the bar before a cell, and what is left free for it before every text."""
 _WIDE = 40
-"""Width, in heights of the text, from which what a step decides takes two lines."""
+"""Width, in heights of the text, from which what a step decides mostly takes one line."""
 NUMBER, PADDING = "0.0000", 8 + _MARK_ROOM
 """A number of usual length, and pixels around each."""
 
@@ -162,7 +162,7 @@ class StepTableView(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep room for what the longest steps decide, so that the table keeps its place."""
         super().resizeEvent(event)
-        lines = 2 if self.width() >= _WIDE * current_theme().text_px else 3
+        lines = 1 if self.width() >= _WIDE * current_theme().text_px else 3
         self._note.setMinimumHeight(lines * self._note.fontMetrics().lineSpacing())
 
     def show_table(self, table: StepTable | None) -> None:

@@ -409,3 +409,5 @@ def test_points_stay_in_sight_until_they_are_dropped(show):
         session.set_stage(stage, position)
         counts.append(sum(mark.shape == "disc" for mark in step_marks(session, space)))
     assert counts == [5, 4, 4]
+    session.set_stage("cull", 1)
+    assert [mark.shape for mark in step_marks(session, space) if mark.ink == "accent"][-1] == "ring"

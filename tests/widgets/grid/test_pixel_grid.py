@@ -418,6 +418,21 @@ def test_no_mark_of_a_step_strikes_out_what_is_written(qtbot) -> None:
         assert after.copy(box) == before.copy(box)
 
 
+def test_nothing_is_written_where_a_picture_is_cleared(qtbot) -> None:
+    widget = PixelGrid()
+    qtbot.addWidget(widget)
+    widget.resize(500, 500)
+    values = np.zeros((2, 2, 4), np.uint8)
+    values[0, 0] = 255
+    buffer = GridBuffer("display", values, "color")
+    widget.show_buffer(buffer)
+    taken = [
+        number_boxes(widget.placement(), buffer, current_theme(), {(column, 0)}).isEmpty()
+        for column in (0, 1)
+    ]
+    assert taken == [False, True]
+
+
 def test_a_first_whole_number_leaves_no_centre_in_other_cells(qtbot) -> None:
     known = np.zeros((6, 6), bool)
     values = np.full((6, 6), 0.0)
