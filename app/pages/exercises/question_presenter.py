@@ -100,9 +100,11 @@ class QuestionPresenter(QObject):
     # Asking.
 
     def open(self, template: Template, seed: int | None = None, *, at_once: bool = False) -> None:
-        """Ask a question of a template: of a seed, or the one that was begun, or else a new one."""
+        """Ask a question of a template: of a seed, afresh if it was checked; or the last one; or else a new one."""
+        kept = self._unfinished.answers.answers.get(template.name)
+        if seed is not None and kept is not None and kept.is_checked:
+            self._unfinished.keep(template, Unfinished(version=template.version, seed=seed))
         if seed is None:
-            kept = self._unfinished.answers.answers.get(template.name)
             is_kept = kept is not None and kept.version == template.version
             seed = kept.seed if kept is not None and is_kept else new_seed()
         if not at_once:

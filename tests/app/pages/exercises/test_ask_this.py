@@ -44,6 +44,12 @@ def test_a_step_is_asked_hidden_and_shown_after_the_check(window: MainWindow, qt
     page.settle()
     assert page.question_view.verdict.text().startswith("1 of 1 point")
     assert not session.is_predicting
+    window.run_action("page_step")
+    session.set_stage("raster", position)
+    window.run_action("ask_step")
+    page.settle()
+    assert session.is_predicting, "it is asked afresh"
+    assert not page.question_view.verdict.isVisible()
 
 
 def test_ending_prediction_gives_the_question_up(window: MainWindow) -> None:

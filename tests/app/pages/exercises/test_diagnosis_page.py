@@ -19,6 +19,8 @@ from lessons.small_scenes import triangle_scene
 from tests.app.pages.exercises.acting import LEFT
 from widgets.grid.overlay import MaskOverlay
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def small(window: MainWindow) -> MainWindow:
@@ -89,3 +91,4 @@ def test_what_is_no_such_picture_is_one_sentence(small: MainWindow, tmp_path: Pa
     said.clear()
     dropped(small, tmp_path / "small.png")
     assert said == [COVERED]
+    small.session.set_asked("", is_open=False)

@@ -4,6 +4,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+import pytest
 from pytestqt.qtbot import QtBot
 
 from app.pages.exercises.asked_scene import EDITED
@@ -15,6 +16,7 @@ from app.window.main_window import MainWindow
 from core.scene import ClipScene
 from lessons.scenes import built_in_scene
 
+pytestmark = pytest.mark.shared_window
 EXERCISE = """version = 1
 title = "Mine"
 stage = "raster"
@@ -31,9 +33,9 @@ def exercises(window: MainWindow) -> ExercisesPage:
     return page
 
 
-def ask_value(window: MainWindow) -> ExercisesPage:
+def ask_value(window: MainWindow, column: int) -> ExercisesPage:
     window.session.set_stage("raster", 4000)
-    window.session.set_pin((30, 20))
+    window.session.set_pin((column, 20))
     window.run_action("ask_value")
     return exercises(window)
 
@@ -50,7 +52,7 @@ def restarted(window: MainWindow, qtbot: QtBot, name: str) -> MainWindow:
 
 def test_the_next_start_hides_what_is_asked(window: MainWindow, qtbot: QtBot) -> None:
     """At once where its scene is open, else on its card, and as soon as it is opened."""
-    page = ask_value(window)
+    page = ask_value(window, 29)
     second = restarted(window, qtbot, "single-triangle")
     second.run_action("page_start")
     start = second.pages.current
@@ -78,7 +80,7 @@ def test_the_next_start_hides_what_is_asked(window: MainWindow, qtbot: QtBot) ->
 
 
 def test_a_scene_stays_hidden_while_it_is_edited(window: MainWindow, qtbot: QtBot) -> None:
-    page = ask_value(window)
+    page = ask_value(window, 30)
     document = window.session.document
     assert isinstance(document.scene, ClipScene)
     clip = document.scene.clip.copy()
@@ -101,7 +103,7 @@ def test_a_scene_stays_hidden_while_it_is_edited(window: MainWindow, qtbot: QtBo
 
 
 def test_another_scene_is_not_hidden(window: MainWindow, qtbot: QtBot) -> None:
-    page = ask_value(window)
+    page = ask_value(window, 31)
     window.open_path("single-triangle")
     qtbot.waitUntil(lambda: window.session.document.triangle_count == 1)
     assert not window.session.is_asked_about
