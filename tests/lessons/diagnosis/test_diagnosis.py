@@ -223,17 +223,10 @@ def test_a_line_is_known_by_the_rule_of_its_scene(name: str, planted: dict) -> N
     assert name in [each.name for each in found]
 
 
-def test_each_mistake_is_named_once_and_only_where_it_can_be_made() -> None:
-    scene = replace(make_scene("cube"), size=(24, 16))
-    pixels = to_display(render(scene).color).pixels[::-1, :, :3]
-    names = [each.name for each in diagnose(scene, Settings(), Drawn(colors=pixels)).found]
-    assert len(names) == len(set(names))
-    # A mistake of points is none of triangles.
-    found = flat(center=(0, 0)).found
-    assert "truncated-to-zero" not in [each.name for each in found]
-    small = ALL_SCENES["zwicker-4x3"].make()
-    drawn = render(small, Settings(pixel_center="integer"))
-    found = diagnose(small, DEFAULTS, Drawn(primitive=drawn.primitive)).found
+def test_a_mistake_of_points_is_none_of_triangles() -> None:
+    scene = ALL_SCENES["zwicker-4x3"].make()
+    drawn = render(scene, Settings(pixel_center="integer"))
+    found = diagnose(scene, DEFAULTS, Drawn(primitive=drawn.primitive)).found
     assert [each.name for each in found if each.is_mistake] == ["corner-for-center"]
 
 
@@ -272,7 +265,8 @@ def test_two_colours_show_what_is_covered() -> None:
 def test_a_picture_saved_from_the_wrong_end_is_known_whatever_the_scene() -> None:
     for scene in (scene_of(FLAT), replace(make_scene("cube"), size=(24, 16))):
         pixels = to_display(render(scene).color).pixels[::-1, :, :3]
-        assert "y-down" in [each.name for each in diagnose(scene, Settings(), Drawn(colors=pixels)).found]
+        names = [each.name for each in diagnose(scene, Settings(), Drawn(colors=pixels)).found]
+        assert names.count("y-down") == 1
 
 
 @pytest.mark.slow
