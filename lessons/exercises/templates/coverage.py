@@ -7,11 +7,10 @@ import numpy as np
 from core import Settings, render
 from core.scene import ClipScene
 from lessons.exercises.answers.choices import ChoiceAnswer
-from lessons.exercises.answers.pixels import PixelAnswer
-from lessons.exercises.drawn_scene import seen_pixels, window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
+from lessons.exercises.templates.drafting import pictured
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import triangle_scene
 
@@ -41,10 +40,7 @@ def _covered(
     if twice_area(corners) < 16:
         return None
     scene = triangle_scene(np.array([corners], float), SIZE)
-    right = seen_pixels(render(scene))
-    wrong = {name: seen_pixels(SHELF[name].draw(scene, Settings())) for name in names}
-    given = f"{window_text(SIZE)}\nTriangle A: {corner_text(corners)}"
-    return Draft(f"{text} {RULE}", given, PixelAnswer(SIZE, right), hints, wrong, scene)
+    return pictured(f"{text} {RULE}", f"Triangle A: {corner_text(corners)}", scene, names, hints)
 
 
 def draw_triangle(draws: Draws) -> Draft | None:

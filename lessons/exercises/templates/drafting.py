@@ -1,18 +1,21 @@
 """What most templates need: numbers by a formula, their mistakes, and numbers as text."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from core import Settings
-from core.scene import AnyScene
+from core import Settings, render
+from core.records.frame import Frame
+from core.scene import AnyScene, ClipScene
 from core.settings import DEFAULTS
 from lessons.exercises.answers.amounts import NumberAnswer, Numbers
 from lessons.exercises.answers.choices import ChoiceAnswer
+from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer, Pixels
 from lessons.exercises.answers.tables import Column, Follow, TableAnswer, number_rows
+from lessons.exercises.drawn_scene import seen_pixels, window_text
 from lessons.exercises.numbers import Number, number_text
 from lessons.exercises.question import Draft
-from lessons.mistakes.shelf import RULES
+from lessons.mistakes.shelf import RULES, SHELF
 
 TOLERANCE = 0.005
 WITHIN = "Fractions, or decimals within 0.005."
@@ -70,6 +73,27 @@ def by_rule(
     """Ask for the numbers that a formula gives; the mistakes are wrong formulas of the same arguments."""
     wrong = {name: RULES[name].wrong(*arguments) for name in mistakes}
     return numbers(text, given, RULES[mistakes[0]].right(*arguments), hints, wrong, names, shape)
+
+
+def pictured(
+    text: str,
+    given: str,
+    scene: ClipScene,
+    names: Sequence[str],
+    hints: tuple[str, ...],
+    settings: Settings = DEFAULTS,
+    read: Callable[[Frame], Pixels] = seen_pixels,
+) -> Draft | None:
+    """Ask for the pixels that are read from the picture of a scene; the mistakes draw it, too.
+
+    ``None`` where there are none, or where all must be marked.
+    """
+    try:
+        answer = PixelAnswer(scene.size, read(render(scene, settings)))
+    except NothingToMarkError:
+        return None
+    wrong = {name: read(SHELF[name].draw(scene, settings)) for name in names}
+    return Draft(text, f"{window_text(scene.size)}\n{given}", answer, hints, wrong, scene, settings)
 
 
 def several(

@@ -7,14 +7,11 @@ import numpy as np
 
 from core import Settings, render
 from core.records.frame import Frame
-from core.scene import ClipScene
-from core.settings import DEFAULTS
-from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer
-from lessons.exercises.drawn_scene import seen_pixels, window_text
+from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, twice_area
-from lessons.exercises.templates.drafting import numbers, place_text, table
+from lessons.exercises.templates.drafting import numbers, pictured, place_text, table
 from lessons.exercises.templates.edges import coefficients
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.shelf import RULES, SHELF
@@ -25,23 +22,6 @@ HALF = Fraction(1, 2)
 WINDOW = window_text(SIZE)
 SORTED_EDGES = ((0, 1), (1, 2), (0, 2))
 """Of vertices sorted by y: the two short edges, and the long one."""
-
-
-def marked(
-    text: str,
-    given: str,
-    scene: ClipScene,
-    names: tuple[str, ...],
-    hints: tuple[str, ...],
-    settings: Settings = DEFAULTS,
-) -> Draft | None:
-    """Ask for the pixels of a scene; ``None`` where there are none, or where it covers all."""
-    try:
-        answer = PixelAnswer(SIZE, seen_pixels(render(scene, settings)))
-    except NothingToMarkError:
-        return None
-    wrong = {name: seen_pixels(SHELF[name].draw(scene, settings)) for name in names}
-    return Draft(text, given, answer, hints, wrong, scene, settings)
 
 
 def is_decided(corners: list[Corner]) -> bool:
@@ -64,7 +44,7 @@ def of_triangle(
     if abs(twice_area(corners)) < 8 or not is_decided(corners):
         return None
     scene = triangle_scene(np.array([corners], float), SIZE)
-    return marked(f"{text} {RULE}", f"{WINDOW}\nTriangle: {corner_text(corners)}", scene, names, hints)
+    return pictured(f"{text} {RULE}", f"Triangle: {corner_text(corners)}", scene, names, hints)
 
 
 def tenths(draws: Draws, low: int, high: int) -> Fraction:
@@ -125,8 +105,7 @@ def draw_points(draws: Draws) -> Draft | None:
     scene = assembled("points", x, y, SIZE)
     text = "Which pixels do these points light? Pixel (i, j) reaches from i to i + 1 and from j to j + 1."
     hints = ("The column of a point is floor(x).", "What is floor(x) for x between -1 and 0?")
-    given = f"{WINDOW}\n" + ", ".join(map(place_text, places))
-    return marked(text, given, scene, ("truncated-to-zero",), hints)
+    return pictured(text, ", ".join(map(place_text, places)), scene, ("truncated-to-zero",), hints)
 
 
 def draw_ends(draws: Draws) -> Draft | None:

@@ -17,7 +17,7 @@ from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import RULE, Corner, corner_text, twice_area
-from lessons.exercises.templates.drafting import place_text
+from lessons.exercises.templates.drafting import pictured, place_text
 from lessons.exercises.templates.edges import coefficients
 from lessons.mistakes.coverage import in_window
 from lessons.mistakes.shelf import SHELF
@@ -87,14 +87,11 @@ def draw_culled(draws: Draws) -> Draft | None:
     if areas[0] * areas[1] >= 0 or min(map(abs, areas)) < 9:
         return None
     scene, settings = triangle_scene(np.array(triangles, float), SIZE), Settings(cull="back")
-    wrong = {
-        name: seen_pixels(SHELF[name].draw(scene, settings))
-        for name in ("facing-exchanged", "corner-for-center")
-    }
+    names = ("facing-exchanged", "corner-for-center")
     text = f"Back faces are culled: counter-clockwise is the front. Which pixels are drawn? {RULE}"
     hints = ("Go round each triangle in its order.", "Only one of the two is drawn.")
-    given = [f"Triangle {k}: {corner_text(corners)}" for k, corners in enumerate(triangles)]
-    return ask_pixels(text, given, seen_pixels(render(scene, settings)), wrong, hints, scene, settings)
+    given = "\n".join(f"Triangle {k}: {corner_text(corners)}" for k, corners in enumerate(triangles))
+    return pictured(text, given, scene, names, hints, settings)
 
 
 def draw_clipped(draws: Draws) -> Draft | None:
@@ -205,7 +202,6 @@ def draw_below_half(draws: Draws) -> Draft | None:
         return marked((frame.primitive >= 0) & (frame.attributes[..., 0] < 0.5))
 
     names = ("affine-for-perspective", "not-divided-back", "multiplied-by-w")
-    wrong = {name: below(SHELF[name].draw(scene, Settings())) for name in names}
     text = (
         "A rectangle carries u from 0 at its left side to 1 at its right side, in perspective. At which of its pixels "
         f"is u below 1/2? {RULE}"
@@ -220,7 +216,7 @@ def draw_below_half(draws: Draws) -> Draft | None:
         "u/w and 1/w are linear in the window.",
         "Solve (u/w) / (1/w) = 1/2 for x.",
     )
-    return ask_pixels(text, given, below(render(scene)), wrong, hints, scene, Settings())
+    return pictured(text, "\n".join(given), scene, names, hints, read=below)
 
 
 def draw_texels(draws: Draws) -> Draft | None:
@@ -239,7 +235,6 @@ def draw_texels(draws: Draws) -> Draft | None:
         return marked(frame.color[..., 0] < 0.5)
 
     names = ("texture-upside-down", "window-for-uv") if across > 1 else ("texture-upside-down",)
-    wrong = {name: dark(SHELF[name].draw(scene, settings)) for name in names}
     text = (
         "A rectangle over the whole window shows this texture by the nearest texel; beyond u = 1 it starts again. "
         "Which pixels show a dark texel? (u, v) = (0, 0) is the lower left corner of texture and window."
@@ -255,7 +250,7 @@ def draw_texels(draws: Draws) -> Draft | None:
         "How many pixels wide and high is a texel in the window?",
         "The lowest row of texels is in the lowest rows.",
     )
-    return ask_pixels(text, given, dark(render(scene, settings)), wrong, hints, scene, settings)
+    return pictured(text, "\n".join(given), scene, names, hints, settings, dark)
 
 
 def draw_nearer(draws: Draws) -> Draft | None:
@@ -297,11 +292,10 @@ def draw_overlap(draws: Draws) -> Draft | None:
         return marked(frame.cover_count == 2)
 
     names = ("all-edges-inclusive", "corner-for-center")
-    wrong = {name: twice(SHELF[name].draw(scene, settings)) for name in names}
     text = f"Two panes of glass are blended with over, whatever their depth. Which pixels show both? {RULE}"
-    given = [f"Pane {k}: {corner_text(corners)}" for k, corners in enumerate((first, second))]
+    given = "\n".join(f"Pane {k}: {corner_text(corners)}" for k, corners in enumerate((first, second)))
     hints = ("Find the pixels of each pane.", "Which belong to both?")
-    return ask_pixels(text, given, twice(render(scene, settings)), wrong, hints, scene, settings)
+    return pictured(text, given, scene, names, hints, settings, twice)
 
 
 def draw_mixed(draws: Draws) -> Draft | None:
@@ -313,14 +307,16 @@ def draw_mixed(draws: Draws) -> Draft | None:
     scene = triangle_scene(np.array([corners], float), SIZE, attributes=white)
     scene = replace(scene, background=np.array([0.0, 0.0, 0.0, 1.0]))
     settings = Settings(antialiasing="ssaa-4")
-    color = render(scene, settings).color[..., 0]
-    right = marked((color > 0.01) & (color < 0.99))
+
+    def grey(frame: Frame) -> Pixels:
+        return marked((frame.color[..., 0] > 0.01) & (frame.color[..., 0] < 0.99))
+
     text = (
         "A white triangle is drawn over black with 2 x 2 samples a pixel, at 1/4 and 3/4 of its width and height. "
         "Which pixels are neither black nor white? A sample on an edge belongs to left edges and to level bottom edges."
     )
     hints = ("Follow the edges.", "A pixel is grey if an edge runs between its samples.")
-    return ask_pixels(text, [f"Triangle: {corner_text(corners)}"], right, {}, hints, scene, settings)
+    return pictured(text, f"Triangle: {corner_text(corners)}", scene, (), hints, settings, grey)
 
 
 TEMPLATES = (

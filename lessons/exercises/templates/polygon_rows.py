@@ -10,8 +10,8 @@ from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import SIZE, corner_text
-from lessons.exercises.templates.drafting import by_rule, one_of, place_text, several
-from lessons.exercises.templates.filling import HALF, WINDOW, is_decided, marked, tenths
+from lessons.exercises.templates.drafting import by_rule, one_of, pictured, place_text, several
+from lessons.exercises.templates.filling import HALF, WINDOW, is_decided, tenths
 from lessons.mistakes.shelf import RULES
 from lessons.polygons import polygon_of_rings
 from lessons.small_scenes import triangle_scene
@@ -40,8 +40,8 @@ def draw_star(draws: Draws) -> Draft | None:
         "Go along a row from the left, and count what you cross.",
         "The rules differ in the middle, which the polygon runs around twice.",
     )
-    given = f"{WINDOW}\nPolygon: {', '.join(map(place_text, star))}"
-    return marked(text, given, scene, ("winding-ignored",), hints, settings)
+    given = f"Polygon: {', '.join(map(place_text, star))}"
+    return pictured(text, given, scene, ("winding-ignored",), hints, settings)
 
 
 def draw_crossings(draws: Draws) -> Draft | None:
