@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from core.methods import Method, ReplacedName, is_registered, table
 from core.records.cached import cached_property
-from core.settings import Settings, import_methods
+from core.settings import FAMILIES, Settings, import_methods
 
 if TYPE_CHECKING:
     from core.antialiasing.sampling import Sampling
@@ -38,6 +38,11 @@ class ResolvedSettings:
         """The same, all methods imported: before stages are timed, so that no stage's time contains it."""
         import_methods(self.settings)
         return self
+
+    @cached_property
+    def draws_any_scene(self) -> bool:
+        """Whether all methods are the defaults, which refuse no scene."""
+        return all(getattr(self.settings, family) == getattr(Settings, family) for family in FAMILIES)
 
     @cached_property
     def drops_facing(self) -> Callable[..., Any]:

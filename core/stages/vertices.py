@@ -84,7 +84,8 @@ def _process(
     chosen: Integers | None,
     raster: Raster | None,
 ) -> Geometry:
-    check_needs(scene, settings)
+    if not resolve(settings).draws_any_scene:
+        check_needs(scene, settings)
     with counts["transform"]:
         vertices = transform_vertices(scene)
         assembled = assemble(scene, vertices, settings, counts["transform"], chosen)
