@@ -22,6 +22,8 @@ def read_entry(given: object) -> Number:
     """Return one number of a file or form; NotCheckedError where it is none."""
     if isinstance(given, bool) or not isinstance(given, str | int):
         raise NotCheckedError(f"expected a number, got {type(given).__name__}")
+    if isinstance(given, str) and not given.strip():
+        raise NotCheckedError("a number is missing")
     try:
         return read_number(given if isinstance(given, str) else str(given))
     except ValueError as problem:

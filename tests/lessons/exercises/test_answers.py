@@ -171,6 +171,7 @@ def test_several_of_costs_for_wrong_ones() -> None:
         (PIXELS, {"a": 1}, "got dict"),
         (VECTOR, ["1"], "expected a list of 2 numbers, got 1"),
         (VECTOR, ["nan", "1"], "expected a number such as"),
+        (VECTOR, ["", "1"], "a number is missing"),
         (VECTOR, "", "empty"),
         (VECTOR, [True, 1], "got bool"),
         (SUMS, [["1", "2"]] * 4, "expected 4 rows of 1, got 2 in row 1"),
