@@ -76,8 +76,9 @@ class StageViews(QObject):
         self._refresh(name)
 
     def show_figures(self, is_shown: bool) -> None:
-        """Say what each picture of the 3D scene took, or leave it out."""
+        """Say below the 3D scene what it shows and in its corner what each picture took, or leave it out."""
         self._scene.corner().set_wanted(is_shown)
+        self._scene.show_caption(is_shown)
 
     def chosen_orbits(self) -> dict[str, Orbit]:
         """Return from where the views in space are seen that the user has turned, by their names."""

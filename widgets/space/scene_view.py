@@ -103,7 +103,7 @@ class SceneView(OrbitArea):
         self._image = QImage()
         self._reduced = QImage()
         """The picture at the size that it was last painted at, where that is smaller."""
-        self._caption = ""
+        self._caption, self._has_caption = "", True
         self._origin = (0.0, 0.0)
         self._fixed_size: tuple[int, int] | None = None
         self._has_new_pixels = False
@@ -129,9 +129,16 @@ class SceneView(OrbitArea):
 
     def set_caption(self, caption: str) -> None:
         """Keep room for a caption that all pictures will have, so that the picture's size does not change."""
-        if caption != self._caption:
+        self._caption_as(caption, self._has_caption)
+
+    def show_caption(self, is_shown: bool) -> None:
+        """Show the caption below the pictures, or leave its room to them."""
+        self._caption_as(self._caption, is_shown)
+
+    def _caption_as(self, caption: str, is_shown: bool) -> None:
+        if (caption, is_shown) != (self._caption, self._has_caption):
             before = self.picture_size()
-            self._caption = caption
+            self._caption, self._has_caption = caption, is_shown
             self.update()
             if self.picture_size() != before:
                 self.size_changed.emit()
@@ -167,7 +174,9 @@ class SceneView(OrbitArea):
         return self.picture_size()[0] / max(self._space_area().width(), 1.0)
 
     def _drawn_caption(self) -> str | None:
-        return None if self._picture is None else self._picture.caption
+        if self._picture is None:
+            return None
+        return self._picture.caption if self._has_caption else ""
 
     def _paint_drawing(self, painter: QPainter, theme: Theme) -> None:
         if self._picture is None:
@@ -213,7 +222,7 @@ class SceneView(OrbitArea):
         return picture_area(self._room(), self._fixed_size, self.devicePixelRatioF())
 
     def _kept_caption(self) -> str:
-        return self._caption
+        return self._caption if self._has_caption else ""
 
     def _image_for(self, room: QSizeF) -> QImage:
         """Return the picture for so many pixels of the screen: magnified pixels stay squares, others are averaged."""

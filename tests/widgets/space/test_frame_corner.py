@@ -3,6 +3,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 
 from widgets.space.frame_corner import FrameCorner, SizeChoice
+from widgets.space.scene_view import SceneView
 
 CHOICES = (SizeChoice("view", "Size of the view"), SizeChoice("64x48", "64 × 48"))
 
@@ -84,3 +85,15 @@ def test_a_click_opens_the_menu(corner, qtbot):
     qtbot.mouseClick(corner, Qt.MouseButton.LeftButton)
     assert corner.menu().isVisible()
     corner.menu().close()
+
+
+def test_a_caption_that_is_left_out_leaves_its_room_to_the_picture(qtbot) -> None:
+    view = SceneView()
+    qtbot.addWidget(view)
+    view.resize(400, 300)
+    view.set_caption("Two triangles in clip space.")
+    heights = []
+    for is_shown in (True, False, True):
+        view.show_caption(is_shown)
+        heights.append(view.picture_size()[1])
+    assert heights[0] == heights[2] < heights[1]
