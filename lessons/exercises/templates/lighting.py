@@ -6,7 +6,7 @@ from typing import Any
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.drafting import by_rule, numbers, one_of, place_text
+from lessons.exercises.templates.drafting import TOLERANCE, by_rule, numbers, one_of, place_text
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.shelf import RULES
 from lessons.mistakes.transforms import dot
@@ -80,7 +80,9 @@ def draw_highlight(draws: Draws) -> Draft | None:
     """Blinn and Phong."""
     normal, to_light, to_eye = (draws.item(VECTORS) for _ in range(3))
     shininess = draws.item((2, 4, 8))
-    if dot(normal, to_light) <= 0:
+    arguments = (normal, to_light, to_eye, shininess)
+    names = ("highlight-at-light", "highlight-at-eye", "shininess-inverted")
+    if dot(normal, to_light) <= 0 or RULES[names[0]].right(*arguments)[0] < 10 * TOLERANCE:
         return None
     text = (
         "What is the highlight max(0, N . H)^s of Blinn and Phong? H is halfway between L and V; all vectors are "
@@ -95,8 +97,7 @@ def draw_highlight(draws: Draws) -> Draft | None:
         "H = (L + V) / |L + V|.",
         "Raise the cosine to the power s.",
     )
-    names = ("highlight-at-light", "highlight-at-eye", "shininess-inverted")
-    return by_rule(text, given, (normal, to_light, to_eye, shininess), names, hints)
+    return by_rule(text, given, arguments, names, hints)
 
 
 def draw_normal(draws: Draws) -> Draft:
@@ -182,7 +183,7 @@ def draw_shading(draws: Draws) -> Draft:
 TEMPLATES = (
     Template("lambert", 2, "Diffuse light", "shade", 2, draw_lambert),
     Template("normal-between", 1, "An interpolated normal", "shade", 3, draw_between),
-    Template("highlight", 1, "The highlight", "shade", 3, draw_highlight),
+    Template("highlight", 2, "The highlight", "shade", 3, draw_highlight),
     Template("scaled-normal", 1, "A normal under scaling", "shade", 3, draw_normal),
     Template("camera-normal", 1, "The matrix of normals", "shade", 2, draw_camera_normal),
     Template("light-byte", 2, "A sum of lights as a byte", "shade", 1, draw_byte),
