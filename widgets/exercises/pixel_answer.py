@@ -14,6 +14,10 @@ from widgets.exercises.records import AnswerMarks, PixelForm, PixelMarks, Pixels
 
 HOW = "Click or drag on the picture. By keyboard: arrows go, Space marks, Shift and an arrow take the mark along."
 
+LEGEND = (
+    "Tick: right. Square: missing. Cross: extra. Two bars: double, another triangle or line has the pixel."
+)
+
 
 class PixelAnswerView(AnswerView):
     """How many are marked, and the rows as text on request."""
@@ -62,6 +66,7 @@ class PixelAnswerView(AnswerView):
         assert marks is None or isinstance(marks, PixelMarks)
         self._marks = marks
         self._grid.show_marks(marks)
+        self.how.setText(HOW if marks is None else LEGEND)
         self._show()
 
     def set_open(self, is_open: bool) -> None:

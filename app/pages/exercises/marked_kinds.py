@@ -47,14 +47,17 @@ class PixelKind(AnswerKind):
         return sorted(map(list, response))
 
     def marks(self, question: Question, response: Response, verdict: Verdict) -> PixelMarks:
-        """Return the marks; an extra pixel that another primitive covers is double."""
+        """Return the marks; where one primitive's pixels are asked, an extra one that another covers is double."""
         del response
-        marks, scene = verdict.marks, question.draft.scene
+        marks, draft, scene = verdict.marks, question.draft, question.draft.scene
         double: frozenset[tuple[int, int]] = frozenset()
-        size = getattr(question.draft.answer, "size", None)
-        if marks["extra"] and scene is not None and scene.size == size:
-            is_covered = render(scene, question.draft.settings).primitive >= 0
-            double = marks["extra"] & {(column, row) for row, column in np.argwhere(is_covered).tolist()}
+        asks_coverage = question.template.stage == "raster" and marks["extra"]
+        if asks_coverage and scene is not None and scene.size == self.size(draft):
+            primitive = render(scene, draft.settings).primitive
+            asked = {int(primitive[row, column]) for column, row in draft.answer.reference}
+            if len(asked) == 1:
+                is_other = (primitive >= 0) & (primitive != asked.pop())
+                double = marks["extra"] & {(column, row) for row, column in np.argwhere(is_other).tolist()}
         return PixelMarks(marks["right"], marks["missing"], marks["extra"] - double, double)
 
     def size(self, draft: Draft) -> tuple[int, int]:

@@ -13,6 +13,7 @@ from app.pages.exercises.answer_history import AnswerHistory
 from app.pages.exercises.answer_kind import Live
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.evidence import Evidence
+from app.pages.exercises.feedback import feedback_of
 from app.pages.exercises.work import Asked, Checked, Work, asking, asking_apart, checking, drawing, drawn
 from core.records.words import counted
 from lessons.attempts.practice import TRY_LIMIT
@@ -27,8 +28,6 @@ from widgets.exercises.records import Feedback, QuestionRecord
 VARIANTS = 10_000
 """Seeds that new variants are drawn from: short ones, to be read out."""
 SURE = "The model answer ends this question without points. Choose Model answer again to show it."
-SHOWN = "What is right was shown before, so this earns nothing."
-CORRECTED = "The first check of a question counts. A new variant earns points of its own."
 
 
 def new_seed() -> int:
@@ -216,7 +215,7 @@ class QuestionPresenter(QObject):
         if self._checked is not None:
             assert self._view.answer is not None
             self._view.answer.show_marks(None)
-            self._view.show_feedback(self._feedback(self._checked), is_stale=True)
+            self._view.show_feedback(self._feedback(), is_stale=True)
         self._draw_live()
         self._keep()
 
@@ -280,7 +279,7 @@ class QuestionPresenter(QObject):
         self._is_corrected = self._checked is not None
         self._checked, self._is_checked = checked, True
         self._view.answer.show_marks(checked.marks)
-        self._view.show_feedback(self._feedback(checked))
+        self._view.show_feedback(self._feedback())
         self._show_state()
         self._keep()
         if checked.trouble:
@@ -288,15 +287,12 @@ class QuestionPresenter(QObject):
         if checked.attempt is not None:
             self.checked.emit(checked.attempt)
 
-    def _feedback(self, checked: Checked) -> Feedback:
+    def _feedback(self) -> Feedback:
         assert self.question is not None
-        judgement, most = checked.judgement, self.question.template.points
-        heading = f"{judgement.points:.3g} of {counted(most, 'point')}"
-        is_right = judgement.verdict.score == 1
-        reveal = (self.question.draft.reveal,) if is_right and self.question.draft.reveal else ()
-        counted_before = (SHOWN,) if self._is_shown else (CORRECTED,) if self._is_corrected else ()
-        sentences = (*judgement.sentences, *reveal, *counted_before)
-        return Feedback(heading, judgement.verdict.counts, sentences, is_right)
+        assert self._checked is not None
+        return feedback_of(
+            self.question, self._checked, is_shown=self._is_shown, is_corrected=self._is_corrected
+        )
 
     # Help.
 

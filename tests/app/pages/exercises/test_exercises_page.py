@@ -4,20 +4,26 @@ from dataclasses import replace
 from itertools import count, cycle
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from app.cli.attempts import attempt_file
+from app.pages.exercises.answer_kinds import KINDS
+from app.pages.exercises.feedback import CORRECTED, feedback_of
 from app.pages.exercises.page import ExercisesPage
-from app.pages.exercises.question_presenter import CORRECTED
+from app.pages.exercises.work import Checked
 from app.window.main_window import MainWindow
+from core import render
 from lessons.exercises.catalogue import SUBJECTS, TEMPLATES
-from lessons.exercises.question import ask
+from lessons.exercises.exercise_file import read_exercise
+from lessons.exercises.question import Question, ask, judge
 from tests.app.pages.exercises.acting import LEFT, Page, check, paint
 from widgets.exercises.catalogue import Catalogue
-from widgets.exercises.records import ExerciseEntry, ExerciseGroup
+from widgets.exercises.pixel_answer import LEGEND, PixelAnswerView
+from widgets.exercises.records import ExerciseEntry, ExerciseGroup, PixelMarks
 from widgets.grid.overlay import Mark, MaskOverlay
 
 
@@ -36,6 +42,9 @@ def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
     marks = {each.mark: each.mask for each in shown.grid.overlays() if isinstance(each, MaskOverlay)}
     assert marks[Mark.MISSING].sum() == len(draft.answer.reference - wrong)
     assert marks[Mark.EXTRA].sum() == len(wrong - draft.answer.reference)
+    answer = shown.question_view.answer
+    assert isinstance(answer, PixelAnswerView)
+    assert answer.how.text() == LEGEND
     (attempt,) = attempt_file().attempts()
     assert attempt.mistakes == ("corner-for-center",)
     assert CORRECTED not in said
@@ -191,6 +200,36 @@ def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path
     shown.settle()
     assert shown.question.template.title == "Mine"
     assert shown.grid.isHidden()
+
+
+def test_only_a_pixel_that_another_triangle_covers_is_double(tmp_path: Path) -> None:
+    """Where coverage is asked; what is covered and has another colour or texel is extra."""
+    path = tmp_path / "mine.toml"
+    path.write_text(
+        'version = 1\ntitle = "Mine"\nstage = "raster"\nquestion = "Which?"\n'
+        "scene = {size = [8, 6], triangles = [[[0, 0], [8, 0], [8, 6]], [[0, 0], [8, 6], [0, 6]]]}\n"
+        'answer = {type = "pixels", triangle = 0}\n'
+    )
+
+    def checked(question: Question, more: set[tuple[int, int]]) -> Checked:
+        response = question.draft.answer.reference | more
+        judgement = judge(question, response)
+        marks = KINDS["pixels"].marks(question, response, judgement.verdict)
+        return Checked(response, judgement, marks, None, "")
+
+    question = ask(read_exercise(path), 0)
+    found = checked(question, {(0, 5), (1, 4)})
+    assert found.marks == PixelMarks(question.draft.answer.reference, double=frozenset({(0, 5), (1, 4)}))
+    said = feedback_of(question, found, is_shown=False, is_corrected=False)
+    assert said.counts.endswith("2 extra, 2 of these double")
+    question = ask(TEMPLATES["below-half"], 7)
+    assert question.draft.scene is not None
+    primitive = render(question.draft.scene, question.draft.settings).primitive
+    covered = {(column, row) for row, column in np.argwhere(primitive >= 0).tolist()}
+    marks = checked(question, covered).marks
+    assert isinstance(marks, PixelMarks)
+    assert marks.extra
+    assert not marks.double
 
 
 def test_a_long_title_of_the_catalogue_is_read_whole(qtbot: QtBot) -> None:
