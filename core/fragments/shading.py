@@ -37,8 +37,8 @@ __all__ = [
     "face_normals",
     "flat",
     "gouraud",
-    "is_seen_from_behind",
     "light_surface",
+    "outward_normals",
     "phong",
     "reflectance",
     "shade",
@@ -72,7 +72,7 @@ def phong(
     corners : (T, 3) int64 array
         The vertices of every triangle.
     behind : (T,) bool array
-        Triangles that are lit as if their normals were turned round, see `is_seen_from_behind`.
+        Triangles that are lit as if their normals were turned round: seen from the side that these point away from.
     light : callable
         The lighting rule with the scene's eye, lights and materials filled in.
 
@@ -125,7 +125,7 @@ def flat(
     The three corners of a face get the same light: interpolate it as GLSL's flat, a weighted mean rounds. The
     material is that of the first corner.
     """
-    outward = _outward_normals(position, normal, corners)
+    outward = outward_normals(position, normal, corners)
     light_of_face = light(centroids(position, corners), _turned(outward, behind), corners[:, 0])
     diffuse_light, specular_light = (np.repeat(sums[:, None], 3, axis=1) for sums in light_of_face)
     return {"diffuse_light": diffuse_light, "specular_light": specular_light}
@@ -186,28 +186,7 @@ def centroids(position: Floats, corners: Integers) -> Floats:
     return centre
 
 
-def is_seen_from_behind(position: Floats, normal: Floats, corners: Integers, eye: Floats) -> Flags:
-    """Return (T,) bool: the eye is on the side of the triangle that its vertex normals point away from.
-
-    Parameters
-    ----------
-    position, normal, corners
-        As in `phong`.
-    eye : (3,) or (T, 3) float64 array
-        Where a triangle is seen from, in world space.
-
-    Notes
-    -----
-    A two-sided surface must choose its side per triangle. Choosing by the normal of a vertex or fragment
-    turns normals near the outline, where they face away although the triangle does not, and draws a dark
-    rim. A triangle without area or normals is seen from the front.
-    """
-    outward = planes(_outward_normals(position, normal, corners))
-    behind: Flags = dot(outward, planes(eye - centroids(position, corners))) < 0
-    return behind
-
-
-def _outward_normals(position: Floats, normal: Floats, corners: Integers) -> Floats:
+def outward_normals(position: Floats, normal: Floats, corners: Integers) -> Floats:
     """Return the face normals (T, 3) on the side of the vertex normals, whatever the order of the corners."""
     face = face_normals(position, corners)
     mean = normal[corners[:, 0]] + normal[corners[:, 1]] + normal[corners[:, 2]]

@@ -9,8 +9,8 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.fragments.lighting import Reflectance, dot, light_surface, planes, reflectance
-from core.fragments.shading import centroids, face_normals
+from core.fragments.lighting import Reflectance, dot, light_surface, reflectance
+from core.fragments.shading import centroids, outward_normals
 from core.geometry.matrices import camera_axes
 from core.geometry.vertex_stage import VertexStage, place_meshes
 from core.methods import table
@@ -147,7 +147,12 @@ def _side_by_side(parts: dict[str, Floats]) -> tuple[Floats, dict[str, slice]]:
 
 
 def _is_seen_from_behind(scene: Scene, triangle: Integers) -> Flags:
-    """Return (P,) bool: the eye is on the side that the vertex normals point away from, see ``shading``."""
+    """Return (P,) bool: the eye is on the side that the vertex normals point away from.
+
+    A two-sided surface must choose its side per triangle. Choosing by the normal of a vertex or fragment turns normals
+    near the outline, where they face away although the triangle does not, and draws a dark rim. A triangle without
+    area or normals is seen from the front.
+    """
     outward, centroid = _facets(scene.meshes)
     behind = np.empty(len(triangle), bool)
     for start in range(0, len(triangle), BLOCK):
@@ -163,10 +168,7 @@ def _facets(meshes: tuple[Mesh, ...]) -> tuple[Floats, Floats]:
     """Return face normals on the side of the vertex normals, and centroids, as rows (3, T); for any camera."""
     world = place_meshes(meshes)
     position = world.world[:, :3]
-    outward = face_normals(position, world.corners).T
-    first, second, third = world.corner_rows
-    mean = world.normals[first] + world.normals[second] + world.normals[third]
-    outward = np.where(dot(planes(outward.T), planes(mean)) < 0, -outward, outward)
+    outward = outward_normals(position, world.normals, world.corners).T
     centroid = centroids(position, world.corners).T
     return read_only(np.ascontiguousarray(outward)), read_only(np.ascontiguousarray(centroid))
 

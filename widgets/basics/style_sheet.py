@@ -158,7 +158,6 @@ def style_sheet(theme: Theme) -> str:
         u=unit,
         uu=2 * unit,
         uu_focus=2 * unit - 1,
-        uuu=3 * unit,
         uuuuuu=6 * unit,
         control=theme.text_px + 3,
         indicator=theme.text_px + 1,

@@ -6,7 +6,6 @@ from hypothesis import strategies as st
 from core.fragments.shading import (
     blinn_phong,
     face_normals,
-    is_seen_from_behind,
     light_surface,
     reflectance,
     shade,
@@ -16,6 +15,7 @@ from core.fragments.shading import (
 from core.methods import table
 from core.records.listing import listing
 from core.scene import DirectionalLight, Material, PointLight
+from tests.core.fragments.seen_sides import is_seen_from_behind
 
 DOWN = DirectionalLight([0, 0, -1], [1.0, 0.5, 0.25])
 LAMP = PointLight([3, 0, 4], [0.5, 1.0, 2.0])

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Settings
-from core.fragments.shading import centroids, is_seen_from_behind, light_surface
+from core.fragments.shading import centroids, light_surface
 from core.geometry.culling import plane_distances
 from core.geometry.matrices import rotation
 from core.geometry.vertex_stage import place_meshes, transform_vertices
@@ -16,6 +16,7 @@ from core.raster.edges.snapping import place_corners
 from core.records.frame import StageCount
 from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
+from tests.core.fragments.seen_sides import is_seen_from_behind
 
 NUMBERS = st.one_of(
     st.sampled_from([0.0, -0.0, 1.0, -1.0, 0.5, 1e-300, -1e-30, 1e30, 1e60, -1e60]), st.floats(-4, 4)
