@@ -57,7 +57,7 @@ def test_columns_follow_the_width(page) -> None:
     assert page._columns == 1
 
 
-def test_the_table_is_made_when_the_page_is_opened(qtbot) -> None:
+def test_the_table_is_there_only_while_the_page_is_open(qtbot) -> None:
     page = KeyHelp()
     qtbot.addWidget(page)
     page.show_keys(KEYS)
@@ -68,6 +68,7 @@ def test_the_table_is_made_when_the_page_is_opened(qtbot) -> None:
     assert "Go to a pixel" in shown_texts(page)
     assert "Space" not in shown_texts(page)
     page.hide()
+    assert page._scroll.widget() is None
     page.show_keys(KEYS[:2])
     page.search.clear()
     page.show()
