@@ -113,6 +113,7 @@ def test_atlases_are_kept_for_every_experiment(page: StabilityPage, qtbot: QtBot
     assert page.maps.canvas.record is not None
 
 
+@pytest.mark.own_window
 def test_hover_reads_the_cell_and_leaving_reads_the_experiment(page: StabilityPage, qtbot: QtBot) -> None:
     ran(page, qtbot)
     place = page.maps.canvas.cell_area(CellPlace(EXCLUSIVE, 0, 0)).center()
@@ -146,6 +147,7 @@ def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbo
     assert not canvas.hasFocus(), "before the first map Shift+Tab leaves the maps"
 
 
+@pytest.mark.own_window
 def test_a_click_shows_the_case_and_another_opens_it_in_the_stepper(
     window: MainWindow, page: StabilityPage, qtbot: QtBot
 ) -> None:

@@ -45,6 +45,7 @@ def test_every_view_shows_a_polygon(window: MainWindow) -> None:
     assert window.page.grids.geometry.rings == (0, 7, 11)
 
 
+@pytest.mark.own_window
 def test_a_table_below_leaves_the_picture_most_of_the_height(window: MainWindow) -> None:
     open_scene(window, "polygon-holes")
     window.session.set_stage("raster", 300)

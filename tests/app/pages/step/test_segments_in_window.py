@@ -31,6 +31,7 @@ def open_scene(window: MainWindow, name: str) -> ClipScene:
 
 
 @pytest.mark.parametrize(("name", "handles"), [("segment", 2), ("points", 1)])
+@pytest.mark.own_window
 def test_every_end_has_a_handle_that_moves_it(window: MainWindow, name: str, handles: int) -> None:
     scene, grid = open_scene(window, name), window.page.grid
     window.session.go_to(0)
