@@ -34,6 +34,8 @@ class AskedScene(QObject):
         self._session, self._questions, self._unfinished = session, questions, unfinished
         self._is_hidden = self._is_edited = False
         """Whether it is hidden for the question's sake, and whether an edit has made another scene of it since."""
+        self._asked = unfinished.answers.asked_scene
+        """Digest of the scene for which something was hidden last."""
         session.document_changed.connect(self._look)
         session.predicting_changed.connect(self._follow_predicting)
         session.cursor_changed.connect(self._follow_steps)
@@ -46,7 +48,8 @@ class AskedScene(QObject):
         asked, document = self._questions.asked_scene, self._session.document
         if not asked:
             return False
-        hidden = self._unfinished.answers.hidden
+        # What an earlier question has hidden is not for this one to hide.
+        hidden = self._unfinished.answers.hidden if asked == self._asked else None
         return hidden == (document.title, document.path) or scene_digest(document.scene) == asked
 
     @Slot()
@@ -61,6 +64,7 @@ class AskedScene(QObject):
         self._is_edited = is_open and scene_digest(document.scene) != self._questions.asked_scene
         if self._is_edited and not was_edited:
             self.message_sent.emit(EDITED)
+        self._asked = self._questions.asked_scene
         self._unfinished.keep_hidden((document.title, document.path) if is_open else None)
         if is_open and self._here() > self._start():
             number, position = self._start()

@@ -104,19 +104,19 @@ class ExercisesPage(Page):
             self.diagnosis.refused,
         ):
             source.connect(self.edit_refused)
+        trouble = self.unfinished.read()
         self.hiding = AskedScene(session, self.questions, self.unfinished, self)
         self.hiding.hiding_toggled.connect(self._toggle_hiding)
         self.hiding.message_sent.connect(self.message_sent)
-        self._begin()
+        self._begin(trouble)
 
     @Slot()
     def _toggle_hiding(self) -> None:
         """Let the Step page ask before it shows what is asked here, or show it again."""
         self.action_requested.emit("predict")
 
-    def _begin(self) -> None:
-        """Show the exercise that was open last, or else the first."""
-        trouble = self.unfinished.read()
+    def _begin(self, trouble: str) -> None:
+        """Show the exercise that was open last, or else the first, and what is wrong with the answers kept."""
         if trouble:
             self.edit_refused.emit(trouble)
         self.exercises.user = self.questions.user = self.unfinished.answers.user

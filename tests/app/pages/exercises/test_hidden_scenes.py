@@ -14,6 +14,7 @@ from app.session.document import open_document
 from app.window.kept_question import KeptQuestion
 from app.window.main_window import MainWindow
 from core.scene import ClipScene
+from lessons.exercises.catalogue import TEMPLATES
 from lessons.scenes import built_in_scene
 
 pytestmark = pytest.mark.shared_window
@@ -108,6 +109,15 @@ def test_another_scene_is_not_hidden(window: MainWindow, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: window.session.document.triangle_count == 1)
     assert not window.session.is_asked_about
     assert page.questions.is_asked
+
+
+def test_another_question_hides_its_own_scene(window: MainWindow) -> None:
+    page = ask_value(window, 32)
+    page.questions.open(TEMPLATES["triangle-coverage"], 7)
+    page.settle()
+    assert page.questions.is_asked
+    assert not window.session.is_asked_about
+    assert not window.session.is_predicting
 
 
 def test_a_teachers_exercise_is_found_again(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
