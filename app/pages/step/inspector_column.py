@@ -93,17 +93,23 @@ class InspectorColumn(QScrollArea):
         step, details = round((SENTENCE_LINES + FORMULA_LINES) * line), DETAIL_LINES * (line + 6)
         self._parts.activate()  # What has just come or gone above has moved the pane.
         above = self._step_pane.y() + step
-        room = self.viewport().height() - above - 2 * self.rows.handleWidth() - details
+        seen = self.viewport().height() - above - 2 * self.rows.handleWidth()
         rows, lines = (
             self.listing.height_of(self._listing_lines, is_wrapped) for is_wrapped in (False, True)
         )
+        code = max(rows, min(lines, seen - details))
+        if code > seen:
+            # In large type or a low window: it scrolls to the line of the step, which else would be out of sight.
+            code = max(self.listing.height_of(PRESENTED_LINES, False), seen)
         for widget, height in (
             (self._step_pane, step),
-            (self.listing, max(rows, min(lines, room))),
+            (self.listing, code),
             (self.detail_tabs, details),
         ):
             if widget.minimumHeight() != height:
                 widget.setMinimumHeight(height)
+        if self.listing.height() > max(code, seen):
+            self.rows.setSizes([code, max(self.rows.height() - code - self.rows.handleWidth(), details)])
 
     @Slot()
     def _show_history(self) -> None:

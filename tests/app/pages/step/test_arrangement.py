@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
+from app.pages.step.inspector_column import InspectorColumn
 from app.window.main_window import MainWindow
 from app.window.preferences import Preferences
 from core.stages.declared import STAGES
@@ -97,6 +98,18 @@ def test_no_step_of_a_stage_moves_the_grid(window: MainWindow) -> None:
             window.session.go_to(position)
             places.add(str(place_of_pixel(window)))
         assert len(places) == 1, stage
+
+
+@pytest.mark.own_window
+def test_the_line_of_the_step_is_in_sight_in_a_low_window(window: MainWindow) -> None:
+    window.resize(1280, 540)
+    QApplication.processEvents()
+    window.session.set_stage("raster", 4)
+    QApplication.processEvents()
+    listing, column = window.page.listing, window.page.findChild(InspectorColumn)
+    line = next(box for number, box in listing.visible_lines() if number == listing.line)
+    bottom = listing.viewport().mapTo(column, line.bottomLeft().toPoint()).y()
+    assert 0 < bottom <= column.viewport().height()
 
 
 def test_panes_are_folded_at_first_and_come_by_keys(window: MainWindow) -> None:
