@@ -8,7 +8,7 @@ from app.views.pointed_pixel import pointed_pixels, shown_triangle
 from app.views.pyramid_diagram import pyramid_diagram
 from app.views.texture_footprint import texture_pictures
 from core import STAGES
-from core.trace.geometry_progress import CLIP, spaces_reached
+from core.trace.geometry_progress import CLIP, WINDOW, spaces_reached
 from widgets.space.texture_levels import TextureLevels
 from widgets.space.view import SpaceView
 
@@ -49,14 +49,14 @@ class StageView:
 NOT_YET = "The vertices come to clip space here, at the end of Transform."
 
 
-def is_in_clip_space(session: Session) -> bool:
-    """Return whether the triangle shown has come to clip space: before that the views of it would show what comes."""
+def is_there(session: Session, space: int = CLIP) -> bool:
+    """Return whether the triangle shown has come to a space: before that the views of it would show what comes."""
     cursor, trace = session.cursor, session.trace
     if cursor.stage != STAGES[0]:
         return True
     assembled = trace.source.geometry.assembled.triangle
     reached = spaces_reached(trace, cursor.stage, cursor.position)
-    return bool((reached[assembled == shown_triangle(session)] >= CLIP).all())
+    return bool((reached[assembled == shown_triangle(session)] >= space).all())
 
 
 class ClipView(StageView):
@@ -73,12 +73,16 @@ class ClipView(StageView):
 
     def made_from(self) -> object:
         """Return trace, triangle and how much is clipped."""
-        is_there = is_in_clip_space(self.session)
-        return (self.session.trace, shown_triangle(self.session), self._position(), is_there)
+        return (
+            self.session.trace,
+            shown_triangle(self.session),
+            self._position(),
+            is_there(self.session),
+        )
 
     def draw(self) -> None:
         """Draw the triangle and what clipping leaves of it."""
-        if not is_in_clip_space(self.session):
+        if not is_there(self.session):
             self._space.show_diagram(None)
             return
         state = clip_state(self.session.trace, shown_triangle(self.session), self._position())
@@ -106,18 +110,22 @@ class PyramidView(StageView):
 
     def made_from(self) -> object:
         """Return trace, triangle and the first pixel that is pointed at."""
-        pixels, is_there = pointed_pixels(self.session)[:1], is_in_clip_space(self.session)
-        return (self.session.trace, shown_triangle(self.session), pixels, is_there)
+        pixels = pointed_pixels(self.session)[:1]
+        return (self.session.trace, shown_triangle(self.session), pixels, self._is_there())
 
     def draw(self) -> None:
         """Draw the triangle, and the ray of the pixel."""
-        if not is_in_clip_space(self.session):
+        if not self._is_there():
             self._space.show_diagram(None)
             return
         pixels = pointed_pixels(self.session)
         pixel = pixels[0] if pixels else None
         triangle = shown_triangle(self.session)
         self._space.show_diagram(pyramid_diagram(self.session.trace.source, triangle, pixel))
+
+    def _is_there(self) -> bool:
+        """Return whether it may be drawn: it has the grid of the window, in which predicting asks for the places."""
+        return is_there(self.session, WINDOW if self.session.is_predicting else CLIP)
 
 
 class TextureView(StageView):

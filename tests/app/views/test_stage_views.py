@@ -11,6 +11,7 @@ from app.session.document import focus_on, open_document
 from app.session.session import Session
 from app.views.pointed_pixel import shown_triangle
 from app.views.scene_picture import fractions
+from app.views.stage_view import PyramidView
 from app.views.stage_views import StageViews
 from app.views.step_marks import step_marks
 from app.views.texture_footprint import no_texture_reason
@@ -411,3 +412,20 @@ def test_points_stay_in_sight_until_they_are_dropped(show):
     assert counts == [5, 4, 4]
     session.set_stage("cull", 1)
     assert [mark.shape for mark in step_marks(session, space) if mark.ink == "accent"][-1] == "ring"
+
+
+def test_the_places_in_the_window_are_hidden_while_they_are_predicted(qapp):
+    """The pyramid has the grid of the window: before the last step of Transform it would tell them."""
+    session = Session(open_document(make_scene("single-triangle"), ""))
+    view = PyramidView(session)
+    shown = []
+    for is_predicting, position in (
+        (False, 0),
+        (True, 0),
+        (True, session.trace.stage("transform").steps.count),
+    ):
+        session.set_stage("transform", position)
+        session.set_predicting(is_predicting)
+        view.refresh()
+        shown.append(view.widget.diagram() is not None)
+    assert shown == [True, False, True]
