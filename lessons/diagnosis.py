@@ -134,11 +134,13 @@ def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report |
     Notes
     -----
     Colours that are a byte apart are equal, and any colour may stand for the background. A picture in two colours that
-    fits as no picture in colours is taken for covered pixels.
+    fits as no picture in colours is taken for covered pixels. One in a single colour shows nothing, also where ink has
+    the colour of the background, unless every pixel is to be covered.
     """
     check_size(drawn.size, scene.size)
     seen = _compared(_with_corners(scene, settings, drawn), settings, drawn, report)
-    if seen.is_right or seen.found:
+    is_seen = not _is_blank(drawn) or bool((render(scene, settings).primitive >= 0).all())
+    if (seen.is_right and is_seen) or seen.found:
         return seen
     others = [diagnose(scene, settings, each, report) for each in _as_coverage(drawn)]
     return min(others, key=lambda one: int(one.differing.sum())) if others else seen
@@ -234,12 +236,17 @@ def _with_background(drawn: Drawn, right: Frame, settings: Settings) -> Drawn:
     return replace(drawn, colors=np.where(is_background[..., None], ours, drawn.colors))
 
 
+def _is_blank(drawn: Drawn) -> bool:
+    """Return whether a picture is in a single colour."""
+    return drawn.colors is not None and bool((drawn.colors == drawn.colors[0, 0]).all())
+
+
 def _as_coverage(drawn: Drawn) -> list[Drawn]:
-    """Return what a picture in two colours may cover: the pixels of the one, or those of the other."""
+    """Return what a picture in two colours may cover: the pixels of the one, or those of the other; in one, nothing."""
     if drawn.colors is None:
         return []
     first = (drawn.colors == drawn.colors[0, 0]).all(axis=2)
     others = drawn.colors[~first]
-    if not len(others) or (others != others[0]).any():
-        return []
-    return [Drawn(covered=~first), Drawn(covered=first)]
+    if not len(others):
+        return [Drawn(covered=~first)]
+    return [] if (others != others[0]).any() else [Drawn(covered=~first), Drawn(covered=first)]

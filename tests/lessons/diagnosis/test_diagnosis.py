@@ -262,6 +262,18 @@ def test_two_colours_show_what_is_covered() -> None:
     assert "fill_rule=inclusive" in [each.name for each in found if not each.is_mistake]
 
 
+def test_a_picture_with_nothing_in_it_is_not_right_where_something_is_drawn() -> None:
+    """A scene without colours is drawn in black: an all-black picture would equal it."""
+    scene = replace(triangle_scene([[(1.5, 1.5), (9.5, 1.5), (4, 6)]], (12, 8)), attributes=None)
+    primitive = render(scene, DEFAULTS).primitive
+    for ink in (0, 255):
+        nothing = diagnose(scene, DEFAULTS, Drawn(colors=np.full((8, 12, 3), ink, np.uint8)))
+        assert not nothing.is_right
+        assert (nothing.from_right == (primitive >= 0)).all()
+    full = triangle_scene([[(-30, -30), (40, -30), (4, 60)]], (12, 8))
+    assert diagnose(full, DEFAULTS, Drawn(colors=np.zeros((8, 12, 3), np.uint8))).is_right
+
+
 def test_a_picture_saved_from_the_wrong_end_is_known_whatever_the_scene() -> None:
     for scene in (scene_of(FLAT), replace(make_scene("cube"), size=(24, 16))):
         pixels = to_display(render(scene).color).pixels[::-1, :, :3]
