@@ -26,7 +26,7 @@ from app.views.scene_picture import (
     triangle_seen,
 )
 from app.views.scene_worker import SceneWorker
-from app.views.step_marks import is_scene_lit, step_marks
+from app.views.step_marks import is_scene_asked, is_scene_lit, step_marks
 from app.views.view_space import LARGEST_WITH_CAMERA, ViewSpace, make_space, move_corner_to, with_triangles
 from core.explain.kinds import of_kind
 from core.fast_path.workers import BandWorkers
@@ -37,6 +37,9 @@ from core.trace.geometry_progress import is_dropped
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.space.orbit import Orbit, fitted
 from widgets.space.scene_view import SceneHandle, SceneMark, ScenePicture, SceneView
+
+DRAWING = "Drawing…"
+ASKED = "Hidden while an exercise asks about this scene."
 
 
 class Scene3dPresenter(QObject):
@@ -61,7 +64,7 @@ class Scene3dPresenter(QObject):
         self._space: ViewSpace | None = None
         self._document: Document | None = None
         self._drawn: DrawnScene | None = None
-        self._drawn_state = (False, b"")
+        self._drawn_state = (False, False, b"")
         self._home = Orbit()
         self._size_name = OWN_SIZE
         self._is_picture_due = False
@@ -106,12 +109,11 @@ class Scene3dPresenter(QObject):
         self._enter_picked()
         self._draw()
 
-    def _state(self) -> tuple[bool, bytes]:
-        """Return what of the run the picture depends on: whether it is shaded, and which triangles are dropped."""
+    def _state(self) -> tuple[bool, bool, bytes]:
+        """Return what of the run the picture depends on: if it is hidden, if shaded, which triangles are dropped."""
         cursor = self._session.cursor
-        return is_scene_lit(self._session), is_dropped(
-            self._session.trace, cursor.stage, cursor.position
-        ).tobytes()
+        dropped = is_dropped(self._session.trace, cursor.stage, cursor.position)
+        return is_scene_asked(self._session), is_scene_lit(self._session), dropped.tobytes()
 
     def look_at_focus(self) -> None:
         """Magnify the triangle in focus, from the present direction."""
@@ -186,18 +188,29 @@ class Scene3dPresenter(QObject):
 
     def _begin_anew(self) -> None:
         """Forget the pictures of another scene, and look at the whole of this one."""
+        self._show_nothing(DRAWING)
+        self._offer_sizes()
+        self._go_home()
+
+    def _show_nothing(self, why: str) -> None:
+        """Forget the pictures, and say why none is seen."""
+        self._settled.stop()
+        self._is_picture_due = False
         self._worker.forget()
         self._picker.forget()
         self._drawn = None
         self._report.begin_anew()
-        self._view.empty_text = "Drawing…"
+        self._view.empty_text = why
         self._view.show_picture(None)
-        self._offer_sizes()
-        self._go_home()
 
     def _draw(self) -> None:
         """Have a picture drawn of what is to be seen, once the view is in sight and everything is laid out."""
+        was_hidden = self._drawn_state[0]
         self._drawn_state = self._state()
+        if self._drawn_state[0] or was_hidden:
+            self._show_nothing(ASKED if self._drawn_state[0] else DRAWING)
+        if self._drawn_state[0]:
+            return
         self._is_picture_due = True
         if self._view.isVisible():
             self._settled.start(0)
@@ -220,7 +233,7 @@ class Scene3dPresenter(QObject):
             self.focus,
             thickness,
             current_theme(),
-            self._drawn_state[0],
+            self._drawn_state[1],
         )
         self._worker.start(partial(draw_thinned, shot, self._thinning, self._band_workers, self._backs))
 

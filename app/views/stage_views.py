@@ -52,6 +52,7 @@ class StageViews(QObject):
         session.pin_changed.connect(self._refresh_visible)
         session.hover_changed.connect(self._refresh_visible)
         session.predicting_changed.connect(self._refresh_visible)
+        session.asked_changed.connect(self._refresh_visible)
 
     @property
     def widgets(self) -> list[tuple[str, str, QWidget]]:

@@ -52,6 +52,11 @@ def is_scene_lit(session: Session) -> bool:
     return session.cursor.position == session.stage_trace.steps.count
 
 
+def is_scene_asked(session: Session) -> bool:
+    """Return whether an exercise asks for what the lights, the nearest surfaces or the blending make of the scene."""
+    return session.is_asked_about and STAGES.index(session.cursor.stage) >= STAGES.index("shade")
+
+
 def _point_marks(session: Session, space: ViewSpace) -> list[SpaceMark]:
     """Return a disc on every point that has not been dropped: the picture has a single pixel of it."""
     assembled, cursor = session.trace.source.geometry.assembled.triangle, session.cursor

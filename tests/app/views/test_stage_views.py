@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QApplication
 from app.session.document import focus_on, open_document
 from app.session.session import Session
 from app.views.pointed_pixel import shown_triangle
+from app.views.scene3d_presenter import ASKED, DRAWING
 from app.views.scene_picture import fractions
 from app.views.stage_view import PyramidView
 from app.views.stage_views import StageViews
@@ -429,3 +430,25 @@ def test_the_places_in_the_window_are_hidden_while_they_are_predicted(qapp):
         view.refresh()
         shown.append(view.widget.diagram() is not None)
     assert shown == [True, False, True]
+
+
+def test_the_picture_is_hidden_from_shading_on_while_its_scene_is_asked_about(show, qtbot):
+    """Seen from outside it tells colours, and from the camera what is nearest; before that it tells the question."""
+    session, views, widget = show("scene", "intersecting")
+    assert widget.picture() is not None
+    session.set_stage("depth", 0)
+    session.set_asked("digest", is_open=True)
+    assert widget.picture() is None
+    assert widget.accessibleDescription() == widget.empty_text == ASKED
+    widget.set_orbit(replace(widget.orbit(), azimuth=1.0))
+    widget.view_changed.emit(widget.orbit())
+    assert not views.is_drawing
+    session.set_stage("interpolate", 0)
+    rested(qtbot, views)
+    assert widget.picture() is not None
+    session.set_stage("shade", 0)
+    assert widget.picture() is None
+    session.set_asked("", is_open=False)
+    assert widget.empty_text == DRAWING
+    rested(qtbot, views)
+    assert widget.picture() is not None
