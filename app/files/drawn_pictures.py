@@ -4,6 +4,7 @@ import csv
 import io
 import warnings
 import zipfile
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,8 @@ from lessons.diagnosis import PIXEL_LIMIT, Drawn, check_size
 
 FILE_LIMIT = 1 << 26
 """Most bytes of a file, and of an array in it."""
+PNG = b"\x89PNG\r\n\x1a\n"
+"""First bytes of a PNG file; its columns and rows are bytes 16 to 24."""
 ENDINGS = (".png", ".npz", ".csv")
 Size = tuple[int, int]
 
@@ -54,10 +57,12 @@ def _png(content: bytes, size: Size) -> Drawn:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
         try:
+            # The size first, from the header: Pillow opens no picture that is too large to be decoded.
+            if content.startswith(PNG):
+                check_size((int.from_bytes(content[16:20]), int.from_bytes(content[20:24])), size)
             image = Image.open(io.BytesIO(content), formats=("PNG",))
-        except (UnidentifiedImageError, Image.DecompressionBombError):
+        except UnidentifiedImageError:
             raise ValueError("expected a PNG picture") from None
-        check_size(image.size, size)
         channels = 4 if image.has_transparency_data else 3
         try:
             colors = display_bytes(image, channels)[::-1]
@@ -70,23 +75,19 @@ def _png(content: bytes, size: Size) -> Drawn:
 
 
 def _npz(content: bytes, size: Size) -> Drawn:
-    columns, rows = size
     try:
         with zipfile.ZipFile(io.BytesIO(content)) as archive:
             names = {name.removesuffix(".npy") for name in archive.namelist()}
             known = [name for name in ("color", "primitive", "pixels") if name in names]
             if not known:
                 raise ValueError("expected an array color, primitive or pixels")
-            array = _array(archive, known[0])
-    except (zipfile.BadZipFile, EOFError, NotImplementedError, RuntimeError) as problem:
+            array = _array(archive, known[0], size)
+    except (zipfile.BadZipFile, zlib.error, EOFError, NotImplementedError, RuntimeError) as problem:
         raise ValueError(f"expected a whole npz file: {problem}") from None
     if known[0] == "pixels":
         if array.ndim != 2 or array.shape[1] != 2 or array.dtype.kind not in "iu":
             raise ValueError(f"expected pixels (N, 2) whole numbers, got {array.shape} {array.dtype}")
         return _covered(array.astype(np.int64), size)
-    if array.ndim < 2:
-        raise ValueError(f"expected an array of {rows} x {columns} pixels, got {array.shape}")
-    check_size((array.shape[1], array.shape[0]), size)
     if known[0] == "primitive":
         if array.ndim != 2 or array.dtype.kind not in "iu":
             raise ValueError(f"expected whole numbers (H, W) as primitive, got {array.shape} {array.dtype}")
@@ -104,19 +105,22 @@ def _npz(content: bytes, size: Size) -> Drawn:
     return Drawn(colors=to_display(array.astype(np.float32)).pixels[..., :3])
 
 
-def _array(archive: zipfile.ZipFile, name: str) -> NDArray[np.generic]:
-    """Return an array of an npz file, once its header says that it is small enough."""
-    with archive.open(f"{name}.npy") as file:
-        header = io.BytesIO(file.read(FILE_LIMIT + 1))
-    version = np.lib.format.read_magic(header)
+def _array(archive: zipfile.ZipFile, name: str, size: Size) -> NDArray[np.generic]:
+    """Return an array of an npz file, once its header says that it is small enough, and a picture of this size."""
     readers = {(1, 0): np.lib.format.read_array_header_1_0, (2, 0): np.lib.format.read_array_header_2_0}
-    if version not in readers:
-        raise ValueError(f"expected an array of numbers as {name}")
-    shape, _, dtype = readers[version](header)
-    if dtype.hasobject or np.prod(shape, dtype=float) * dtype.itemsize > FILE_LIMIT:
-        raise ValueError(f"expected up to {FILE_LIMIT >> 20} MiB of numbers as {name}, got {shape} {dtype}")
-    header.seek(0)
-    array: NDArray[np.generic] = np.lib.format.read_array(header, allow_pickle=False)
+    with archive.open(f"{name}.npy") as file:
+        version = np.lib.format.read_magic(file)
+        if version not in readers:
+            raise ValueError(f"expected an array of numbers as {name}")
+        shape, _, dtype = readers[version](file)
+        if name != "pixels":
+            if len(shape) < 2:
+                raise ValueError(f"expected an array of {size[1]} x {size[0]} pixels, got {shape}")
+            check_size((shape[1], shape[0]), size)
+        if dtype.hasobject or np.prod(shape, dtype=float) * dtype.itemsize > FILE_LIMIT:
+            raise ValueError(f"expected up to {FILE_LIMIT >> 20} MiB of numbers as {name}, got {shape} {dtype}")
+        file.seek(0)
+        array: NDArray[np.generic] = np.lib.format.read_array(file, allow_pickle=False)
     return array
 
 
@@ -125,9 +129,12 @@ def _csv(content: bytes, size: Size) -> Drawn:
         text = content.decode("utf-8-sig")
     except UnicodeDecodeError:
         raise ValueError("expected text in UTF-8") from None
-    if text.count("\n") > PIXEL_LIMIT:
+    if max(text.count("\n"), text.count("\r")) > PIXEL_LIMIT:
         raise ValueError(f"expected up to {PIXEL_LIMIT} pixels, got more lines")
-    lines = [row for row in csv.reader(io.StringIO(text)) if row]
+    try:
+        lines = [row for row in csv.reader(text.splitlines()) if row]
+    except csv.Error as problem:
+        raise ValueError(f"expected lines of numbers: {problem}") from None
     begin = 1 if lines and not lines[0][0].strip().lstrip("-").isdecimal() else 0
     widths = {len(row) for row in lines[begin:]}
     if len(widths) != 1 or not widths <= {2, 3, 5}:

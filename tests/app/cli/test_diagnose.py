@@ -2,6 +2,7 @@
 
 import io
 import zipfile
+import zlib
 from pathlib import Path
 
 import numpy as np
@@ -105,7 +106,23 @@ def png_of(columns: int, rows: int) -> bytes:
     return file.getvalue()
 
 
-HUGE = b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999,9), }".ljust(117) + b"\n"
+def png_head(columns: int, rows: int) -> bytes:
+    """Return the beginning of a PNG file, of as many bits as there are pixels."""
+    size = columns.to_bytes(4) + rows.to_bytes(4)
+    head = b"IHDR" + size + b"\x01\0\0\0\0"
+    return b"\x89PNG\r\n\x1a\n" + b"\0\0\0\x0d" + head + zlib.crc32(head).to_bytes(4) + b"\0\0\0\x09IDAT"
+
+
+def garbled() -> bytes:
+    """Return an npz file whose compressed bytes are no such bytes."""
+    file = io.BytesIO()
+    np.savez_compressed(file, color=np.zeros((48, 64, 3)))
+    content = bytearray(file.getvalue())
+    content[80:120] = b"\xff" * 40
+    return bytes(content)
+
+
+HUGE = b"{'descr': '<f8', 'fortran_order': False, 'shape': (48, 64, 99999999999), }".ljust(117) + b"\n"
 
 
 @pytest.mark.parametrize(
@@ -117,7 +134,10 @@ HUGE = b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999,9), }".l
         ("a.png", png_of(64, 48)[:-40], "expected a whole PNG picture"),
         ("a.png", png_of(48, 64), "expected a picture of 64 x 48 pixels, got 48 x 64"),
         ("a.png", png_of(1000, 1000), "expected a picture of 64 x 48 pixels, got 1000 x 1000"),
+        ("a.png", png_head(20_000, 20_000), "expected a picture of 64 x 48 pixels, got 20000 x 20000"),
         ("a.npz", npz(color=np.zeros((48, 64, 3)))[:200], "expected a whole npz file"),
+        ("a.npz", garbled(), "expected a whole npz file"),
+        ("a.npz", npz(color=np.zeros((1000, 1000, 3), bool)), "got 1000 x 1000"),
         ("a.npz", npz(depth=np.zeros((48, 64))), "expected an array color, primitive or pixels"),
         ("a.npz", npz(color=np.zeros((64, 48, 3))), "expected a picture of 64 x 48 pixels, got 48 x 64"),
         ("a.npz", npz(color=np.zeros((48, 64))), "expected color"),
@@ -126,7 +146,8 @@ HUGE = b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999,9), }".l
             npz(color=np.full((48, 64, 3), np.nan)),
             "expected finite numbers as color, got NaN or infinity",
         ),
-        ("a.npz", npz(color=np.array([{}])), "expected up to 64 MiB of numbers as color"),
+        ("a.npz", npz(color=np.full((48, 64), {})), "expected up to 64 MiB of numbers as color"),
+        ("a.npz", npz(color=np.zeros(3)), "expected an array of 48 x 64 pixels, got (3,)"),
         ("a.npz", npz(primitive=np.zeros((48, 64))), "expected whole numbers"),
         ("a.npz", npz(pixels=np.array([[64, 0]])), "expected pixels inside of 64 x 48, got (64, 0)"),
         ("a.npz", zipped(b"\x93NUMPY\x01\x00\x76\x00" + HUGE), "expected up to 64 MiB of numbers as color"),
@@ -140,6 +161,7 @@ HUGE = b"{'descr': '<f8', 'fortran_order': False, 'shape': (99999999999,9), }".l
         ("a.csv", b"1,2\n-1,2\n", "expected pixels inside of 64 x 48, got (-1, 2)"),
         ("a.csv", b"1,2,0,0,256\n", "expected red, green and blue from 0 to 255"),
         ("a.csv", b"1,2\n\xff,3\n", "expected text in UTF-8"),
+        ("a.csv", b"1," + b"2" * 200_000, "expected lines of numbers: field larger than field limit"),
         ("a.csv", b"1,2\n" * 300_000, "expected up to 262144 pixels"),
     ],
 )
