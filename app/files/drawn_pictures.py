@@ -118,7 +118,9 @@ def _array(archive: zipfile.ZipFile, name: str, size: Size) -> NDArray[np.generi
                 raise ValueError(f"expected an array of {size[1]} x {size[0]} pixels, got {shape}")
             check_size((shape[1], shape[0]), size)
         if dtype.hasobject or np.prod(shape, dtype=float) * dtype.itemsize > FILE_LIMIT:
-            raise ValueError(f"expected up to {FILE_LIMIT >> 20} MiB of numbers as {name}, got {shape} {dtype}")
+            raise ValueError(
+                f"expected up to {FILE_LIMIT >> 20} MiB of numbers as {name}, got {shape} {dtype}"
+            )
         file.seek(0)
         array: NDArray[np.generic] = np.lib.format.read_array(file, allow_pickle=False)
     return array

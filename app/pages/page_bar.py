@@ -67,6 +67,8 @@ class Page(QWidget):
     """Information for the user; nothing is wrong."""
     edit_refused = Signal(str)
     """Why what was asked for came to nothing."""
+    went_well = Signal()
+    """A file was opened or saved: what was refused before is of no interest any more."""
     step_requested = Signal(object)
     """A `StepRequest`: the user wants to step something that this page shows."""
 

@@ -201,6 +201,8 @@ class ResultPage(WorkPage):
             self.results.take_saved(self._load(Path(path)), Path(path).name)
         except ValueError as error:
             self.edit_refused.emit(f"{error}. The page is unchanged.")
+        else:
+            self.went_well.emit()
 
     # Files.
 
@@ -234,6 +236,7 @@ class ResultPage(WorkPage):
         except (OSError, ValueError) as error:
             self.edit_refused.emit(f"The {noun} was not {done}: {error}")
         else:
+            self.went_well.emit()
             self.message_sent.emit(f"{done.capitalize()} {Path(path).name}.")
 
     def _is_finished(self) -> bool:

@@ -183,6 +183,7 @@ class MainWindow(QMainWindow):
         """Listen to a page that has just been made, and give its panes the sizes that they had."""
         page.message_sent.connect(self.notices.tell)
         page.edit_refused.connect(self.notices.warn)
+        page.went_well.connect(self.notices.settle)
         page.step_requested.connect(self.opening.open_request)
         page.question_requested.connect(self._ask_question)
         page.action_requested.connect(self.run_action)

@@ -22,6 +22,8 @@ class Notices(QObject):
     def __init__(self, hints: QStatusBar, messages: MessageBar, parent: QObject) -> None:
         super().__init__(parent)
         self._hints, self._messages = hints, messages
+        self._warned: tuple[QObject | None, Message | None] = None, None
+        """Who sent the last message that stays, and the message."""
 
     @Slot(str)
     def tell(self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "") -> None:
@@ -31,7 +33,18 @@ class Notices(QObject):
             self._hints.showMessage(text, HINT_MILLISECONDS)
             announce(self._hints, text)
         else:
-            self._messages.show_message(Message(kind, text, details))
+            self._stay(Message(kind, text, details))
+
+    def _stay(self, message: Message) -> None:
+        self._warned = self.sender(), message
+        self._messages.show_message(message)
+
+    @Slot()
+    def settle(self) -> None:
+        """Take away what the sender has said before, if it is still shown: what was refused then has gone well now."""
+        sender, message = self._warned
+        if sender is self.sender():
+            self._messages.take_back(message)
 
     @Slot(str)
     def warn(self, text: str) -> None:
@@ -41,8 +54,10 @@ class Notices(QObject):
     @Slot(object)
     def show_message(self, message: Message) -> None:
         """Show a message that is made already, in the bar of messages where it offers something."""
+        if message.kind is MessageKind.INFORMATION:
+            self.settle()
         if message.action:
-            self._messages.show_message(replace(message, text=sentence_case(message.text)))
+            self._stay(replace(message, text=sentence_case(message.text)))
         else:
             self.tell(message.text, message.kind, message.details)
 

@@ -150,6 +150,11 @@ class MessageBar(QWidget):
         self._show_only()
         self.hide()
 
+    def take_back(self, message: Message | None) -> None:
+        """Take away this message if it is the one that is shown."""
+        if message is not None and self._message is message:
+            self.clear()
+
     @Slot()
     def dismiss(self) -> None:
         """Take away the message that is shown."""

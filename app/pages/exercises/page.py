@@ -104,6 +104,8 @@ class ExercisesPage(Page):
             self.diagnosis.refused,
         ):
             source.connect(self.edit_refused)
+        for success in (self.exercises.question_chosen, self.progress.message_sent, self.diagnosis.shown):
+            success.connect(self.went_well)
         trouble = self.unfinished.read()
         self.hiding = AskedScene(session, self.questions, self.unfinished, self)
         self.hiding.hiding_toggled.connect(self._toggle_hiding)

@@ -92,3 +92,17 @@ def test_what_is_no_such_picture_is_one_sentence(small: MainWindow, tmp_path: Pa
     dropped(small, tmp_path / "small.png")
     assert said == [COVERED]
     small.session.set_asked("", is_open=False)
+
+
+def test_what_goes_well_takes_an_earlier_warning_of_its_page_away(small: MainWindow, tmp_path: Path) -> None:
+    Image.new("RGB", (3, 2)).save(tmp_path / "small.png")
+    Image.new("RGB", (16, 12)).save(tmp_path / "black.png")
+    for name, is_warned in (("small.png", True), ("black.png", False)):
+        dropped(small, tmp_path / name)
+        assert small.messages.isHidden() is not is_warned, name
+    small.files.save_to(str(tmp_path / "none" / "a.json"))
+    assert not small.messages.isHidden()
+    dropped(small, tmp_path / "black.png")
+    assert not small.messages.isHidden(), "the scene is still not saved"
+    small.files.save_to(str(tmp_path / "a.json"))
+    assert small.messages.isHidden()
