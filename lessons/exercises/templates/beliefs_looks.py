@@ -46,6 +46,7 @@ def draw_inclusive(draws: Draws) -> Draft | None:
     hints = (
         "How many triangles draw a centre on the common edge?",
         "What does blending do with the second one?",
+        f"Begin with black, and blend red with alpha {number_text(alpha)} once for each triangle that draws it.",
     )
     right, belief = "a line of another shade: blended twice", "nothing special"
     return believed(draws, text, right, [belief], ["a black line: drawn by neither"], refutation, hints)
@@ -62,7 +63,11 @@ def draw_multisampling(draws: Draws) -> Draft | None:
         Settings(antialiasing="msaa-4"),
     )
     text = f"Multisampling with 4 samples, of which a triangle covers {count}. How often is it shaded, what is stored?"
-    hints = ("What makes multisampling cheaper than supersampling?", "When are samples averaged?")
+    hints = (
+        "What makes multisampling cheaper than supersampling?",
+        "When are samples averaged?",
+        "Which of the two happens once a pixel here: shading, or storing?",
+    )
     right = f"once; the full colour in {count} samples"
     beliefs = [f"{count} times, a colour in each sample", f"once; {count}/4 of the colour in the pixel"]
     return believed(draws, text, right, beliefs, ["4 times; the mean in the pixel"], refutation, hints)
@@ -90,6 +95,7 @@ def draw_bilinear(draws: Draws) -> Draft | None:
     hints = (
         "Where do texels have their centres?",
         "The weights are the fraction of u w - 1/2, and the rest.",
+        f"u w = {texel} + 1/2 here: subtract 1/2, and take the fraction.",
     )
     others = ["3/4 and 1/4"]
     return believed(draws, text, "1 and 0", ["1/2 and 1/2"], others, refutation, hints)
@@ -115,7 +121,11 @@ def draw_half_byte(draws: Draws) -> Draft | None:
         f"A pixel is the mean of black and white in linear light, {number_text(light)} of it white. Which sRGB byte is "
         "stored, from 0 to 255?"
     )
-    hints = ("Is a byte proportional to light?", "The curve of sRGB lifts dark values.")
+    hints = (
+        "Is a byte proportional to light?",
+        "The curve of sRGB lifts dark values.",
+        f"The byte is 255 times the curve at {number_text(light)}, not 255 times {number_text(light)}.",
+    )
     return believed(draws, text, right, [belief], [(right + belief) // 2, 255 - right], refutation, hints)
 
 
@@ -139,6 +149,7 @@ def draw_alphas(draws: Draws) -> Draft | None:
     hints = (
         "How much does the first layer leave?",
         "The second layer leaves a part of that, not of the whole.",
+        f"(1 - {number_text(first)}) (1 - {number_text(second)}).",
     )
     return believed(draws, text, right, [belief], [1 - right], refutation, hints)
 
@@ -167,7 +178,11 @@ def draw_ring(draws: Draws) -> Draft | None:
         f"Three triangles in a window of {size} x {size} pixels overlap in a ring: A hides part of B, B part of C, "
         "and C part of A. Which does the painter draw first?"
     )
-    hints = ("Try each of the three as the first.", "What could be done with one of them?")
+    hints = (
+        "Try each of the three as the first.",
+        "What could be done with one of them?",
+        "Painted first, A cannot hide B: ask the same of B and of C.",
+    )
     right, belief = "none is right: one must be split", "the one whose mean distance is largest"
     return believed(
         draws, text, right, [belief], ["the largest one", "any: a ring has no first"], refutation, hints

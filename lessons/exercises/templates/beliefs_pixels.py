@@ -31,6 +31,7 @@ def draw_square(draws: Draws) -> Draft | None:
     hints = (
         "What does the coverage test look at?",
         "Area counts only where it is measured, as by many samples.",
+        f"The centre is ({column} + 1/2, 4 + 1/2): is it inside?",
     )
     beliefs = ["yes: much of its square is covered"]
     others = [f"with {share} percent of the colour"]
@@ -51,6 +52,7 @@ def draw_sample_point(draws: Draws) -> Draft | None:
     hints = (
         "Which point of a pixel is tested?",
         "A pixel is 1 wide: where does it begin, where is its middle?",
+        f"It reaches from {column} to {column} + 1 in x, and from {row} to {row} + 1 in y.",
     )
     names = [
         f"({x}, {y})"
@@ -73,7 +75,11 @@ def draw_rounding(draws: Draws) -> Draft | None:
         f"The corners of a square with side {side} are rounded to whole pixels, alike in both of its triangles. "
         "Does each centre in it belong to exactly one of them?"
     )
-    hints = ("Where does the diagonal run?", "What does rounding decide about a centre on an edge?")
+    hints = (
+        "Where does the diagonal run?",
+        "What does rounding decide about a centre on an edge?",
+        f"The diagonal runs through {side} centres, and rounding leaves E = 0 there.",
+    )
     right, belief = "only with a tie rule as well", "yes: equal corners leave no cracks"
     return believed(draws, text, right, [belief], ["no: rounding opens cracks"], refutation, hints)
 
@@ -90,7 +96,11 @@ def draw_tie(draws: Draws) -> Draft | None:
         Settings(line="bresenham-lecture"),
     )
     text = f"A line from pixel {ends[0]} to {ends[1]} meets a place with D = 0. Which of the two pixels is right there?"
-    hints = ("What does D = 0 say about the distances to both centres?", "Who can choose between equals?")
+    hints = (
+        "What does D = 0 say about the distances to both centres?",
+        "Who can choose between equals?",
+        "The listing decides by > or by >=: does the line itself decide?",
+    )
     right, belief = "either: the stated rule decides", "the upper one"
     return believed(draws, text, right, [belief], ["the lower one", "both are drawn"], refutation, hints)
 
@@ -107,7 +117,11 @@ def draw_two_steps(draws: Draws) -> Draft | None:
         Settings(line="bresenham-lecture"),
     )
     text = f"Bresenham's line from pixel (0, 0) to ({dx}, {dy}): may y step up at two moves in a row?"
-    hints = ("How many steps up are there, in how many moves?", "Follow D over the first three moves.")
+    hints = (
+        "How many steps up are there, in how many moves?",
+        "Follow D over the first three moves.",
+        f"D begins with 2 * {dy} - {dx}, grows by 2 * {dy}, and falls by 2 * {dx} after a step up.",
+    )
     right, belief = "yes", "no: after a step up the row stays for one move"
     return believed(draws, text, right, [belief], ["only after a tie"], refutation, hints)
 
@@ -127,7 +141,11 @@ def draw_both_ends(draws: Draws) -> Draft | None:
         f"Bresenham's line steps where D >= 0, from the first end to the second. Are its pixels from {ends[0]} to "
         f"{ends[1]} those from {ends[1]} to {ends[0]}?"
     )
-    hints = ("Where could the two strokes disagree?", "Is there a column in which D is 0?")
+    hints = (
+        "Where could the two strokes disagree?",
+        "Is there a column in which D is 0?",
+        f"At D = 0 both ways step: one towards {ends[1]}, the other towards {ends[0]}.",
+    )
     right, belief = "all but one", "all: the line is the same"
     return believed(draws, text, right, [belief], ["none but the ends"], refutation, hints)
 
@@ -145,7 +163,11 @@ def draw_block(draws: Draws) -> Draft | None:
         Settings(fill="blocks"),
     )
     text = f"E = {a} x + {b} y + c, inside where E >= 0. At which corner does E < 0 show that a whole block is outside?"
-    hints = ("At which corner is E largest?", "The signs of a and b say in which direction E grows.")
+    hints = (
+        "At which corner is E largest?",
+        "The signs of a and b say in which direction E grows.",
+        f"a = {a} is the change to the right, b = {b} the change upwards.",
+    )
     others = [corner for corner in sides if corner != right][:2]
     return believed(draws, text, right, ["any corner"], others, refutation, hints)
 

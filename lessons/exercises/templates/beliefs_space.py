@@ -37,6 +37,7 @@ def draw_w(draws: Draws) -> Draft | None:
     hints = (
         "Look at the last row of the perspective matrix.",
         "It copies one coordinate of the eye point to w.",
+        f"w = 0 * {x} + 0 * {y} + (-1) * (-{d}) + 0 * 1.",
     )
     return believed(draws, text, d, [1], [-d, 0], refutation, hints)
 
@@ -51,7 +52,11 @@ def draw_divide(draws: Draws) -> Draft | None:
         'kind == "camera-to-clip" and after_x > 1 and after_x < after_w',
     )
     text = f"{CAMERA}. The point ({d - 1}, 0, -{d}) is visible. Where does its x lie after the perspective matrix?"
-    hints = ("Can a matrix divide one coordinate by another?", "Multiply it out, and compare x with w.")
+    hints = (
+        "Can a matrix divide one coordinate by another?",
+        "Multiply it out, and compare x with w.",
+        f"90 degrees wide: x stays {d - 1}, and w is the distance {d}.",
+    )
     return believed(
         draws, text, "in [-w, w]", ["in [-1, 1]"], ["in [0, W], in pixels", "anywhere"], refutation, hints
     )
@@ -67,7 +72,11 @@ def draw_late_clip(draws: Draws) -> Draft | None:
         'kind == "camera-to-clip" and vertex == 0 and after_w < 0',
     )
     text = f"{CAMERA}. The point ({a}, {b}, {c}) has x/w = -{a}/{c} and y/w = -{b}/{c}. Is it visible?"
-    hints = ("On which side of the eye does the point lie?", "Two minus signs can cancel.")
+    hints = (
+        "On which side of the eye does the point lie?",
+        "Two minus signs can cancel.",
+        f"The camera looks along -z: is z = {c} in front of it?",
+    )
     right, belief = "no: it lies behind the eye", "yes: both lie in [-1, 1]"
     return believed(draws, text, right, [belief], ["no: both are negative"], refutation, hints)
 
@@ -85,6 +94,7 @@ def draw_viewport(draws: Draws) -> Draft | None:
     hints = (
         "Write D as a matrix and multiply it with (x, y, z, w).",
         "What does the translation become?",
+        f"D makes W/2 * {d} of the translation W/2: what is left of it after the divide by {d}?",
     )
     right, belief = "yes", "no: the points would shrink to (0, 0)"
     return believed(draws, text, right, [belief], ["only where w is 1"], refutation, hints)
@@ -101,7 +111,11 @@ def draw_linear_depth(draws: Draws) -> Draft | None:
         f'kind == "viewport" and vertex == 0 and after_z > {float(belief)}',
     )
     text = f"n = 1, f = {f}, window depth from 0 to 1: what is it at distance {d}?"
-    hints = ("Depth is divided by w, too.", "What is it at n, and what at f? In between it is linear in 1/d.")
+    hints = (
+        "Depth is divided by w, too.",
+        "What is it at n, and what at f? In between it is linear in 1/d.",
+        f"Window depth is f (d - n) / ((f - n) d), with n = 1, f = {f} and d = {d}.",
+    )
     return believed(draws, text, right, [belief], [1 - right, Fraction(d, f)], refutation, hints)
 
 
@@ -126,7 +140,11 @@ def draw_corrected_depth(draws: Draws) -> Draft | None:
         f"{MIDDLE} and z > 0.49 and z < 0.51",
     )
     text = f"An edge runs from window depth 0 (w = 1) to 1 (w = {w}). What is the depth at the pixel in its middle?"
-    hints = ("Which values are linear in the window?", "Is window depth made before the divide, or after it?")
+    hints = (
+        "Which values are linear in the window?",
+        "Is window depth made before the divide, or after it?",
+        "In the middle both ends count one half, if the value is linear in the window: (0 + 1)/2.",
+    )
     return believed(
         draws,
         text,
@@ -153,6 +171,7 @@ def draw_middle(draws: Draws) -> Draft | None:
     hints = (
         "The far half of the edge looks shorter.",
         "1/w is linear in the window: weigh the ends with it.",
+        f"With u = 0 at the near end and u = 1 at the far end: (1/{w}) / (1/1 + 1/{w}).",
     )
     return believed(draws, text, right, [Fraction(1, 2)], [1 - right, Fraction(1, w + 2)], refutation, hints)
 
@@ -171,7 +190,11 @@ def draw_behind(draws: Draws) -> Draft | None:
     text = (
         f"z' = (f + n - 2 f n / d) / (f - n) with n = 1, f = {f}. Is z' at d = -{d} smaller than at d = {d}?"
     )
-    hints = ("Put both in.", "What sign has 2 f n / d behind the eye?")
+    hints = (
+        "Put both in.",
+        "What sign has 2 f n / d behind the eye?",
+        f"Compare 2 * {f} / (-{d}) with 2 * {f} / {d}, each taken away from the same number.",
+    )
     right, belief = "no: it is larger", "yes: the order holds on both sides of the eye"
     return believed(draws, text, right, [belief], ["both are equal"], refutation, hints)
 
@@ -186,7 +209,11 @@ def draw_parallel(draws: Draws) -> Draft | None:
         f'kind == "camera-to-clip" and vertex == 2 and after_w == {d}',
     )
     text = f"{CAMERA}. Two parallel edges lie in the plane z = -{d}. Do they meet in the picture?"
-    hints = ("What is w along each of them?", "Edges meet where they run away from the eye.")
+    hints = (
+        "What is w along each of them?",
+        "Edges meet where they run away from the eye.",
+        f"w = {d} at every point of both edges: what does the divide do to both?",
+    )
     right, belief = "no", "yes: parallel lines converge"
     return believed(draws, text, right, [belief], ["only at the horizon"], refutation, hints)
 
@@ -204,7 +231,11 @@ def draw_far_plane(draws: Draws) -> Draft | None:
         f"n = {number_text(n)}, f = 100. What costs more precision of far depths: n made 10 times smaller, or f made "
         "10 times larger?"
     )
-    hints = ("Window depth is f (d - n) / ((f - n) d).", "What becomes of it as f grows without limit?")
+    hints = (
+        "Window depth is f (d - n) / ((f - n) d).",
+        "What becomes of it as f grows without limit?",
+        "For large f depth is nearly (d - n) / d: which of the two numbers is left?",
+    )
     return believed(
         draws, text, "n made smaller", ["f made larger"], ["both alike", "neither"], refutation, hints
     )
@@ -221,7 +252,11 @@ def draw_larger_z(draws: Draws) -> Draft | None:
         'kind == "world-to-camera" and vertex == 0 and after_z < 0',
     )
     text = f"In camera space, after C^-1, which of z = -{a} and z = -{b} is nearer?"
-    hints = ("Which way does the camera look?", "The rule that smaller is nearer is that of one space alone.")
+    hints = (
+        "Which way does the camera look?",
+        "The rule that smaller is nearer is that of one space alone.",
+        f"How far in front of the camera does z = -{a} lie, and how far z = -{b}?",
+    )
     return believed(
         draws,
         text,
@@ -247,7 +282,11 @@ def draw_factors(draws: Draws) -> Draft | None:
     text = (
         f"p' = T R p with columns; R turns by 90 degrees, T moves by ({a}, 0), p = (1, 0). Which acts first?"
     )
-    hints = ("Put brackets where you would begin to multiply.", "T (R p): what is multiplied with p?")
+    hints = (
+        "Put brackets where you would begin to multiply.",
+        "T (R p): what is multiplied with p?",
+        f"Compare T (R p) with R (T p): turn (1, 0) and add {a}, or add {a} and turn.",
+    )
     return believed(draws, text, "R", ["T"], ["the order does not matter"], refutation, hints)
 
 
@@ -263,7 +302,11 @@ def draw_own_center(draws: Draws) -> Draft | None:
         f'kind == "object-to-world" and vertex == 0 and after_y > {a - 0.1}',
     )
     text = f"A square has its centre at ({a}, 0). R turns by 90 degrees counter-clockwise. Where is its centre then?"
-    hints = ("About which point does a rotation matrix turn?", "Apply R to the centre itself.")
+    hints = (
+        "About which point does a rotation matrix turn?",
+        "Apply R to the centre itself.",
+        f"R maps (x, y) to (-y, x): put in x = {a} and y = 0.",
+    )
     asked = believed(draws, text, f"(0, {a})", [f"({a}, 0)"], [f"(0, -{a})", f"(-{a}, 0)"], refutation, hints)
     square = ((a - 1, -1), (a + 1, -1), (a + 1, 1), (a - 1, 1))
     return None if asked is None else replace(asked, sketch=sketched({"centre": (a, 0)}, square))

@@ -10,7 +10,7 @@ from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.drafting import pictured
+from lessons.exercises.templates.drafting import factor_text, pictured
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import triangle_scene
 
@@ -83,6 +83,12 @@ FACES = tuple("ABCD")
 FACING_SIZE = (24, 7)
 
 
+def facing_text(corners: list[Corner]) -> str:
+    """Return the determinant as an expression in numbers."""
+    (x0, y0), (x1, y1), (x2, y2) = (map(factor_text, corner) for corner in corners)
+    return f"({x1} - {x0})({y2} - {y0}) - ({y1} - {y0})({x2} - {x0})"
+
+
 def draw_facing(draws: Draws) -> Draft | None:
     """Triangles side by side, of which some face away."""
     triangles = [
@@ -108,6 +114,7 @@ def draw_facing(draws: Draws) -> Draft | None:
     hints = (
         "Sketch each triangle with its corners in order.",
         "The sign of the determinant decides, not its size.",
+        f"For A: {facing_text(triangles[0])}.",
     )
     answer = ChoiceAnswer(FACES, away, is_several=True)
     return Draft(text, given, answer, hints, {"facing-exchanged": wrong}, scene, settings)

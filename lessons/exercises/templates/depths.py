@@ -33,7 +33,11 @@ def draw_window_depth(draws: Draws) -> Draft:
         "Perspective: z = f (d - n) / (d (f - n))."
     )
     given = f"n = {near}, f = {far}, d = {distance}"
-    hints = ("Is depth linear in the distance?", "It is linear in 1/d: 0 at n, 1 at f.")
+    hints = (
+        "Is depth linear in the distance?",
+        "It is linear in 1/d: 0 at n, 1 at f.",
+        f"z = {far} ({distance} - {near}) / ({distance} ({far} - {near})).",
+    )
     return by_rule(text, given, (near, far, distance), ("depth-linear", "near-plane-tiny"), hints)
 
 
@@ -75,6 +79,7 @@ def draw_fighting(draws: Draws) -> Draft | None:
     hints = (
         "Where are the steps of depth widest?",
         "z changes by about f n gap / (d d (f - n)).",
+        f"It is less than one of 65535 steps where d d is larger than about 65535 * {near} * gap.",
     )
     return several(text, f"n = {near}, f = {far}", pairs, right, hints)
 
@@ -115,7 +120,11 @@ def draw_inverse(draws: Draws) -> Draft | None:
     given = "\n".join(
         f"Fragment {k}: pixel {pixel}, w = {1 / value}" for k, (pixel, value) in enumerate(fragments)
     )
-    hints = ("Is a surface with a larger 1/w nearer or farther?", "Follow one pixel at a time.")
+    hints = (
+        "Is a surface with a larger 1/w nearer or farther?",
+        "Follow one pixel at a time.",
+        f"Fragment 0 leaves 1/{1 / fragments[0][1]} at its pixel: only a larger 1/w replaces it there.",
+    )
     labels = [f"pixel {pixel}, w = {1 / value}" for pixel, value in fragments]
     wrong = {"farther-wins": stored(min), "no-depth-test": [[value] for _, value in fragments]}
     follow = follow_nearest(fragments)
@@ -174,7 +183,11 @@ def draw_painter(draws: Draws) -> Draft | None:
         "vertex?"
     )
     given = "\n".join(f"{name}: depths {place_text(d)}" for name, d in zip(NAMES, depths, strict=True))
-    hints = ("What is painted first is painted over.", "Only the largest depth of each counts here.")
+    hints = (
+        "What is painted first is painted over.",
+        "Only the largest depth of each counts here.",
+        "The farthest triangle is painted first: write max(z0, z1, z2) for each.",
+    )
     wrong = {rule.name: tuple(order.index(k) for k in rule.wrong(depths))}
     return Draft(text, given, OrderAnswer(options, draws.shuffled(NAMES)), hints, wrong)
 
@@ -206,7 +219,11 @@ def draw_ties(draws: Draws) -> Draft:
         "keeps what is there."
     )
     given = "\n".join(f"{name}: z = {number_text(z)}" for name, z in zip(CARDS, depths, strict=False))
-    hints = ("Which depth is the smallest?", "Of two equal ones, which is tested against the other?")
+    hints = (
+        "Which depth is the smallest?",
+        "Of two equal ones, which is tested against the other?",
+        f"The nearest is at {number_text(first)}: does a fragment pass against the same depth?",
+    )
     return one_of(text, given, CARDS, right, hints, wrong, scene)
 
 

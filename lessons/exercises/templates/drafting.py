@@ -26,6 +26,12 @@ def place_text(place: Iterable[Any]) -> str:
     return f"({', '.join(number_text(as_number(c)) for c in place)})"
 
 
+def factor_text(value: Number) -> str:
+    """Return a number as it stands in an expression: a fraction without its decimals, what is negative in brackets."""
+    text = number_text(value).partition(" (")[0]
+    return f"({text})" if value < 0 else text
+
+
 def as_number(value: Any) -> Number:
     """Return whole numbers and fractions exactly, and floats without the rounding of their last digits."""
     return round(float(value), 12) + 0.0 if isinstance(value, float) else Fraction(value)

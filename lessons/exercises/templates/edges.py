@@ -173,7 +173,7 @@ def draw_snapped(draws: Draws) -> Draft:
         "this x?"
     )
     right = Fraction(snap_one(float(x))) * 256
-    hints = ("Multiply by 256.", "Round to the nearest whole number.")
+    hints = ("Multiply by 256.", "Round to the nearest whole number.", f"{float(x)} * 256, rounded.")
     wrong = {"vertices-rounded": [256 * floor(x + Fraction(1, 2))]}
     return numbers(text, f"x = {float(x)} pixels", [right], hints, wrong)
 
@@ -186,7 +186,11 @@ def draw_bits(draws: Draws) -> Draft:
         "is kept in 64 bits, so nothing is lost."
     )
     given = f"Legs of {width} and {height} pixels; each pixel has 256 units."
-    hints = ("Put both lengths into units first.", "Twice the area is the product of the legs.")
+    hints = (
+        "Put both lengths into units first.",
+        "Twice the area is the product of the legs.",
+        f"({width} * 256) ({height} * 256).",
+    )
     return by_rule(text, given, (width, height), ("product-overflows",), hints)
 
 
@@ -204,7 +208,11 @@ def draw_case(draws: Draws) -> Draft:
     corners = [(*wholes(draws, 2, -9, 9), Fraction(sign * draws.whole(1, 9))) for sign in signs]
     text = "Which case of binning is this triangle? w > 0 is in front of the eye."
     given = "\n".join(f"Vertex {k}: (x, y, w) = {place_text(corner)}" for k, corner in enumerate(corners))
-    hints = ("Look at w alone.", "Where signs differ, the projected vertices do not bound the triangle.")
+    hints = (
+        "Look at w alone.",
+        "Where signs differ, the projected vertices do not bound the triangle.",
+        f"The three w are {place_text(corner[2] for corner in corners)}: how many of them are positive?",
+    )
     return one_of(text, given, CASES, wanted, hints)
 
 
@@ -253,7 +261,11 @@ def draw_corner(draws: Draws) -> Draft | None:
         "Which pixel of a block decides whether the whole block is outside of this edge? Outside is where "
         "E = a x + b y + c is negative."
     )
-    hints = ("Which pixel is the last one to be outside?", "Where is E largest?")
+    hints = (
+        "Which pixel is the last one to be outside?",
+        "Where is E largest?",
+        f"To the right E changes by {number_text(Fraction(a))} a pixel, upwards by {number_text(Fraction(b))}.",
+    )
     wrong = {"block-by-one-corner": 0} if right else {}
     given = (
         f"E(x, y) = {number_text(Fraction(a))} x + {number_text(Fraction(b))} y + {number_text(Fraction(c))}"
@@ -275,7 +287,11 @@ def draw_tests(draws: Draws) -> Draft | None:
         "How many pixels are tested for this triangle by brute force, and with its bounding box? A pixel belongs to "
         "the box where its centre (i + 1/2, j + 1/2) does."
     )
-    hints = ("Brute force asks every pixel of the window.", "The box has columns times rows.")
+    hints = (
+        "Brute force asks every pixel of the window.",
+        "The box has columns times rows.",
+        f"{SIZE[0]} * {SIZE[1]}; and whole i, j with i + 1/2 and j + 1/2 between the least and the greatest x and y.",
+    )
     given = f"{window_text(SIZE)}\nTriangle: {corner_text(corners)}"
     names = ("brute force", "bounding box")
     return numbers(

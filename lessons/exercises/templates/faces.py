@@ -8,9 +8,10 @@ import numpy as np
 from core import Settings
 from core.geometry.culling import plane_distances
 from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.coverage import FACES, corner_text, culled, twice_area
-from lessons.exercises.templates.drafting import numbers, place_text, several
+from lessons.exercises.templates.coverage import FACES, corner_text, culled, facing_text, twice_area
+from lessons.exercises.templates.drafting import factor_text, numbers, place_text, several
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.coverage import dropped_at_border
 from lessons.mistakes.shelf import RULES, SHELF
@@ -35,6 +36,7 @@ def draw_order(draws: Draws) -> Draft | None:
     hints = (
         "Sketch the vertices and go round in one of the orders.",
         "Turning the list by one changes nothing; exchanging two of it changes the facing.",
+        f"For the order 0, 1, 2: {facing_text(corners)}.",
     )
     options = [", ".join(map(str, order)) for order in orders]
     return several(text, given, options, back, hints, {"facing-exchanged": wrong})
@@ -90,6 +92,7 @@ def draw_outside(draws: Draws) -> Draft | None:
     hints = (
         "Test one border at a time.",
         "A triangle with vertices outside of two borders may still reach into the window.",
+        f"All three x < 0, all x > {WINDOW[0]}, all y < 0, or all y > {WINDOW[1]}.",
     )
     wrong = {"dropped-at-border": np.flatnonzero(collapsed).tolist()}
     return several(text, given, FACES, dropped, hints, wrong, scene)
@@ -100,7 +103,12 @@ def draw_box(draws: Draws) -> Draft:
     corners = [wholes(draws, 3, -9, 9) for _ in range(3)]
     text = "What is the axis-aligned bounding box of this triangle: the least x, y and z, then the greatest?"
     right = [pick(corner[axis] for corner in corners) for pick in (min, max) for axis in range(3)]
-    hints = ("Look at one coordinate at a time.", "Least and greatest of the three vertices.")
+    xs = ", ".join(number_text(corner[0]) for corner in corners)
+    hints = (
+        "Look at one coordinate at a time.",
+        "Least and greatest of the three vertices.",
+        f"min({xs}) to max({xs}) in x, and so on.",
+    )
     names = [f"{kind} {axis}" for kind in ("least", "greatest") for axis in "xyz"]
     return numbers(text, "\n".join(map(place_text, corners)), right, hints, names=names)
 
@@ -117,7 +125,13 @@ def draw_determinant(draws: Draws) -> Draft | None:
         "face, whatever the signs of w, and 0 where there is nothing to draw."
     )
     given = "\n".join(f"Vertex {k}: {place_text(row)}" for k, row in enumerate(rows))
-    hints = ("Nothing is divided by w.", "Expand along one row: three products with 2 x 2 determinants.")
+    (x0, _, _), (_, y1, w1), (_, y2, w2) = (map(factor_text, row) for row in rows)
+    first = f"The first product is {x0} ({y1} * {w2} - {w1} * {y2})."
+    hints = (
+        "Nothing is divided by w.",
+        "Expand along one row: three products with 2 x 2 determinants.",
+        first,
+    )
     return numbers(text, given, [determinant], hints)
 
 

@@ -9,6 +9,7 @@ from core import Settings, render
 from core.records.frame import Frame
 from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, twice_area
 from lessons.exercises.templates.drafting import numbers, pictured, place_text, table
@@ -90,7 +91,11 @@ def draw_border(draws: Draws) -> Draft | None:
         (tenths(draws, 13, 18), tenths(draws, 1, 7)),
         (tenths(draws, 5, 10), tenths(draws, 6, 9)),
     ]
-    hints = ("The window ends before column W.", "Only the part inside of the window is drawn.")
+    hints = (
+        "The window ends before column W.",
+        "Only the part inside of the window is drawn.",
+        f"The last column is W - 1 with W = {SIZE[0]}: look at one row of centres y = j + 1/2 at a time.",
+    )
     text = "A triangle reaches beyond the right border. Which pixels of the window does it cover?"
     return of_triangle(corners, text, ("column-wrapped", "corner-for-center"), hints)
 
@@ -104,7 +109,11 @@ def draw_points(draws: Draws) -> Draft | None:
     x, y = np.array(places, float).T
     scene = assembled("points", x, y, SIZE)
     text = "Which pixels do these points light? Pixel (i, j) reaches from i to i + 1 and from j to j + 1."
-    hints = ("The column of a point is floor(x).", "What is floor(x) for x between -1 and 0?")
+    hints = (
+        "The column of a point is floor(x).",
+        "What is floor(x) for x between -1 and 0?",
+        f"The first point lies at (floor({number_text(places[0][0])}), floor({number_text(places[0][1])})).",
+    )
     return pictured(text, ", ".join(map(place_text, places)), scene, ("truncated-to-zero",), hints)
 
 
@@ -187,7 +196,13 @@ def draw_fourth(draws: Draws) -> Draft | None:
         "the new vertex v4 lie?"
     )
     x = v1[0] + (v2[1] - v1[1]) / (v3[1] - v1[1]) * (v3[0] - v1[0])
-    hints = ("Sort the vertices by y.", "v4 has the y of the middle vertex, and lies between the other two.")
+    (x1, y1), (x3, y3) = (map(number_text, end) for end in (v1, v3))
+    line_text = f"{x1} + ({number_text(v2[1])} - {y1}) / ({y3} - {y1}) * ({x3} - {x1})"
+    hints = (
+        "Sort the vertices by y.",
+        "v4 has the y of the middle vertex, and lies between the other two.",
+        f"y = {number_text(v2[1])}, x = {line_text}.",
+    )
     scene = triangle_scene(np.array([corners], float), (13, 13))
     given = f"Triangle: {corner_text(corners)}"
     return numbers(text, given, [x, v2[1]], hints, names=("x", "y"), scene=scene)
@@ -215,6 +230,7 @@ def draw_fan(draws: Draws) -> Draft | None:
     hints = (
         "For how many of the triangles is E = 0 on two edges there?",
         "The rule of shared edges moves the centre into exactly one of them.",
+        "With E >= 0, does each of the triangles draw its own corner, and with E > 0?",
     )
     given = f"Centre {place_text(center)}; around it, counter-clockwise, lie {', '.join(map(place_text, around))}."
     return numbers(text, given, counts, hints, names=("shared edges", ">=", ">"), scene=scene)

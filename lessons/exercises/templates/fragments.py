@@ -186,6 +186,7 @@ def draw_stages(draws: Draws) -> Draft:
     hints = (
         "What needs triangles comes before what needs pixels.",
         "A colour is found before it is blended.",
+        f"Which of {', '.join(shown[:2])} needs the result of the other one?",
     )
     answer = OrderAnswer(options, shown)
     return Draft("Put these stages of the pipeline in order, first to last.", "", answer, hints)

@@ -77,7 +77,12 @@ def draw_color(draws: Draws) -> Draft | None:
         f"Vertex {k}: {place_text(corner)}, colour {place_text(color)}"
         for k, (corner, color) in enumerate(zip(corners, colors, strict=True))
     )
-    hints = ("Find the three weights first.", "c = alpha c0 + beta c1 + gamma c2, channel by channel.")
+    reds = [number_text(color[0]) for color in colors]
+    hints = (
+        "Find the three weights first.",
+        "c = alpha c0 + beta c1 + gamma c2, channel by channel.",
+        f"red = alpha * {reds[0]} + beta * {reds[1]} + gamma * {reds[2]}; green and blue likewise.",
+    )
     return numbers(text, given, right, hints, wrong, RGB, scene=scene, pixel=pixel)
 
 
@@ -100,7 +105,11 @@ def draw_sorted(draws: Draws) -> Draft | None:
         f"Vertex {k}: {place_text(corner)}, q = {value}"
         for k, (corner, value) in enumerate(zip(corners, q, strict=True))
     )
-    hints = ("Which q belongs to the lowest vertex?", "Sort the vertices together with what they carry.")
+    hints = (
+        "Which q belongs to the lowest vertex?",
+        "Sort the vertices together with what they carry.",
+        f"q = alpha * {q[0]} + beta * {q[1]} + gamma * {q[2]}, each with the weight of its own vertex.",
+    )
     right = [sum((w * v for w, v in zip(weights, q, strict=True)), Fraction(0))]
     return numbers(text, given, right, hints, wrong, scene=scene, pixel=pixel)
 
@@ -124,7 +133,11 @@ def draw_flat(draws: Draws) -> Draft | None:
         f"Vertex {k}: {place_text(corner)}, q = {value}"
         for k, (corner, value) in enumerate(zip(corners, q, strict=True))
     )
-    hints = ("Does the place in the triangle matter?",)
+    hints = (
+        "Does the place in the triangle matter?",
+        "Flat: the value of the provoking vertex is that of all pixels.",
+        f"Which of {', '.join(map(number_text, q))} stands at the {provoking} vertex of the list?",
+    )
     whole = [Fraction(int(value)) for value in right]
     return numbers(text, given, whole, hints, scene=scene, settings=settings, pixel=pixel)
 
@@ -141,6 +154,7 @@ def draw_edge_middle(draws: Draws) -> Draft:
     hints = (
         "Give the near end u = 0 and the far end u = 1, and interpolate u with perspective.",
         "u = ((u0/w0 + u1/w1)/2) / ((1/w0 + 1/w1)/2).",
+        f"u = (0/{near} + 1/{far}) / (1/{near} + 1/{far}).",
     )
     wrong = {
         "affine-for-perspective": [Fraction(1, 2)],
@@ -158,7 +172,11 @@ def draw_reciprocal(draws: Draws) -> Draft | None:
         return None
     text = "What is 1/w at this point of an edge? t is its share of the way in the window."
     given = f"w = {w[0]} at t = 0, w = {w[1]} at t = 1.\nThe point: t = {number_text(t)}"
-    hints = ("Which of w and 1/w is linear in the window?", "1/w = (1 - t)/w0 + t/w1.")
+    hints = (
+        "Which of w and 1/w is linear in the window?",
+        "1/w = (1 - t)/w0 + t/w1.",
+        f"(1 - {number_text(t)})/{w[0]} + {number_text(t)}/{w[1]}.",
+    )
     rule = RULES["distance-linear"]
     right, wrong = ([1 / distance(t, w)[0]] for distance in (rule.right, rule.wrong))
     return numbers(text, given, right, hints, {rule.name: wrong})
@@ -212,7 +230,11 @@ def draw_depth(draws: Draws) -> Draft:
         ]
         + [f"The point: t = {number_text(t)}"]
     )
-    hints = ("Was z divided by w already?", "Window depth is linear in the window.")
+    hints = (
+        "Was z divided by w already?",
+        "Window depth is linear in the window.",
+        f"(1 - {number_text(t)}) * {number_text(depths[0])} + {number_text(t)} * {number_text(depths[1])}.",
+    )
     return by_rule(text, given, (t, depths, distances), ("depth-corrected-twice",), hints)
 
 
@@ -221,7 +243,11 @@ def draw_distance(draws: Draws) -> Draft:
     t, distances = edge_shares(draws)
     text = "How far from the eye, along the view, is this point of an edge? t is its share of the way in the window."
     given = f"Distance {distances[0]} at t = 0, {distances[1]} at t = 1.\nThe point: t = {number_text(t)}"
-    hints = ("Is the distance linear in the window?", "Its reciprocal is.")
+    hints = (
+        "Is the distance linear in the window?",
+        "Its reciprocal is.",
+        f"1 / ((1 - {number_text(t)})/{distances[0]} + {number_text(t)}/{distances[1]}).",
+    )
     return by_rule(text, given, (t, distances), ("distance-linear",), hints)
 
 

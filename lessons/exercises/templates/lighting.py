@@ -72,6 +72,7 @@ def draw_between(draws: Draws) -> Draft:
     hints = (
         "(1 - t) N0 + t N1 is shorter than 1.",
         "Divide by its length, then take the dot product with L.",
+        f"N is (1 - {number_text(t)}) N0 + {number_text(t)} N1, L is {place_text(to_light)}: each over its length.",
     )
     return by_rule(text, given, (*units, t, to_light), ("normal-not-renormalized",), hints)
 
@@ -129,7 +130,11 @@ def draw_camera_normal(draws: Draws) -> Draft:
         f"Rows of V M: {', '.join(map(place_text, model_view))}\nP scales x and y by {place_text(focal[:2])}.\n"
         f"Normal in object space: {place_text(normal)}"
     )
-    hints = ("Which matrices lead to camera space?", "A rotation is its own transposed inverse.")
+    hints = (
+        "Which matrices lead to camera space?",
+        "A rotation is its own transposed inverse.",
+        f"Multiply each row of V M with {place_text(normal)}, then make the result of length 1.",
+    )
     return by_rule(
         text, given, (model_view, focal, normal), ("normal-by-projection",), hints, ("x", "y", "z")
     )
@@ -142,7 +147,11 @@ def draw_byte(draws: Draws) -> Draft | None:
         return None
     text = "Ambient and diffuse light are added and stored as a byte, 255 for 1, rounded. Which byte is it?"
     given = f"Ambient: {number_text(ambient)}, diffuse: {number_text(diffuse)}"
-    hints = ("Is the sum above 1?", "A byte ends at 255.")
+    hints = (
+        "Is the sum above 1?",
+        "A byte ends at 255.",
+        f"255 * min(1, {number_text(ambient)} + {number_text(diffuse)}), rounded.",
+    )
     rule, lights = RULES["byte-overflows"], (float(ambient), float(diffuse))
     wrong = {rule.name: rule.wrong(*lights)} if ambient + diffuse > 1 else {}
     return numbers(text, given, rule.right(*lights), hints, wrong)
@@ -160,6 +169,7 @@ def draw_evaluations(draws: Draws) -> Draft:
     hints = (
         "Gouraud interpolates colours, Phong normals.",
         "Where are the vectors known that the light needs?",
+        f"Which of {triangles}, {vertices} and {fragments} counts the places where each of them evaluates it?",
     )
     names = ("flat", "Gouraud", "Phong")
     return by_rule(text, given, (triangles, vertices, fragments), ("phong-at-vertices",), hints, names)
@@ -175,7 +185,11 @@ def draw_shading(draws: Draws) -> Draft:
         )
     )
     text = f"Which shading shows light {seen[0]}?"
-    hints = ("Where is the light evaluated?", "What is interpolated: nothing, colours, or normals?")
+    hints = (
+        "Where is the light evaluated?",
+        "What is interpolated: nothing, colours, or normals?",
+        f"The light is seen {seen[0]}: which of the three can show that?",
+    )
     wrong = {"phong-at-vertices": 1} if seen[1] == 2 else {}
     return one_of(text, "", methods, seen[1], hints, wrong)
 

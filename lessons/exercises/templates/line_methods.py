@@ -210,7 +210,11 @@ def draw_value(draws: Draws) -> Draft:
     s = Fraction(x - x0, x1 - x0)
     text = f"A parameter q is interpolated linearly along this line. What is it at the pixel of column {x}?"
     given = f"From pixel {ends[0]}, q = {number_text(q[0])}, to pixel {ends[1]}, q = {number_text(q[1])}."
-    hints = ("Which share s of the way lies behind this column?", "q = q0 (1 - s) + q1 s.")
+    hints = (
+        "Which share s of the way lies behind this column?",
+        "q = q0 (1 - s) + q1 s.",
+        f"s = ({x} - {x0}) / ({x1} - {x0}), q0 = {number_text(q[0])}, q1 = {number_text(q[1])}.",
+    )
     return numbers(text, given, [q[0] * (1 - s) + q[1] * s], hints, scene=pixel_segments([ends], SIZE))
 
 

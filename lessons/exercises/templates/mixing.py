@@ -31,7 +31,11 @@ def draw_alpha(draws: Draws) -> Draft:
         "Two layers are blended with over on a clear background (alpha 0). What is the alpha of the result?"
     )
     given = f"Layer 0: alpha = {number_text(alphas[0])}\nLayer 1: alpha = {number_text(alphas[1])}"
-    hints = ("How much of the background is still seen?", "a + (1 - a) times the alpha that is there.")
+    hints = (
+        "How much of the background is still seen?",
+        "a + (1 - a) times the alpha that is there.",
+        f"{number_text(alphas[1])} + (1 - {number_text(alphas[1])}) * {number_text(alphas[0])}.",
+    )
     right = 1 - (1 - alphas[0]) * (1 - alphas[1])
     return numbers(text, given, [right], hints, wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
 
@@ -48,7 +52,11 @@ def draw_straight(draws: Draws) -> Draft:
         "colour is straight: not yet multiplied by alpha."
     )
     given = f"Layer: {number_text(color)}, alpha = {number_text(alpha)}\nBackground: {number_text(there)}"
-    hints = ("How much does each of them count?", "alpha times the new one, 1 - alpha times what is there.")
+    hints = (
+        "How much does each of them count?",
+        "alpha times the new one, 1 - alpha times what is there.",
+        f"{number_text(alpha)} * {number_text(color)} + (1 - {number_text(alpha)}) * {number_text(there)}.",
+    )
     right = alpha * color + (1 - alpha) * there
     return numbers(text, given, [right], hints, wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
 
@@ -71,7 +79,11 @@ def draw_panes(draws: Draws) -> Draft:
         name: SHELF[name].draw(scene, BLENDED).color[0, 0, [0, 2]].tolist()
         for name in ("glass-writes-depth", "order-reversed")
     }
-    hints = ("Does the far pane pass the depth test?", "What is drawn last lies on top, wherever it stands.")
+    hints = (
+        "Does the far pane pass the depth test?",
+        "What is drawn last lies on top, wherever it stands.",
+        f"red: (1 - {number_text(alpha)}) * {number_text(alpha)} * {number_text(red)}; blue: what the last pane adds.",
+    )
     right = [(1 - alpha) * alpha * red, alpha * blue]
     return numbers(text, given, right, hints, wrong, ("red", "blue"), scene=scene, settings=BLENDED)
 
@@ -83,7 +95,11 @@ def draw_additive(draws: Draws) -> Draft:
     given = "\n".join(
         f"Layer {k}: {number_text(c)}, alpha = {number_text(a)}" for k, (c, a) in enumerate(values)
     )
-    hints = ("Does the order matter?", "Does the upper layer hide anything?")
+    hints = (
+        "Does the order matter?",
+        "Does the upper layer hide anything?",
+        " + ".join(f"{number_text(a)} * {number_text(c)}" for c, a in values) + ".",
+    )
     right = sum((c * a for c, a in values), Fraction(0))
     wrong = {"not-multiplied": [sum((c for c, _ in values), Fraction(0))]}
     return numbers(text, given, [right], hints, wrong if wrong["not-multiplied"] != [right] else {})
@@ -112,7 +128,11 @@ def draw_samples(draws: Draws) -> Draft:
         "Two triangles are drawn in this order into a pixel with 4 samples, black before. Which grey value does the "
         "mean of the samples give? Each sample has a depth of its own, the smaller one is nearer."
     )
-    hints = ("What does each sample show?", "The second triangle fills the samples that the first one left.")
+    hints = (
+        "What does each sample show?",
+        "The second triangle fills the samples that the first one left.",
+        f"The mean of {SAMPLES} values: {layers[0].grey} in the samples of triangle 0, {layers[1].grey} in the others.",
+    )
     names = ("one-depth-a-pixel", "one-sample-filled") if 0 in near else ("one-depth-a-pixel",)
     return by_rule(text, layers_text(layers), (layers, SAMPLES), names, hints)
 
@@ -125,7 +145,11 @@ def draw_coverage(draws: Draws) -> Draft:
     layer = (Layer(frozenset(range(covered)), 1, grey),)
     text = f"A pixel has {side} x {side} samples, black before. Which grey value does the box filter leave?"
     given = f"A triangle of grey {grey} covers {covered} of the samples."
-    hints = ("The box filter takes the mean.", "Samples that are not covered stay black.")
+    hints = (
+        "The box filter takes the mean.",
+        "Samples that are not covered stay black.",
+        f"{covered} * {grey} / ({side} * {side}).",
+    )
     return by_rule(text, given, (layer, side * side), ("one-sample-filled",), hints)
 
 
@@ -139,6 +163,7 @@ def draw_line_samples(draws: Draws) -> Draft:
     hints = (
         "How many of its samples does the line cover?",
         "Should a line fade where there are more samples?",
+        f"With 4 samples: the sum of 4 greys over 4, each {grey} where the line covers the sample.",
     )
     names = ("1 sample", "4 samples", "16 samples")
     return by_rule(text, f"Grey: {grey}", (grey, (1, 4, 16)), ("line-in-one-sample",), hints, names)
@@ -156,7 +181,11 @@ def draw_tent(draws: Draws) -> Draft:
     other = Fraction(2 * draws.whole(0, side - 1) + 1, 2 * side)
     right = [Fraction(float(tent(np.array([float(distance)]))[0])) * (1 - abs(other - Fraction(1, 2)))]
     given = f"Sample at ({number_text(place)}, {number_text(other)}) of the pixel."
-    hints = ("How far is it from the centre, in x and in y?", "Multiply the weights of both directions.")
+    hints = (
+        "How far is it from the centre, in x and in y?",
+        "Multiply the weights of both directions.",
+        f"(1 - |{number_text(place)} - 1/2|) (1 - |{number_text(other)} - 1/2|).",
+    )
     return numbers(text, given, right, hints)
 
 
@@ -170,7 +199,11 @@ def draw_mean(draws: Draws) -> Draft:
         "Half of a pixel shows one grey, half the other; both are sRGB bytes. Which byte shows as much light? Decode "
         "with ((c + 0.055)/1.055)^2.4, take the mean, encode with 1.055 x^(1/2.4) - 0.055; c and x run to 1."
     )
-    hints = ("Is half the byte half the light?", "The mean is taken of linear values.")
+    hints = (
+        "Is half the byte half the light?",
+        "The mean is taken of linear values.",
+        f"A byte over the largest one is c: decode those of {black} and {white}, take the mean, and encode it.",
+    )
     wrong = {"blended-in-srgb": [int((black + white) / 2 + 0.5)]}
     return numbers(text, f"Bytes: {black} and {white}", [right], hints, wrong)
 
@@ -184,7 +217,11 @@ def draw_cost(draws: Draws) -> Draft:
     )
     half = count // 2
     given = f"{count} samples a pixel.\n{inside} pixels are covered whole, {edge} by half of their samples."
-    hints = ("What is done once a pixel?", "Depth and colour are stored for each sample.")
+    hints = (
+        "What is done once a pixel?",
+        "Depth and colour are stored for each sample.",
+        f"Shader runs: {inside} + {edge}; depth tests: {count} * {inside} + {count}/2 * {edge}.",
+    )
     right = [inside + edge, count * inside + half * edge]
     return numbers(text, given, right, hints, names=("shader runs", "depth tests"))
 

@@ -26,11 +26,28 @@ HINTS = {
     "transform": (
         "Which space does the step lead to?",
         "A divide is by w; the viewport maps [-1, 1] to W and H.",
+        "With the position before the step: x/w and y/w, or (x + 1)/2 W and (y + 1)/2 H.",
     ),
-    "edges": ("The edge function is a x + b y + c.", "a is how much it changes from one pixel to the next."),
-    "raster": ("Which side of each edge is the centre (i + 1/2, j + 1/2) on?", "All three edges must agree."),
-    "interpolate": ("Put the centre into the three edge functions.", "A weight is its value over their sum."),
-    "depth": ("Smaller is nearer.", "A tie keeps what is there."),
+    "edges": (
+        "The edge function is a x + b y + c.",
+        "a is how much it changes from one pixel to the next.",
+        "E is 0 at the edge's start and end: a x + b y + c is 0 with both.",
+    ),
+    "raster": (
+        "Which side of each edge is the centre (i + 1/2, j + 1/2) on?",
+        "All three edges must agree.",
+        "Put x and y into each a x + b y + c, with the numbers listed before the step.",
+    ),
+    "interpolate": (
+        "Put the centre into the three edge functions.",
+        "A weight is its value over their sum.",
+        "λk = Ek / (E0 + E1 + E2), each Ek with its own a, b and c.",
+    ),
+    "depth": (
+        "Compare the depth of the fragment with the depth in the buffer.",
+        "Smaller is nearer.",
+        "A tie keeps what is there.",
+    ),
 }
 """By the stages that are asked about."""
 RULES = {

@@ -16,8 +16,8 @@ from lessons.exercises.drawn_scene import seen_pixels, window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.coverage import RULE, Corner, corner_text, twice_area
-from lessons.exercises.templates.drafting import pictured, place_text
+from lessons.exercises.templates.coverage import RULE, Corner, corner_text, facing_text, twice_area
+from lessons.exercises.templates.drafting import factor_text, pictured, place_text
 from lessons.exercises.templates.edges import coefficients
 from lessons.mistakes.coverage import in_window
 from lessons.mistakes.shelf import SHELF
@@ -73,6 +73,7 @@ def draw_vertices(draws: Draws) -> Draft | None:
     hints = (
         "NDC run from -1 to 1 over the window.",
         "(x + 1) W/2 and (y + 1) H/2, then cut off the fraction.",
+        f"The column of vertex 0: floor(({factor_text(ndc[0][0])} + 1) * {SIZE[0]}/2).",
     )
     given = [f"Vertex {k} in NDC: {place_text(place)}" for k, place in enumerate(ndc)]
     return ask_pixels(text, given, pixels(scene), wrong, hints, scene, Settings())
@@ -89,7 +90,11 @@ def draw_culled(draws: Draws) -> Draft | None:
     scene, settings = triangle_scene(np.array(triangles, float), SIZE), Settings(cull="back")
     names = ("facing-exchanged", "corner-for-center")
     text = f"Back faces are culled: counter-clockwise is the front. Which pixels are drawn? {RULE}"
-    hints = ("Go round each triangle in its order.", "Only one of the two is drawn.")
+    hints = (
+        "Go round each triangle in its order.",
+        "Only one of the two is drawn.",
+        f"For triangle 0: {facing_text(triangles[0])}; is it positive?",
+    )
     given = "\n".join(f"Triangle {k}: {corner_text(corners)}" for k, corners in enumerate(triangles))
     return pictured(text, given, scene, names, hints, settings)
 
@@ -116,7 +121,11 @@ def draw_clipped(draws: Draws) -> Draft | None:
         return None
     text = f"Window depth is 0 at the near plane. What lies in front of it is clipped. Which pixels are drawn? {RULE}"
     given = [f"Triangle: {corner_text(corners)}", f"Window depth at (x, y): (x - {border}) / {SIZE[0]}"]
-    hints = ("Where is the depth 0?", "The near plane cuts the triangle along a vertical line.")
+    hints = (
+        "Where is the depth 0?",
+        "The near plane cuts the triangle along a vertical line.",
+        f"(x - {border}) / {SIZE[0]} = 0: which side of this x has centres with a positive depth?",
+    )
     return ask_pixels(text, given, right, wrong, hints, scene, settings)
 
 
@@ -178,9 +187,11 @@ def draw_box(draws: Draws) -> Draft | None:
         "Which pixels does a fill by bounding box test? A pixel belongs to the box of the triangle where its centre "
         "(i + 1/2, j + 1/2) does."
     )
+    least, greatest = (number_text(pick(x for x, _ in corners)) for pick in (min, max))
     hints = (
         "The box reaches from the least to the greatest x and y.",
         "Look at centres, not at whole pixels.",
+        f"Columns: {least} <= i + 1/2 <= {greatest}; rows likewise.",
     )
     scene, settings = triangle_scene(np.array([corners], float), SIZE), Settings(fill="bounding-box")
     return ask_pixels(text, [f"Triangle: {corner_text(corners)}"], right, wrong, hints, scene, settings)
@@ -249,6 +260,7 @@ def draw_texels(draws: Draws) -> Draft | None:
     hints = (
         "How many pixels wide and high is a texel in the window?",
         "The lowest row of texels is in the lowest rows.",
+        f"{SIZE[0]} pixels show {across} textures side by side, {SIZE[1]} pixels one: divide by the texels of a row.",
     )
     return pictured(text, "\n".join(given), scene, names, hints, settings, dark)
 
@@ -275,7 +287,11 @@ def draw_nearer(draws: Draws) -> Draft | None:
         f"Triangle 0: {corner_text(triangles[0])}, depth 1/2",
         f"Triangle 1: {corner_text(triangles[1])}, depth 1/2 + (x - {border}) / 40 at (x, y)",
     ]
-    hints = ("Where do both cover the same pixels?", "On which side of a vertical line is triangle 1 nearer?")
+    hints = (
+        "Where do both cover the same pixels?",
+        "On which side of a vertical line is triangle 1 nearer?",
+        f"(x - {border}) / 40 is negative there: then compare the centres of both triangles, row by row.",
+    )
     return ask_pixels(text, given, right, wrong, hints, scene, Settings())
 
 
@@ -294,7 +310,11 @@ def draw_overlap(draws: Draws) -> Draft | None:
     names = ("all-edges-inclusive", "corner-for-center")
     text = f"Two panes of glass are blended with over, whatever their depth. Which pixels show both? {RULE}"
     given = "\n".join(f"Pane {k}: {corner_text(corners)}" for k, corners in enumerate((first, second)))
-    hints = ("Find the pixels of each pane.", "Which belong to both?")
+    hints = (
+        "Find the pixels of each pane.",
+        "Which belong to both?",
+        "In each row of centres y = j + 1/2: where do both panes cover the same columns?",
+    )
     return pictured(text, given, scene, names, hints, settings, twice)
 
 
@@ -315,7 +335,11 @@ def draw_mixed(draws: Draws) -> Draft | None:
         "A white triangle is drawn over black with 2 x 2 samples a pixel, at 1/4 and 3/4 of its width and height. "
         "Which pixels are neither black nor white? A sample on an edge belongs to left edges and to level bottom edges."
     )
-    hints = ("Follow the edges.", "A pixel is grey if an edge runs between its samples.")
+    hints = (
+        "Follow the edges.",
+        "A pixel is grey if an edge runs between its samples.",
+        "Samples of pixel (i, j) lie at i + 1/4 and i + 3/4, j + 1/4 and j + 3/4: count those inside.",
+    )
     return pictured(text, f"Triangle: {corner_text(corners)}", scene, (), hints, settings, grey)
 
 

@@ -101,6 +101,7 @@ def draw_ndc(draws: Draws) -> Draft | None:
     hints = (
         "-1 is the left and the lower border, 1 the right and the upper one.",
         "The window is (NDC + 1)/2.",
+        f"x = (NDC + 1)/2 * {columns}, y = (NDC + 1)/2 * {rows}.",
     )
     answer = PlaceAnswer(SIZE, tuple("ABC"), right, step=Fraction(1, 4), tolerance=TOLERANCE)
     return Draft(text, given, answer, hints, {"y-down": down})
@@ -123,9 +124,13 @@ def draw_weights(draws: Draws) -> Draft | None:
     shown = ", ".join(f"{name} = {number_text(weight)}" for name, weight in zip(NAMES, weights, strict=True))
     text = "Place the point with these barycentric weights; alpha belongs to vertex 0."
     given = f"{window_text(CORNER_SIZE)}\nVertices 0, 1, 2: {corner_text(corners)}\n{shown}"
+    sum_text = " + ".join(
+        f"{number_text(weight)} * {number_text(x)}" for weight, (x, _) in zip(weights, corners, strict=True)
+    )
     hints = (
         "With equal weights the point is in the middle; it moves towards the vertex that weighs more.",
         "The point is the sum of weight times vertex.",
+        f"x = {sum_text}, and y likewise.",
     )
     answer = PlaceAnswer(CORNER_SIZE, ("point",), (place,), step=Fraction(1, 4), tolerance=WEIGHT_TOLERANCE)
     scene = triangle_scene(np.array([corners], float), CORNER_SIZE)

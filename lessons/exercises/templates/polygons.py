@@ -67,7 +67,11 @@ def draw_count(draws: Draws) -> Draft | None:
         return None
     text = "How many triangles are drawn after this one is clipped against the near plane?"
     given = f"w + z at the three vertices: {place_text(distances)}. Inside is where it is positive."
-    hints = ("How many vertices does the polygon have that is left?", "n vertices make n - 2 triangles.")
+    hints = (
+        "How many vertices does the polygon have that is left?",
+        "n vertices make n - 2 triangles.",
+        f"Count the positive ones of {place_text(distances)}, and a new vertex for each change of sign around it.",
+    )
     rule = RULES["quad-as-triangle"]
     right, wrong = int(rule.right(inside)[0]), int(rule.wrong(inside)[0])
     return one_of(
@@ -94,6 +98,7 @@ def draw_area(draws: Draws) -> Draft | None:
     hints = (
         "Which border does it cross?",
         "Find the new corners, then the area of the polygon, or of what is cut off.",
+        f"A part of the level side, {left + wide} - {window[1][0]} long, is cut off, and the slope stays the same.",
     )
     draft = by_rule(text, given, tuple(polygons), (rule.name,), hints)
     return replace(draft, sketch=sketched({}, corners, window))
@@ -162,7 +167,11 @@ def draw_rejected(draws: Draws) -> Draft | None:
     given = f"{WINDOW}.\n" + "\n".join(
         f"{name}: {ends[0]} to {ends[1]}" for name, ends in zip(names, segments, strict=True)
     )
-    hints = ("Write the outcodes of all ends.", "Two ends outside of different borders share no bit.")
+    hints = (
+        "Write the outcodes of all ends.",
+        "Two ends outside of different borders share no bit.",
+        f"Both ends left of 0, right of {SIZE[0]}, below 0 or above {SIZE[1]}: ask it of each segment.",
+    )
     return several(text, given, tuple(names), right, hints, scene=segment_scene(segments, SIZE))
 
 

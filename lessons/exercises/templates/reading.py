@@ -105,6 +105,7 @@ def draw_slip(draws: Draws) -> Draft:
     hints = (
         "Ask of every line what it changes, and whether that is declared.",
         f"Which line has to care that {rule}?",
+        "Follow a small case by hand: after which line is a value not what it must be?",
     )
     return Draft(text, "", answer, hints)
 

@@ -112,6 +112,7 @@ def draw_layers(draws: Draws) -> Draft | None:
     hints = (
         "over: alpha times the new red plus (1 - alpha) times what is there.",
         "A layer without red only weakens what is there.",
+        f"Layer 0: {number_text(alphas[0])} * {COLORS[names[0]][0]} + (1 - {number_text(alphas[0])}) * 0.",
     )
     wrong = {"factors-exchanged": first_tries(exchanged, steps)}
     return Draft(text, given, StepsAnswer(steps), hints, wrong)

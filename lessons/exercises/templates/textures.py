@@ -11,7 +11,7 @@ from core.scene import ClipScene, Texture
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.drafting import numbers, place_text, table
+from lessons.exercises.templates.drafting import factor_text, numbers, place_text, table
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.textures import repeat_mirrored, strip
 
@@ -55,7 +55,11 @@ def draw_nearest(draws: Draws) -> Draft:
     count = draws.whole(4, 6)
     u = Fraction(2 * draws.whole(0, 4 * count - 1) + 1, 8 * count)
     text = "Which value does the nearest texel give? Texel i reaches from i to i + 1 in units of texels."
-    hints = ("Multiply u by the number of texels.", "The texel is floor(u w), with w texels.")
+    hints = (
+        "Multiply u by the number of texels.",
+        "The texel is floor(u w), with w texels.",
+        f"floor({factor_text(u)} * {count}), counted from 0.",
+    )
     settings = Settings(texture_filter="nearest", wrap="clamp")
     names = ("texels-of-one-less", "texel-rounded")
     return of_strip(text, drawn_texels(draws, count), u, settings, names, hints)
@@ -87,7 +91,11 @@ def draw_border(draws: Draws) -> Draft:
         "Which value does the linear filter give with the wrap mode clamp, which repeats the border texel? The centre "
         "of texel i lies at i + 1/2 in units of texels."
     )
-    hints = ("Which two texels lie beside u?", "Beyond the border there is the border texel again.")
+    hints = (
+        "Which two texels lie beside u?",
+        "Beyond the border there is the border texel again.",
+        f"{factor_text(u)} * {count} - 1/2: the whole part is the left texel, the rest the weight of the right one.",
+    )
     settings = Settings(texture_filter="bilinear", wrap="clamp")
     return of_strip(text, drawn_texels(draws, count), u, settings, ("border-repeated",), hints)
 
@@ -160,7 +168,11 @@ def draw_upside(draws: Draws) -> Draft | None:
         "the lowest."
     )
     given = f"Texture of {size[0]} x {size[1]} texels.\n(u, v) = {place_text(uv)}"
-    hints = ("In which direction does v grow?", "floor(u w) and floor(v h).")
+    hints = (
+        "In which direction does v grow?",
+        "floor(u w) and floor(v h).",
+        f"floor({factor_text(uv[0])} * {size[0]}) and floor({factor_text(uv[1])} * {size[1]}).",
+    )
     wrong = {"texture-upside-down": flipped, "texels-of-one-less": one_less}
     return numbers(text, given, right, hints, wrong, ("column", "row"))
 
@@ -178,7 +190,11 @@ def draw_square(draws: Draws) -> Draft:
         f"tex(u0, v1) = {number_text(c[2])}, tex(u1, v1) = {number_text(c[3])}\n"
         f"w_u = {number_text(w_u)}, w_v = {number_text(w_v)}"
     )
-    hints = ("First between the columns, in both rows.", "c = c_b (1 - w_v) + c_t w_v.")
+    hints = (
+        "First between the columns, in both rows.",
+        "c = c_b (1 - w_v) + c_t w_v.",
+        f"c_b = {number_text(c[0])} (1 - {number_text(w_u)}) + {number_text(c[1])} * {number_text(w_u)}, c_t likewise.",
+    )
     return numbers(text, given, [low * (1 - w_v) + high * w_v], hints, scene=scene)
 
 
@@ -191,7 +207,11 @@ def draw_level(draws: Draws) -> Draft:
         "grows by the given step; v stays. Level 0 is the full texture."
     )
     given = f"Texture of {texels} x {texels} texels, step in u: {number_text(step)}"
-    hints = ("Multiply the step by the size of the texture.", "The level is log2 of the texels per pixel.")
+    hints = (
+        "Multiply the step by the size of the texture.",
+        "The level is log2 of the texels per pixel.",
+        f"{number_text(step)} * {texels} texels; the level is log2 of it.",
+    )
     wrong = {
         "level-without-size": [step, *RULES["level-without-size"].wrong(texels, float(step))],
         "level-of-area": [2**level, *RULES["level-of-area"].wrong(texels, float(step))],

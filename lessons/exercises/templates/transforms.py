@@ -11,7 +11,7 @@ from lessons.exercises.answers.choices import OrderAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.drafting import by_rule, numbers, place_text
+from lessons.exercises.templates.drafting import by_rule, factor_text, numbers, place_text
 from lessons.mistakes.transforms import Turn
 
 TURNS: tuple[Turn, ...] = tuple(
@@ -58,7 +58,11 @@ def draw_pivot(draws: Draws) -> Draft:
     turn, pivot, point = draws.item(TURNS), wholes(draws, 2, -4, 4), wholes(draws, 2, -4, 4)
     text = "A point is turned about a pivot, counter-clockwise. Where does it land?"
     given = f"Angle with {turn_text(turn)}.\nPivot: {place_text(pivot)}\nPoint: {place_text(point)}"
-    hints = ("Three transforms do it.", "Move the pivot to the origin, turn, move back.")
+    hints = (
+        "Three transforms do it.",
+        "Move the pivot to the origin, turn, move back.",
+        f"v = {place_text(point)} - {place_text(pivot)}; turn v, then add {place_text(pivot)}.",
+    )
     draft = by_rule(text, given, (turn, pivot, point), ("pivot-left-out",), hints, XY)
     return replace(draft, sketch=sketched({"pivot": pivot, "point": point}))
 
@@ -68,7 +72,11 @@ def draw_degrees(draws: Draws) -> Draft:
     degrees, point = draws.item((30, 45, 60, 90, 120, 135, 150)), wholes(draws, 2, -4, 4)
     text = "A point is turned about the origin, counter-clockwise. Where does it land?"
     given = f"Angle: {degrees} degrees.\nPoint: {place_text(point)}"
-    hints = ("x' = cos x - sin y, y' = sin x + cos y.", "Does your calculator take degrees?")
+    hints = (
+        "x' = cos x - sin y, y' = sin x + cos y.",
+        "Does your calculator take degrees?",
+        f"x' = cos({degrees}°) * {factor_text(point[0])} - sin({degrees}°) * {factor_text(point[1])}.",
+    )
     draft = by_rule(text, given, (degrees, tuple(map(float, point))), ("degrees-for-radians",), hints, XY)
     return replace(draft, sketch=sketched({"point": point}))
 
@@ -81,7 +89,11 @@ def draw_scaling(draws: Draws) -> Draft:
         "The 9 numbers stand row by row."
     )
     given = f"S scales by {place_text(scale)}.\nT moves by {place_text(shift)}."
-    hints = ("What happens to the origin?", "The last column is where the origin goes.")
+    hints = (
+        "What happens to the origin?",
+        "The last column is where the origin goes.",
+        f"x' = {factor_text(scale[0])} x + {factor_text(shift[0])} is the first row times (x, y, 1).",
+    )
     return by_rule(text, given, (scale, shift), ("scaled-after-moving",), hints, shape=(3, 3))
 
 
@@ -90,7 +102,11 @@ def draw_translation(draws: Draws) -> Draft:
     shift, point = wholes(draws, 3, -4, 4), wholes(draws, 3, -4, 4)
     text = "What is T p for the column vector p = (x, y, z, 1)?"
     given = f"T moves by {place_text(shift)}.\n(x, y, z) = {place_text(point)}"
-    hints = ("Write T down with its ones.", "The shift stands in the last column: row k gives component k.")
+    hints = (
+        "Write T down with its ones.",
+        "The shift stands in the last column: row k gives component k.",
+        f"x' = 1 * {factor_text(point[0])} + 0 * y + 0 * z + {factor_text(shift[0])} * 1; y' and z' likewise.",
+    )
     return by_rule(text, given, (shift, point), ("matrix-transposed", "ones-missing"), hints, XYZW)
 
 
@@ -143,7 +159,11 @@ def draw_divide(draws: Draws) -> Draft:
     w = Fraction(draws.item((2, 4, 5, 8)))
     clip = (*(Fraction(draws.whole(-int(w), int(w))) for _ in range(3)), w)
     text = "What are the normalized device coordinates of this clip position?"
-    hints = ("Which of the four numbers divides the others?", "x/w, y/w and z/w.")
+    hints = (
+        "Which of the four numbers divides the others?",
+        "x/w, y/w and z/w.",
+        f"{factor_text(clip[0])}/{w}, {factor_text(clip[1])}/{w} and {factor_text(clip[2])}/{w}.",
+    )
     names = ("clip-for-ndc", "z-not-divided")
     return by_rule(text, f"Clip position: {place_text(clip)}", (clip,), names, hints, XYZ)
 
@@ -159,6 +179,7 @@ def draw_matrix(draws: Draws) -> Draft:
     hints = (
         "Each of x, y and z is scaled, then moved.",
         "The lower border -1 goes to 0, the upper border 1 to W, H and 1.",
+        f"x: {width}/2 * NDC + {width}/2; y: {height}/2 * NDC + {height}/2; z: 1/2 * NDC + 1/2.",
     )
     return numbers(text, f"Window of W = {width} and H = {height} pixels.", right, hints, shape=(4, 4))
 
@@ -174,6 +195,7 @@ def draw_map(draws: Draws) -> Draft | None:
     hints = (
         "Where does the origin go?",
         "The other columns are the images of the axes, less that of the origin.",
+        f"The last column is {place_text(origin)}, the first {place_text(first)} - {place_text(origin)}.",
     )
     right = [columns[column][row] for row in range(2) for column in range(3)]
     corners = {"of (0, 0)": origin, "of (1, 0)": first, "of (0, 1)": second}
@@ -192,7 +214,11 @@ def draw_shader(draws: Draws) -> Draft:
         "What are its x, y and z?"
     )
     given = f"position = {place_text(vertex)}\nmodelViewMatrix moves by {place_text(shift)}."
-    hints = ("What stands inside of vec4 is computed first.", "Scale each coordinate, then add the shift.")
+    hints = (
+        "What stands inside of vec4 is computed first.",
+        "Scale each coordinate, then add the shift.",
+        f"x = {factor_text(vertex[0])} * 1.5 + {factor_text(shift[0])}, y and z likewise.",
+    )
     return numbers(text, given, right, hints, wrong, XYZ)
 
 
@@ -205,7 +231,12 @@ def draw_skinning(draws: Draws) -> Draft:
         f"Bone {k}: weight {number_text(weight)}, x = {place}"
         for k, (weight, place) in enumerate(zip(weights, places, strict=True))
     )
-    hints = ("Sum the products of weight and x.", "Divide by the sum of the weights.")
+    products = " + ".join(f"{number_text(w)} * {x}" for w, x in zip(weights, places, strict=True))
+    hints = (
+        "Sum the products of weight and x.",
+        "Divide by the sum of the weights.",
+        f"({products}) / ({' + '.join(map(number_text, weights))}).",
+    )
     return by_rule(text, given, (weights, places), ("weights-not-normalized",), hints)
 
 
@@ -214,7 +245,11 @@ def draw_size(draws: Draws) -> Draft:
     height, near, times = draws.whole(1, 6), draws.whole(1, 5), draws.whole(2, 5)
     text = "How high must the second pole be to look as high as the first one under perspective?"
     given = f"First pole: {height} m high, at distance {near} m.\nSecond pole: at distance {near * times} m."
-    hints = ("What is constant along a ray from the eye?", "Size in the picture is height over distance.")
+    hints = (
+        "What is constant along a ray from the eye?",
+        "Size in the picture is height over distance.",
+        f"{height} / {near} must be equal to the height over {near * times}.",
+    )
     return numbers(text, given, [height * times], hints)
 
 
@@ -227,14 +262,22 @@ def ordered(text: str, options: tuple[str, ...], draws: Draws, hints: tuple[str,
 def draw_spaces(draws: Draws) -> Draft:
     """Spaces of a vertex."""
     spaces = ("object space", "world space", "camera space", "clip space", "NDC", "window")
-    hints = ("Which space is the model built in?", "The divide by w leads from clip space to NDC.")
+    hints = (
+        "Which space is the model built in?",
+        "The divide by w leads from clip space to NDC.",
+        "M, C^-1, P, the divide and D each lead from one space to the next.",
+    )
     return ordered("Through which spaces does a vertex go? First to last.", spaces, draws, hints)
 
 
 def draw_factors(draws: Draws) -> Draft:
     """What acts on a vertex first."""
     steps = ("M", "C^-1", "P", "divide by w", "D")
-    hints = ("In p' = D P C^-1 M p the factor next to p acts first.", "The divide follows the projection.")
+    hints = (
+        "In p' = D P C^-1 M p the factor next to p acts first.",
+        "The divide follows the projection.",
+        "Read D P C^-1 M p from the right, and put the divide in after P.",
+    )
     return ordered("In which order do these act on a vertex? First to last.", steps, draws, hints)
 
 

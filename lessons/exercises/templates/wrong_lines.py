@@ -44,7 +44,11 @@ row = floor(y_window)""",
             3: ("y_window = (1 - y_ndc) / 2 * H",),
             5: ("row = ceil(y_window)",),
         },
-        ("Follow the point in the middle of the window, and its corners.", "Where must -1 go, and where 1?"),
+        (
+            "Follow the point in the middle of the window, and its corners.",
+            "Where must -1 go, and where 1?",
+            "(x, y) = (-1, -1) goes to (0, 0), and (1, 1) to (W, H): put them into each line.",
+        ),
     ),
     Listed(
         "coverage-line",
@@ -67,6 +71,7 @@ for j in range(rows):
         (
             "Which point of a pixel is put into the edge functions?",
             "How many of the three values must agree?",
+            "Take a small triangle and one pixel inside of it, and compute each line by hand.",
         ),
     ),
     Listed(
@@ -92,7 +97,11 @@ kept = not outside and t_in <= t_out""",
             6: ("        t_in = min(t_in, q / p)", "        t_in = max(t_in, p / q)"),
             8: ("        t_out = max(t_out, q / p)",),
         },
-        ("Of several entries, which one counts?", "Follow a segment that is parallel to a border."),
+        (
+            "Of several entries, which one counts?",
+            "Follow a segment that is parallel to a border.",
+            "Put p = -1, q = 0 and p = 1, q = 1 into each line, and follow t_in and t_out.",
+        ),
     ),
     Listed(
         "perspective-line",
@@ -111,7 +120,11 @@ u = (p * u0 + q * u1 + r * u2) / total""",
             3: ("total = 1", "total = w0 + w1 + w2"),
             4: ("u = p * u0 + q * u1 + r * u2", "u = (p * u2 + q * u0 + r * u1) / total"),
         },
-        ("Put in equal w: what must come out?", "Which sum is divided by which?"),
+        (
+            "Put in equal w: what must come out?",
+            "Which sum is divided by which?",
+            "u = (alpha u0/w0 + beta u1/w1 + gamma u2/w2) / (alpha/w0 + beta/w1 + gamma/w2).",
+        ),
     ),
     Listed(
         "depth-line",
@@ -133,6 +146,7 @@ for z, color in fragments:
         (
             "Follow three fragments with a tie among them.",
             "What must the buffer hold after a fragment passed?",
+            "Write stored and shown after every line, with z = 1, z = 2 and z = 1 again.",
         ),
     ),
     Listed(
@@ -152,7 +166,11 @@ shown = color""",
             2: ("    kept = alpha", "    kept = 1"),
             3: ("    color = source + kept * color", "    color = kept * source + alpha * color"),
         },
-        ("What must one layer with alpha 1 give, and one with alpha 0?", "Which layer hides which?"),
+        (
+            "What must one layer with alpha 1 give, and one with alpha 0?",
+            "Which layer hides which?",
+            "Each layer gives alpha source + (1 - alpha) color: compare this with the lines of the loop.",
+        ),
     ),
 )
 
