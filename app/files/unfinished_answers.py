@@ -19,9 +19,9 @@ if TYPE_CHECKING:
 
 PAUSE = 200
 """Milliseconds after the last change."""
-VERSION: Literal[2] = 2
+VERSION: Literal[3] = 3
 """Of the file; earlier ones are read, later ones left alone."""
-SIZE_LIMIT = 1 << 22
+SIZE_LIMIT = 1 << 24
 """Most bytes of the file."""
 
 
@@ -49,7 +49,7 @@ class UnfinishedAnswers(BaseModel):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     program: Literal["rasterscope answers"] = "rasterscope answers"
-    version: Literal[1, 2] = VERSION
+    version: Literal[1, 2, 3] = VERSION
     user: str = DEFAULT_USER
     """Who answers."""
     current: str = ""
@@ -62,10 +62,17 @@ class UnfinishedAnswers(BaseModel):
     """Title and file of what was open and hidden for it, perhaps edited; ``None``: nothing was."""
     answers: dict[str, Unfinished] = {}
     """By the name of the exercise."""
+    others: dict[str, dict[str, Unfinished]] = {}
+    """Those of other learners, by their names."""
+
+    @property
+    def by_learner(self) -> dict[str, dict[str, Unfinished]]:
+        """Answers of all learners, by learner and exercise."""
+        return {**self.others, self.user: self.answers}
 
 
 class UnfinishedFile(QObject):
-    """Holds the answers in progress and writes them off the GUI thread."""
+    """Holds the answers in progress, each learner's apart, and writes them off the GUI thread."""
 
     failed = Signal(str)
     """Why they cannot be kept, as a sentence."""
@@ -73,8 +80,8 @@ class UnfinishedFile(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self.answers = UnfinishedAnswers()
-        self._changed: frozenset[str] = frozenset()
-        """Exercises whose answers this window has changed; those of others are left to other windows."""
+        self._changed: frozenset[tuple[str, str]] = frozenset()
+        """Learners and exercises whose answers this window has changed; the rest is left to other windows."""
         self._has_failed = self._is_dirty = self._is_foreign = False
         """The last: the file is of a later version, and is left alone."""
         self._job = Job(self)
@@ -108,7 +115,7 @@ class UnfinishedFile(QObject):
     def keep(self, template: "Template", unfinished: Unfinished, asked_scene: str = "") -> None:
         """Keep the answer to an exercise, that it is the one that is open, and the scene that is hidden for it."""
         name = template.name
-        self._changed |= {name}
+        self._changed |= {(self.answers.user, name)}
         answers = {**self.answers.answers, name: unfinished}
         changed = {"current": name, "path": template.path, "asked_scene": asked_scene, "answers": answers}
         self._change(self.answers.model_copy(update=changed))
@@ -118,9 +125,13 @@ class UnfinishedFile(QObject):
         self._change(self.answers.model_copy(update={"hidden": hidden}))
 
     def keep_user(self, user: str) -> None:
-        """Keep who answers; answers in progress are those of nobody else."""
-        kept = self.answers
-        self._change(UnfinishedAnswers(user=user, current=kept.current, path=kept.path))
+        """Keep who answers, and go on with what this learner has begun; what others have stays theirs."""
+        kept = _merged(self.answers, self._changed)
+        others = kept.by_learner
+        own = others.pop(user, {})
+        self._change(
+            UnfinishedAnswers(user=user, current=kept.current, path=kept.path, answers=own, others=others)
+        )
 
     def _change(self, changed: UnfinishedAnswers) -> None:
         if changed != self.answers:
@@ -188,14 +199,19 @@ def _path() -> Path:
     return data_folder() / ANSWERS
 
 
-def _write(answers: UnfinishedAnswers, changed: Set[str]) -> None:
-    """Write answers; of the same learner those that another window has kept stay, but for the ``changed`` ones."""
-    make_folder(data_folder())
+def _merged(answers: UnfinishedAnswers, changed: Set[tuple[str, str]]) -> UnfinishedAnswers:
+    """Return answers with what other windows have kept since, but for the ``changed`` ones."""
     try:
-        kept = read_answers()
+        learners = read_answers().by_learner
     except (OSError, ValidationError):
-        kept = answers
-    if kept.user == answers.user:
-        own = {name: answer for name, answer in answers.answers.items() if name in changed}
-        answers = answers.model_copy(update={"answers": {**answers.answers, **kept.answers, **own}})
-    write_file(_path(), answers.model_dump_json().encode() + b"\n")
+        return answers
+    for user, its in answers.by_learner.items():
+        own = {name: answer for name, answer in its.items() if (user, name) in changed}
+        learners[user] = {**its, **learners.get(user, {}), **own}
+    return answers.model_copy(update={"answers": learners.pop(answers.user), "others": learners})
+
+
+def _write(answers: UnfinishedAnswers, changed: Set[tuple[str, str]]) -> None:
+    """Write answers, beside those that other windows have kept."""
+    make_folder(data_folder())
+    write_file(_path(), _merged(answers, changed).model_dump_json().encode() + b"\n")

@@ -216,7 +216,9 @@ class ExercisesPage(Page):
         self.questions.user = user
         self.exercises.set_user(user)
         if self.question is not None:
-            self.questions.open(self.question.template, self.question.seed)
+            template = self.question.template
+            has_begun = template.name in self.unfinished.answers.answers
+            self.questions.open(template, None if has_begun else self.question.seed)
 
     def dismiss(self) -> bool:
         """Show the question again in place of the progress or of a picture."""

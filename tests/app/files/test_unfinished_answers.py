@@ -42,7 +42,7 @@ def test_a_broken_file_is_set_aside(qtbot: QtBot, folder: Path, content: bytes) 
 
 
 def test_a_file_of_a_later_version_is_left_alone(qtbot: QtBot, folder: Path) -> None:
-    content = b'{"program": "rasterscope answers", "version": 3, "more": 1}'
+    content = b'{"program": "rasterscope answers", "version": 4, "more": 1}'
     (folder / ANSWERS).write_bytes(content)
     file = UnfinishedFile()
     assert "later version" in file.read()
@@ -63,7 +63,7 @@ def test_what_cannot_be_written_is_reported_once(qtbot: QtBot, folder: Path) -> 
     assert said[0].startswith("The answer is not kept for the next start: ")
 
 
-def test_a_file_of_version_1_is_read(qtbot: QtBot, folder: Path) -> None:
+def test_a_file_of_an_earlier_version_is_read(qtbot: QtBot, folder: Path) -> None:
     (folder / ANSWERS).write_text(
         '{"program":"rasterscope answers","version":1,"user":"me","current":"facing",'
         '"answers":{"facing":{"version":1,"seed":7,"given":["A"],"hints":1,"is_shown":false}}}'
@@ -86,3 +86,30 @@ def test_two_windows_lose_no_answer_of_each_other(qtbot: QtBot, folder: Path) ->
     third.finish()
     second.read()
     assert (second.answers.user, second.answers.answers) == ("Ada", {})
+
+
+def test_two_learners_lose_no_answer_of_each_other(qtbot: QtBot, folder: Path) -> None:
+    """In two windows at once, and where one follows the other in a window."""
+    first, second = UnfinishedFile(), UnfinishedFile()
+    first.keep_user("Ada")
+    first.keep(TEMPLATES["facing"], KEPT)
+    second.keep_user("Bob")
+    second.keep(TEMPLATES["clip-ends"], KEPT)
+    for file in (first, second):
+        file.finish()
+    first.keep(TEMPLATES["shared-edge"], KEPT)
+    first.finish()
+    third = UnfinishedFile()
+    third.read()
+    assert third.answers.user == "Ada"
+    assert set(third.answers.answers) == {"facing", "shared-edge"}
+    third.keep_user("Bob")
+    assert third.answers.answers == {"clip-ends": KEPT}
+    third.keep(TEMPLATES["clip-ends"], Unfinished(version=1, seed=8))
+    third.keep_user("Ada")
+    assert set(third.answers.answers) == {"facing", "shared-edge"}
+    third.finish()
+    fourth = UnfinishedFile()
+    fourth.read()
+    fourth.keep_user("Bob")
+    assert fourth.answers.answers["clip-ends"].seed == 8
