@@ -31,6 +31,10 @@ class AnswerView(QWidget):
         """Return what is in the form, as an answer file has it."""
         raise NotImplementedError
 
+    def unread(self) -> str:
+        """Say what is typed but is not in the answer, and why; empty: nothing."""
+        return ""
+
     def show_given(self, given: Any) -> None:
         """Fill the form with what was in it; ``None`` empties it."""
         raise NotImplementedError

@@ -28,6 +28,8 @@ class PixelAnswerView(AnswerView):
         super().__init__(form, grid, parent)
         self._form, self._grid = form, grid
         self._marks: PixelMarks | None = None
+        self._unread: dict[int, str] = {}
+        """Why the text of a row means nothing, by the field's number."""
         self.how = text_label(HOW, self, role="muted", wraps=True)
         self.count = text_label("", self)
         self.clear_button = button_with_tip("Clear", f"Mark no {form.noun}", self)
@@ -56,8 +58,13 @@ class PixelAnswerView(AnswerView):
         """Return the marked pixels as [column, row]."""
         return [list(pixel) for pixel in sorted(self._grid.marked())]
 
+    def unread(self) -> str:
+        """Say which row means nothing."""
+        return next(iter(self._unread.values()), "")
+
     def show_given(self, given: Any) -> None:
         """Mark pixels."""
+        self._unread.clear()
         self._grid.show_marked(frozenset((column, row) for column, row in given or ()))
         self._show()
 
@@ -86,6 +93,7 @@ class PixelAnswerView(AnswerView):
 
     @Slot(object, bool)
     def _painted(self) -> None:
+        self._forget_unread()
         self._show()
         self.answer_changed.emit()
 
@@ -97,6 +105,7 @@ class PixelAnswerView(AnswerView):
 
     @Slot(bool)
     def _show_rows(self, is_shown: bool) -> None:
+        self._forget_unread()
         self.rows.setVisible(is_shown)
         self._show()
 
@@ -107,23 +116,35 @@ class PixelAnswerView(AnswerView):
         try:
             columns = self._form.read_columns(self.rows.text(number, column))
         except ValueError as problem:
-            self.note_changed.emit(f"Row {row}: {problem}")
+            self._unread[number] = f"row {row}: {problem}"
+            self._tell_unread()
             return
-        self.note_changed.emit("")
+        self._unread.pop(number, None)
+        self._tell_unread()
         others = frozenset(pixel for pixel in self._grid.marked() if pixel[1] != row)
         self._grid.show_marked(others | frozenset((place, row) for place in columns))
         self._show(typed=number)
         self.answer_changed.emit()
 
+    def _forget_unread(self) -> None:
+        """Let the rows show what is marked, whatever was typed there."""
+        if self._unread:
+            self._unread.clear()
+            self._tell_unread()
+
+    def _tell_unread(self) -> None:
+        unread = self.unread()
+        self.note_changed.emit(f"{unread[:1].upper()}{unread[1:]}." if unread else "")
+
     def _show(self, typed: int = -1) -> None:
-        """Show the count and the rows; the one that is being ``typed`` is left alone."""
+        """Show the count and the rows; the one that is being ``typed`` and those that mean nothing are left alone."""
         marked, noun = self._grid.marked(), self._form.noun
         self.count.setText(f"{len(marked)} {noun[:-1] if len(marked) == 1 else noun} marked")
         if self.rows.isHidden():
             return
         for number in range(self._form.size[1]):
             row = self._form.size[1] - 1 - number
-            if number != typed:
+            if number != typed and number not in self._unread:
                 self.rows.show_text(number, 0, columns_text(marked, row))
             self.rows.show_text(number, 1, "" if self._marks is None else found_text(self._marks, row))
 

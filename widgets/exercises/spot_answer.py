@@ -39,6 +39,10 @@ class SpotAnswerView(AnswerView):
         """Return the pixels and the option."""
         return {"pixels": self.pixels.given(), "option": (self.choice.given() or [""])[0]}
 
+    def unread(self) -> str:
+        """Say which row of pixels means nothing."""
+        return self.pixels.unread()
+
     def show_given(self, given: Any) -> None:
         """Mark pixels and choose an option."""
         self.pixels.show_given(given["pixels"] if given else None)

@@ -51,6 +51,7 @@ class StepsAnswerView(AnswerView):
         self.how = text_label("", self, role="muted", wraps=True)
         self.field = QLineEdit(self)
         self.field.setAccessibleName("This step")
+        self.field.textEdited.connect(self._typed)
         self.field.returnPressed.connect(self._try_text)
         self.try_button = button_with_tip("Try", "Judge this step (Return)", self)
         self.try_button.clicked.connect(self._try_text)
@@ -77,6 +78,13 @@ class StepsAnswerView(AnswerView):
         """Return the tries of every step so far."""
         return [list(tries) for tries in self._tries]
 
+    def unread(self) -> str:
+        """Say what is typed for a step but was not tried."""
+        text = self.field.text().strip()
+        if not text or self.field.isHidden():
+            return ""
+        return self._problem(text) or f"{text[:20]!a} is not tried yet: Return tries it"
+
     def show_given(self, given: Any) -> None:
         """Go on from the tries of before."""
         tries = [[str(one) for one in step] for step in given or ()]
@@ -102,6 +110,26 @@ class StepsAnswerView(AnswerView):
         """Keep Return: in the field it tries the step, and does not check the whole answer."""
         if event.key() not in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
             super().keyPressEvent(event)
+
+    def _tries_with(self, text: str) -> list[list[str]]:
+        """Return the tries with one more of the step that is asked."""
+        tries, number = self.given(), self._state.open
+        assert number is not None
+        tries[number:] = [[*(tries[number] if number < len(tries) else []), text]]
+        return tries
+
+    def _problem(self, text: str) -> str:
+        """Return why a text means nothing as a step; empty: it means something."""
+        try:
+            self._form.state(self._tries_with(text))
+        except ValueError as problem:
+            return str(problem)
+        return ""
+
+    @Slot(str)
+    def _typed(self, text: str) -> None:
+        problem = self._problem(text) if text.strip() else ""
+        self.note_changed.emit(f"Not tried yet: {problem}." if problem else "")
 
     @Slot()
     def _try_text(self) -> None:
@@ -132,8 +160,7 @@ class StepsAnswerView(AnswerView):
         number = self._state.open
         if number is None:
             return
-        tries = self.given()
-        tries[number:] = [[*(tries[number] if number < len(tries) else []), text]]
+        tries = self._tries_with(text)
         try:
             self._state = self._form.state(tries)
         except ValueError as problem:

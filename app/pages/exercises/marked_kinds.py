@@ -26,9 +26,11 @@ def read_columns(columns: int, text: str) -> frozenset[int]:
     for part in text.split(",") if text.strip() else ():
         run = _RUN.fullmatch(part)
         if run is None:
-            raise ValueError(f"expected columns such as 3-7, 9; got {part.strip()[:20]!r}")
+            raise ValueError(f"expected columns such as 3-7, 9; got {part.strip()[:20]!a}")
         first, last = int(run[1]), int(run[2] or run[1])
-        if not first <= last < columns:
+        if first > last:
+            raise ValueError(f"expected the smaller column first, got {part.strip()}")
+        if last >= columns:
             raise ValueError(f"expected columns from 0 to {columns - 1}, got {part.strip()}")
         found.update(range(first, last + 1))
     return frozenset(found)

@@ -35,6 +35,7 @@ from widgets.exercises.pixel_answer import PixelAnswerView
 from widgets.exercises.place_answer import PlaceAnswerView
 from widgets.exercises.progress_view import ProgressView
 from widgets.exercises.question_view import QuestionView
+from widgets.exercises.spot_answer import SpotAnswerView
 
 if TYPE_CHECKING:
     from lessons.exercises.question import Question
@@ -285,7 +286,7 @@ class ExercisesPage(Page):
 
     def _toggle_rows(self) -> None:
         answer = self.question_view.answer
-        if isinstance(answer, PixelAnswerView):
+        if isinstance(answer, PixelAnswerView | SpotAnswerView):
             answer.toggle_rows()
         else:
             self.message_sent.emit("This answer is given in fields already.")

@@ -264,6 +264,8 @@ class QuestionPresenter(QObject):
             return
         answer = question.draft.answer
         try:
+            if unread := view.unread():
+                raise NotCheckedError(unread)
             response = answer.read(KINDS[answer.kind].read(answer, view.given()))
         except NotCheckedError as problem:
             self._view.show_note(f"Not checked yet: {problem}.")

@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QLineEdit
 from pytestqt.qtbot import QtBot
 
 from app.cli.attempts import attempt_file
@@ -129,6 +129,55 @@ def check_that_nonsense_costs_nothing(page: Page) -> None:
     before = attempt_file().attempts()
     check(shown)
     assert shown.question_view.note.text() == "Not checked yet: the answer is empty."
+    assert attempt_file().attempts() == before
+
+
+def write(field: QLineEdit, text: str) -> None:
+    """Write as by an input method: `QTest` has keys for Latin letters only."""
+    field.setText(text)
+    field.textEdited.emit(text)
+
+
+def check_that_nonsense_in_a_row_or_a_step_is_said_and_not_passed_over(page: Page) -> None:
+    """Also by Check, which reads the marks on the picture and the steps that were tried."""
+    before = attempt_file().attempts()
+    for name in ("shared-edge", "wrong-picture"):
+        shown = page(name)
+        view = shown.question_view
+        shown.questions.ask_again()
+        shown.settle()
+        shown.handlers()["answer_rows"]()
+        answer = view.answer.pixels if isinstance(view.answer, SpotAnswerView) else view.answer
+        assert isinstance(answer, PixelAnswerView)
+        last = len(answer.rows.texts()) - 1
+        for text in ("1e400", "NaN", "\u0661", "0-99999999", "2-1"):
+            field = answer.rows.field(last, 0)
+            write(field, text)
+            assert view.note.text().startswith("Row 0: expected "), text
+            QTest.keyClicks(answer.rows.field(0, 0), "1")
+            answer.rows.field(0, 0).selectAll()
+            assert field.text() == text, "another row leaves it alone"
+            check(shown)
+            assert view.note.text().startswith("Not checked yet: row 0: expected "), text
+            assert ascii(text)[1:-1] in view.note.text()
+        paint(shown, frozenset({(1, 0)}))
+        assert (field.text(), view.note.text()) == ("1", "")
+        answer.toggle_rows()
+        answer.clear_button.click()
+    shown = page("bresenham-steps")
+    view = shown.question_view
+    assert isinstance(view.answer, StepsAnswerView)
+    for text in ("1e400", "NaN", "\u0661"):
+        write(view.answer.field, text)
+        assert view.note.text().startswith("Not tried yet: expected "), text
+        check(shown)
+        assert view.note.text().startswith("Not checked yet: expected "), text
+        view.answer.field.clear()
+    QTest.keyClicks(view.answer.field, "5")
+    assert view.note.text() == ""
+    check(shown)
+    assert view.note.text() == "Not checked yet: '5' is not tried yet: Return tries it."
+    view.answer.field.clear()
     assert attempt_file().attempts() == before
 
 
@@ -294,6 +343,7 @@ def test_every_type_is_answered_in_one_window(page: Page, window: MainWindow) ->
     check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page)
     check_that_a_typed_point_stands_in_the_sketch(page)
     check_that_nonsense_costs_nothing(page)
+    check_that_nonsense_in_a_row_or_a_step_is_said_and_not_passed_over(page)
     check_that_an_order_is_moved_by_keys(page)
     check_that_options_are_chosen_by_space_and_marked(page)
     check_that_hints_come_in_order_and_the_model_answer_asks_first(page)
