@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from app.pages.step.grid_records import geometry_of
 from app.session.document import STEPPED, Document, open_document
 from core.scene import AnyScene
@@ -27,15 +29,26 @@ def document_of(draft: Draft, title: str) -> Document:
 
 
 def outline_of(draft: Draft, stage: str) -> GridGeometry | None:
-    """Return the outlines of the scene; ``None``: there is none, or it is what is asked for."""
+    """Return the outlines of the scene; ``None``: it shows fragments, has none, or they are what is asked for."""
     if draft.scene is None or stage in HIDDEN:
         return None
     outline = scene_outline(draft.scene)
+    if _is_fragments(outline):
+        return None
     names = NAMES[: len(outline.triangles)]
     if len(outline.triangles) in NAMED and all(f"{name}: " in draft.given for name in names):
         # None stands out: the question is about all of them.
         return replace(outline, focus=-1, names=tuple(names))
     return outline
+
+
+def _is_fragments(outline: GridGeometry) -> bool:
+    """Return whether each of several triangles lies in one pixel: it stands for a fragment, its shape says nothing."""
+    pixels, corners = np.floor(outline.vertices[outline.triangles]), outline.triangles
+    # All corners of a point are one.
+    return len(corners) > 1 and bool(
+        (corners[:, 0] != corners[:, 1]).all() and (pixels == pixels[:, :1]).all()
+    )
 
 
 def scene_outline(scene: AnyScene) -> GridGeometry:

@@ -92,13 +92,15 @@ def draw_perspective(draws: Draws) -> Draft | None:
 Fragment = tuple[int, int]
 """Pixel and hundredths of depth."""
 FRAGMENT_COUNT = 7
+FRAGMENT_PIXELS = 3
+"""In a row, in which the fragments lie."""
 
 
 def card_scene(fragments: Sequence[Fragment]) -> ClipScene:
     """Return triangles that each cover one pixel of a row."""
     corners = [[(k + 0.25, 0.25), (k + 0.9, 0.25), (k + 0.25, 0.9)] for k, _ in fragments]
     depth = [[z / 100] * 3 for _, z in fragments]
-    return triangle_scene(corners, (4, 1), depth=depth)
+    return triangle_scene(corners, (FRAGMENT_PIXELS, 1), depth=depth)
 
 
 def stored_depths(fragments: Sequence[Fragment], twin: str = "") -> Rows:
@@ -127,7 +129,7 @@ def depth_table(fragments: Sequence[Fragment]) -> TableAnswer:
 
 def draw_depths(draws: Draws) -> Draft | None:
     """A z-buffer, fragment by fragment."""
-    fragments = [(draws.whole(0, 2), draws.whole(10, 99)) for _ in range(FRAGMENT_COUNT)]
+    fragments = [(draws.whole(0, FRAGMENT_PIXELS - 1), draws.whole(10, 99)) for _ in range(FRAGMENT_COUNT)]
     if len(set(fragments)) < len(fragments):
         return None
     wrong = {name: stored_depths(fragments, name) for name in ("farther-wins", "no-depth-test")}

@@ -8,7 +8,7 @@ from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import corner_text, twice_area
-from lessons.exercises.templates.fragments import card_scene
+from lessons.exercises.templates.fragments import FRAGMENT_PIXELS, card_scene
 from lessons.exercises.templates.lines import RULE, SIZE, TALL, Ends
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.twin import segment_ends
@@ -80,7 +80,7 @@ def depth_verdicts(fragments: list[tuple[int, int]], twin: str = "") -> list[Val
 
 def draw_depth(draws: Draws) -> Draft | None:
     """The depth test of fragments."""
-    fragments = [(draws.whole(0, 2), draws.whole(10, 99)) for _ in range(FRAGMENT_COUNT)]
+    fragments = [(draws.whole(0, FRAGMENT_PIXELS - 1), draws.whole(10, 99)) for _ in range(FRAGMENT_COUNT)]
     if len({z for _, z in fragments}) < FRAGMENT_COUNT:
         return None
     right = depth_verdicts(fragments)

@@ -14,6 +14,7 @@ from app.cli.attempts import attempt_file
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.feedback import CORRECTED, feedback_of
 from app.pages.exercises.page import ExercisesPage
+from app.pages.exercises.scene_outline import outline_of
 from app.pages.exercises.work import Checked
 from app.window.main_window import MainWindow
 from core import render
@@ -112,6 +113,13 @@ def test_outlines_have_the_names_of_the_question(page: Page) -> None:
     before = shown.grid.grab().toImage()
     shown.grid.show_geometry(replace(geometry, names=()))
     assert shown.grid.grab().toImage() != before
+
+
+def test_triangles_that_stand_for_fragments_have_no_outline() -> None:
+    """They all have one shape, in the pixel of their fragment: only the pixels say something."""
+    for name in ("depth-test-steps", "z-buffer-table"):
+        assert outline_of(ask(TEMPLATES[name], 7).draft, "depth") is None
+    assert outline_of(ask(TEMPLATES["point-pixels"], 7).draft, "raster") is not None
 
 
 def test_the_list_of_a_stage_is_divided_by_subject(page: Page) -> None:
