@@ -31,6 +31,14 @@ class DrawnScene:
     name: str = ""
     """Of a built-in scene."""
 
+    @property
+    def direction(self) -> tuple[float, float] | None:
+        """From the start to the end of the one segment; ``None``: the scene is another one."""
+        if len(self.places) != 1 or len(self.places[0]) != 2:
+            return None
+        (x0, y0), (x1, y1) = self.places[0]
+        return float(x1 - x0), float(y1 - y0)
+
     def corner(self, at: Sequence[int]) -> Corner:
         """Return a corner by the numbers of its triangle and itself; ValueError where there is none."""
         primitive, corner = at

@@ -99,7 +99,8 @@ def pixel_answer(part: PixelPart, drawn: DrawnScene | None, settings: Settings) 
             raise ValueError("expected art, or a scene to draw")
         if drawn.places and part.triangle is not None and part.triangle >= len(drawn.places):
             raise ValueError(f"expected a triangle from 0 to {len(drawn.places) - 1}, got {part.triangle}")
-        return PixelAnswer(drawn.scene.size, seen_pixels(render(drawn.scene, settings), part.triangle))
+        right = seen_pixels(render(drawn.scene, settings), part.triangle)
+        return PixelAnswer(drawn.scene.size, right, direction=drawn.direction)
     marks = read_art(part.art)
     columns, rows = (1 + max(place) for place in zip(*marks, strict=True))
     of = {mark: frozenset(pixel for pixel, its in marks.items() if its == mark) for mark in "#?"}

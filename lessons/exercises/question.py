@@ -162,12 +162,7 @@ def judge(question: Question, response: Response) -> Judgement:
     return Judgement(verdict, points, names, not names and draft.answer.is_slip(response), refutation)
 
 
-def hints_after(question: Question, response: Response | None = None) -> list[str]:
-    """Return the hints in order; after a wrong answer those of its mistakes first, and last where it goes wrong."""
-    hints = list(question.draft.hints)
-    if response is None:
-        return hints
-    judgement = judge(question, response)
-    named = [MISTAKES[name].sentence for name in judgement.mistakes]
-    first_wrong = question.draft.answer.first_wrong(response)
-    return [*named, *hints, *([first_wrong] if first_wrong else [])]
+def hints_after(draft: Draft, response: Response | None = None) -> tuple[str, ...]:
+    """Return the hints in order; after a wrong answer the last says where it goes wrong first."""
+    where = "" if response is None else draft.answer.first_wrong(response)
+    return (*draft.hints, *((where,) if where else ()))

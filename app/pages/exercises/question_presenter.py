@@ -19,7 +19,7 @@ from core.records.words import counted
 from lessons.attempts.practice import TRY_LIMIT
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.answers.steps import StepsAnswer
-from lessons.exercises.question import Question, Template, ask
+from lessons.exercises.question import Question, Template, ask, hints_after
 from lessons.exercises.scene_digest import scene_digest
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
@@ -307,11 +307,8 @@ class QuestionPresenter(QObject):
             self._keep()
 
     def _all_hints(self) -> tuple[str, ...]:
-        """Return the hints in order; after a wrong answer the last says where it goes wrong first."""
         assert self.question is not None
-        draft = self.question.draft
-        where = "" if self._checked is None else draft.answer.first_wrong(self._checked.response)
-        return (*draft.hints, *((where,) if where else ()))
+        return hints_after(self.question.draft, None if self._checked is None else self._checked.response)
 
     def _show_state(self) -> None:
         """Show the hints so far, and what can be done next."""

@@ -117,9 +117,19 @@ class NumberAnswer(Answer):
         return ", ".join(texts)
 
     def first_wrong(self, response: Numbers) -> str:
-        """Name the first number that is wrong, where the question names them."""
+        """Name the first number that is wrong, or its row and column; nothing where there is only one."""
         wrong = self.check(response).marks["wrong"]
-        return f"The first number that is wrong: {self.names[wrong[0]]}." if wrong and self.names else ""
+        if not wrong or not (self.names or self.shape):
+            return ""
+        return f"The first number that is wrong: {self._place(wrong[0])}."
+
+    def _place(self, number: int) -> str:
+        if self.names:
+            return self.names[number]
+        if len(self.shape) == 1:
+            return f"number {number + 1}"
+        row, column = divmod(number, self.shape[1])
+        return f"row {row + 1}, column {column + 1}"
 
     def random(self, draws: Draws) -> Numbers:
         """Guess numbers of the size and the fineness of the right ones."""

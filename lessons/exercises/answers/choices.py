@@ -204,6 +204,13 @@ class ChoiceAnswer(Answer):
         """Return the options chosen."""
         return ", ".join(self.options[k] for k in sorted(response))
 
+    def first_wrong(self, response: frozenset[int]) -> str:
+        """Name the first option that is chosen and wrong, or right and not chosen; of one choice nothing."""
+        wrong = sorted(response ^ self.reference)
+        return (
+            f"The first option to think over: {self.options[wrong[0]]}." if wrong and self.is_several else ""
+        )
+
     def random(self, draws: Draws) -> frozenset[int]:
         """Guess among all choices that can be made."""
         count = len(self.options)

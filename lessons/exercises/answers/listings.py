@@ -80,6 +80,13 @@ class LineAnswer(Answer):
         """Return the line with its number."""
         return f"line {response + 1}: {self.lines[response].strip()}"
 
+    def first_wrong(self, response: int) -> str:
+        """Say whether the wrong line comes before or after."""
+        if response in self.also | {self.reference}:
+            return ""
+        side = "after" if response < self.reference else "before"
+        return f"The wrong line comes {side} line {response + 1}."
+
     def random(self, draws: Draws) -> int:
         """Guess a line that says something."""
         return draws.item(self._telling)

@@ -35,6 +35,8 @@ class PixelAnswer(Answer):
     may: Pixels = frozenset()
     """Those that the question leaves open."""
     noun: str = "pixels"
+    direction: tuple[float, float] | None = None
+    """From the start to the end of the line that they make, in pixels; ``None``: they make none."""
 
     kind: ClassVar[str] = "pixels"
 
@@ -109,9 +111,16 @@ class PixelAnswer(Answer):
         return "\n".join(reversed(lines))
 
     def first_wrong(self, response: Pixels) -> str:
-        """Name the lowest row with a wrong pixel."""
+        """Name the lowest row with a wrong pixel, or the first column or row of a line, in drawing order."""
         wrong = (response ^ self.reference) - self.may
-        return f"The lowest row with a wrong one: row {min(row for _, row in wrong)}." if wrong else ""
+        if not wrong:
+            return ""
+        if self.direction is None:
+            return f"The lowest row with a wrong one: row {min(row for _, row in wrong)}."
+        axis = int(abs(self.direction[1]) > abs(self.direction[0]))
+        first = max if self.direction[axis] < 0 else min
+        place = first(pixel[axis] for pixel in wrong)
+        return f"The first wrong one from the start of the line: {('column', 'row')[axis]} {place}."
 
     def random(self, draws: Draws) -> Pixels:
         """Mark every pixel with one probability, itself drawn."""

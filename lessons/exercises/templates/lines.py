@@ -74,7 +74,8 @@ def draw_pixels(draws: Draws) -> Draft:
         "first-pixel-lost",
     )
     wrong = {name: line_pixels(scene, SHELF[name].change_settings(LECTURE)) for name in names}
-    answer = PixelAnswer(SIZE, line_pixels(scene, LECTURE))
+    (x0, y0), (x1, y1) = ends
+    answer = PixelAnswer(SIZE, line_pixels(scene, LECTURE), direction=(x1 - x0, y1 - y0))
     hints = (
         "One pixel in every column, from the first end to the second.",
         "Keep D beside each pixel; its sign chooses the row of the next one.",

@@ -114,6 +114,29 @@ def test_pixels_lose_for_strays() -> None:
     assert open_ones.is_same(MARKED, MARKED | {(0, 0)})
 
 
+def test_a_wrong_answer_is_told_where_it_goes_wrong_first() -> None:
+    """Tables, orders, steps, places and pictures name their first wrong part, too."""
+    line = frozenset({(4, 0), (3, 1), (2, 1), (1, 2)})
+    wrong = (line - {(3, 1)} | {(3, 0)}) - {(1, 2)}
+    assert PixelAnswer((6, 3), line).first_wrong(wrong) == "The lowest row with a wrong one: row 0."
+    for direction, place in (
+        ((-3, 2), "column 3"),
+        ((3, -2), "column 1"),
+        ((-2, 3), "row 0"),
+        ((0, -3), "row 2"),
+    ):
+        told = PixelAnswer((6, 3), line, direction=direction).first_wrong(wrong)
+        assert told == f"The first wrong one from the start of the line: {place}."
+    assert VECTOR.first_wrong(VECTOR.read(["0.33", "1"])) == "The first number that is wrong: number 2."
+    unit = tuple(Fraction(k in (0, 3)) for k in range(4))
+    turned = NumberAnswer(unit, (2, 2)).first_wrong((*unit[:2], Fraction(5), Fraction(1)))
+    assert turned == "The first number that is wrong: row 2, column 1."
+    assert SEVERAL.first_wrong(frozenset({0, 3})) == "The first option to think over: b."
+    assert not ONE.first_wrong(frozenset({0}))
+    for answer in ANSWERS:
+        assert not answer.first_wrong(answer.reference)
+
+
 def test_text_art_is_read_back() -> None:
     assert PIXELS.read(PIXELS.text(MARKED)) == MARKED == PIXELS.read([list(pixel) for pixel in MARKED])
 

@@ -132,6 +132,12 @@ def test_a_picture_earns_half_for_the_place_and_half_for_the_mistake() -> None:
     assert only.check(only.read([[2, 2]])).score == 1
 
 
+def test_a_wrong_line_is_told_on_which_side_the_right_one_is() -> None:
+    assert LINE.first_wrong(0) == "The wrong line comes after line 1."
+    assert LINE.first_wrong(3) == "The wrong line comes before line 4."
+    assert not LINE.first_wrong(2)
+
+
 def test_only_the_first_try_of_a_step_earns() -> None:
     run = ()
     for value, number in ((Fraction(-2), 1), ((1, 1), 1), ((2, 1), 2), (1, 2), (FIXED, 3)):
