@@ -54,7 +54,12 @@ def draw_steps(draws: Draws) -> Draft:
         "whole numbers does it store for surfaces at these distances?"
     )
     given = f"n = {near}, f = {far}\nDistances: {distance} and {distance + 1}"
-    hints = ("Find z of both.", "Multiply by 65535 and round.", "Equal numbers would fight.")
+    hints = (
+        "Find z of both.",
+        "Multiply by 65535 and round.",
+        "Equal numbers would fight.",
+        f"The first: 65535 * {far} ({distance} - {near}) / ({distance} ({far} - {near})).",
+    )
     return numbers(text, given, right, hints, {"depth-linear": wrong}, ("first", "second"))
 
 

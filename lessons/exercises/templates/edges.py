@@ -16,7 +16,15 @@ from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
-from lessons.exercises.templates.drafting import by_rule, numbers, one_of, place_text, several, table
+from lessons.exercises.templates.drafting import (
+    by_rule,
+    factor_text,
+    numbers,
+    one_of,
+    place_text,
+    several,
+    table,
+)
 from lessons.exercises.templates.transforms import sketched, wholes
 from lessons.mistakes.coverage import owns_level, owns_slanted
 from lessons.mistakes.shelf import RULES
@@ -56,6 +64,7 @@ def draw_coefficients(draws: Draws) -> Draft | None:
         "It is zero at both ends.",
         "a = y0 - y1 and b = x1 - x0.",
         "c follows from E = 0 at the first end.",
+        f"a = {factor_text(start[1])} - {factor_text(end[1])}, b = {factor_text(end[0])} - {factor_text(start[0])}.",
     )
     given = f"Edge from {place_text(start)} to {place_text(end)}."
     draft = numbers(text, given, coefficients(start, end), hints, names=("a", "b", "c"))
@@ -75,10 +84,12 @@ def draw_values(draws: Draws) -> Draft | None:
 
     scene = triangle_scene(np.array([corners], float), SIZE)
     text = f"What are the three edge functions at the centre (i + 1/2, j + 1/2) of pixel {pixel}? {INWARD}"
+    (x0, y0), (x1, y1) = (map(factor_text, corner) for corner in corners[:2])
     hints = (
         "Where is the centre?",
         "E = (y0 - y1)(x - x0) + (x1 - x0)(y - y0).",
         "The signs tell on which side of each edge it lies.",
+        f"The centre is ({pixel[0]} + 1/2, {pixel[1]} + 1/2); the first edge has a = {y0} - {y1}, b = {x1} - {x0}.",
     )
     wrong = {"corner-for-center": values(Fraction(0))}
     right = values(Fraction(1, 2))
@@ -96,7 +107,12 @@ def draw_stepped(draws: Draws) -> Draft | None:
     columns = range(first, first + 6)
     right = [[a * (x + Fraction(1, 2)) + b * (row + Fraction(1, 2)) + c] for x in columns]
     text = f"Fill in E at the centres (i + 1/2, j + 1/2) of these pixels of row {row}. {INWARD} {WITHIN_ROW}"
-    hints = ("Compute the first one.", "From one column to the next, E grows by a.", "a = y0 - y1.")
+    hints = (
+        "Compute the first one.",
+        "From one column to the next, E grows by a.",
+        "a = y0 - y1.",
+        f"a = {factor_text(start[1])} - {factor_text(end[1])}; the first centre is ({first} + 1/2, {row} + 1/2).",
+    )
 
     def follow(own: Any, number: int, mine: Any) -> Any:
         return ("", own[-1][0][1] + a) if number else ("", right[0][0])

@@ -15,8 +15,8 @@ from lessons.exercises.answers.tables import Cell, Column, Row, Rows, TableAnswe
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.coverage import corner_text, twice_area
-from lessons.exercises.templates.drafting import TOLERANCE, WITHIN
+from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
+from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import EVERYWHERE, triangle_scene
 
@@ -49,6 +49,7 @@ def draw_weights(draws: Draws) -> Draft | None:
         "Each weight is an area over the area of the triangle.",
         "alpha belongs to vertex 0: it is the area of the centre with vertices 1 and 2.",
         "The three weights sum to 1.",
+        f"The area of the whole triangle is half of {facing_text(corners)}.",
     )
     turned = NearMiss(
         (weights[2], *weights[:2]), Fraction(1, 3), "The right weights, turned by one, earn a third."
@@ -80,10 +81,12 @@ def draw_perspective(draws: Draws) -> Draft | None:
         for k, (name, weight, value, each) in enumerate(rows)
     )
     text = f"What is u at this pixel with perspective? The weights are those of the window. {WITHIN}"
+    lower_sum = " + ".join(f"{factor_text(a)}/{b}" for a, b in zip(weights, w, strict=True))
     hints = (
         "u is not linear in the window, but two other values are.",
         "Interpolate u/w and 1/w with the weights.",
         "u = (sum of weight u/w) / (sum of weight 1/w).",
+        f"The lower sum: {lower_sum}.",
     )
     answer = NumberAnswer((u_over_w / over_w,), (), ("u",), TOLERANCE)
     return Draft(text, given, answer, hints, wrong, scene, pixel=pixel)
@@ -175,6 +178,7 @@ def draw_blend(draws: Draws) -> Draft:
         "Blend layer 0 over the background first.",
         "over: alpha times the new colour plus (1 - alpha) times what is there.",
         "Layer 1 weakens everything below it by 1 - alpha.",
+        f"red: {factor_text(alphas[1])} * {COLORS[names[1]][0]} + (1 - {factor_text(alphas[1])}) * the red before.",
     )
     answer = NumberAnswer(tuple(color), (3,), ("red", "green", "blue"), TOLERANCE)
     return Draft(text, given, answer, hints, wrong, scene, settings, (0, 0))

@@ -11,7 +11,7 @@ from lessons.exercises.answers.amounts import Numbers
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
+from lessons.exercises.templates.coverage import Corner, corner_text, facing_text, twice_area
 from lessons.exercises.templates.drafting import by_rule, numbers, place_text, table
 from lessons.exercises.templates.edges import coefficients
 from lessons.exercises.templates.fragments import NAMES, attributes_at
@@ -57,6 +57,7 @@ def draw_two_points(draws: Draws) -> Draft | None:
         "Each weight is an area with a sign over the area of the triangle.",
         "alpha is the area of the point with vertices 1 and 2.",
         "Inside, all three are positive; the sum is 1 for every point.",
+        f"The area of the whole triangle is half of {facing_text(corners)}.",
     )
     scene = triangle_scene(np.array([corners], float), (10, 10))
     return table(text, given, NAMES, ("P", "Q"), rows, hints, {"weights-permuted": turned}, scene=scene)

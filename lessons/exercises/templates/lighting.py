@@ -6,7 +6,7 @@ from typing import Any
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.drafting import TOLERANCE, by_rule, numbers, one_of, place_text
+from lessons.exercises.templates.drafting import TOLERANCE, by_rule, factor_text, numbers, one_of, place_text
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.shelf import RULES
 from lessons.mistakes.transforms import dot
@@ -42,6 +42,7 @@ def draw_lambert(draws: Draws) -> Draft | None:
         "Make N and L of length 1: N . L is the cosine between them.",
         "Which sign does it have at P, and at Q?",
         "Light from behind adds nothing, and takes nothing away.",
+        f"At P the light is {factor_text(ambient)} + (1 - {factor_text(ambient)}) max(0, N . L).",
     )
     places = [(float(ambient), normal, to_light) for normal in normals]
     right = [number for place in places for number in RULES["light-reversed"].right(*place)]
@@ -97,6 +98,7 @@ def draw_highlight(draws: Draws) -> Draft | None:
         "Make L and V of length 1 before you add them.",
         "H = (L + V) / |L + V|.",
         "Raise the cosine to the power s.",
+        f"L is {place_text(to_light)} and V is {place_text(to_eye)}, each over its length; s = {shininess}.",
     )
     return by_rule(text, given, arguments, names, hints)
 
@@ -114,6 +116,7 @@ def draw_normal(draws: Draws) -> Draft:
         "Does the shift matter for a direction?",
         "The transposed inverse of a scaling divides by its factors.",
         "Make the result of length 1.",
+        f"Before that, x is {factor_text(normal[0])} / {factor_text(scale[0])}; y and z likewise.",
     )
     names = ("normal-as-position", "normal-untransformed", "normal-moved")
     return by_rule(text, given, (scale, shift, normal), names, hints, ("x", "y", "z"))

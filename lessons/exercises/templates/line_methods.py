@@ -11,7 +11,7 @@ from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.drafting import numbers, place_text, table
+from lessons.exercises.templates.drafting import factor_text, numbers, place_text, table
 from lessons.exercises.templates.lines import RULE, SIZE, Ends, gentle_ends
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.shelf import SHELF
@@ -29,11 +29,17 @@ def slope(ends: Ends) -> Fraction:
     return Fraction(y1 - y0, x1 - x0)
 
 
-def of_segments(text: str, segments: list[Ends], names: tuple[str, ...], hints: tuple[str, ...]) -> Draft:
-    """Ask for the pixels of segments by the lecture's Bresenham."""
+def of_segments(
+    text: str,
+    segments: list[Ends],
+    names: tuple[str, ...],
+    hints: tuple[str, ...],
+    direction: tuple[int, int] | None = None,
+) -> Draft:
+    """Ask for the pixels of segments by the lecture's Bresenham; of one in the ``direction`` that it is drawn in."""
     scene = pixel_segments(segments, SIZE)
     wrong = {name: line_pixels(scene, SHELF[name].change_settings(LECTURE)) for name in names}
-    answer = PixelAnswer(SIZE, line_pixels(scene, LECTURE))
+    answer = PixelAnswer(SIZE, line_pixels(scene, LECTURE), direction=direction)
     given = f"{WINDOW}\n" + "\n".join(f"From pixel {start} to pixel {end}." for start, end in segments)
     return Draft(text, given, answer, hints, wrong, scene, LECTURE)
 
@@ -64,7 +70,8 @@ def draw_direction(draws: Draws) -> Draft:
         "Is D zero somewhere?",
         "Where D = 0, y does not step.",
     )
-    return of_segments(text, [(end, start)], ("from-other-end", "last-pixel-lost"), hints)
+    direction = end[0] - start[0], end[1] - start[1]
+    return of_segments(text, [(end, start)], ("from-other-end", "last-pixel-lost"), hints, direction)
 
 
 def draw_dda(draws: Draws) -> Draft:
@@ -86,7 +93,12 @@ def draw_dda(draws: Draws) -> Draft:
     )
     right = [[y, floor(y + HALF)] for y in exact]
     wrong = {"row-truncated": [[y, floor(y)] for y in exact]}
-    hints = ("What is m?", "Add m once for every column.", "Round y to the nearest row; a half goes up.")
+    hints = (
+        "What is m?",
+        "Add m once for every column.",
+        "Round y to the nearest row; a half goes up.",
+        f"m = ({ends[1][1]} - {y0}) / ({ends[1][0]} - {x0}), and the first y is {y0}.",
+    )
     labels = [f"x = {x0 + k}" for k in range(len(exact))]
     given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
     return table(text, given, ("y", "row"), labels, right, hints, wrong, follow, scene, Settings(line="dda"))
@@ -112,7 +124,12 @@ def draw_error(draws: Draws) -> Draft:
         "What is the error e before each move? It begins at 0. Where e + m > 1/2, y steps up and e grows by m - 1; "
         "else e grows by m. m = dy/dx."
     )
-    hints = ("What is m?", "Compare e + m with 1/2.", "e is where the line runs above the pixel's centre.")
+    hints = (
+        "What is m?",
+        "Compare e + m with 1/2.",
+        "e is where the line runs above the pixel's centre.",
+        f"m = ({ends[1][1]} - {ends[0][1]}) / ({ends[1][0]} - {ends[0][0]}), and the first e is 0.",
+    )
     labels = [f"at x = {ends[0][0] + k}" for k in range(len(right))]
     given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
     return table(text, given, ("e",), labels, right, hints, None, follow, scene, LECTURE)
@@ -141,13 +158,14 @@ def draw_printed(draws: Draws) -> Draft | None:
         "When does the loop end?",
         "Is the variable that is tested already that of the next column?",
     )
-    return Draft(text, given, PixelAnswer(SIZE, drawn), hints)
+    answer = PixelAnswer(SIZE, drawn, direction=(x1 - x0, y1 - y0))
+    return Draft(text, given, answer, hints)
 
 
 def draw_wu(draws: Draws) -> Draft | None:
     """Two intensities of a column."""
     ends = gentle_ends(draws)
-    (x0, y0), (x1, _) = ends
+    (x0, y0), (x1, y1) = ends
     x = draws.whole(x0 + 1, x1 - 1)
     y = y0 + slope(ends) * (x - x0)
     share = y - floor(y)
@@ -161,6 +179,7 @@ def draw_wu(draws: Draws) -> Draft | None:
         "What is y in this column?",
         "The nearer pixel is the brighter one.",
         "The upper one has y - floor(y).",
+        f"y = {y0} + ({x} - {x0}) ({y1} - {y0}) / ({x1} - {x0}).",
     )
     scene = pixel_segments([ends], SIZE)
     given = f"From pixel {ends[0]} to pixel {ends[1]}."
@@ -195,6 +214,7 @@ def draw_end(draws: Draws) -> Draft:
         "Which part of the column does the line span?",
         "y at the centre: y0 + m (column + 1/2 - x0), less 1/2.",
         "The upper pixel has y - floor(y), the lower one the rest.",
+        f"y = {factor_text(y0)} + {factor_text(m)} ({column} + 1/2 - {factor_text(x0)}) - 1/2.",
     )
     wrong = {"ends-at-full": [1 - above, above]}
     scene, names = segment_scene([segment], SIZE), ("lower", "upper")

@@ -156,15 +156,8 @@ def draw_side(draws: Draws) -> Draft | None:
         "Are centres on the line inside? Move them a little to the right.",
     )
     scene = triangle_scene(np.array([corners], float), SIZE)
-    return ask_pixels(
-        text,
-        [f"Vertices 0, 1, 2: {corner_text(corners)}"],
-        inner(HALF, owns),
-        wrong,
-        hints,
-        scene,
-        Settings(),
-    )
+    given = [f"Vertices 0, 1, 2: {corner_text(corners)}"]
+    return ask_pixels(text, given, inner(HALF, owns), wrong, hints, scene, Settings())
 
 
 def draw_box(draws: Draws) -> Draft | None:

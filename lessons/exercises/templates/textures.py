@@ -76,6 +76,7 @@ def draw_bilinear(draws: Draws) -> Draft:
         "Multiply u by the number of texels.",
         "Subtract 1/2: the whole part is the left texel, the rest the weight of the right one.",
         "c = c0 (1 - w_u) + c1 w_u.",
+        f"{factor_text(u)} * {count} - 1/2 holds both: the left texel and w_u.",
     )
     settings = Settings(texture_filter="bilinear", wrap="clamp")
     return of_strip(
@@ -149,6 +150,7 @@ def draw_repeated(draws: Draws) -> Draft | None:
         "What is u at the centre of the pixel?",
         "Repeat takes u - floor(u).",
         "Texel i reaches from i to i + 1.",
+        f"u = {start} + ({pixel[0]} + 1/2) / 8 * (1 - ({start})).",
     )
     right = texels[floor((u - floor(u)) * 4)]
     return numbers(text, given, [right], hints, wrong, scene=scene, settings=settings, pixel=pixel)

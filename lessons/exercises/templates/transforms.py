@@ -44,10 +44,13 @@ def draw_order(draws: Draws) -> Draft:
     turn, shift, point = draws.item(TURNS), wholes(draws, 2, -4, 4), wholes(draws, 2, -4, 4)
     text = "Where does p' = T R p lie? Vectors are columns, and a positive angle turns counter-clockwise."
     given = f"R turns by the angle with {turn_text(turn)}.\nT moves by {place_text(shift)}.\np = {place_text(point)}"
+    (c, s), (x, y) = map(factor_text, turn), map(factor_text, point)
+    turned = f"{c} * {x} - {s} * {y}"
     hints = (
         "Which factor stands next to p?",
         "R p = (c x - s y, s x + c y) with the cosine c and the sine s.",
         "Turn p first, then add the shift.",
+        f"x' = {turned} + {factor_text(shift[0])}; y' likewise.",
     )
     draft = by_rule(text, given, (turn, shift, point), ("factors-reversed", "turned-clockwise"), hints, XY)
     return replace(draft, sketch=sketched({"p": point}))
@@ -149,6 +152,7 @@ def draw_projection(draws: Draws) -> Draft:
         "The camera looks along -z: what is w?",
         "y' = y / tan(fov/2), and x' is divided by the aspect, too.",
         "near and far are positive distances.",
+        f"y' = {factor_text(point[1])} / ({factor_text(half)}), and z' has f + n = {far} + {near}.",
     )
     names = ("angle-not-halved", "aspect-inverted", "near-far-signs", "w-is-one")
     return by_rule(text, given, (half, aspect, near, far, point), names, hints, XYZW)

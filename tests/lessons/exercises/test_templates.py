@@ -37,7 +37,9 @@ SEGMENT = ((-1, -2), (9, 7))
 
 @pytest.mark.parametrize("template", TEMPLATES.values(), ids=TEMPLATES)
 def test_a_template_asks_fairly(template: Template) -> None:
-    assert question_problems(first_question(template.name)) == []
+    question = first_question(template.name)
+    assert question_problems(question) == []
+    assert len(question.draft.hints) >= 3
 
 
 @pytest.mark.parametrize("template", TEMPLATES.values(), ids=TEMPLATES)
