@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from enum import Enum
 
-from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtCore import QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QLabel,
@@ -60,6 +60,8 @@ class MessageBar(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self._is_missed = False
+        """Whether the window was not active when the message came: a screen reader may not have heard of it."""
         self.setProperty("role", "floating")
         self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
         self._message: Message | None = None
@@ -113,8 +115,8 @@ class MessageBar(QWidget):
         self.setAccessibleName(f"{message.kind.value.value}: {message.text}")
         self._follow_theme()
         self.show()
-        spoken = f"{message.kind.value.value.capitalize()}: {message.text}"
-        announce(self, spoken, is_urgent=message.kind is not MessageKind.INFORMATION)
+        self._is_missed = not self.isActiveWindow()
+        self._say()
 
     @Slot(object)
     def show_progress(self, progress: Progress | None) -> None:
@@ -160,6 +162,19 @@ class MessageBar(QWidget):
         """Take away the message that is shown."""
         self._end_standing()
         self.clear()
+
+    def event(self, event: QEvent) -> bool:
+        """Say again what a screen reader has missed, as at the start of the program, once the window is active."""
+        if event.type() == QEvent.Type.WindowActivate and self._is_missed:
+            self._is_missed = False
+            self._say()
+        return super().event(event)
+
+    def _say(self) -> None:
+        message = self._message
+        if message is not None:
+            spoken = f"{message.kind.value.value.capitalize()}: {message.text}"
+            announce(self, spoken, is_urgent=message.kind is not MessageKind.INFORMATION)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Escape dismisses a message or cancels the work."""

@@ -140,6 +140,18 @@ def test_messages_are_announced(window: MainWindow, heard: Heard) -> None:
     ]
 
 
+def test_a_message_of_the_start_is_said_once_the_window_is_active(
+    window: MainWindow, heard: Heard, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A screen reader knows no window before that."""
+    monkeypatch.setattr(window.messages, "isActiveWindow", lambda: False)
+    window.notices.tell("the last scene is gone.", MessageKind.WARNING)
+    heard.clear()
+    for _ in range(2):
+        QApplication.sendEvent(window.messages, QEvent(QEvent.Type.WindowActivate))
+    assert heard == [("Assertive", "Warning: The last scene is gone.")]
+
+
 def test_the_timeline_is_a_slider(window: MainWindow) -> None:
     """A screen reader reads its position and can set it."""
     QApplication.sendPostedEvents(window, QEvent.Type.LayoutRequest)
