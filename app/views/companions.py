@@ -11,6 +11,7 @@ from app.views.texture_footprint import texture_of
 from core.explain.kinds import of_kind
 from core.explain.step_tables import has_tables, step_table
 from core.records.arrays import Floats
+from core.records.tables import StepTable
 from core.trace import StageTrace
 from core.trace.geometry_progress import SPACES, spaces_reached
 from widgets.basics.controls import column_layout
@@ -81,6 +82,7 @@ class FillingTable(Companion):
         """Return the table."""
         self._view = StepTableView()
         self._view.step_requested.connect(self.session.go_to)
+        self._first: tuple[StageTrace, StepTable | None] | None = None
         return self._view
 
     def is_wanted(self) -> bool:
@@ -89,7 +91,10 @@ class FillingTable(Companion):
 
     def wanted_width(self) -> int:
         """Return the width of the first table of the stage, with a number in every cell."""
-        table = step_table(self.session.stage_trace, 0)
+        trace = self.session.stage_trace
+        if self._first is None or self._first[0] is not trace:
+            self._first = trace, step_table(trace, 0)
+        table = self._first[1]
         return 0 if table is None else self._view.width_of(table)
 
     def draw(self) -> None:

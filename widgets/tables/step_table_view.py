@@ -26,7 +26,7 @@ from widgets.basics.controls import LEAST_TARGET, column_layout
 from widgets.basics.drawn_text import paint_empty
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.labels import text_label
-from widgets.basics.theme import current_theme, text_font, theme_notifier
+from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
 from widgets.basics.typed_value import tabular_font
 
 EMPTY = "The numbers of each step appear here."
@@ -70,6 +70,7 @@ class _Cells(QTableView):
         super().__init__(parent)
         self._items = QStandardItemModel(self)
         self._row = -1
+        self._written: tuple[StepTable, Theme] | None = None
         self.setModel(self._items)
         self.setItemDelegate(_CellDelegate(self))
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
@@ -84,7 +85,23 @@ class _Cells(QTableView):
         KeyClaim(self, (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Return))
 
     def show_cells(self, table: StepTable) -> None:
-        """Show a table; of one of the same shape only the cells that differ are written."""
+        """Show a table; where headings and theme are those shown, only cells that differ are written and painted."""
+        theme, old = current_theme(), None
+        if self._written is not None and self._written[1] is theme:
+            shown = self._written[0]
+            old = shown if (shown.columns, shown.rows) == (table.columns, table.rows) else None
+        if old is None:
+            self._write_headings(table)
+        for row, cells in enumerate(table.cells):
+            for place, cell in enumerate(cells):
+                if old is None or _look(old, row, place) != _look(table, row, place):
+                    self._write(table, row, place, cell)
+        self._written = table, theme
+        self.horizontalHeader().resizeSections(QHeaderView.ResizeMode.ResizeToContents)
+        self._row = table.row
+        self._bring_row_into_view()
+
+    def _write_headings(self, table: StepTable) -> None:
         items, shape = self._items, (len(table.rows), len(table.columns))
         if (items.rowCount(), items.columnCount()) != shape:
             items.clear()
@@ -93,18 +110,18 @@ class _Cells(QTableView):
         items.setVerticalHeaderLabels(list(table.rows))
         for place, column in enumerate(table.columns):
             items.setHorizontalHeaderItem(place, _heading(column))
-        for row, cells in enumerate(table.cells):
-            for place, cell in enumerate(cells):
-                item = items.item(row, place) or QStandardItem()
-                _fill(item, cell, (row, place) in table.made, row == table.row)
-                vertex = table.columns[place].vertex
-                if vertex is not None:
-                    item.setForeground(QColor(current_theme().vertex_text[vertex % 3]))
-                if item.model() is None:
-                    items.setItem(row, place, item)
-        self._fit()
-        self._row = table.row
-        self._bring_row_into_view()
+        self.setFont(tabular_font(text_font(current_theme())))
+        height = max(self.fontMetrics().height() + 6, LEAST_TARGET)
+        self.verticalHeader().setDefaultSectionSize(height)
+
+    def _write(self, table: StepTable, row: int, place: int, cell: TableCell | None) -> None:
+        item = self._items.item(row, place) or QStandardItem()
+        _fill(item, cell, (row, place) in table.made, row == table.row)
+        vertex = table.columns[place].vertex
+        if vertex is not None:
+            item.setForeground(QColor(current_theme().vertex_text[vertex % 3]))
+        if item.model() is None:
+            self._items.setItem(row, place, item)
 
     def _bring_row_into_view(self) -> None:
         if self._row >= 0:
@@ -114,12 +131,6 @@ class _Cells(QTableView):
         """Keep the row of the step in view."""
         super().resizeEvent(event)
         self._bring_row_into_view()
-
-    def _fit(self) -> None:
-        self.setFont(tabular_font(text_font(current_theme())))
-        height = max(self.fontMetrics().height() + 6, LEAST_TARGET)
-        self.verticalHeader().setDefaultSectionSize(height)
-        self.horizontalHeader().resizeSections(QHeaderView.ResizeMode.ResizeToContents)
 
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the cells, or say what comes here."""
@@ -211,6 +222,10 @@ def _heading(column: TableColumn) -> QStandardItem:
     item = QStandardItem(column.symbol)
     item.setToolTip(column.meaning)
     return item
+
+
+def _look(table: StepTable, row: int, place: int) -> tuple[TableCell | None, bool, bool]:
+    return table.cells[row][place], (row, place) in table.made, row == table.row
 
 
 def _fill(item: QStandardItem, cell: TableCell | None, is_made: bool, is_here: bool) -> None:
