@@ -2,10 +2,11 @@
 
 from collections.abc import Sequence
 
-from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtCore import QLineF, QPointF, QRectF
 from PySide6.QtGui import QColor, QPainter, QPen
 
 from widgets.basics.theme import Theme, text_font
+from widgets.grid.geometry import moved_inside, paint_chip
 from widgets.grid.view import GridPlacement
 
 Place = tuple[float, float]
@@ -61,9 +62,10 @@ class PointLayer:
                 painter.setBrush(QColor(theme.panel))
                 painter.drawEllipse(center, radius, radius)
             mark = {True: " ✓", False: " ✗", None: ""}[self.marks.get(number)]
-            box = label_box(painter, f"{self.names[number]}{mark}")
+            text = f"{self.names[number]}{mark}"
+            box = _label_box(painter, text)
             box.moveBottomLeft(center + QPointF(RADIUS + 2, -RADIUS))
-            paint_label(painter, placement, theme, f"{self.names[number]}{mark}", box)
+            paint_chip(painter, moved_inside(box, QRectF(placement.viewport)), text, theme.text, theme)
         painter.restore()
 
 
@@ -75,29 +77,13 @@ def paint_names(
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setFont(text_font(theme))
     for name, place in zip(names, places, strict=True):
-        box = label_box(painter, name)
+        box = _label_box(painter, name)
         box.moveCenter(placement.to_widget(*place))
-        paint_label(painter, placement, theme, name, box)
+        paint_chip(painter, moved_inside(box, QRectF(placement.viewport)), name, theme.text, theme)
     painter.restore()
 
 
-def label_box(painter: QPainter, text: str) -> QRectF:
+def _label_box(painter: QPainter, text: str) -> QRectF:
     """Return the room of a name."""
     metrics = painter.fontMetrics()
     return QRectF(0, 0, metrics.horizontalAdvance(text) + 10, metrics.height() + 2)
-
-
-def paint_label(painter: QPainter, placement: GridPlacement, theme: Theme, text: str, box: QRectF) -> None:
-    """Write a name on a quiet ground, moved inside the picture where it would be cut off."""
-    area = QRectF(placement.viewport)
-    box.moveRight(min(box.right(), area.right()))
-    box.moveLeft(max(box.left(), area.left()))
-    box.moveBottom(min(box.bottom(), area.bottom()))
-    box.moveTop(max(box.top(), area.top()))
-    ground = QColor(theme.panel)
-    ground.setAlphaF(0.9)
-    painter.setPen(Qt.PenStyle.NoPen)
-    painter.setBrush(ground)
-    painter.drawRoundedRect(box, 3, 3)
-    painter.setPen(QColor(theme.text))
-    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)

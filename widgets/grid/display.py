@@ -263,7 +263,7 @@ class GridDisplay(QWidget):
             for box, _, _ in boxes:
                 names += box.toAlignedRect()
             self._names = (placement, geometry, theme), names
-        cells = {cell for cell in self._step.crossed() if self._is_inside(cell) and not self._is_hidden(cell)}
+        cells = {cell for cell in self._step.crossed if self._is_inside(cell) and not self._is_hidden(cell)}
         return self._names[1] + number_boxes(placement, buffer, theme, cells, self._canvas.samples)
 
     def _free(self, placement: GridPlacement) -> QRegion | None:

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF, QRegion
 
+from core.records.cached import cached_property
 from widgets.basics.theme import Theme, faded
 from widgets.grid.line_clip import widget_lines
 from widgets.grid.view import GridPlacement
@@ -60,8 +61,9 @@ class StepMark:
         (column0, row0), (column1, row1) = pixels.min(axis=0).tolist(), pixels.max(axis=0).tolist()
         return placement.cells_rect(column0, row0, column1 - column0 + 1, row1 - row0 + 1)
 
+    @cached_property
     def crossed(self) -> set[tuple[int, int]]:
-        """Return the columns and rows of the pixels that the trail runs through."""
+        """Columns and rows of the pixels that the trail runs through: asked for at every painting."""
         found: set[tuple[int, int]] = set()
         for start, end in itertools.pairwise(self.trail):
             count = 2 * int(np.abs(end - start).max()) + 1

@@ -21,11 +21,8 @@ def opaque(step: StepValues) -> Said:
     """A colour that replaces another."""
     after, before = (vector_text(step.vector(name)) for name in ("after", "before"))
     channel = _channel(step)
-    parts = (
-        (channel_symbol(name, channel), step.vector(of)[channel])
-        for name, of in (("new", "after"), ("source", "source"))
-    )
-    new, source = parts
+    new = (channel_symbol("new", channel), step.vector("after")[channel])
+    source = (channel_symbol("source", channel), step.vector("source")[channel])
     return f"{step.pixel_name}: the fragment's colour {after} replaces {before}.", equation(new, "=", source)
 
 

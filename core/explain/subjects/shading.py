@@ -40,8 +40,11 @@ def _without_light(step: StepValues) -> Formula:
     """Return the colour that is the albedo."""
     color, albedo = step.vector("color"), step.vector("albedo")
     channel = outstanding(color[:3])
-    names = (channel_symbol(name, channel) for name in ("colour", "albedo"))
-    return equation((next(names), color[channel]), "=", (next(names), albedo[channel]))
+    return equation(
+        (channel_symbol("colour", channel), color[channel]),
+        "=",
+        (channel_symbol("albedo", channel), albedo[channel]),
+    )
 
 
 @explains("shade.lit.albedo")

@@ -409,7 +409,7 @@ def test_no_mark_of_a_step_strikes_out_what_is_written(qtbot) -> None:
     assert buffer is not None
     written = [box.toRect() for box, _, _ in name_boxes(placement, geometry, theme)]
     assert len(written) == 6
-    written += [*number_boxes(placement, buffer, theme, mark.crossed())]
+    written += [*number_boxes(placement, buffer, theme, mark.crossed)]
     before = picture(widget)
     widget.show_step(mark)
     after = picture(widget)
