@@ -101,12 +101,6 @@ def meeting_sides(rings: Sequence[Ring], name: str) -> str:
     return f"side {k} of ring {r} of the {name} meets side {m} of ring {s}"
 
 
-def check_rings(rings: Sequence[Ring], name: str) -> None:
-    """Raise ValueError where rings of a polygon cross or touch each other or themselves."""
-    if meeting := meeting_sides(rings, name):
-        raise ValueError(f"Weiler-Atherton needs rings that do not cross or touch: {meeting}")
-
-
 def sides_that_meet(rings: Sequence[Sequence[AnyPoint]]) -> tuple[tuple[int, int], tuple[int, int]] | None:
     """Return the first two sides, each as ring and side, with more in common than the corner between neighbours."""
     sides = [(r, k, a, b) for r, ring in enumerate(rings) for k, (a, b) in enumerate(sides_of(ring))]

@@ -27,7 +27,6 @@ from core.geometry.ring_clipping.exact import (
     Near,
     Ring,
     Share,
-    check_rings,
     depth_of,
     doubled_area,
     is_above,
@@ -164,10 +163,8 @@ def _linked(
     },
 )
 def weiler_atherton(rings: Sequence[Floats], region: Sequence[Floats]) -> ClippedPolygon:
-    """Cut the rings (K, 2) of a polygon at those of a region, both in pixels."""
+    """Cut the rings (K, 2) of a polygon at those of a region, both in pixels; `core.stages.needs` has checked them."""
     (given, given_region), scale = whole_rings([rings, region])
-    check_rings(given, "polygon")
-    check_rings(given_region, "clip window")
     subject, window = turned(given), turned(given_region)
     subject_rings, window_rings = [ring for ring, *_ in subject], [ring for ring, *_ in window]
     crossings = find_crossings(subject_rings, window_rings)
