@@ -85,8 +85,6 @@ class BackgroundTask(QObject):
 
     @Slot(object)
     def _fail(self, error: Exception) -> None:
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
         self._come_to_nothing()
         kept = self._words.kept
         self.refused.emit(f"{self._words.failed}: {error} {kept[:1].upper()}{kept[1:]}.")

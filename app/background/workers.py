@@ -11,6 +11,7 @@ Progress = Callable[[float | None, str], None]
 Work = Callable[[Progress, Callable[[], bool]], Any]
 PartWork = Callable[[Progress, Callable[[], bool], Callable[[Any], None]], Any]
 """Work that gives parts of its result as they are done."""
+Expected = tuple[type[Exception], ...]
 
 
 _until: float | None = None
@@ -77,12 +78,13 @@ class Job(QObject):
     """A part of the result, of work that was started in parts."""
     succeeded = Signal(object)
     failed = Signal(object)
-    """The exception."""
+    """The exception, if it is one of those expected; any other is a mistake of the program, and is raised."""
     ended = Signal()
     """Done, failed or cancelled."""
 
-    def __init__(self, parent: QObject | None = None) -> None:
+    def __init__(self, parent: QObject | None = None, expected: Expected = (ValueError, MemoryError)) -> None:
         super().__init__(parent)
+        self._expected = expected
         self._worker: _Worker | None = None
         self._retired: list[_Worker] = []
 
@@ -143,9 +145,11 @@ class Job(QObject):
             self.succeeded.emit(result)
 
     @Slot(object)
-    def _fail(self, error: object) -> None:
+    def _fail(self, error: Exception) -> None:
         if self.sender() is self._worker:
             self._finish()
+            if not isinstance(error, self._expected):
+                raise error
             self.failed.emit(error)
 
     def _finish(self) -> None:
@@ -166,9 +170,9 @@ class JobGroup(QObject):
         super().__init__(parent)
         self._jobs: list[Job] = []
 
-    def add_job(self) -> Job:
+    def add_job(self, expected: Expected = (ValueError, MemoryError)) -> Job:
         """Return another job of the page."""
-        self._jobs.append(Job(self))
+        self._jobs.append(Job(self, expected))
         return self._jobs[-1]
 
     def shut_down(self) -> None:

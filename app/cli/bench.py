@@ -8,6 +8,7 @@ from pathlib import Path
 
 from app.bench.threads import set_threads
 from app.cli.commands import UsageError
+from core.os_errors import os_error_reason
 
 DESCRIPTION = """Draw the workloads with the core and with every other library that is installed, check the
 pictures, time them in turn, and write a table. The libraries are in the extra bench. With --window: step, scrub, point,
@@ -60,7 +61,9 @@ def made_folder(folder: Path) -> Path:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as problem:
-        raise UsageError(f"argument -o: the folder {folder} cannot be made: {problem.strerror}") from problem
+        raise UsageError(
+            f"argument -o: the folder {folder} cannot be made: {os_error_reason(problem)}"
+        ) from problem
     return folder
 
 

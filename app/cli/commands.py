@@ -15,6 +15,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from app import __version__
+from core.os_errors import os_error_reason
 
 PROGRAM = "rasterscope"
 USAGE_ERROR = 2
@@ -187,7 +188,7 @@ def _fail(program: str, problem: object, code: int) -> int:
 
 
 def _os_error_text(problem: OSError) -> str:
-    reason = str(problem.strerror).lower()
+    reason = os_error_reason(problem)
     if problem.filename is None:
         return f"the output cannot be written: {reason}"
     return f"{problem.filename} cannot be read or written: {reason}"

@@ -43,7 +43,7 @@ class Autosave(QObject):
         self._file: WindowFile | None = None
         self._stand_in: Document | None = None
         self._has_failed = self._is_finished = False
-        self._job = Job(self)
+        self._job = Job(self, expected=(OSError, StateFileError, MemoryError))
         self._job.succeeded.connect(self._succeed)
         self._job.failed.connect(self._fail)
         self._waits = QElapsedTimer()
@@ -149,8 +149,6 @@ class Autosave(QObject):
 
     @Slot(object)
     def _fail(self, error: Exception) -> None:
-        if not isinstance(error, OSError | StateFileError | MemoryError):
-            raise error
         self._retry.start(RETRY)
         if not self._has_failed:
             self._has_failed = True

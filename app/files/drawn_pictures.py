@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from app.files.file_names import DRAWN_ENDINGS
 from app.files.input_files import read_input
 from app.files.mesh_formats.images import display_bytes
 from core.framebuffer.display import to_display
@@ -19,7 +20,6 @@ FILE_LIMIT = 1 << 26
 """Most bytes of a file, and of an array in it."""
 PNG = b"\x89PNG\r\n\x1a\n"
 """First bytes of a PNG file; its columns and rows are bytes 16 to 24."""
-ENDINGS = (".png", ".npz", ".csv")
 Size = tuple[int, int]
 
 
@@ -41,9 +41,9 @@ def read_drawn(path: Path, size: Size) -> Drawn:
     OSError
         If the file cannot be read.
     """
-    readers = dict(zip(ENDINGS, (_png, _npz, _csv), strict=True))
+    readers = dict(zip(DRAWN_ENDINGS, (_png, _npz, _csv), strict=True))
     if path.suffix.lower() not in readers:
-        raise ValueError(f"{path}: expected a picture as {', '.join(ENDINGS)}")
+        raise ValueError(f"{path}: expected a picture as {', '.join(DRAWN_ENDINGS)}")
     content = read_input(path, FILE_LIMIT)
     try:
         return readers[path.suffix.lower()](content, size)

@@ -49,7 +49,7 @@ class FileActions(QObject):
         self._pages = pages
         self.target = ""
         """What was to be opened last."""
-        self.job = Job(self)
+        self.job = Job(self, expected=(OpeningCancelledError, ValueError, OSError, MemoryError))
         self.progress = WorkProgress(self.job, page.session.tracing, messages, self)
         self.freeing = Freeing(self)
         page.session.tracing.traced.connect(self.freeing.ask)
@@ -133,11 +133,9 @@ class FileActions(QObject):
     def _tell_failed(self, error: Exception) -> None:
         if isinstance(error, OpeningCancelledError):
             self._tell_cancelled()
-        elif isinstance(error, ValueError | OSError | MemoryError):
+        else:
             action = READ_OUTSIDE if isinstance(error, OutsideMeshError | OutsideSourceError) else ""
             self._tell(sentences(error, "The open scene is unchanged"), MessageKind.ERROR, action=action)
-        else:
-            raise error
 
     @Slot()
     def _tell_cancelled(self) -> None:

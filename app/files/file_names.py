@@ -1,6 +1,9 @@
-"""Names of files that are not text: some systems allow any bytes, which Python keeps as lone surrogates."""
+"""Names of files: those that are not text (some systems allow any bytes, kept as lone surrogates), and endings."""
 
 import re
+
+DRAWN_ENDINGS = (".png", ".npz", ".csv")
+"""Of pictures that other programs drew."""
 
 
 def shown_name(name: str) -> str:

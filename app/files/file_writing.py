@@ -9,6 +9,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
+from core.os_errors import os_error_reason
+
 if sys.platform != "win32":
     import fcntl
 
@@ -34,8 +36,7 @@ def make_folder(folder: Path) -> None:
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as problem:
-        reason = (problem.strerror or str(problem)).lower()
-        raise FileWriteError(f"{folder} cannot be made: {reason}") from problem
+        raise FileWriteError(f"{folder} cannot be made: {os_error_reason(problem)}") from problem
 
 
 def write_file(path: str | Path, content: bytes) -> None:
@@ -102,7 +103,7 @@ def whole_file(path: str | Path) -> Iterator[BinaryIO]:
     except FileWriteError:
         raise
     except OSError as problem:
-        raise FileWriteError(f"{path} cannot be written: {_reason(problem)}") from problem
+        raise FileWriteError(f"{path} cannot be written: {os_error_reason(problem)}") from problem
 
 
 @contextmanager
@@ -157,10 +158,3 @@ def _mode(target: Path) -> int:
     umask = os.umask(0)
     os.umask(umask)
     return 0o666 & ~umask
-
-
-def _reason(problem: OSError) -> str:
-    """Say in plain words why a file could not be written."""
-    if isinstance(problem, PermissionError):
-        return "permission is denied"
-    return (problem.strerror or str(problem) or type(problem).__name__).lower()

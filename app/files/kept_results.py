@@ -42,7 +42,7 @@ class KeptResults(JobGroup):
         super().__init__(parent)
         self._kind, self._load = kind, load
         self._has_begun = False
-        self._reading, self._writing = self.add_job(), self.add_job()
+        self._reading, self._writing = (self.add_job((OSError, ValueError)) for _ in range(2))
         self._reading.part_done.connect(self.found)
         self._reading.succeeded.connect(self._tell_unread)
         for job in (self._reading, self._writing):
@@ -87,8 +87,6 @@ class KeptResults(JobGroup):
 
     @Slot(object)
     def _tell(self, error: Exception) -> None:
-        if not isinstance(error, OSError | ValueError):
-            raise error
         self.failed.emit(f"The result could not be kept for the next start: {error}.")
 
 

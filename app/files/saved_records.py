@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from app.files.input_files import read_input
+from core.os_errors import os_error_reason
 
 Model = TypeVar("Model", bound=BaseModel)
 SIZE_LIMIT = 1 << 26
@@ -83,10 +84,8 @@ def _read(path: Path, limit: int) -> bytes:
         return read_input(path, limit)
     except FileNotFoundError as problem:
         raise SavedRecordError(f"there is no file {path}") from problem
-    except PermissionError as problem:
-        raise SavedRecordError("permission is denied") from problem
     except OSError as problem:
-        raise SavedRecordError((problem.strerror or str(problem)).lower()) from problem
+        raise SavedRecordError(os_error_reason(problem)) from problem
 
 
 SHOWN = 60

@@ -20,6 +20,7 @@ from app.files.input_files import read_input
 from app.files.memory import check_free
 from app.files.mesh_sources import fingerprint
 from app.files.state_models import ArrayRecord
+from core.os_errors import os_error_reason
 
 READABLE_COUNT = 1200
 """Arrays of no more numbers are written so that they can be read."""
@@ -121,9 +122,7 @@ def array_of_record(record: ArrayRecord, folder: Path) -> NDArray[Any]:
         check_free(2 * size, path.name)
         found = _array_of(read_input(path, size), record)
     except OSError as problem:
-        raise ValueError(
-            f"{path.name} cannot be read: {(problem.strerror or str(problem)).lower()}"
-        ) from problem
+        raise ValueError(f"{path.name} cannot be read: {os_error_reason(problem)}") from problem
     if fingerprint(found) != record.file:
         raise ValueError(f"{path.name} is damaged")
     return found

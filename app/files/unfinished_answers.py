@@ -11,6 +11,7 @@ from app.background.workers import Job, Progress
 from app.files.file_writing import make_folder, write_file
 from app.files.input_files import read_input
 from app.files.user_folders import ANSWERS, data_folder
+from core.os_errors import os_error_reason
 from lessons.attempts.record import DEFAULT_USER
 from lessons.exercises.draws import SEED_LIMIT
 
@@ -84,7 +85,7 @@ class UnfinishedFile(QObject):
         """Learners and exercises whose answers this window has changed; the rest is left to other windows."""
         self._has_failed = self._is_dirty = self._is_foreign = False
         """The last: the file is of a later version, and is left alone."""
-        self._job = Job(self)
+        self._job = Job(self, expected=(OSError,))
         self._job.succeeded.connect(self._succeed)
         self._job.failed.connect(self._fail)
         self._timer = QTimer(self)
@@ -95,20 +96,22 @@ class UnfinishedFile(QObject):
     def read(self) -> str:
         """Read what was kept; return what to tell the user, empty if all is well."""
         try:
-            self.answers = read_answers()
+            content = read_input(_path(), SIZE_LIMIT)
         except FileNotFoundError:
-            pass
+            return ""
         except OSError as problem:
-            return f"Answers in progress cannot be read: {problem.strerror or problem}."
+            return f"Answers in progress cannot be read: {os_error_reason(problem)}."
+        try:
+            self.answers = _answers(content)
         except ValidationError:
-            if _is_later():
+            if _is_later(content):
                 self._is_foreign = True
                 return "Answers in progress were kept by a later version of the program. They are left alone."
             broken = _path().with_suffix(".broken")
             try:
                 _path().replace(broken)
             except OSError as problem:
-                return f"Answers in progress were broken and cannot be set aside: {problem.strerror}."
+                return f"Answers in progress were broken and cannot be set aside: {os_error_reason(problem)}."
             return f"Answers in progress were broken. They are kept as {broken.name}, and none is open."
         return ""
 
@@ -158,8 +161,6 @@ class UnfinishedFile(QObject):
 
     @Slot(object)
     def _fail(self, error: Exception) -> None:
-        if not isinstance(error, OSError):
-            raise error
         self._is_dirty = True
         if not self._has_failed:
             self._has_failed = True
@@ -183,15 +184,18 @@ class _Head(BaseModel):
 
 def read_answers() -> UnfinishedAnswers:
     """Return what was kept; OSError where it cannot be read, ValidationError where it is broken or of a later one."""
-    kept = UnfinishedAnswers.model_validate_json(read_input(_path(), SIZE_LIMIT))
-    return kept.model_copy(update={"version": VERSION})
+    return _answers(read_input(_path(), SIZE_LIMIT))
 
 
-def _is_later() -> bool:
-    """Return whether the file was written by a later version."""
+def _answers(content: bytes) -> UnfinishedAnswers:
+    return UnfinishedAnswers.model_validate_json(content).model_copy(update={"version": VERSION})
+
+
+def _is_later(content: bytes) -> bool:
+    """Return whether a file was written by a later version."""
     try:
-        return _Head.model_validate_json(read_input(_path(), SIZE_LIMIT)).version > VERSION
-    except (OSError, ValidationError):
+        return _Head.model_validate_json(content).version > VERSION
+    except ValidationError:
         return False
 
 

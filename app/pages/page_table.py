@@ -2,6 +2,7 @@
 
 from PySide6.QtWidgets import QWidget
 
+from app.files.file_names import DRAWN_ENDINGS
 from app.files.input_files import open_input
 from app.pages.page_bar import Page, PageKind
 from app.pages.step.page import StepPage
@@ -71,7 +72,7 @@ PAGE_KINDS = (
         "Exercises",
         "Answer on the picture (Alt+5)",
         _make_exercises,
-        (".toml", ".png", ".npz", ".csv"),
+        (".toml", *DRAWN_ENDINGS),
         hides_itself=True,
     ),
 )

@@ -82,7 +82,7 @@ class Tracing(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._job = Job(self)
+        self._job = Job(self, expected=(Exception,))
         self._waiting: Order | None = None
         self._newest: Order | None = None
         self._job.succeeded.connect(self._succeed)

@@ -11,6 +11,7 @@ from app.files.input_files import read_input
 from app.files.saved_records import field_problem
 from app.files.state_models import TextSize
 from app.files.user_folders import preferences_folder
+from core.os_errors import os_error_reason
 from core.stages.declared import STAGES
 
 FILE_NAME = "preferences.json"
@@ -79,8 +80,8 @@ def load_preferences() -> tuple[Preferences, str]:
     except FileNotFoundError:
         return Preferences(), ""
     except OSError as problem:
-        reason = problem.strerror or str(problem)
-        return Preferences(), f"The preferences cannot be read: {reason.lower()}. The defaults are used."
+        reason = os_error_reason(problem)
+        return Preferences(), f"The preferences cannot be read: {reason}. The defaults are used."
     try:
         return Preferences.model_validate_json(content), ""
     except ValidationError as problem:
@@ -93,7 +94,7 @@ def _set_aside(path: Path, reason: str) -> str:
     try:
         os.replace(path, broken)
     except OSError as problem:
-        kept = f"it could not be set aside ({(problem.strerror or str(problem)).lower()})"
+        kept = f"it could not be set aside ({os_error_reason(problem)})"
     else:
         kept = f"it is kept as {broken.name}"
     return f"The preferences were broken: {reason}. The defaults are used; {kept}."

@@ -14,6 +14,7 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
+from core.os_errors import os_error_reason
 from lessons.attempts.record import COLUMNS, VERSION, Attempt, attempt_row
 
 FILE_NAME = "attempts.sqlite"
@@ -201,8 +202,7 @@ class AttemptFile:
         except AttemptFileError:
             raise
         except OSError as problem:
-            reason = (problem.strerror or str(problem)).lower()
-            raise AttemptFileError(f"{self.path} cannot be written: {reason}") from problem
+            raise AttemptFileError(f"{self.path} cannot be written: {os_error_reason(problem)}") from problem
 
     @contextmanager
     def _opened(self) -> Iterator[sqlite3.Connection]:

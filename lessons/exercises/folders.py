@@ -3,6 +3,7 @@
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+from core.os_errors import os_error_reason
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Template
 
@@ -35,7 +36,7 @@ def read_folders(
         try:
             paths = sorted(path for path in folder.iterdir() if path.suffix.lower() == ".toml")
         except OSError as problem:
-            skipped.append(f"{folder}: expected a folder of exercises: {_reason(problem)}")
+            skipped.append(f"{folder}: expected a folder of exercises: {os_error_reason(problem)}")
             continue
         if len(paths) > FILE_LIMIT:
             skipped.append(
@@ -47,7 +48,7 @@ def read_folders(
             except ValueError as problem:
                 skipped.append(str(problem))
             except OSError as problem:
-                skipped.append(f"{path}: expected an exercise: {_reason(problem)}")
+                skipped.append(f"{path}: expected an exercise: {os_error_reason(problem)}")
             else:
                 if template.name in shipped or template.name in found:
                     skipped.append(
@@ -56,7 +57,3 @@ def read_folders(
                 else:
                     found[template.name] = template
     return found, skipped
-
-
-def _reason(problem: OSError) -> str:
-    return (problem.strerror or str(problem)).lower()

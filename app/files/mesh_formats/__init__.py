@@ -27,6 +27,7 @@ from app.files.mesh_formats.reading import (
 from app.files.mesh_formats.stl import read_stl
 from app.files.mesh_formats.through_trimesh import describe
 from app.files.named_files import NamedFiles, OutsideWarning
+from core.os_errors import os_error_reason
 from core.scene import Mesh
 
 
@@ -97,7 +98,7 @@ def read_file(path: Path, report: Report, allows_outside: bool = False) -> Loade
     except PermissionError as problem:
         raise MeshFileError(f"{path.name} may not be read: permission is denied") from problem
     except OSError as problem:
-        raise MeshFileError(f"{path.name} cannot be read: {problem.strerror or problem}") from problem
+        raise MeshFileError(f"{path.name} cannot be read: {os_error_reason(problem)}") from problem
     except MemoryError as problem:
         raise MeshFileError(f"{path.name} is too large: there is not enough memory for it") from problem
     except MemoryBoundError as problem:

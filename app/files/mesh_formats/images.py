@@ -14,6 +14,7 @@ from app.files.input_files import open_input
 from app.files.memory import MemoryBoundError, Need
 from app.files.named_files import NamedFileError, NamedFiles
 from core.framebuffer.display import Bytes, from_display, linear_light
+from core.os_errors import os_error_reason
 from core.records.arrays import Floats, Singles
 from core.scene import Texture
 
@@ -74,7 +75,7 @@ class TextureReader:
             except ImageError as problem:
                 self._read[path] = str(problem)
             except OSError as problem:
-                self._read[path] = f"cannot be read: {problem.strerror or problem}"
+                self._read[path] = f"cannot be read: {os_error_reason(problem)}"
         found = self._read[path]
         if isinstance(found, str):
             raise ImageError(found)

@@ -10,6 +10,7 @@ import numpy as np
 from app.files.input_files import read_input
 from app.files.mesh_formats.images import TextureReader, linear_from_srgb
 from app.files.named_files import NamedFileError, NamedFiles, OutsideError, OutsideWarning, left_out
+from core.os_errors import os_error_reason
 from core.records.arrays import Floats
 from core.scene import Material, Texture
 
@@ -185,7 +186,9 @@ def read_libraries(
             more, problems = read_mtl(path)
         except (OSError, NamedFileError) as problem:
             unread += 1
-            reason = problem if isinstance(problem, NamedFileError) else f"cannot be read: {problem.strerror}"
+            reason: object = problem
+            if isinstance(problem, OSError):
+                reason = f"cannot be read: {os_error_reason(problem)}"
             text = f"material file {name} {reason}; its materials are left out"
             warnings.append(OutsideWarning(text) if isinstance(problem, OutsideError) else text)
         else:

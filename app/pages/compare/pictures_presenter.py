@@ -133,8 +133,6 @@ class StudyPicturesPresenter(QObject):
 
     @Slot(object)
     def _show_failure(self, error: Exception) -> None:
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
         self._view.show_waiting(f"It cannot be drawn: {error}")
 
     # To the stepper.
@@ -181,8 +179,6 @@ class StudyPicturesPresenter(QObject):
     def _tell_no_divergence(self, error: Exception) -> None:
         if self._shown is not None:
             self._show_pictures(self._shown)
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
         self.refused.emit(f"They cannot be traced: {error}")
 
     @Slot()

@@ -73,7 +73,7 @@ class CataloguePresenter(QObject):
         self._current = ""
         self._shown: list[str] = []
         """Names of all exercises in the order of the catalogue."""
-        self._reading, self._choosing = Job(self), Job(self)
+        self._reading, self._choosing = (Job(self, expected=(OSError, ValueError)) for _ in range(2))
         self._reading.succeeded.connect(self._take_found)
         self._reading.failed.connect(self._refuse)
         self._choosing.succeeded.connect(self._take_choice)
@@ -149,8 +149,6 @@ class CataloguePresenter(QObject):
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
-        if not isinstance(error, OSError | ValueError):
-            raise error
         self.refused.emit(f"{error}.")
 
     # What is chosen.

@@ -9,11 +9,13 @@ from PySide6.QtWidgets import QFileDialog
 
 from app.background.workers import Job, Progress
 from app.cli.diagnose import pixels_text
-from app.files.drawn_pictures import ENDINGS, read_drawn
+from app.files.drawn_pictures import read_drawn
+from app.files.file_names import DRAWN_ENDINGS
 from app.pages.page_bar import COVERED, StepRequest
 from app.session.document import Document
 from app.session.session import Session
 from core import STAGES
+from core.os_errors import os_error_reason
 from core.records.words import counted
 from core.scene import AnyScene, ClipScene
 from core.settings import FAMILIES
@@ -27,7 +29,7 @@ from widgets.exercises.diagnosis_view import DiagnosisView
 from widgets.exercises.records import DiagnosisRecord, FoundRun
 from widgets.grid.buffer import GridBuffer
 
-KINDS = f"Pictures ({' '.join(f'*{ending}' for ending in ENDINGS)});;All files (*)"
+KINDS = f"Pictures ({' '.join(f'*{ending}' for ending in DRAWN_ENDINGS)});;All files (*)"
 MOST_FOUND = 8
 """Runs that are listed; of more, a number is told."""
 
@@ -62,7 +64,7 @@ class DiagnosisPresenter(QObject):
         super().__init__(parent)
         self._session, self._view = session, view
         self._diagnosed: _Diagnosed | None = None
-        self._job = Job(self)
+        self._job = Job(self, expected=(OSError, ValueError, MemoryError))
         self._job.progressed.connect(self._tell_progress)
         self._job.ended.connect(self._end_progress)
         self._job.succeeded.connect(self._show)
@@ -118,11 +120,9 @@ class DiagnosisPresenter(QObject):
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
-        if not isinstance(error, OSError | ValueError | MemoryError):
-            raise error
         said = f"{error}"
         if isinstance(error, OSError) and error.strerror:
-            said = f"{error.filename}: {error.strerror.lower()}"
+            said = f"{error.filename}: {os_error_reason(error)}"
         self.refused.emit(f"The picture was not compared: {said}.")
 
     @Slot(object)

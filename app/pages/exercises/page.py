@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from app.files.drawn_pictures import ENDINGS
+from app.files.file_names import DRAWN_ENDINGS
 from app.files.unfinished_answers import UnfinishedFile
 from app.pages.exercises.asked_scene import AskedScene
 from app.pages.exercises.catalogue_presenter import FIRST_COURSE, CataloguePresenter
@@ -237,7 +237,7 @@ class ExercisesPage(Page):
 
     def open_path(self, path: str) -> None:
         """Ask the exercise of a file, or say which mistake makes its picture."""
-        if path.lower().endswith(ENDINGS):
+        if path.lower().endswith(DRAWN_ENDINGS):
             self.diagnosis.open(path)
         else:
             self.exercises.open_file(path)

@@ -175,8 +175,6 @@ class QuestionPresenter(QObject):
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
         self.refused.emit(f"{error}. The page is unchanged.")
 
     @Slot()

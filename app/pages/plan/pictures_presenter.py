@@ -108,8 +108,6 @@ class PlanPicturesPresenter(QObject):
 
     @Slot(object)
     def _show_failure(self, error: Exception) -> None:
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
         self._view.show_waiting(f"It cannot be drawn: {error}")
 
     @Slot()

@@ -20,7 +20,6 @@ from app.pages.stability.records import (
 )
 from core.scene import ClipScene
 from core.study import Opening
-from core.study.stability import StressCancelledError
 from core.study.stability.coverage.dial_pixel import PixelInFormats
 from core.study.stability.open_scene import NAME as OPEN_SCENE
 from widgets.atlas.case_view import CaseView
@@ -166,8 +165,6 @@ class StabilityCasePresenter(QObject):
 
     @Slot(object)
     def _show_failure(self, error: Exception) -> None:
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
         self._view.show_waiting("This cell", f"It cannot be run: {error}")
 
     # The precision dial.
@@ -194,8 +191,6 @@ class StabilityCasePresenter(QObject):
 
     @Slot(object)
     def _tell_no_dial(self, error: Exception) -> None:
-        if not isinstance(error, ValueError):
-            raise error
         self.refused.emit(f"The pixel could not be tested in every number format: {error}")
 
     # To the stepper.
@@ -238,8 +233,6 @@ class StabilityCasePresenter(QObject):
 
     @Slot(object)
     def _tell_no_shrinking(self, error: Exception) -> None:
-        if not isinstance(error, ValueError | MemoryError | StressCancelledError):
-            raise error
         if self._found is not None:
             self._view.show_case(case_record(self._found))
         self.refused.emit(f"The case could not be shrunk: {error}")

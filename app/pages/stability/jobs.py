@@ -13,7 +13,7 @@ from core import Frame, render
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.study import Opening, machine
-from core.study.stability import Axis, Experiment, Verdict, stress
+from core.study.stability import Axis, Experiment, StressCancelledError, Verdict, stress
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, Wanted, as_given, once_everywhere
 from core.study.stability.coverage.dial_pixel import PixelInFormats, pixel_in_formats
 from core.study.stability.shrink import Shrunk, shrink_cell
@@ -79,7 +79,7 @@ class StabilityJobs(JobGroup):
         """Gives a tuple of `CellRun` for every row of a map, and in the end an `AtlasResult`."""
         self.looking = self.add_job()
         """Gives a `CaseFound`."""
-        self.shrinking = self.add_job()
+        self.shrinking = self.add_job((ValueError, MemoryError, StressCancelledError))
         """Gives a `ShrunkFound`."""
         self.reading = self.add_job()
         """Gives a ``PixelInFormats``."""

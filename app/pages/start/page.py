@@ -48,9 +48,8 @@ class StartPage(Page):
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._session = session
-        self._job = Job(self)
+        self._job = Job(self, expected=())
         self._job.part_done.connect(self._show_picture)
-        self._job.failed.connect(self._fail)
         self.cards = SceneCards(self)
         self.cards.show_scenes([SceneEntry(s.name, s.title, s.description) for s in CATALOGUE])
         self.cards.scene_chosen.connect(self.open_requested)
@@ -172,10 +171,6 @@ class StartPage(Page):
         """Hide the picture of a scene that an exercise asks about."""
         asked = self._session.asked_scene
         self.cards.hide_pictures({name for name, digest in self._digests.items() if digest == asked}, HIDDEN)
-
-    @Slot(object)
-    def _fail(self, error: Exception) -> None:
-        raise error
 
     # What is done.
 

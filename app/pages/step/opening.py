@@ -81,7 +81,5 @@ class StepOpening(QObject):
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
-        if not isinstance(error, ValueError | MemoryError):
-            raise error
         said = sentences(f"It cannot be stepped: {error}", "The open scene is unchanged")
         self.message_sent.emit(Message(MessageKind.WARNING, said))

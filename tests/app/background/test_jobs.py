@@ -1,7 +1,8 @@
-"""What a job has worked on is let go of."""
+"""A job releases what it worked on, reports an expected error, and raises any other."""
 
 from weakref import ref
 
+import pytest
 from pytestqt.qtbot import QtBot
 
 from app.background.workers import Job
@@ -35,3 +36,19 @@ def test_it_goes_too_when_nobody_waits_for_it_any_more(qtbot: QtBot) -> None:
     job.cancel()
     del work, large
     qtbot.waitUntil(lambda: seen() is None)
+
+
+@pytest.mark.parametrize(
+    ("error", "is_expected"), [(ValueError("a wrong scene"), True), (LookupError("a mistake"), False)]
+)
+def test_only_an_expected_error_is_reported(qtbot: QtBot, error: Exception, is_expected: bool) -> None:
+    job, reported = Job(expected=(ValueError,)), []
+
+    def work(*_: object) -> None:
+        raise error
+
+    job.failed.connect(reported.append)
+    with qtbot.captureExceptions() as raised, qtbot.waitSignal(job.ended):
+        job.start(work)
+    assert reported == [error] * is_expected
+    assert [each for _, each, _ in raised] == [error] * (not is_expected)
