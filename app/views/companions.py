@@ -62,6 +62,11 @@ class EnteredSpace(Companion):
         """Return whether there are corners."""
         return self.session.stage_trace.steps.row_count > 0
 
+    def made_from(self) -> object:
+        """Return trace, the row of the step, and how many rows are done."""
+        steps, position = self.session.stage_trace.steps, self.session.cursor.position
+        return self.session.trace, steps.row_at(position)[0], steps.rows_done(position)
+
     def draw(self) -> None:
         """Draw the corners that have been divided by w, and the triangles of three such corners."""
         self._space.show_diagram(entered_diagram(self.session))

@@ -9,7 +9,6 @@ from core.geometry.matrices import transform
 from core.records.arrays import Floats
 from core.scene import Scene
 from core.trace import TraceSource
-from widgets.space.orbit import Orbit
 from widgets.space.scene_view import SceneMark
 
 PARTS = 24
@@ -40,18 +39,14 @@ def pixel_ray(source: TraceSource, space: ViewSpace, column: int, row: int) -> t
 
 
 def pixel_marks(
-    source: TraceSource,
-    space: ViewSpace,
-    orbit: Orbit,
-    size: tuple[int, int],
-    pixels: tuple[PointedPixel, ...],
+    source: TraceSource, space: ViewSpace, matrix: Floats, pixels: tuple[PointedPixel, ...]
 ) -> tuple[SceneMark, ...]:
-    """Return the rays of pixels as lines over the picture."""
+    """Return the rays of pixels as lines over the picture of a ``matrix``, see `DrawnScene`."""
     marks = []
     for pixel in pixels:
         ray, is_hit = pixel_ray(source, space, pixel.column, pixel.row)
         along = np.linspace(0.0, 1.0, PARTS + 1)[:, None]
-        points = fractions(space, orbit, size, ray[0] + along * (ray[1] - ray[0]))
+        points = fractions(matrix, ray[0] + along * (ray[1] - ray[0]))
         label = f"pixel ({pixel.column}, {pixel.row})"
         marks.append(SceneMark(points, "text", label, "ring" if is_hit else "cross"))
     return tuple(marks)

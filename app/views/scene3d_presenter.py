@@ -257,27 +257,27 @@ class Scene3dPresenter(QObject):
         self._show(drawn)
 
     def _show(self, drawn: DrawnScene) -> None:
-        space, orbit, size = self._space, drawn.shot.orbit, drawn.shot.size
+        space, matrix = self._space, drawn.matrix
         if space is None:
             return
         handles = []
         if self.focus is not None:
             corners = space.corners(self.focus)[: space.scene.corner_count]
-            for index, (x, y) in enumerate(fractions(space, orbit, size, corners).tolist()):
+            for index, (x, y) in enumerate(fractions(matrix, corners).tolist()):
                 if np.isfinite([x, y]).all():
                     handles.append(SceneHandle(index, x, y, space.vertices.colors[index]))
         words = space_words(space)
-        places = fractions(space, orbit, size, np.stack([place for place, _ in words]))
+        places = fractions(matrix, np.stack([place for place, _ in words]))
         labels = tuple(
             (x, y, text, "muted_text")
             for (x, y), (_, text) in zip(places.tolist(), words, strict=True)
             if 0 <= x <= 1 and 0 <= y <= 1
         )
         marks = [
-            SceneMark(fractions(space, orbit, size, mark.points), mark.ink, mark.label, mark.shape)
+            SceneMark(fractions(matrix, mark.points), mark.ink, mark.label, mark.shape)
             for mark in step_marks(self._session, space)
         ]
-        marks += pixel_marks(self._session.trace.source, space, orbit, size, pointed_pixels(self._session))
+        marks += pixel_marks(self._session.trace.source, space, matrix, pointed_pixels(self._session))
         picture = ScenePicture(
             drawn.pixels, tuple(handles), tuple(marks), labels, self._caption(), drawn.sight
         )
@@ -369,8 +369,7 @@ class Scene3dPresenter(QObject):
         latest, space, triangle = self._session.latest, self._space, self.focus
         if space is None or triangle is None or self._drawn is None:
             return
-        corner, shot = space.corners(triangle)[index], self._drawn.shot
-        place = moved_parallel(space, shot.orbit, shot.size, corner, x, y)
+        place = moved_parallel(self._drawn.matrix, space.corners(triangle)[index], x, y)
         try:
             moved = move_corner_to(replace(space, scene=latest.scene), triangle, index, place)
         except ValueError as error:

@@ -61,6 +61,8 @@ class DrawnScene:
     pixels: Bytes
     """(H, W, 4) uint8 sRGB, row 0 at the bottom, with lines."""
     shot: SceneShot
+    matrix: Floats
+    """(4, 4) float64, the space that is shown to clip space of the viewing camera."""
     figures: FrameFigures
     sight: ViewDepth
 
@@ -116,7 +118,8 @@ def draw_scene(shot: SceneShot, workers: BandWorkers, backs: HiddenBacks) -> Dra
         for line in space_lines(shot.space, shot.focus)
     )
     camera = viewing_camera(shot.space, shot.orbit)
-    found = find_line_pixels(lines, viewing_matrix(camera, shot.size), shot.size)
+    matrix = viewing_matrix(camera, shot.size)
+    found = find_line_pixels(lines, matrix, shot.size)
     at_lines, at_sight = found.depth_at, sight_places(shot.size)
     depth_at = np.concatenate([at_lines, at_sight.ravel()])
     picture = workers.draw(viewed, settings, depth_at=depth_at, out=pixels)
@@ -131,7 +134,7 @@ def draw_scene(shot: SceneShot, workers: BandWorkers, backs: HiddenBacks) -> Dra
     figures = FrameFigures(
         shot.size, count, seconds, picture.statistics, picture.route, sharing, are_backs_hidden
     )
-    return DrawnScene(pixels, shot, figures, sight)
+    return DrawnScene(pixels, shot, matrix, figures, sight)
 
 
 def sight_places(size: tuple[int, int]) -> Integers:
@@ -174,20 +177,16 @@ def _inverse_w(camera: Camera, depth: Floats) -> Floats:
     return nearest - (nearest - farthest) * (depth / SCALE)
 
 
-def fractions(space: ViewSpace, orbit: Orbit, size: tuple[int, int], points: Floats) -> Floats:
-    """Return (N, 2) places in the picture of points (N, 3), as fractions with y up; NaN behind the viewer."""
-    clip = _view_clip(space, orbit, size, points)
+def fractions(matrix: Floats, points: Floats) -> Floats:
+    """Return (N, 2) places of points (N, 3) in the picture of a ``matrix``: fractions, y up; NaN behind the viewer."""
+    clip = transform(matrix, np.column_stack([points, np.ones(len(points))]))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         placed = (clip[:, :2] / clip[:, 3:] + 1) / 2
     return np.where(clip[:, 3:] > 0, placed, np.nan)
 
 
-def moved_parallel(
-    space: ViewSpace, orbit: Orbit, size: tuple[int, int], point: Floats, x: float, y: float
-) -> Floats:
-    """Return the place (3,) at fractions (x, y) of the picture, as far from the viewer as ``point`` (3,)."""
-    camera = viewing_camera(space, orbit)
-    matrix = viewing_matrix(camera, size)
+def moved_parallel(matrix: Floats, point: Floats, x: float, y: float) -> Floats:
+    """Return the place (3,) at fractions (x, y) of the picture of a ``matrix``, as far away as ``point`` (3,)."""
     clip = transform(matrix, np.append(point, 1.0))
     clip[:2] = (2 * x - 1) * clip[3], (2 * y - 1) * clip[3]
     moved = np.linalg.solve(matrix, clip)
@@ -249,11 +248,6 @@ def _axis_lines(space: ViewSpace) -> list[SpaceLine]:
     return [
         SpaceLine(np.stack([np.zeros(3), length * np.eye(3)[k]]), "outline", hidden=0.5) for k in range(3)
     ]
-
-
-def _view_clip(space: ViewSpace, orbit: Orbit, size: tuple[int, int], points: Floats) -> Floats:
-    matrix = viewing_matrix(viewing_camera(space, orbit), size)
-    return transform(matrix, np.column_stack([points, np.ones(len(points))]))
 
 
 def _bytes_of(color: str) -> Floats:

@@ -72,13 +72,12 @@ class ClipView(StageView):
         return self._space
 
     def made_from(self) -> object:
-        """Return trace, triangle and how much is clipped."""
-        return (
-            self.session.trace,
-            shown_triangle(self.session),
-            self._position(),
-            is_there(self.session),
-        )
+        """Return trace, triangle and how much is clipped: the row of the step, and how many rows are done."""
+        done: object = self._position()
+        if self.session.cursor.stage == "clip":
+            steps, position = self.session.stage_trace.steps, self.session.cursor.position
+            done = steps.row_at(position)[0], steps.rows_done(position)
+        return (self.session.trace, shown_triangle(self.session), done, is_there(self.session))
 
     def draw(self) -> None:
         """Draw the triangle and what clipping leaves of it."""

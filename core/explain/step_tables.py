@@ -145,7 +145,7 @@ def filled_table(
         note = note or last_sentence(trace, closing)
     begun = rows[steps.starts[rows] < position] if grows else rows
     labels = labels[: len(begun)] if grows else labels
-    cells = [tuple(_cell(trace, row, position, column) for column in columns) for row in begun.tolist()]
+    cells = [_cells(trace, row, position, columns) for row in begun.tolist()]
     cells += [(None,) * len(columns)] * (len(labels) - len(cells))
     made = {
         (k, place)
@@ -176,23 +176,30 @@ def last_sentence(trace: StageTrace, row: int) -> str:
     return sentence(explanation, int(trace.triangle[row]), None)
 
 
-def _cell(trace: StageTrace, row: int, position: int, column: FilledColumn) -> TableCell | None:
-    """Return the cell of a row, if its number is known at a position."""
+def _cells(
+    trace: StageTrace, row: int, position: int, columns: Sequence[FilledColumn]
+) -> tuple[TableCell | None, ...]:
+    """Return the cells of a row whose numbers are known at a position."""
     start, end = int(trace.steps.starts[row]), trace.steps.position_after(row)
     if position <= start:
-        return None
+        return (None,) * len(columns)
     operations = trace.steps.operations[trace.kind_of(row)]
-    done = len(operations)
-    if column.after != WHOLE:
-        done = next((k for k, one in enumerate(operations, start=1) if column.after in one.sets), 0)
-    if done == 0:
-        return NONE if position >= end else None
-    if position < start + done:
-        return None
     explanation = trace.explain(min(position, end))
     assert explanation is not None
-    value = column.value(StepValues(explanation, int(trace.triangle[row])))
-    return NONE if value is None else TableCell(*cell_texts(value), start + done)
+    step = StepValues(explanation, int(trace.triangle[row]))
+
+    def cell(column: FilledColumn) -> TableCell | None:
+        done = len(operations)
+        if column.after != WHOLE:
+            done = next((k for k, one in enumerate(operations, start=1) if column.after in one.sets), 0)
+        if done == 0:
+            return NONE if position >= end else None
+        if position < start + done:
+            return None
+        value = column.value(step)
+        return NONE if value is None else TableCell(*cell_texts(value), start + done)
+
+    return tuple(cell(column) for column in columns)
 
 
 def cell_texts(value: Value) -> tuple[str, str]:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import combinations
 from time import perf_counter
 
 import numpy as np
@@ -30,7 +31,7 @@ from widgets.space.paint import paint_label, paint_spot
 from widgets.space.view_depth import ViewDepth
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class SceneHandle:
     """A vertex of the triangle in focus."""
 
@@ -59,6 +60,12 @@ class SceneMark:
         if self.points.ndim != 2 or self.points.shape[1] != 2:
             raise ValueError(f"points must be (N, 2), got {self.points.shape}")
 
+    def is_same(self, other: "SceneMark") -> bool:
+        """Return whether both are painted alike."""
+        names = (self.ink, self.label, self.shape)
+        is_named_alike = names == (other.ink, other.label, other.shape)
+        return is_named_alike and np.array_equal(self.points, other.points, equal_nan=True)
+
 
 @dataclass(frozen=True, eq=False)
 class ScenePicture:
@@ -77,6 +84,16 @@ class ScenePicture:
     def __post_init__(self) -> None:
         if self.pixels.ndim != 3 or self.pixels.shape[2] != 4 or 0 in self.pixels.shape:
             raise ValueError(f"pixels must be (H, W, 4) with at least one pixel, got {self.pixels.shape}")
+
+    def is_same(self, other: "ScenePicture") -> bool:
+        """Return whether both are painted alike: the same pixels, and equal things over them."""
+        over = (self.handles, self.labels, self.caption)
+        is_like = self.pixels is other.pixels and over == (other.handles, other.labels, other.caption)
+        return (
+            is_like
+            and len(self.marks) == len(other.marks)
+            and all(mark.is_same(shown) for mark, shown in zip(self.marks, other.marks, strict=True))
+        )
 
 
 class SceneView(OrbitArea):
@@ -125,7 +142,8 @@ class SceneView(OrbitArea):
             self._has_new_pixels = True
         caption = self.empty_text if picture is None else picture.caption
         self.setAccessibleDescription(caption)
-        self.update()
+        if before is None or picture is None or not picture.is_same(before):
+            self.update()
 
     def set_caption(self, caption: str) -> None:
         """Keep room for a caption that all pictures will have, so that the picture's size does not change."""
@@ -145,7 +163,9 @@ class SceneView(OrbitArea):
 
     def show_figures(self, text: str) -> None:
         """Show in the corner what the last picture took."""
-        self._corner.show_figures(text)
+        if text != self._corner.text():
+            self._corner.show_figures(text)
+            self.update()  # Words keep clear of the corner.
 
     def show_sizes(self, choices: Sequence[SizeChoice], chosen: str) -> None:
         """Offer sizes of the picture in the corner's menu; one of them is chosen."""
@@ -235,83 +255,42 @@ class SceneView(OrbitArea):
             )
         return self._reduced
 
-    def _place(self, x: float, y: float) -> QPointF | None:
-        """Return the widget position of fractions of the picture."""
-        area = self._space_area()
-        place = QPointF(area.left() + x * area.width(), area.bottom() - y * area.height())
-        return place if abs(place.x()) < 1e7 and abs(place.y()) < 1e7 else None
-
     def _paint_over(self, painter: QPainter, picture: ScenePicture, area: QRectF, theme: Theme) -> None:
         """Paint marks, handles and words."""
         places = LabelPlaces(area.adjusted(2, 2, -2, -2))
         if self._corner.isVisible():
             places.take(QRectF(self._corner.geometry()))
-        scale = theme.text_px / 13
-        for handle in picture.handles:
-            place = self._place(handle.x, handle.y)
-            if place is not None:
-                places.take(QRectF(place.x() - 7, place.y() - 7, 14, 14))
-        radius = self._handle_radius(picture)
+        handles = self._placed_handles()
+        for _, place in handles:
+            places.take(QRectF(place.x() - 7, place.y() - 7, 14, 14))
         for mark in picture.marks:
-            self._paint_mark(painter, mark, places, theme)
-        for handle in picture.handles:
-            place = self._place(handle.x, handle.y)
-            if place is not None:
-                ink = f"vertex {handle.color}"
-                spot, is_held = Spot(np.zeros(3), ink, radius=radius), handle.index == self._handle
-                paint_spot(painter, place, spot, theme, is_handle=True, is_held=is_held)
-                reach = 8.0 * scale
-                paint_label(painter, places, place, str(handle.index), ink, theme, reach, is_bold=True)
+            _paint_mark(painter, mark, area, places, theme)
+        apart = [QLineF(a, b).length() for (_, a), (_, b) in combinations(handles, 2)]
+        # Smaller where they would cover each other.
+        radius = min(max(min(apart, default=15.0) / 3, 2.0), 5.0)
+        for handle, place in handles:
+            ink, reach = f"vertex {handle.color}", 8.0 * theme.text_px / 13
+            spot, is_held = Spot(np.zeros(3), ink, radius=radius), handle.index == self._handle
+            paint_spot(painter, place, spot, theme, is_handle=True, is_held=is_held)
+            paint_label(painter, places, place, str(handle.index), ink, theme, reach, is_bold=True)
         for x, y, text, ink in picture.labels:
-            place = self._place(x, y)
-            if place is not None:
-                paint_label(painter, places, place, text, ink, theme, 4.0)
+            placed = _place(area, x, y)
+            if placed is not None:
+                paint_label(painter, places, placed, text, ink, theme, 4.0)
 
-    def _handle_radius(self, picture: ScenePicture) -> float:
-        """Return the radius of handles: smaller where they would cover each other."""
-        places = [self._place(handle.x, handle.y) for handle in picture.handles]
-        known = [place for place in places if place is not None]
-        apart = [QLineF(a, b).length() for k, a in enumerate(known) for b in known[k + 1 :]]
-        return min(max(min(apart, default=15.0) / 3, 2.0), 5.0)
-
-    def _paint_mark(self, painter: QPainter, mark: SceneMark, places: LabelPlaces, theme: Theme) -> None:
-        """Paint a line over the picture, and the mark at its end."""
-        runs: list[list[QPointF]] = [[]]
-        last = None
-        for x, y in mark.points.tolist():
-            last = self._place(x, y)
-            if last is None:
-                runs.append([])
-            else:
-                runs[-1].append(last)
-        painter.setBrush(Qt.BrushStyle.NoBrush)
-        for pen in (
-            QPen(faded(theme.halo(), 0.7), 3.6),
-            QPen(QColor(ink_color(mark.ink, theme)), 1.4 * theme.text_px / 13),
-        ):
-            painter.setPen(pen)
-            for run in runs:
-                if len(run) > 1:
-                    painter.drawPolyline(QPolygonF(run))
-        if last is None:
-            return
-        if mark.shape in ("ring", "disc", "cross"):
-            spot = Spot(np.zeros(3), mark.ink, mark.shape, 4.0)  # type: ignore[arg-type]
-            paint_spot(painter, last, spot, theme)
-            places.take(QRectF(last.x() - 5, last.y() - 5, 10, 10))
-        if mark.label:
-            paint_label(painter, places, last, mark.label, mark.ink, theme, 7.0)
+    def _placed_handles(self) -> list[tuple[SceneHandle, QPointF]]:
+        """Return the handles that have a place in the widget, each with it."""
+        area = self._space_area()
+        handles = self._picture.handles if self._picture is not None else ()
+        places = [(handle, _place(area, handle.x, handle.y)) for handle in handles]
+        return [(handle, place) for handle, place in places if place is not None]
 
     def _handle_near(self, position: QPointF) -> int | None:
         best, reach = None, GRAB_RADIUS
-        if self._picture is None:
-            return None
-        for handle in self._picture.handles:
-            place = self._place(handle.x, handle.y)
-            if place is not None:
-                distance = QLineF(place, position).length()
-                if distance <= reach:
-                    best, reach = handle.index, distance
+        for handle, place in self._placed_handles():
+            distance = QLineF(place, position).length()
+            if distance <= reach:
+                best, reach = handle.index, distance
         return best
 
     def _orbit_at(self, position: QPointF) -> Orbit:
@@ -343,3 +322,38 @@ class SceneView(OrbitArea):
         # A press at y is in the pixel below y, as one at x is in the pixel to the right of x.
         row = rows - 1 - int((position.y() - area.top()) * rows / area.height())
         self.picked.emit(min(max(column, 0), columns - 1), min(max(row, 0), rows - 1))
+
+
+def _place(area: QRectF, x: float, y: float) -> QPointF | None:
+    """Return where fractions of a picture are that fills an area; None: too far away to be painted."""
+    place = QPointF(area.left() + x * area.width(), area.bottom() - y * area.height())
+    return place if abs(place.x()) < 1e7 and abs(place.y()) < 1e7 else None
+
+
+def _paint_mark(painter: QPainter, mark: SceneMark, area: QRectF, places: LabelPlaces, theme: Theme) -> None:
+    """Paint a line over the picture, and the mark at its end."""
+    runs: list[list[QPointF]] = [[]]
+    last = None
+    for x, y in mark.points.tolist():
+        last = _place(area, x, y)
+        if last is None:
+            runs.append([])
+        else:
+            runs[-1].append(last)
+    runs = [run for run in runs if len(run) > 1]
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for pen in (
+        QPen(faded(theme.halo(), 0.7), 3.6),
+        QPen(QColor(ink_color(mark.ink, theme)), 1.4 * theme.text_px / 13),
+    ):
+        painter.setPen(pen)
+        for run in runs:
+            painter.drawPolyline(QPolygonF(run))
+    if last is None:
+        return
+    if mark.shape in ("ring", "disc", "cross"):
+        spot = Spot(np.zeros(3), mark.ink, mark.shape, 4.0)  # type: ignore[arg-type]
+        paint_spot(painter, last, spot, theme)
+        places.take(QRectF(last.x() - 5, last.y() - 5, 10, 10))
+    if mark.label:
+        paint_label(painter, places, last, mark.label, mark.ink, theme, 7.0)

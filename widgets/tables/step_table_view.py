@@ -1,6 +1,6 @@
 """A table that fills as a stage is stepped: the cells of the step stand out, each leads to the step that made it."""
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QRect, QSignalBlocker, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QAction,
     QColor,
@@ -96,10 +96,23 @@ class _Cells(QTableView):
             for place, cell in enumerate(cells):
                 if old is None or _look(old, row, place) != _look(table, row, place):
                     self._write(table, row, place, cell)
+        if old is None or _texts(old) != _texts(table):
+            self._fit_columns()
         self._written = table, theme
-        self.horizontalHeader().resizeSections(QHeaderView.ResizeMode.ResizeToContents)
         self._row = table.row
         self._bring_row_into_view()
+
+    def _fit_columns(self) -> None:
+        """Give every column the width of its texts, in one painting: left to itself, the table paints twice."""
+        header, widths = self.horizontalHeader(), self._widths()
+        with QSignalBlocker(header):
+            header.resizeSections(QHeaderView.ResizeMode.ResizeToContents)
+        if widths != self._widths():
+            self.updateGeometries()
+            self.viewport().update()
+
+    def _widths(self) -> list[int]:
+        return [self.columnWidth(place) for place in range(self._items.columnCount())]
 
     def _write_headings(self, table: StepTable) -> None:
         items, shape = self._items, (len(table.rows), len(table.columns))
@@ -149,9 +162,11 @@ class StepTableView(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._table: StepTable | None = None
-        self._title = text_label("", self, role="strong", wraps=True)
-        self._note = text_label("", self, role="sentence", wraps=True, is_selectable=True)
-        self.cells = _Cells(self)
+        # Without a layout of its own: a title of two lines is laid out here, and not in all that is around.
+        self._pane = pane = QWidget(self)
+        self._title = text_label("", pane, role="strong", wraps=True)
+        self._note = text_label("", pane, role="sentence", wraps=True, is_selectable=True)
+        self.cells = _Cells(pane)
         for text, key, do in (
             ("Go to the step that made it", QKeySequence(Qt.Key.Key_Return), self._choose_current),
             ("Copy the table", QKeySequence(QKeySequence.StandardKey.Copy), self.copy),
@@ -162,7 +177,7 @@ class StepTableView(QWidget):
             action.triggered.connect(do)
             self.cells.addAction(action)
         self.cells.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
-        layout = column_layout(self, 4)
+        layout = column_layout(pane, 4)
         layout.addWidget(self._title)
         layout.addWidget(self.cells, 1)
         layout.addWidget(self._note)
@@ -173,6 +188,7 @@ class StepTableView(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep room for what the longest steps decide, so that the table keeps its place."""
         super().resizeEvent(event)
+        self._pane.setGeometry(self.rect())
         lines = 1 if self.width() >= _WIDE * current_theme().text_px else 3
         self._note.setMinimumHeight(lines * self._note.fontMetrics().lineSpacing())
 
@@ -226,6 +242,10 @@ def _heading(column: TableColumn) -> QStandardItem:
 
 def _look(table: StepTable, row: int, place: int) -> tuple[TableCell | None, bool, bool]:
     return table.cells[row][place], (row, place) in table.made, row == table.row
+
+
+def _texts(table: StepTable) -> list[list[str]]:
+    return [["" if cell is None else cell.text for cell in cells] for cells in table.cells]
 
 
 def _fill(item: QStandardItem, cell: TableCell | None, is_made: bool, is_here: bool) -> None:

@@ -10,6 +10,7 @@ from pytestqt.qtbot import QtBot
 from app.files.open_any import open_any
 from app.session.document import open_document
 from app.views.scene_picture import fractions
+from app.views.view_space import viewing_camera, viewing_matrix
 from app.window.main_window import MainWindow
 from core.records.steps import Level
 from lessons.scenes import built_in_scene
@@ -34,7 +35,9 @@ def test_a_model_fills_the_view_that_it_opens_in(model: MainWindow) -> None:
     space = presenter.space
     assert space is not None
     view = model.page.main_view()
-    places = fractions(space, view.orbit(), view.picture_size(), space.vertices.world[:, :3])  # type: ignore[attr-defined, index]
+    camera = viewing_camera(space, view.orbit())  # type: ignore[attr-defined]
+    matrix = viewing_matrix(camera, view.picture_size())  # type: ignore[attr-defined]
+    places = fractions(matrix, space.vertices.world[:, :3])  # type: ignore[index]
     size = np.ptp(places, axis=0)
     assert size.max() >= 0.5
     assert places.min() >= 0

@@ -9,8 +9,10 @@ from PySide6.QtWidgets import QApplication, QCheckBox, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.pages.step.steps_ahead import load_stages
+from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core.records.steps import Level
+from lessons.scenes import make_scene
 
 pytestmark = pytest.mark.shared_window
 
@@ -64,6 +66,38 @@ def test_a_step_is_laid_out_in_the_inspector_alone_and_painted_once(
         assert count.updates == 1
         assert {str(widget): times for widget, times in count.paints.items() if times > 1} == {}
         assert not any(count.paints[pane] for pane in (window.page.outline, window.page.settings_panel))
+
+
+def test_a_step_that_moves_nothing_in_space_paints_no_space(window: MainWindow, qtbot: QtBot) -> None:
+    session, page = window.session, window.page
+    session.open(open_document(make_scene("cube"), "cube"))
+    session.set_stage("transform", 0)
+    session.set_level(Level.OPERATION)
+    session.go_to(1)
+    page.settle()
+    views = page.main_view(), page.main_area.companions["transform"].widget
+    count = events_of_a_step(window, qtbot)
+    assert session.cursor.position < session.stage_trace.steps.starts[1], "inside of a row"
+    assert [count.paints[view] for view in views] == [0, 0]
+    session.set_level(Level.PIXEL)
+    count = events_of_a_step(window, qtbot)
+    assert [count.paints[view] for view in views] == [1, 1]
+
+
+def test_a_table_that_fills_is_laid_out_by_itself_and_painted_once(window: MainWindow, qtbot: QtBot) -> None:
+    session, page = window.session, window.page
+    session.open(open_document(make_scene("cube"), "cube"))
+    session.set_stage("cull", 0)
+    session.set_level(Level.TRIANGLE)
+    page.settle()
+    cells = page.main_area.companions["cull"].widget.cells  # type: ignore[attr-defined]
+    widths = {cells.columnWidth(0)}
+    for _ in range(3):
+        count = events_of_a_step(window, qtbot)
+        assert "MainArea" not in count.layouts
+        assert count.paints[cells.viewport()] == 1
+        widths.add(cells.columnWidth(0))
+    assert len(widths) > 1, "a width changed"
 
 
 def test_panes_that_are_folded_away_are_filled_when_they_are_unfolded(window: MainWindow) -> None:
