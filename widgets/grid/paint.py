@@ -84,7 +84,9 @@ def paint_pale_edges(
         holds_value = is_seen if holds_value is None else is_seen & holds_value
     if holds_value is None or buffer.kind == "bool" or placement.cell < OUTLINED_CELL:
         return
-    column0, row0, column1, row1 = cells
+    # The line at the border of a block depends on the cells on both sides of it.
+    column0, row0 = max(cells[0] - 1, 0), max(cells[1] - 1, 0)
+    column1, row1 = min(cells[2] + 1, buffer.columns), min(cells[3] + 1, buffer.rows)
     shown = image.copy(column0, placement.rows - row1, column1 - column0, row1 - row0)
     pixels = np.frombuffer(shown.constBits(), np.uint8).reshape(shown.height(), -1, 4)[::-1, : shown.width()]
     light = linear_light(pixels[..., 2::-1] / 255.0) @ LUMINANCE + 0.05

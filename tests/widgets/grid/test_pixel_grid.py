@@ -160,7 +160,8 @@ def test_a_step_outside_of_the_raster_does_no_harm(grid: PixelGrid) -> None:
 def test_partial_painting_equals_painting_everything(grid: PixelGrid, qtbot, zoom: float) -> None:
     random = np.random.default_rng(5)
     values = random.random((16, 24)).astype(np.float32)
-    mask = random.random((16, 24)) < 0.3
+    mask, known = random.random((16, 24)) < 0.3, random.random((16, 24)) < 0.7
+    values[8:] = 1.0  # pale: outlined where they meet cells without a value
     grid.set_view(GridView(0.5, 0.5, zoom))
     fresh = PixelGrid()
     qtbot.addWidget(fresh)
@@ -174,7 +175,7 @@ def test_partial_painting_equals_painting_everything(grid: PixelGrid, qtbot, zoo
         mask[row, column] ^= True
         marks = (Mark.REJECTED, Mark.TIE, Mark.DEPTH_FAILED, Mark.COVERED)
         overlays = [MaskOverlay(mark.name, mark, mask) for mark in marks]
-        buffer = GridBuffer("z", values, range=(0, 1))
+        buffer = GridBuffer("z", values, range=(0, 1), known=known)
         step = np.array([[column, row]])
         for widget in (grid, fresh):
             if widget is fresh:
