@@ -111,10 +111,10 @@ class GridCanvas:
         return self._forget(True) if changed is None else self._add_dirty(changed)
 
     def set_geometry(self, geometry: GridGeometry | None) -> bool:
-        """Show triangles; those that are not in focus belong to the still part."""
+        """Show triangles; their quiet outlines belong to the still part."""
         before, self._geometry = self._geometry, geometry
-        counts = [len(shown.triangles) - bool(shown.focus_vertices) for shown in (before, geometry) if shown]
-        return self._forget(any(counts))
+        keys = [() if shown is None else shown.outline_key for shown in (before, geometry)]
+        return self._forget(keys[0] != keys[1])
 
     def set_hidden(self, hidden: NDArray[np.bool_] | None) -> bool:
         """Cover the cells of an (H, W) mask; None covers none."""

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen, QPolygonF, QRegion
 
+from core.records.cached import cached_property
 from widgets.basics.theme import Theme, text_font
 from widgets.grid.edge_ends import edge_segments, towards
 from widgets.grid.line_clip import widget_lines
@@ -77,6 +78,20 @@ class GridGeometry:
         return tuple(dict.fromkeys(self.triangles[self.focus].tolist()))
 
     @property
+    def outlined(self) -> NDArray[np.integer]:
+        """(K, C) the triangles with quiet outlines: all, as coloured edges hide their own; a point has no edges."""
+        is_bare = len(self.focus_vertices) == 1 or (self.focus_vertices and len(self.triangles) == 1)
+        return np.delete(self.triangles, self.focus, axis=0) if is_bare else self.triangles
+
+    @cached_property
+    def outline_key(self) -> tuple[object, ...]:
+        """All that the quiet outlines depend on, to compare; empty: there are none."""
+        if not len(self.outlined):
+            return ()
+        behind = b"" if self.behind is None else self.behind.tobytes()
+        return self.vertices.tobytes(), behind, self.outlined.tobytes(), self.outlined.shape, self.rings
+
+    @property
     def sides(self) -> NDArray[np.integer]:
         """(S, 2) integers, the corners that sides run between: side k of a triangle faces its corner k."""
         count = self.triangles.shape[1]
@@ -121,16 +136,11 @@ def vertex_place(geometry: GridGeometry, placement: GridPlacement, vertex: int) 
 
 
 def outline_lines(placement: GridPlacement, geometry: GridGeometry) -> list[QLineF]:
-    """Return the visible edges of the triangles that are not in focus as widget lines, shared ones once.
+    """Return the visible edges of the outlined triangles as widget lines, shared ones once.
 
     Triangles share an edge where its ends are at the same places: they need not have vertices in common.
     """
-    others = (
-        np.delete(geometry.triangles, geometry.focus, axis=0)
-        if geometry.focus_vertices
-        else geometry.triangles
-    )
-    pairs = others[:, geometry.sides].reshape(-1, 2)
+    pairs = geometry.outlined[:, geometry.sides].reshape(-1, 2)
     told_apart = geometry.vertices
     if geometry.behind is not None:
         told_apart = np.where(np.isfinite(told_apart), told_apart, geometry.behind[:, :2])
@@ -143,7 +153,7 @@ def outline_lines(placement: GridPlacement, geometry: GridGeometry) -> list[QLin
 
 
 def paint_outlines(painter: QPainter, lines: list[QLineF], theme: Theme) -> None:
-    """Paint the edges of the triangles that are not in focus: quiet and thin."""
+    """Paint the outlines below the triangle in focus: quiet and thin."""
     painter.save()
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     halo = QColor(theme.halo())

@@ -11,25 +11,29 @@ from widgets.grid.view import GridPlacement
 
 
 class OutlineLayer:
-    """Keeps a picture of the last triangles: smooth lines are slow to paint, a picture of them is not."""
+    """Keeps pictures of the last triangles: smooth lines are slow to paint, a picture of them is not."""
 
     def __init__(self, most: int = 2) -> None:
         """Keep at most so many pictures: two for every size of grid that shows the triangles."""
         self._most = most
-        self._shown: tuple[GridGeometry, Theme] | None = None
-        self._pictures: list[tuple[object, QPixmap]] = []
+        self._pictures: dict[object, tuple[object, QPixmap]] = {}
+        """By what they show and where: what they were made from, and they."""
 
     def paint_others(
         self, painter: QPainter, placement: GridPlacement, area: QRect, geometry: GridGeometry, theme: Theme
     ) -> None:
-        """Paint the triangles that are not in focus, as `paint_outlines` does."""
-        if len(geometry.triangles) > bool(geometry.focus_vertices):
-            ratio = painter.device().devicePixelRatioF()
+        """Paint the outlines below the triangle in focus, as `paint_outlines` does."""
+        if not geometry.outline_key:
+            return
 
-            def others() -> QPixmap:
-                return _others(placement, area, ratio, geometry, theme)
+        def draw(picture: QPixmap) -> None:
+            lines = outline_lines(placement, geometry)
+            # Half transparent smooth lines take ten times as long as opaque ones (17 ms for 600 lines, not 1.4).
+            _draw(picture, area, lines, QPen(QColor(theme.halo()), HALO_WIDTH))
+            _fade(picture, HALO_OPACITY)
+            _draw(picture, area, lines, QPen(QColor(theme.text), 1.0))
 
-            self._paint(painter, area, geometry, theme, ("others", placement, area, ratio), others)
+        self._paint(painter, area, ("others", placement), (geometry.outline_key, theme), draw)
 
     def paint_focus(
         self,
@@ -44,54 +48,35 @@ class OutlineLayer:
         """Paint the triangle in focus, as the function `paint_focus` does."""
         if not geometry.focus_vertices:
             return
-        ratio = painter.device().devicePixelRatioF()
 
-        def focus() -> QPixmap:
-            picture = _blank(area, ratio)
+        def draw(picture: QPixmap) -> None:
             with QPainter(picture) as inner:
                 inner.translate(-area.topLeft())
                 paint_focus(inner, placement, geometry, theme, held, free)
-            return picture
 
-        self._paint(painter, area, geometry, theme, ("focus", placement, area, ratio, held, free), focus)
+        self._paint(painter, area, ("focus", placement), (geometry, theme, held, free), draw)
 
     def _paint(
         self,
         painter: QPainter,
         area: QRect,
-        geometry: GridGeometry,
-        theme: Theme,
-        key: object,
-        make: Callable[[], QPixmap],
+        what: tuple[str, GridPlacement],
+        made_from: object,
+        draw: Callable[[QPixmap], None],
     ) -> None:
-        """Paint the picture that is kept under a key, or another that is kept from now on."""
-        if self._shown != (geometry, theme):
-            self._shown = (geometry, theme)
-            self._pictures.clear()
-        picture = next((kept for name, kept in self._pictures if name == key), None)
+        """Paint the picture that is kept for a place, drawn again where it was made from something else."""
+        place = what, area, painter.device().devicePixelRatioF()
+        before, picture = self._pictures.get(place, (None, None))
         if picture is None:
-            picture = make()
-            del self._pictures[: len(self._pictures) + 1 - self._most]
-            self._pictures.append((key, picture))
+            for oldest in list(self._pictures)[: len(self._pictures) + 1 - self._most]:
+                del self._pictures[oldest]
+            picture = QPixmap(area.size() * place[2])
+            picture.setDevicePixelRatio(place[2])
+        if before != made_from:
+            picture.fill(Qt.GlobalColor.transparent)
+            draw(picture)
+            self._pictures[place] = made_from, picture
         painter.drawPixmap(area.topLeft(), picture)
-
-
-def _others(
-    placement: GridPlacement, area: QRect, ratio: float, geometry: GridGeometry, theme: Theme
-) -> QPixmap:
-    """Return the triangles that are not in focus on nothing.
-
-    Half transparent smooth lines take ten times as long as opaque ones (17 ms for 600 lines, not 1.4): the halo is
-    painted opaque, and becomes transparent as a whole.
-    """
-    lines = outline_lines(placement, geometry)
-    halo, picture = _blank(area, ratio), _blank(area, ratio)
-    _draw(halo, area, lines, QPen(QColor(theme.halo()), HALO_WIDTH))
-    with QPainter(picture) as inner:
-        inner.setOpacity(HALO_OPACITY)
-        inner.drawPixmap(0, 0, halo)
-    _draw(picture, area, lines, QPen(QColor(theme.text), 1.0))
-    return picture
 
 
 def _draw(picture: QPixmap, area: QRect, lines: list[QLineF], pen: QPen) -> None:
@@ -102,9 +87,10 @@ def _draw(picture: QPixmap, area: QRect, lines: list[QLineF], pen: QPen) -> None
         inner.drawLines(lines)
 
 
-def _blank(area: QRect, ratio: float) -> QPixmap:
-    """Return a transparent picture of an area, with so many device pixels for a logical one."""
-    picture = QPixmap(area.size() * ratio)
-    picture.setDevicePixelRatio(ratio)
-    picture.fill(Qt.GlobalColor.transparent)
-    return picture
+def _fade(picture: QPixmap, opacity: float) -> None:
+    """Make a picture transparent as a whole."""
+    color = QColor(Qt.GlobalColor.black)
+    color.setAlphaF(opacity)
+    with QPainter(picture) as inner:
+        inner.setCompositionMode(QPainter.CompositionMode.CompositionMode_DestinationIn)
+        inner.fillRect(picture.rect(), color)
