@@ -8,7 +8,7 @@ from pathlib import Path
 
 from app.bench.threads import set_threads
 from app.cli.commands import UsageError
-from core.os_errors import os_error_reason
+from lessons.os_errors import os_error_reason
 
 DESCRIPTION = """Draw the workloads with the core and with every other library that is installed, check the
 pictures, time them in turn, and write a table. The libraries are in the extra bench. With --window: step, scrub, point,

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from app import __version__
-from core.os_errors import os_error_reason
+from lessons.os_errors import os_error_reason
 
 PROGRAM = "rasterscope"
 USAGE_ERROR = 2

@@ -9,7 +9,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import BinaryIO
 
-from core.os_errors import os_error_reason
+from lessons.os_errors import os_error_reason
 
 if sys.platform != "win32":
     import fcntl

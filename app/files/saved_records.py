@@ -9,7 +9,7 @@ from typing import Any, TypeVar
 from pydantic import BaseModel, ValidationError
 
 from app.files.input_files import read_input
-from core.os_errors import os_error_reason
+from lessons.os_errors import os_error_reason
 
 Model = TypeVar("Model", bound=BaseModel)
 SIZE_LIMIT = 1 << 26

@@ -20,7 +20,7 @@ from app.files.input_files import read_input
 from app.files.memory import check_free
 from app.files.mesh_sources import fingerprint
 from app.files.state_models import ArrayRecord
-from core.os_errors import os_error_reason
+from lessons.os_errors import os_error_reason
 
 READABLE_COUNT = 1200
 """Arrays of no more numbers are written so that they can be read."""

@@ -11,9 +11,9 @@ from app.background.workers import Job, Progress
 from app.files.file_writing import make_folder, write_file
 from app.files.input_files import read_input
 from app.files.user_folders import ANSWERS, data_folder
-from core.os_errors import os_error_reason
 from lessons.attempts.record import DEFAULT_USER
 from lessons.exercises.draws import SEED_LIMIT
+from lessons.os_errors import os_error_reason
 
 if TYPE_CHECKING:
     from lessons.exercises.question import Template  # All mistakes come along: not at every start.

@@ -11,8 +11,8 @@ from app.files.input_files import read_input
 from app.files.saved_records import field_problem
 from app.files.state_models import TextSize
 from app.files.user_folders import preferences_folder
-from core.os_errors import os_error_reason
 from core.stages.declared import STAGES
+from lessons.os_errors import os_error_reason
 
 FILE_NAME = "preferences.json"
 RECENT_LIMIT = 10

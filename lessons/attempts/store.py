@@ -14,8 +14,8 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
-from core.os_errors import os_error_reason
 from lessons.attempts.record import COLUMNS, VERSION, Attempt, attempt_row
+from lessons.os_errors import os_error_reason
 
 FILE_NAME = "attempts.sqlite"
 APPLICATION = 0x52415354

@@ -3,9 +3,9 @@
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from core.os_errors import os_error_reason
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Template
+from lessons.os_errors import os_error_reason
 
 FILE_LIMIT = 300
 """Most files of a folder: each is drawn once."""

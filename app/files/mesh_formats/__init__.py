@@ -27,8 +27,8 @@ from app.files.mesh_formats.reading import (
 from app.files.mesh_formats.stl import read_stl
 from app.files.mesh_formats.through_trimesh import describe
 from app.files.named_files import NamedFiles, OutsideWarning
-from core.os_errors import os_error_reason
 from core.scene import Mesh
+from lessons.os_errors import os_error_reason
 
 
 def read_gltf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:

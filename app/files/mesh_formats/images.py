@@ -14,9 +14,9 @@ from app.files.input_files import open_input
 from app.files.memory import MemoryBoundError, Need
 from app.files.named_files import NamedFileError, NamedFiles
 from core.framebuffer.display import Bytes, from_display, linear_light
-from core.os_errors import os_error_reason
 from core.records.arrays import Floats, Singles
 from core.scene import Texture
+from lessons.os_errors import os_error_reason
 
 if TYPE_CHECKING:
     from PIL import Image

@@ -10,9 +10,9 @@ import numpy as np
 from app.files.input_files import read_input
 from app.files.mesh_formats.images import TextureReader, linear_from_srgb
 from app.files.named_files import NamedFileError, NamedFiles, OutsideError, OutsideWarning, left_out
-from core.os_errors import os_error_reason
 from core.records.arrays import Floats
 from core.scene import Material, Texture
+from lessons.os_errors import os_error_reason
 
 DIFFUSE = 0.8
 """Grey of a material that gives no Kd."""

@@ -15,7 +15,6 @@ from app.pages.page_bar import COVERED, StepRequest
 from app.session.document import Document
 from app.session.session import Session
 from core import STAGES
-from core.os_errors import os_error_reason
 from core.records.words import counted
 from core.scene import AnyScene, ClipScene
 from core.settings import FAMILIES
@@ -24,6 +23,7 @@ from core.study.planner.phrases import capitalized
 from lessons.diagnosis import RIGHT, Candidate, Diagnosis, Drawn, diagnose
 from lessons.exercises.scene_digest import scene_digest
 from lessons.mistakes.shelf import SHELF
+from lessons.os_errors import os_error_reason
 from widgets.basics.message_bar import Progress as Done
 from widgets.exercises.diagnosis_view import DiagnosisView
 from widgets.exercises.records import DiagnosisRecord, FoundRun

@@ -23,7 +23,7 @@ def run_program(*arguments: str) -> "subprocess.CompletedProcess[str]":
         (["--workload", "Z"], "workload must be one of A1, A2, B"),
         (["--rounds", "0"], "from 1 to 1000"),
         (["--quick", "--rounds", "3"], "not allowed with --rounds"),
-        (["-o", f"{__file__}/results"], "cannot be made: Not a directory"),
+        (["-o", f"{__file__}/results"], "cannot be made: not a directory"),
     ],
 )
 def test_wrong_usage_is_one_line(arguments: list[str], words: str) -> None:
