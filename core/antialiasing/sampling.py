@@ -73,7 +73,7 @@ def grid_positions(side: int) -> Floats:
 @method(
     "antialiasing",
     "none",
-    "None (one sample a pixel)",
+    "None (one sample)",
     source="Zwicker 2016, Pixel inside/outside test; LMU 2020, Point Aliasing",
     exact_for="edges along pixel borders",
     breaks_where="every other edge: staircases. Details between pixel centres are lost",

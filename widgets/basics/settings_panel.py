@@ -4,19 +4,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtGui import QPaintEvent, QStandardItem, QStandardItemModel, QWheelEvent
-from PySide6.QtWidgets import (
-    QComboBox,
-    QGridLayout,
-    QLabel,
-    QSizePolicy,
-    QStyle,
-    QStyleOptionComboBox,
-    QStylePainter,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtGui import QStandardItem, QStandardItemModel
+from PySide6.QtWidgets import QComboBox, QGridLayout, QLabel, QToolButton, QWidget
 
+from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
 from widgets.basics.focus_order import ArrowGroup
 from widgets.basics.labels import text_label
@@ -167,14 +158,13 @@ class SettingsPanel(QWidget):
         for setting in settings:
             if setting.group:
                 heading = text_label(setting.group, body, role="muted")
-                heading.setContentsMargins(0, 8 if row else 0, 0, 0)
+                heading.setContentsMargins(0, 4 if row else 0, 0, 0)
                 grid.addWidget(heading, row, 0, 1, 3)
                 row += 1
             if heading is not None:
                 self._headings[setting.family] = heading
-            combo = ChoiceBox(body)
+            combo = ChoiceBox(body, most_rows=3)
             combo.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-            combo.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
             combo.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
             combo.setMinimumContentsLength(5)
             combo.setAccessibleName(setting.label)
@@ -184,7 +174,7 @@ class SettingsPanel(QWidget):
             label.setWordWrap(True)
             label.setBuddy(combo)
             grid.addWidget(label, row, 0)
-            grid.addWidget(combo, row, 1)
+            grid.addWidget(combo, row, 1, Qt.AlignmentFlag.AlignVCenter)
             self._combos[setting.family] = combo
             self._labels[setting.family] = label
             button = flat_button(
@@ -246,35 +236,3 @@ class SettingsPanel(QWidget):
         current = next(setting.current for setting in self._settings if setting.family == family)
         if value != current:
             self.setting_chosen.emit(family, value)
-
-
-MOST_SEEN = 16
-"""Choices in a list that does not scroll."""
-
-
-class ChoiceBox(QComboBox):
-    """A combo box that a wheel over it does not change and that shortens its text with an ellipsis, not its choices."""
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw the box, and as much of the text as fits."""
-        painter = QStylePainter(self)
-        option = QStyleOptionComboBox()
-        self.initStyleOption(option)
-        painter.drawComplexControl(QStyle.ComplexControl.CC_ComboBox, option)
-        part = QStyle.SubControl.SC_ComboBoxEditField
-        room = self.style().subControlRect(QStyle.ComplexControl.CC_ComboBox, option, part, self).width()
-        text = self.fontMetrics().elidedText(self.currentText(), Qt.TextElideMode.ElideRight, room - 4)
-        option.currentText = text
-        painter.drawControl(QStyle.ControlElement.CE_ComboBoxLabel, option)
-
-    def showPopup(self) -> None:
-        """Show the choices in a list as wide as the longest of them."""
-        self.setMaxVisibleItems(MOST_SEEN)
-        view = self.view()
-        bar = view.verticalScrollBar().sizeHint().width() if self.count() > MOST_SEEN else 0
-        view.setMinimumWidth(view.sizeHintForColumn(0) + 2 * view.frameWidth() + bar)
-        super().showPopup()
-
-    def wheelEvent(self, event: QWheelEvent) -> None:
-        """Leave the wheel to what scrolls."""
-        event.ignore()

@@ -5,9 +5,9 @@ from typing import Any
 from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QComboBox, QGridLayout, QWidget
 
+from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.controls import column_layout
 from widgets.basics.labels import text_label
-from widgets.basics.settings_panel import ChoiceBox
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.records import AnswerMarks, MethodForm

@@ -7,9 +7,10 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication, QKeyEvent
 from PySide6.QtWidgets import QLabel, QWidget
 
+from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.labels import text_label
-from widgets.basics.settings_panel import ChoiceBox, Setting
+from widgets.basics.settings_panel import Setting
 from widgets.basics.theme import theme_notifier
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry

@@ -147,7 +147,7 @@ def need_rectangle(window: ClipWindow, name: str) -> None:
 @method(
     "line_clipping",
     "none",
-    "None: pixels outside are dropped",
+    "None (scissoring)",
     source="Pellacini, line clipping: only clip when necessary",
     exact_for="every segment: the pixels are those of the whole line",
     breaks_where="long lines: time is spent on pixels outside the window",

@@ -60,7 +60,7 @@ class ClippedPolygon:
 @method(
     "polygon_clipping",
     "none",
-    "None: pixels outside are dropped",
+    "None (scissoring)",
     source="Pellacini, polygon clipping: only clip when necessary",
     exact_for="every polygon in the raster; it ignores the clip window of the scene",
 )

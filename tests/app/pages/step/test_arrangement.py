@@ -22,7 +22,9 @@ from app.pages.step.inspector_column import InspectorColumn
 from app.window.main_window import MainWindow
 from app.window.preferences import Preferences
 from core.stages.declared import STAGES
+from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.message_bar import Message, MessageKind
+from widgets.basics.settings_panel import SettingsPanel
 from widgets.basics.style_sheet import style_sheet
 from widgets.basics.theme import current_theme
 from widgets.inspector.listing import ListingView
@@ -197,6 +199,24 @@ def test_nothing_is_cut_that_stands_nowhere_else(window: MainWindow) -> None:
                 rows = sum(widget.blockBoundingRect(line).height() for line in lines if line.isValid())
                 least = min(rows, 10 * widget.fontMetrics().lineSpacing())
                 assert least <= widget.viewport().height(), (where, rows)
+
+
+def test_every_method_can_be_read_whole_in_its_box(window: MainWindow) -> None:
+    """Of every family, beside a scroll bar."""
+    page = window.page
+    page.show_panes(["methods", "inspector"])
+    panel = page.findChild(SettingsPanel)
+    panel.show_more(True)
+    try:
+        for box in panel.findChildren(ChoiceBox):
+            for text in (box.itemText(place) for place in range(box.count())):
+                box.setCurrentText(text)
+                QApplication.processEvents()
+                rows = box.shown_rows()
+                assert "".join(rows).replace(" ", "") == text.replace(" ", ""), box.accessibleName()
+                assert len(rows) * box.fontMetrics().lineSpacing() < box.height()
+    finally:
+        panel.show_more(False)
 
 
 @pytest.mark.own_window
