@@ -164,7 +164,7 @@ def _check(question: Question, path: Path, user: str | None) -> int:
         attempts.keep(user, question, response, judgement)
     print(f"Understood:\n{answer.text(response)}")
     print(f"{judgement.points:.3g} of {points_text(question.template.points)}: {judgement.verdict.counts}")
-    for sentence in judgement.sentences:
+    for sentence in filter(None, (*judgement.sentences, answer.first_wrong(response))):
         print(sentence)
     return 0
 

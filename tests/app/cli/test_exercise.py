@@ -36,7 +36,8 @@ def test_exercises_are_listed_shown_and_checked(tmp_path: Path) -> None:
     assert checked.returncode == 0, checked.stderr
     assert draft.answer.text(wrong) in checked.stdout
     assert " of 4 points: " in checked.stdout
-    assert SHELF["all-edges-exclusive"].sentence in checked.stdout
+    sentences = SHELF["all-edges-exclusive"].sentence, draft.answer.first_wrong(wrong)
+    assert checked.stdout.endswith("\n".join((*sentences, "")))
 
 
 def test_a_teachers_file_is_validated_and_asked(tmp_path: Path) -> None:
