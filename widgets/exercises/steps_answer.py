@@ -119,7 +119,9 @@ class StepsAnswerView(AnswerView):
         return tries
 
     def _problem(self, text: str) -> str:
-        """Return why a text means nothing as a step; empty: it means something."""
+        """Return why a typed text means nothing as a step; empty: it means something."""
+        if text == FIXED:
+            return f"expected a {self._state.kind}, got {text!r}"
         try:
             self._form.state(self._tries_with(text))
         except ValueError as problem:
@@ -128,13 +130,14 @@ class StepsAnswerView(AnswerView):
 
     @Slot(str)
     def _typed(self, text: str) -> None:
-        problem = self._problem(text) if text.strip() else ""
+        problem = self._problem(text.strip()) if text.strip() else ""
         self.note_changed.emit(f"Not tried yet: {problem}." if problem else "")
 
     @Slot()
     def _try_text(self) -> None:
-        if self.field.text().strip():
-            self._try(self.field.text())
+        text = self.field.text().strip()
+        if text and not self._problem(text):
+            self._try(text)
 
     @Slot()
     def _fix(self) -> None:
