@@ -1,6 +1,7 @@
 """Files of the window: opening meshes, states and built-in scenes, saving a state."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal, Slot
@@ -18,7 +19,7 @@ from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings
 from app.pages.step.looks import look_of, show_look
 from app.pages.step.page import StepPage
-from app.session.cursor import stage_for
+from app.session.cursor import Cursor, stage_for
 from app.session.tracing import trace_now
 from app.window.appearance import Appearance
 from app.window.message_words import sentences
@@ -112,19 +113,18 @@ class FileActions(QObject):
         """Show what was opened: a scene from its start, a state where it was left."""
         page, session, state = self._page, self._session, opened.state
         page.timeline.show_playing(False)
-        session.open(opened.document, trace)
         if state is None:
+            start = replace(session.cursor, stage=stage_for(opened.document.scene, STAGES[0]), position=0)
+            session.open(opened.document, trace, start)
             page.stepping.set_places()
-            session.set_stage(stage_for(opened.document.scene, STAGES[0]), 0)
             # As at first, also where the same scene was magnified before, or looked at in another view.
             page.main_area.views_by_hand.clear()
             page.show_own_view()
             page.grid.fit()
             page.views.look_from({})
             return
+        session.open(opened.document, trace, Cursor(state.stage, state.position, Level(state.level)))
         page.stepping.set_places(state.bookmarks, state.breakpoints)
-        session.set_level(Level(state.level))
-        session.set_stage(state.stage, state.position)
         session.set_pin(state.pin)
         show_look(page, state.look)
         self._appearance.grow_text_to(state.look.text_size)

@@ -128,8 +128,8 @@ class Session(QObject):
 
     # Editing.
 
-    def open(self, document: Document, trace: Trace | None = None) -> None:
-        """Show another document, with its trace if that is there already; undo leads back to the one before.
+    def open(self, document: Document, trace: Trace | None = None, cursor: Cursor | None = None) -> None:
+        """Show another document, with its trace if that is there already, at a cursor; undo leads back.
 
         Raises
         ------
@@ -138,11 +138,16 @@ class Session(QObject):
         """
         self.tracing.cancel()
         if trace is None:
-            trace = trace_now(document, self._cursor.stage)
+            trace = trace_now(document, (cursor or self._cursor).stage)
         self._history.put(document)
         self._pin = self._hover = None
-        self._cursor = cursor_for(document.scene, self._cursor)
-        self._document_replaced(trace)
+        before = self._cursor = cursor_for(document.scene, self._cursor)
+        if cursor is not None:
+            cursor = placed(cursor, trace, cursor.position)
+            self._remember(cursor)
+        self._document_replaced(trace, cursor)
+        if cursor not in (None, before):
+            self.cursor_changed.emit()
         self.pin_changed.emit()
 
     def edit(self, document: Document, gesture: str = "") -> None:
@@ -275,11 +280,11 @@ class Session(QObject):
         self._history.put(document, gesture)
         self._document_replaced(trace)
 
-    def _document_replaced(self, trace: Trace) -> None:
+    def _document_replaced(self, trace: Trace, cursor: Cursor | None = None) -> None:
         was_at_end = self._cursor.position >= self.stage_trace.steps.count > 0
         # The previous trace stays until everything shows the new one, which takes over what did not change.
         earlier, self._trace = self._trace, trace
-        self._cursor = placed(self._cursor, trace, None if was_at_end else self._cursor.position)
+        self._cursor = cursor or placed(self._cursor, trace, None if was_at_end else self._cursor.position)
         has_lost_pin = self._pin is not None and not self.has_pixel(self._pin)
         if has_lost_pin:
             self._pin = None
@@ -334,13 +339,17 @@ class Session(QObject):
         self._move(placed(cursor, self._trace, cursor.position))
 
     def _jump(self, cursor: Cursor) -> None:
-        if cursor == self._cursor:
-            return
-        if self._visited.present != self._cursor:
-            self._visited.put(self._cursor)
-        self._visited.put(cursor)
-        self._move(cursor)
-        self.history_changed.emit()
+        if cursor != self._cursor:
+            self._remember(cursor)
+            self._move(cursor)
+            self.history_changed.emit()
+
+    def _remember(self, cursor: Cursor) -> None:
+        """Have ``go_back`` lead from another cursor to the present one."""
+        if cursor != self._cursor:
+            if self._visited.present != self._cursor:
+                self._visited.put(self._cursor)
+            self._visited.put(cursor)
 
     def _move(self, cursor: Cursor) -> None:
         if cursor != self._cursor:

@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
+from app.files.state_files import save_state
 from app.pages.exercises.asked_scene import EDITED
 from app.pages.exercises.page import ExercisesPage
 from app.pages.start.page import HIDDEN, StartPage
@@ -103,12 +104,31 @@ def test_a_scene_stays_hidden_while_it_is_edited(window: MainWindow, qtbot: QtBo
     assert not window.session.is_asked_about
 
 
+def test_a_state_past_the_asked_step_opens_there_hidden(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "later.rasterscope"
+    window.session.set_stage("depth")
+    save_state(path, window.files.state())
+    page = ask_value(window, 33)
+    asked, before = window.session.cursor, window.session.document
+    window.open_path(str(path))
+    qtbot.waitUntil(lambda: window.session.document is not before)
+    assert page.questions.is_asked
+    assert window.session.is_asked_about
+    assert window.session.is_predicting
+    assert window.session.cursor == asked
+    window.session.set_stage("depth")
+    assert not page.questions.is_asked, "stepping there shows it"
+
+
 def test_another_scene_is_not_hidden(window: MainWindow, qtbot: QtBot) -> None:
     page = ask_value(window, 31)
     window.open_path("single-triangle")
     qtbot.waitUntil(lambda: window.session.document.triangle_count == 1)
     assert not window.session.is_asked_about
     assert page.questions.is_asked
+    page.questions.give_up()
 
 
 def test_another_question_hides_its_own_scene(window: MainWindow) -> None:
