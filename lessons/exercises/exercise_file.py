@@ -1,7 +1,8 @@
 """Exercises that teachers write as TOML: read, checked, and drawn as questions."""
 
 import json
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -11,11 +12,12 @@ from core.scene import AnyScene, ClipScene
 from core.settings import settings_from_texts
 from lessons.exercises.answer_parts import PixelPart, PlacePart
 from lessons.exercises.answers.pixels import NothingToMarkError, Pixels
-from lessons.exercises.drawn_scene import draw_scene, seen_pixels
+from lessons.exercises.drawn_scene import Corner, draw_scene, seen_pixels
 from lessons.exercises.draws import Draws
 from lessons.exercises.file_answers import NoQuestionError, answer_of
 from lessons.exercises.question import Draft, Template, ask
-from lessons.exercises.record import Exercise
+from lessons.exercises.record import COORDINATE, Exercise
+from lessons.exercises.templates.drafting import factor_text
 from lessons.exercises.toml_file import TomlFile
 from lessons.mistakes.shelf import SHELF
 
@@ -90,7 +92,14 @@ def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:
     # The outline of a scene is shown while its question is asked: not where it would show a corner to be placed.
     is_hidden = isinstance(exercise.answer, PlacePart) and bool(exercise.answer.corner)
     drawn_of = None if is_hidden else scene
-    return Draft(exercise.question, given, answer, tuple(exercise.hints), mistakes, drawn_of, settings)
+    corners = drawn.places[0] if drawn and drawn.places else ()
+    hints = tuple(_with_coordinates(hint, corners) for hint in exercise.hints)
+    return Draft(exercise.question, given, answer, hints, mistakes, drawn_of, settings)
+
+
+def _with_coordinates(hint: str, corners: Sequence[Corner]) -> str:
+    """Return a hint with the coordinates that it names, such as ``{x0}``."""
+    return re.sub(COORDINATE, lambda found: factor_text(corners[int(found[2])]["xy".index(found[1])]), hint)
 
 
 def _wrong_pixels(exercise: Exercise, scene: AnyScene, settings: Settings) -> dict[str, Pixels]:

@@ -26,7 +26,7 @@ from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.next_step import TOLERANCE, row_draft
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.next_steps import known_text
+from lessons.exercises.templates.next_steps import known_text, step_variables
 from lessons.slides.scenes import ALL_SCENES
 
 PREFIX = "ask/"
@@ -214,7 +214,7 @@ def _draw(screen: Screen, scene: AnyScene, settings: Settings, draws: Draws) -> 
         if draws.seed == 0:
             raise ValueError("nothing can be asked about this step or value")
         return None
-    known = known_text(stage, screen.row) if screen.row >= 0 else ""
+    known = known_text(step_variables(stage, screen.row)) if screen.row >= 0 else ""
     given = "\n".join(filter(None, (_corners_text(varied), known)))
     hints = ("Step the scene up to here: the Step page hides what comes next.",)
     return replace(asked, given=given, hints=hints, scene=varied, settings=settings)

@@ -106,9 +106,11 @@ def question_problems(question: Question) -> list[str]:
             problems.append(f"{name} is not recognised")
         if found.verdict.score == 1:
             problems.append(f"{name} earns all points")
-    shown = numbers_in(question.draft.text, question.draft.given, answer.offered) | RULE_NUMBERS
+    shown = numbers_in(question.draft.text, question.draft.given, answer.offered)
+    if not question.template.is_fixed and shown and not shown & numbers_in(question.draft.hints[-1]):
+        problems.append("the last hint has no number of the question")
     for hint in question.draft.hints:
-        for number in sorted(numbers_in(hint) - shown):
+        for number in sorted(numbers_in(hint) - shown - RULE_NUMBERS):
             problems.append(f"a hint holds {number}, which the question does not show")
     return problems
 

@@ -66,7 +66,7 @@ def draw_multisampling(draws: Draws) -> Draft | None:
     hints = (
         "What makes multisampling cheaper than supersampling?",
         "When are samples averaged?",
-        "Which of the two happens once a pixel here: shading, or storing?",
+        f"Which happens once a pixel here: shading, or storing in {count} of 4 samples?",
     )
     right = f"once; the full colour in {count} samples"
     beliefs = [f"{count} times, a colour in each sample", f"once; {count}/4 of the colour in the pixel"]
@@ -181,7 +181,7 @@ def draw_ring(draws: Draws) -> Draft | None:
     hints = (
         "Try each of the three as the first.",
         "What could be done with one of them?",
-        "Painted first, A cannot hide B: ask the same of B and of C.",
+        f"Painted first, A hides B in none of the {size} x {size} pixels: ask the same of B and of C.",
     )
     right, belief = "none is right: one must be split", "the one whose mean distance is largest"
     return believed(

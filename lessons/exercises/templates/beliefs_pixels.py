@@ -99,7 +99,8 @@ def draw_tie(draws: Draws) -> Draft | None:
     hints = (
         "What does D = 0 say about the distances to both centres?",
         "Who can choose between equals?",
-        "The listing decides by > or by >=: does the line itself decide?",
+        f"With D = 0 the line from {ends[0]} to {ends[1]} runs half way between both: a listing decides by > or >=. "
+        "Does the line itself decide?",
     )
     right, belief = "either: the stated rule decides", "the upper one"
     return believed(draws, text, right, [belief], ["the lower one", "both are drawn"], refutation, hints)

@@ -143,7 +143,8 @@ def draw_corrected_depth(draws: Draws) -> Draft | None:
     hints = (
         "Which values are linear in the window?",
         "Is window depth made before the divide, or after it?",
-        "In the middle both ends count one half, if the value is linear in the window: (0 + 1)/2.",
+        f"After the divide by w = 1 and w = {w}, is depth linear in the window? If so, both ends count one half: "
+        "(0 + 1)/2.",
     )
     return believed(
         draws,
@@ -234,7 +235,7 @@ def draw_far_plane(draws: Draws) -> Draft | None:
     hints = (
         "Window depth is f (d - n) / ((f - n) d).",
         "What becomes of it as f grows without limit?",
-        "For large f depth is nearly (d - n) / d: which of the two numbers is left?",
+        f"For large f depth is nearly (d - {number_text(n)}) / d: which of the two numbers is left?",
     )
     return believed(
         draws, text, "n made smaller", ["f made larger"], ["both alike", "neither"], refutation, hints

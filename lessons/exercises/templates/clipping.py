@@ -10,7 +10,7 @@ from lessons.exercises.answers.tables import ENTERS, LEAVES, Cell, Column, Row, 
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import Number
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.drafting import TOLERANCE
+from lessons.exercises.templates.drafting import TOLERANCE, factor_text
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import segment_scene
 
@@ -135,10 +135,11 @@ def draw_parameters(draws: Draws) -> Draft | None:
         f"first end has, t = q/p. Put {ENTERS} before t where the segment enters (p < 0) and {LEAVES} where it leaves; "
         "write none where p = 0. Fractions, or decimals within 0.005."
     )
+    x0, x1 = (factor_text(Fraction(x)) for x, _ in ends)
     hints = (
         "dx and dy are the differences of the ends.",
         "p is -dx, dx, -dy, dy; q is x0 - left, right - x0, y0 - bottom, top - y0.",
-        "t = q/p; its word depends on the sign of p.",
+        f"Left: p = -({x1} - {x0}), q = {x0} - 0, and t = q/p; its word depends on the sign of p.",
     )
     return Draft(text, _given(ends), parameter_table(ends), hints, wrong, _scene(ends), PARAMETERS)
 
@@ -154,10 +155,11 @@ def draw_outcodes(draws: Draws) -> Draft | None:
         "outcodes of both ends before each cut; then the first end that is outside moves to the first of left, right, "
         "bottom, top that it is outside of. A point on a border is inside. Fractions, or decimals within 0.005."
     )
+    (x0, y0), (x1, y1) = ((factor_text(Fraction(c)) for c in place) for place in ends)
     hints = (
         "Begin with the outcodes of the two ends.",
         "After each cut the outcodes are computed again: the new end may still be outside.",
-        "A new end lies on the line through the two given ends.",
+        f"The line through the given ends: y = {y0} + (x - {x0}) ({y1} - {y0}) / ({x1} - {x0}).",
     )
     answer = outcode_table(ends, count)
     settings = Settings(line_clipping="cohen-sutherland")

@@ -33,6 +33,20 @@ def twice_area(corners: list[Corner]) -> Fraction:
     return (x1 - x0) * (y2 - y0) - (y1 - y0) * (x2 - x0)
 
 
+def crossing_text(start: Corner, end: Corner, y: str = "j + 1/2") -> str:
+    """Return the x of a line through two points at a height, as an expression in numbers."""
+    (x0, y0), (x1, y1) = (map(factor_text, corner) for corner in (start, end))
+    return f"{x0} + ({y} - {y0}) ({x1} - {x0}) / ({y1} - {y0})"
+
+
+def row_hint(corners: list[Corner], y: str = "j + 1/2") -> str:
+    """Say where the highest side crosses the centres of a row."""
+    sides = zip(corners, [*corners[1:], corners[0]], strict=True)
+    side = max(sides, key=lambda ends: abs(ends[1][1] - ends[0][1]))
+    start, end = (corner_text([corner]) for corner in side)
+    return f"At y = {y} the side from {start} to {end} is at x = {crossing_text(*side, y)}"
+
+
 def _covered(
     corners: list[Corner], text: str, hints: tuple[str, ...], names: tuple[str, ...]
 ) -> Draft | None:
@@ -50,7 +64,7 @@ def draw_triangle(draws: Draws) -> Draft | None:
     hints = (
         "Look at one row of centres at a time: y = j + 1/2.",
         "In a row, the centres between the crossings of two edges are covered.",
-        "Where a crossing falls on a centre, it belongs to the triangle if the edge is on its left.",
+        f"{row_hint(corners)}. A centre there belongs to the triangle if this is a left edge.",
     )
     names = ("corner-for-center", "all-edges-inclusive", "all-edges-exclusive", "y-down", "vertices-rounded")
     return _covered(corners, "Which pixels does triangle A cover?", hints, names)
@@ -68,7 +82,8 @@ def draw_shared_edge(draws: Draws) -> Draft | None:
     hints = (
         "Find the centres on the common edge first, then those on the sides.",
         "Of the two triangles exactly one owns each of the centres between them.",
-        "Is the triangle on the right of the common edge, or on its left?",
+        f"At y = j + 1/2 the common edge is at x = {crossing_text((left, low), (right, high))}: is triangle A on its "
+        "right or on its left?",
     )
     # The level edge of the lower triangle is its bottom edge, which owns its centres.
     level = "level-edges-always" if is_upper else "level-edges-never"

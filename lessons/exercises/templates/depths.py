@@ -84,7 +84,7 @@ def draw_fighting(draws: Draws) -> Draft | None:
     hints = (
         "Where are the steps of depth widest?",
         "z changes by about f n gap / (d d (f - n)).",
-        f"It is less than one of 65535 steps where d d is larger than about 65535 * {near} * gap.",
+        f"It is less than one of 65535 steps where d d is larger than about 65535 * {near} * {number_text(gap)}.",
     )
     return several(text, f"n = {near}, f = {far}", pairs, right, hints)
 
@@ -167,10 +167,11 @@ def draw_grid(draws: Draws) -> Draft:
     )
     grids = [text_of_depths(patch).replace("\t", "  ") for patch in both]
     given = f"First triangle, top row first (– where it has no fragment):\n{grids[0]}\nSecond triangle:\n{grids[1]}"
+    row, column = np.argwhere(drawn.all(axis=0))[0].tolist()
     hints = (
         "Take one cell at a time.",
         "Where neither has a fragment, nothing changes.",
-        "Else the smaller number stays.",
+        f"Row {row}, column {column}: which of {both[0, row, column]:g} and {both[1, row, column]:g} stays?",
     )
     return Draft(text, given, TableAnswer(columns, labels, cells(right)), hints, wrong, scene)
 
@@ -191,7 +192,7 @@ def draw_painter(draws: Draws) -> Draft | None:
     hints = (
         "What is painted first is painted over.",
         "Only the largest depth of each counts here.",
-        "The farthest triangle is painted first: write max(z0, z1, z2) for each.",
+        f"The farthest vertex of A lies at max{place_text(depths[0])}; the farthest triangle is painted first.",
     )
     wrong = {rule.name: tuple(order.index(k) for k in rule.wrong(depths))}
     return Draft(text, given, OrderAnswer(options, draws.shuffled(NAMES)), hints, wrong)

@@ -47,6 +47,12 @@ def edges_of(corners: list[Corner]) -> list[Coefficients]:
     return [coefficients(corners[k], corners[(k + 1) % 3]) for k in range(3)]
 
 
+def first_edge(corners: list[Corner]) -> str:
+    """Return a and b of the first edge as expressions in numbers."""
+    (x0, y0), (x1, y1) = (map(factor_text, corner) for corner in corners[:2])
+    return f"The edge from 0 to 1 has a = {y0} - {y1}, b = {x1} - {x0}"
+
+
 def triangle(draws: Draws, size: tuple[int, int] = SIZE, least: int = 16) -> list[Corner] | None:
     """Draw a counter-clockwise triangle with whole corners; ``None`` where it is small."""
     corners = [(Fraction(draws.whole(0, size[0])), Fraction(draws.whole(0, size[1]))) for _ in range(3)]
@@ -84,12 +90,11 @@ def draw_values(draws: Draws) -> Draft | None:
 
     scene = triangle_scene(np.array([corners], float), SIZE)
     text = f"What are the three edge functions at the centre (i + 1/2, j + 1/2) of pixel {pixel}? {INWARD}"
-    (x0, y0), (x1, y1) = (map(factor_text, corner) for corner in corners[:2])
     hints = (
         "Where is the centre?",
         "E = (y0 - y1)(x - x0) + (x1 - x0)(y - y0).",
         "The signs tell on which side of each edge it lies.",
-        f"The centre is ({pixel[0]} + 1/2, {pixel[1]} + 1/2); the first edge has a = {y0} - {y1}, b = {x1} - {x0}.",
+        f"The centre is ({pixel[0]} + 1/2, {pixel[1]} + 1/2). {first_edge(corners)}.",
     )
     wrong = {"corner-for-center": values(Fraction(0))}
     right = values(Fraction(1, 2))
@@ -141,10 +146,11 @@ def draw_inverse(draws: Draws) -> Draft | None:
         "rows are a, b and c: it is the inverse of the matrix whose rows are (x, y, w) of the vertices. Row by row."
     )
     given = "\n".join(f"Vertex {k}: (x, y, w) = {place_text(row)}" for k, row in enumerate(rows))
+    second, third = ([factor_text(number) for number in row] for row in rows[1:])
     hints = (
         "alpha is 1 at vertex 0 and 0 at the other two.",
         "The inverse is the adjugate over the determinant.",
-        "Multiply back: the product with the vertices is the unit matrix.",
+        f"The adjugate begins with {second[1]} * {third[2]} - {second[2]} * {third[1]}; multiply back to check.",
     )
     right = [cell / determinant for row in adjugate for cell in row]
     return numbers(text, given, right, hints, shape=(3, 3))
@@ -171,7 +177,7 @@ def draw_owned(draws: Draws) -> Draft | None:
     hints = (
         "Move a point on each edge a little to the right: is it inside?",
         "On a level edge only the step up decides.",
-        "With E = a x + b y + c: a > 0, or a = 0 and b > 0.",
+        f"{first_edge(corners)}. An edge owns its centres where a > 0, or a = 0 and b > 0.",
     )
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"
     rule = RULES["leftmost-vertex"]
@@ -257,7 +263,7 @@ def draw_blocks(draws: Draws) -> Draft | None:
     hints = (
         "Take one edge at a time.",
         "Only one pixel of a block has to be tested: the one where E is largest.",
-        "It is on the right where a > 0, and at the top where b > 0.",
+        f"{first_edge(corners)}: E is largest on the right where a > 0, and at the top where b > 0.",
     )
     given = f"{window_text((side, side))}\nTriangle: {corner_text(corners)}"
     wrong = {rule.name: rule.wrong(edges, BLOCKS, BLOCK)}
@@ -303,10 +309,12 @@ def draw_tests(draws: Draws) -> Draft | None:
         "How many pixels are tested for this triangle by brute force, and with its bounding box? A pixel belongs to "
         "the box where its centre (i + 1/2, j + 1/2) does."
     )
+    low, high = ([pick(corner[axis] for corner in corners) for axis in range(2)] for pick in (min, max))
     hints = (
         "Brute force asks every pixel of the window.",
         "The box has columns times rows.",
-        f"{SIZE[0]} * {SIZE[1]}; and whole i, j with i + 1/2 and j + 1/2 between the least and the greatest x and y.",
+        f"{SIZE[0]} * {SIZE[1]}; and whole i with i + 1/2 from {low[0]} to {high[0]}, j with j + 1/2 from {low[1]} to "
+        f"{high[1]}.",
     )
     given = f"{window_text(SIZE)}\nTriangle: {corner_text(corners)}"
     names = ("brute force", "bounding box")

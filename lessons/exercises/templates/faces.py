@@ -62,7 +62,13 @@ def draw_eye(draws: Draws) -> Draft | None:
         f"{name}: N = {place_text(normal)}, point {place_text(point)}"
         for name, (normal, point) in zip(FACES, faces, strict=True)
     )
-    hints = ("V is another one for each face.", "V = point - eye.", "Only the sign of N . V counts.")
+    axes = zip(*faces[0], eye, strict=True)
+    dot = " + ".join("{} ({} - {})".format(*map(factor_text, axis)) for axis in axes)
+    hints = (
+        "V is another one for each face.",
+        "V = point - eye.",
+        f"For A: N . V = {dot}. Only its sign counts.",
+    )
     rule = RULES["view-direction-fixed"]
     wrong = {rule.name: rule.wrong(faces, eye)}
     return several(text, given, FACES, rule.right(faces, eye), hints, wrong)
@@ -89,10 +95,12 @@ def draw_outside(draws: Draws) -> Draft | None:
     given = f"Window 0..{WINDOW[0]} x 0..{WINDOW[1]}.\n" + "\n".join(
         f"{name}: {corner_text(corners)}" for name, corners in zip(FACES, triangles, strict=True)
     )
+    xs, ys = zip(*triangles[0], strict=True)
     hints = (
         "Test one border at a time.",
         "A triangle with vertices outside of two borders may still reach into the window.",
-        f"All three x < 0, all x > {WINDOW[0]}, all y < 0, or all y > {WINDOW[1]}.",
+        f"A has x = {place_text(xs)}: all below 0, or all above {WINDOW[0]}? y = {place_text(ys)}: all below 0, or all "
+        f"above {WINDOW[1]}?",
     )
     wrong = {"dropped-at-border": np.flatnonzero(collapsed).tolist()}
     return several(text, given, FACES, dropped, hints, wrong, scene)

@@ -11,7 +11,7 @@ from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, twice_area
+from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, row_hint, twice_area
 from lessons.exercises.templates.drafting import numbers, pictured, place_text, table
 from lessons.exercises.templates.edges import coefficients
 from lessons.exercises.templates.transforms import wholes
@@ -61,7 +61,7 @@ def draw_flat(draws: Draws) -> Draft | None:
     hints = (
         "Is the level side at the bottom or at the top?",
         "A level bottom edge owns its centres, a level top edge does not.",
-        "In a row, the left end is drawn, the right end is not.",
+        f"{row_hint(corners)}. In a row, the left end is drawn, the right end is not.",
     )
     names = ("flat-sides-lost", "right-end-drawn")
     return of_triangle(corners, "Which pixels does this triangle with a level side cover?", names, hints)
@@ -78,7 +78,7 @@ def draw_thin(draws: Draws) -> Draft | None:
     hints = (
         "Look at one row of centres at a time.",
         "The vertices keep their fractions.",
-        "A thin triangle may miss all centres of a row.",
+        f"{row_hint(corners)}; the other sides likewise. Two crossings may have no centre between them.",
     )
     names = ("vertices-rounded", "rows-rounded")
     return of_triangle(corners, "Which pixels does this thin triangle cover?", names, hints)
@@ -94,7 +94,7 @@ def draw_border(draws: Draws) -> Draft | None:
     hints = (
         "The window ends before column W.",
         "Only the part inside of the window is drawn.",
-        f"The last column is W - 1 with W = {SIZE[0]}: look at one row of centres y = j + 1/2 at a time.",
+        f"{row_hint(corners)}; the last column is {SIZE[0]} - 1.",
     )
     text = "A triangle reaches beyond the right border. Which pixels of the window does it cover?"
     return of_triangle(corners, text, ("column-wrapped", "corner-for-center"), hints)
@@ -141,7 +141,7 @@ def draw_ends(draws: Draws) -> Draft | None:
     hints = (
         f"The centres of the row lie at y = {row} + 1/2.",
         "Where do the edges cross this line?",
-        "A crossing on a centre belongs to the triangle on its right.",
+        f"{row_hint(corners, f'{row} + 1/2')}; a crossing on a centre belongs to the triangle on its right.",
     )
     given = f"{WINDOW}\nTriangle: {corner_text(corners)}"
     return numbers(text, given, right, hints, shown, ("first", "last"), scene=scene)
@@ -175,7 +175,7 @@ def draw_rows(draws: Draws) -> Draft | None:
     hints = (
         "Which two edges does each row cross?",
         "x = x0 + (y - y0)(x1 - x0)/(y1 - y0).",
-        "From one row to the next, x grows by the inverse slope.",
+        f"{row_hint(corners, f'{rows[0]} + 1/2')}.",
     )
     scene = triangle_scene(np.array([corners], float), SIZE)
     labels = [f"row {row}" for row in rows]
@@ -230,7 +230,7 @@ def draw_fan(draws: Draws) -> Draft | None:
     hints = (
         "For how many of the triangles is E = 0 on two edges there?",
         "The rule of shared edges moves the centre into exactly one of them.",
-        "With E >= 0, does each of the triangles draw its own corner, and with E > 0?",
+        f"{place_text(center)} is a corner of each triangle: does each draw it with E >= 0, and with E > 0?",
     )
     given = f"Centre {place_text(center)}; around it, counter-clockwise, lie {', '.join(map(place_text, around))}."
     return numbers(text, given, counts, hints, names=("shared edges", ">=", ">"), scene=scene)

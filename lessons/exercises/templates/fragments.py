@@ -52,7 +52,9 @@ def draw_weights(draws: Draws) -> Draft | None:
         f"The area of the whole triangle is half of {facing_text(corners)}.",
     )
     turned = NearMiss(
-        (weights[2], *weights[:2]), Fraction(1, 3), "The right weights, turned by one, earn a third."
+        (weights[2], *weights[:2]),
+        Fraction(1, 3),
+        "The right weights, each moved on by one vertex, earn a third.",
     )
     answer = NumberAnswer(weights, (3,), NAMES, TOLERANCE, (turned,))
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"
@@ -116,6 +118,16 @@ def stored_depths(fragments: Sequence[Fragment], twin: str = "") -> Rows:
     return number_rows(depths)
 
 
+def again_text(fragments: Sequence[Fragment]) -> str:
+    """Return the first comparison at a pixel that holds a depth already, as a question."""
+    held: dict[int, int] = {}
+    for number, (pixel, z) in enumerate(fragments):
+        if pixel in held:
+            return f"Fragment {number} comes to pixel {pixel}: is {z} smaller than {held[pixel]}?"
+        held[pixel] = z
+    raise ValueError(f"expected more fragments than pixels, got {len(fragments)}")
+
+
 def depth_table(fragments: Sequence[Fragment]) -> TableAnswer:
     """Return the table of stored depths, with follow-through."""
 
@@ -144,7 +156,7 @@ def draw_depths(draws: Draws) -> Draft | None:
     hints = (
         "Follow one pixel at a time.",
         "A fragment passes only where its z is smaller than what its pixel holds.",
-        "After a fragment that fails, the pixel holds what it held.",
+        f"{again_text(fragments)} After one that fails, the pixel holds what it held.",
     )
     return Draft(text, given, depth_table(fragments), hints, wrong, card_scene(fragments))
 

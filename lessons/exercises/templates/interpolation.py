@@ -208,7 +208,7 @@ def draw_plane(draws: Draws) -> Draft | None:
     hints = (
         "What is u/w at each vertex?",
         "Three equations, three unknowns; subtract one from the other two.",
-        "Or sum the edge functions, each over the area and times the value at its vertex.",
+        f"Vertex 0: {u[0]}/{w[0]} = a * {corners[0][0]} + b * {corners[0][1]} + c; the other two likewise.",
     )
     scene = triangle_scene(np.array([corners], float), (7, 7), w=np.array([w], float))
     return numbers(text, given, right, hints, names=("a", "b", "c"), scene=scene)

@@ -29,6 +29,11 @@ def slope(ends: Ends) -> Fraction:
     return Fraction(y1 - y0, x1 - x0)
 
 
+def moves_text(start: tuple[int, int], end: tuple[int, int]) -> str:
+    """Return dx and dy as expressions in numbers."""
+    return f"dx = {end[0]} - {start[0]}, dy = {end[1]} - {start[1]}"
+
+
 def of_segments(
     text: str,
     segments: list[Ends],
@@ -56,7 +61,8 @@ def draw_octants(draws: Draws) -> Draft:
     hints = (
         "Which of the lines is steep?",
         "A steep line has one pixel in every row.",
-        "Exchange the ends of the other one: it falls from left to right.",
+        f"The steep one: {moves_text(*steep)}, which exchange their parts. The other one, from {falling[1]}: "
+        f"{moves_text(*falling[::-1])}.",
     )
     return of_segments(text, [steep, falling], ("one-octant", "ends-not-ordered", "slope-always-up"), hints)
 
@@ -68,7 +74,7 @@ def draw_direction(draws: Draws) -> Draft:
     hints = (
         "Exchange the ends.",
         "Is D zero somewhere?",
-        "Where D = 0, y does not step.",
+        f"From {start}: {moves_text(start, end)}. Where D = 0, y does not step.",
     )
     direction = end[0] - start[0], end[1] - start[1]
     return of_segments(text, [(end, start)], ("from-other-end", "last-pixel-lost"), hints, direction)
@@ -155,8 +161,8 @@ def draw_printed(draws: Draws) -> Draft | None:
     given = f"{printed.text}\n\n{WINDOW} From ({x0}, {y0}) to ({x1}, {y1})."
     hints = (
         "Execute it line by line, and do not mend it.",
-        "When does the loop end?",
-        "Is the variable that is tested already that of the next column?",
+        "When does the loop end, and is what is tested already that of the next column?",
+        f"Begin with x = ceil({x0}), m = ({y1} - {y0}) / ({x1} - {x0}); write x and y down at the top of every turn.",
     )
     answer = PixelAnswer(SIZE, drawn, direction=(x1 - x0, y1 - y0))
     return Draft(text, given, answer, hints)

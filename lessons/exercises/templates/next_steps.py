@@ -1,12 +1,13 @@
 """What comes next: the questions of Predict, asked of a run that is drawn from a seed."""
 
+from collections.abc import Sequence
 from functools import partial
 
 import numpy as np
 
 from core import Settings, trace
-from core.explain.number_text import number_text
-from core.explain.records import Value
+from core.explain.number_text import DIGITS, exact_text, number_text
+from core.explain.records import Value, Variable
 from core.explain.steps import variables
 from core.trace import StageTrace
 from lessons.exercises.answers.choices import ChoiceAnswer
@@ -26,30 +27,30 @@ HINTS = {
     "transform": (
         "Which space does the step lead to?",
         "A divide is by w; the viewport maps [-1, 1] to W and H.",
-        "With the position before the step: x/w and y/w, or (x + 1)/2 W and (y + 1)/2 H.",
+        "From {position before} the divide gives x/w and y/w, the viewport (x + 1)/2 * {W} and (y + 1)/2 * {H}.",
     ),
     "edges": (
         "The edge function is a x + b y + c.",
         "a is how much it changes from one pixel to the next.",
-        "E is 0 at the edge's start and end: a x + b y + c is 0 with both.",
+        "E is 0 at the edge's start {edge start} and at its end {edge end}: a x + b y + c is 0 with both.",
     ),
     "raster": (
         "Which side of each edge is the centre (i + 1/2, j + 1/2) on?",
         "All three edges must agree.",
-        "Put x and y into each a x + b y + c, with the numbers listed before the step.",
+        "E0 = {a0} * {x} + {b0} * {y} + {c0}; E1 and E2 likewise.",
     ),
     "interpolate": (
         "Put the centre into the three edge functions.",
         "A weight is its value over their sum.",
-        "λk = Ek / (E0 + E1 + E2), each Ek with its own a, b and c.",
+        "E0 = {a0} * {x} + {b0} * {y} + {c0}, E1 and E2 likewise; λk = Ek / (E0 + E1 + E2).",
     ),
     "depth": (
         "Compare the depth of the fragment with the depth in the buffer.",
-        "Smaller is nearer.",
-        "A tie keeps what is there.",
+        "Smaller is nearer, and a tie keeps what is there.",
+        "Is {z new} smaller than what the buffer holds?",
     ),
 }
-"""By the stages that are asked about."""
+"""By the stages that are asked about; the last one with variables of the step."""
 RULES = {
     "transform": "Before the viewport x and y run from -1 to 1; y points up.",
     "edges": "Edge k lies opposite to corner k; every E is made positive inside of the triangle.",
@@ -70,13 +71,28 @@ def _text(value: Value) -> str:
     return str(value) if value is None or isinstance(value, str | bool) else number_text(value)
 
 
-def known_text(stage: StageTrace, row: int) -> str:
-    """Return what is known before a row."""
+def step_variables(stage: StageTrace, row: int) -> Sequence[Variable]:
+    """Return the variables of a row."""
     explanation = stage.explain(int(stage.steps.starts[row]) + 1)
-    if explanation is None:
-        return ""
-    known = [one for one in variables(explanation) if not one.is_changed() and one.name not in HIDDEN]
+    return () if explanation is None else variables(explanation)
+
+
+def known_text(shown: Sequence[Variable]) -> str:
+    """Return what is known before a row."""
+    known = [one for one in shown if not one.is_changed() and one.name not in HIDDEN]
     return "\n".join(f"{one.name} = {_text(one.now)}" for one in known)
+
+
+def hints_with(hints: Sequence[str], shown: Sequence[Variable]) -> tuple[str, ...]:
+    """Return hints with the variables that they name, what is negative in brackets."""
+    texts = {
+        one.name: exact_text(one.now, one.digits.get(one.now, DIGITS))
+        if isinstance(one.now, float)
+        else _text(one.now)
+        for one in shown
+    }
+    named = {name: f"({text})" if text.startswith("−") else text for name, text in texts.items()}
+    return tuple(hint.format_map(named) for hint in hints)
 
 
 def draw_step(stage_name: str, draws: Draws) -> Draft | None:
@@ -97,19 +113,19 @@ def draw_step(stage_name: str, draws: Draws) -> Draft | None:
     if isinstance(draft.answer, ChoiceAnswer) and stage_name == "depth" and "holds 1 " in draft.text:
         # Nothing is there yet: every fragment passes.
         return None
-    known = known_text(stage, row)
+    shown_variables = step_variables(stage, row)
     places = "\n".join(
         f"Triangle {number}: {', '.join(map(str, one))}, depth {', '.join(map(str, depth))}"
         for number, (one, depth) in enumerate(zip(corners, depths, strict=True))
     )
     # Where the corners lie in the window is what the transform finds.
     shown = [window_text(SIZE), *([] if stage_name == "transform" else [places])]
-    given = "\n".join([RULES[stage_name], *shown, "Before the step:", known])
+    given = "\n".join([RULES[stage_name], *shown, "Before the step:", known_text(shown_variables)])
     return Draft(
         draft.text,
         given,
         draft.answer,
-        HINTS[stage_name],
+        hints_with(HINTS[stage_name], shown_variables),
         {},
         None if stage_name == "transform" else scene,
         SETTINGS,

@@ -16,7 +16,7 @@ from lessons.exercises.drawn_scene import seen_pixels, window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.coverage import RULE, Corner, corner_text, facing_text, twice_area
+from lessons.exercises.templates.coverage import RULE, Corner, corner_text, facing_text, row_hint, twice_area
 from lessons.exercises.templates.drafting import factor_text, pictured, place_text
 from lessons.exercises.templates.edges import coefficients
 from lessons.mistakes.coverage import in_window
@@ -150,10 +150,11 @@ def draw_side(draws: Draws) -> Draft | None:
         "Which pixels are inside of the edge from vertex 0 to vertex 1? Inside is where E > 0 at the centre "
         "(i + 1/2, j + 1/2), on the left of the edge; where E = 0, a step to the right, then up, decides."
     )
+    (x0, y0), (x1, y1) = (map(factor_text, corner) for corner in corners[:2])
     hints = (
         "Draw the line of the edge across the whole window.",
         "E = (y0 - y1)(x - x0) + (x1 - x0)(y - y0).",
-        "Are centres on the line inside? Move them a little to the right.",
+        f"E = ({y0} - {y1})(x - {x0}) + ({x1} - {x0})(y - {y0}); where it is 0, move the centre a little to the right.",
     )
     scene = triangle_scene(np.array([corners], float), SIZE)
     given = [f"Vertices 0, 1, 2: {corner_text(corners)}"]
@@ -210,15 +211,16 @@ def draw_below_half(draws: Draws) -> Draft | None:
         "A rectangle carries u from 0 at its left side to 1 at its right side, in perspective. At which of its pixels "
         f"is u below 1/2? {RULE}"
     )
+    first, last = number_text(left), number_text(right)
     given = [
-        f"Left side: x = {number_text(left)}, w = {w_of[left]}. Right side: x = {number_text(right)}, "
-        f"w = {w_of[right]}.",
+        f"Left side: x = {first}, w = {w_of[left]}. Right side: x = {last}, w = {w_of[right]}.",
         f"It reaches from y = {number_text(low)} to y = {number_text(high)}.",
     ]
     hints = (
         "Which side is nearer?",
         "u/w and 1/w are linear in the window.",
-        "Solve (u/w) / (1/w) = 1/2 for x.",
+        f"x = {first} + s ({last} - {first}), "
+        f"where (s/{w_of[right]}) / ((1 - s)/{w_of[left]} + s/{w_of[right]}) = 1/2: find s.",
     )
     return pictured(text, "\n".join(given), scene, names, hints, read=below)
 
@@ -306,7 +308,7 @@ def draw_overlap(draws: Draws) -> Draft | None:
     hints = (
         "Find the pixels of each pane.",
         "Which belong to both?",
-        "In each row of centres y = j + 1/2: where do both panes cover the same columns?",
+        f"{row_hint(first)} (pane 0). Which columns do both panes cover in a row?",
     )
     return pictured(text, given, scene, names, hints, settings, twice)
 
@@ -331,7 +333,7 @@ def draw_mixed(draws: Draws) -> Draft | None:
     hints = (
         "Follow the edges.",
         "A pixel is grey if an edge runs between its samples.",
-        "Samples of pixel (i, j) lie at i + 1/4 and i + 3/4, j + 1/4 and j + 3/4: count those inside.",
+        f"{row_hint(corners, 'j + 1/4')}: which samples i + 1/4 and i + 3/4 lie inside, and which at y = j + 3/4?",
     )
     return pictured(text, f"Triangle: {corner_text(corners)}", scene, (), hints, settings, grey)
 

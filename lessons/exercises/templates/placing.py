@@ -14,6 +14,7 @@ from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.clipping import PARAMETERS, SIZE, Ends, parameter_rows
 from lessons.exercises.templates.coverage import RULE, corner_text, twice_area
+from lessons.exercises.templates.drafting import factor_text
 from lessons.exercises.templates.fragments import NAMES
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.small_scenes import segment_scene, triangle_scene
@@ -50,10 +51,11 @@ def draw_ends(draws: Draws) -> Draft | None:
         "The segment is clipped to the window. Place its two ends that are left: where it enters and where it "
         "leaves. They lie on the line through the given ends."
     )
+    x0, x1 = (factor_text(Fraction(x)) for x, _ in ends)
     hints = (
         "Which borders does the segment cross on its way in, and which on its way out?",
         "Of the crossings on the way in the last one counts, of those on the way out the first.",
-        "A crossing lies at start + t (end - start), with t = q/p of its border.",
+        f"Left border: t = (0 - {x0}) / ({x1} - {x0}), and the crossing lies at start + t (end - start).",
     )
     answer = PlaceAnswer(SIZE, ("entry", "exit"), right, (right[::-1],), Fraction(1, 4), TOLERANCE)
     given = f"Window 0..{SIZE[0]} x 0..{SIZE[1]}, segment from {ends[0]} to {ends[1]}."
@@ -73,15 +75,17 @@ def draw_corner(draws: Draws) -> Draft | None:
     if twice_area(corners) < 24:
         return None
     drawn = DrawnScene(triangle_scene(np.array([corners], float), CORNER_SIZE), (tuple(corners),))
+    asked = draws.whole(0, 2)
+    known = [corner for k, corner in enumerate(corners) if k != asked]
     try:
-        answer, given = corner_answer(drawn, (0, draws.whole(0, 2)), Settings(), quarter)
+        answer, given = corner_answer(drawn, (0, asked), Settings(), quarter)
     except NoQuestionError:
         return None
     text = f"Place the corner ? so that triangle 0 covers exactly the pixels A. {RULE}"
     hints = (
         "Draw the side between the two corners that are given.",
         "Each of the other two sides passes between pixels that are covered and pixels that are not.",
-        "Prolong both sides from the given corners: they meet in the corner.",
+        f"Prolong both sides from the given corners {corner_text(known)}: they meet in the corner.",
     )
     return Draft(text, given, answer, hints)
 
@@ -101,7 +105,7 @@ def draw_ndc(draws: Draws) -> Draft | None:
     hints = (
         "-1 is the left and the lower border, 1 the right and the upper one.",
         "The window is (NDC + 1)/2.",
-        f"x = (NDC + 1)/2 * {columns}, y = (NDC + 1)/2 * {rows}.",
+        f"A: x = ({factor_text(points[0][0])} + 1)/2 * {columns}, y = ({factor_text(points[0][1])} + 1)/2 * {rows}.",
     )
     answer = PlaceAnswer(SIZE, tuple("ABC"), right, step=Fraction(1, 4), tolerance=TOLERANCE)
     return Draft(text, given, answer, hints, {"y-down": down})
@@ -154,10 +158,12 @@ def draw_new_corners(draws: Draws) -> Draft | None:
         f"A triangle is clipped at the border x = {BORDER}: only vertex 0, on the left of it, is inside. Place the two "
         "new corners, where the sides from 0 to 1 and from 2 to 0 cross the border."
     )
+    (x0, y0), (x1, y1) = corners[:2]
     hints = (
         "What is x of both corners?",
         f"t = ({BORDER} - x0) / (x - x0) of each side, from vertex 0 to its other end.",
-        "Both sides begin at the vertex 0 that is given, not at a new corner.",
+        f"On side 0 to 1, from {corners[0]} to {corners[1]}: t = ({BORDER} - {x0}) / ({x1} - {x0}), "
+        f"y = {y0} + t ({y1} - {y0}).",
     )
     names = ("on side 0 to 1", "on side 2 to 0")
     answer = PlaceAnswer(CORNER_SIZE, names, rule.right(exact, BORDER), (), Fraction(1, 4), TOLERANCE)

@@ -8,9 +8,10 @@ import numpy as np
 from core import Settings
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.coverage import SIZE, corner_text
-from lessons.exercises.templates.drafting import by_rule, one_of, pictured, place_text, several
+from lessons.exercises.templates.coverage import SIZE, corner_text, row_hint
+from lessons.exercises.templates.drafting import by_rule, factor_text, one_of, pictured, place_text, several
 from lessons.exercises.templates.filling import HALF, WINDOW, is_decided, tenths
 from lessons.mistakes.shelf import RULES
 from lessons.polygons import polygon_of_rings
@@ -38,7 +39,7 @@ def draw_star(draws: Draws) -> Draft | None:
     hints = (
         "Sketch the polygon: a star around a middle part.",
         "Go along a row from the left, and count what you cross.",
-        "The rules differ in the middle, which the polygon runs around twice.",
+        f"{row_hint(star)}. The polygon runs around its middle twice: there the rules differ.",
     )
     given = f"Polygon: {', '.join(map(place_text, star))}"
     return pictured(text, given, scene, ("winding-ignored",), hints, settings)
@@ -58,10 +59,13 @@ def draw_crossings(draws: Draws) -> Draft | None:
         f"How many crossings does a scanline fill count on the line y = {y}? An edge counts where the line is at or "
         "above its lower end and below its upper end; level edges do not count."
     )
+    sides = zip(polygon, [*polygon[1:], polygon[0]], strict=True)
+    start, end = next(side for side in sides if side[0][1] != side[1][1])
+    low, high = sorted((start[1], end[1]))
     hints = (
         "Go round the polygon, one edge at a time.",
         "A vertex on the line is the lower end of one edge and the upper end of another.",
-        "The number is even, or a span would have one end.",
+        f"The edge from {start} to {end} counts where {low} <= {y} < {high}: ask it of each edge.",
     )
     given = f"Polygon: {', '.join(map(str, polygon))}"
     return one_of(text, given, options, right, hints, {rule.name: wrong})
@@ -84,10 +88,11 @@ def draw_active(draws: Draws) -> Draft | None:
         f"y = {row} + 1/2? An edge enters the table at the first row whose centres are not below its lower end, and "
         "leaves it before the first row whose centres are not below its upper end."
     )
+    low, high = map(number_text, sorted(y for _, y in polygon[:2]))
     hints = (
         "Look at the y of both ends of each edge.",
         f"Is {row} + 1/2 at or above the lower end, and below the upper end?",
-        "An even number of edges is active in every row.",
+        f"{EDGES[0].capitalize()}: is {low} <= {row} + 1/2 < {high}? An even number of edges is active.",
     )
     scene = polygon_of_rings([np.array(polygon, float)], SIZE)
     given = f"{WINDOW}\nVertices 0 to 4: {corner_text(polygon)}"
@@ -107,7 +112,7 @@ def draw_level(draws: Draws) -> Draft | None:
     hints = (
         "Look at one row of centres at a time, from the lowest vertex to the highest.",
         "In a row, both ends of the span are drawn where they fall on centres.",
-        "Which pixels lie on the level sides?",
+        f"{row_hint([*polygon])}; the level sides at y = {number_text(low)} and {number_text(high)} are drawn, too.",
     )
     # Two triangles draw the same if each of them draws its border.
     scene = triangle_scene(
@@ -135,7 +140,8 @@ def draw_float(draws: Draws) -> Draft | None:
     hints = (
         "Sketch both triangles: which shape do they make?",
         "A centre on the common edge has a weight of exactly 0 in both triangles.",
-        "Count the columns and the rows of centres, those on the border, too.",
+        f"Count the centres i + 1/2 from 1/2 to {factor_text(far)} and j + 1/2 from {factor_text(low)} to "
+        f"{number_text(high)}, those on the border, too.",
     )
     return by_rule(text, given, (halves, side + 1), ("third-weight-rounded",), hints)
 

@@ -11,7 +11,7 @@ from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.clipping import SIZE, Ends, code_of
 from lessons.exercises.templates.coverage import corner_text
-from lessons.exercises.templates.drafting import by_rule, one_of, place_text, several
+from lessons.exercises.templates.drafting import by_rule, factor_text, one_of, place_text, several
 from lessons.exercises.templates.transforms import sketched, wholes
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.twin import clipped_ends
@@ -29,10 +29,11 @@ def draw_planes(draws: Draws) -> Draft | None:
         "Outside of which planes of the view volume does this clip position lie? Inside is -w <= x, y, z <= w, "
         "compared before the divide."
     )
+    z, w = map(factor_text, clip[2:])
     hints = (
         "Do not divide.",
         "near: w + z, far: w - z, left: w + x, right: w - x, bottom: w + y, top: w - y.",
-        "Outside is where such a sum is negative.",
+        f"near: {w} + {z}, far: {w} - {z}, and so on: outside of a plane this is negative.",
     )
     # With w > 0 both tests agree: the divide is harmless there.
     wrong = {rule.name: rule.wrong(clip)} if clip[3] < 0 else {}
@@ -143,10 +144,12 @@ def draw_verdict(draws: Draws) -> Draft | None:
     if verdict == 3 and kept:
         wrong["parallel-kept"] = 0 if np.array_equal(kept[0], [start, end]) else 1
     given = f"{WINDOW}, segment from {start} to {end}."
+    (x0, y0), (x1, y1) = ((factor_text(Fraction(c)) for c in place) for place in (start, end))
     hints = (
         "Is N . D zero at some edge?",
         "N . D < 0 enters, N . D > 0 leaves.",
-        "Compare the last entry with the first exit.",
+        f"D = ({x1} - {x0}, {y1} - {y0}): find N . D and t at each border, then compare the last entry with the first "
+        "exit.",
     )
     # Of the right run, too: where nothing is clipped, the mistake would have no listing to be stepped in.
     return replace(one_of(text, given, VERDICTS, verdict, hints, wrong, scene), settings=settings)
@@ -167,10 +170,12 @@ def draw_rejected(draws: Draws) -> Draft | None:
     given = f"{WINDOW}.\n" + "\n".join(
         f"{name}: {ends[0]} to {ends[1]}" for name, ends in zip(names, segments, strict=True)
     )
+    xs, ys = zip(*segments[0], strict=True)
     hints = (
         "Write the outcodes of all ends.",
         "Two ends outside of different borders share no bit.",
-        f"Both ends left of 0, right of {SIZE[0]}, below 0 or above {SIZE[1]}: ask it of each segment.",
+        f"A has x = {xs[0]} and {xs[1]}, y = {ys[0]} and {ys[1]}: are both ends left of 0, right of {SIZE[0]}, below 0 "
+        f"or above {SIZE[1]}?",
     )
     return several(text, given, tuple(names), right, hints, scene=segment_scene(segments, SIZE))
 

@@ -12,7 +12,8 @@ from lessons.exercises.draws import Draws
 from lessons.exercises.file_answers import NoQuestionError, spot_answer
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.coverage import RULE, twice_area
+from lessons.exercises.templates.coverage import RULE, row_hint, twice_area
+from lessons.exercises.templates.line_methods import moves_text
 from lessons.mistakes.lines import LECTURE, faulty_listing
 from lessons.mistakes.twin import line_pixels
 from lessons.printed.catalogue import printed_listing
@@ -76,28 +77,35 @@ def draw_line(draws: Draws) -> Draft | None:
     hints = (
         "Where does the drawn line first leave the right one?",
         "Follow D by hand for the first pixels, and compare with the listing.",
-        "D takes 2 dy with every pixel and loses 2 dx with every step of y.",
+        f"{moves_text(*ends)}: D takes 2 dy with every pixel and loses 2 dx with every step of y.",
     )
     return Draft(text, given, answer, hints, {}, pixel_segments([ends], SIZE), LECTURE)
 
 
+RISING = "the line from (0, 0) to (2, 1)"
 SLIPS = (
-    ("lmu-common-steps", "v += 1", "the pixel (x, y) is to be drawn next"),
-    ("lmu-with-d", "D=2*dy-x", "D is the part of 2 e dx + 2 dy - dx that stays the same"),
-    ("lmu-final", "D = 2*dx", "a step of y lowers D by 2 dx"),
-    ("lmu-falling", "D=2*dy-dx", "dy is below 0, and D begins at 2 |dy| - dx"),
+    ("lmu-common-steps", "v += 1", "the pixel (x, y) is to be drawn next", RISING),
+    ("lmu-with-d", "D=2*dy-x", "D is the part of 2 e dx + 2 dy - dx that stays the same", RISING),
+    ("lmu-final", "D = 2*dx", "a step of y lowers D by 2 dx", RISING),
+    (
+        "lmu-falling",
+        "D=2*dy-dx",
+        "dy is below 0, and D begins at 2 |dy| - dx",
+        "the line from (0, 1) to (2, 0)",
+    ),
     (
         "jubair-cyrus-beck",
         "if Ni . D != 0 then",
         "a segment parallel to an edge and outside of it is rejected",
+        "a segment with Ni . D = 0, outside of edge 1,",
     ),
 )
-"""Printed listings, what their wrong line holds, and what must hold instead."""
+"""Printed listings, what their wrong line holds, what must hold instead, and a case to follow."""
 
 
 def draw_slip(draws: Draws) -> Draft:
     """A listing as a lecture prints it."""
-    name, slip, rule = draws.item(SLIPS)
+    name, slip, rule, case = draws.item(SLIPS)
     printed = printed_listing(name)
     lines = tuple(printed.text.split("\n"))
     answer = LineAnswer(lines, next(k for k, line in enumerate(lines) if slip in line))
@@ -105,7 +113,7 @@ def draw_slip(draws: Draws) -> Draft:
     hints = (
         "Ask of every line what it changes, and whether that is declared.",
         f"Which line has to care that {rule}?",
-        "Follow a small case by hand: after which line is a value not what it must be?",
+        f"Follow {case} by hand: after which line is a value not what it must be?",
     )
     return Draft(text, "", answer, hints)
 
@@ -137,7 +145,7 @@ def draw_picture(draws: Draws) -> Draft | None:
     hints = (
         "Find a row in which the edges of the triangle do not fit to the pixels.",
         "Look at the lowest and the highest row, and at centres that lie on edges.",
-        "Is the shape moved, turned over, too large or too small?",
+        f"{row_hint(corners)}: do the pixels of that row begin or end there?",
     )
     return Draft(text, given, answer, hints, {}, drawn.scene)
 
@@ -169,7 +177,8 @@ def draw_depth_picture(draws: Draws) -> Draft | None:
     hints = (
         "Only pixels that lie in two triangles can be wrong.",
         "Compare the depths there: which triangle should be seen?",
-        "Is the wrong one always the farther one, always the later one, or the one with the nearer middle?",
+        f"The middle of triangle 0 is at z = ({' + '.join(map(number_text, depth[0]))})/3. Is the wrong one always the "
+        "farther one, always the later one, or the one with the nearer middle?",
     )
     return Draft(text, f"{given}\n{depths}", answer, hints, {}, scene)
 

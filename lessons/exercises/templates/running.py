@@ -124,7 +124,8 @@ def draw_affine(draws: Draws) -> Draft | None:
     hints = (
         "With equal w nothing is wrong.",
         "The farther the values of w are apart, the larger is the error of both.",
-        "Corrected every 8 pixels, the error is that of a short part: find a w between too small and too large.",
+        f"Half way from vertex 0 to 1, affine gives {span}/2 and perspective ({span}/w) / (1 + 1/w). Corrected every 8 "
+        "pixels, the error is that of a short part: find a w between too small and too large.",
     )
     return Draft(text, given, answer, hints, {}, scene_of((Fraction(1),)), robust)
 
@@ -157,7 +158,8 @@ def draw_cheapest(draws: Draws) -> Draft | None:
     hints = (
         "What does each family change in this scene: colours, or what is seen?",
         "Begin with the cheapest of all, and make dearer what the error comes from.",
-        "Only one surface is seen at each pixel here: how fine must its depth be?",
+        f"Which interpolation stays within {number_text(limit)} of 255? Only one surface is seen at each pixel here: "
+        "how fine must its depth be?",
     )
     return Draft(text, given, answer, hints, {}, scene, base)
 
@@ -194,7 +196,8 @@ def draw_depth_format(draws: Draws) -> Draft | None:
     hints = (
         "When do both depths round to one multiple?",
         "With a gap of 0 both formats see a tie, which keeps triangle 0.",
-        "How fine is a multiple of 1/65535, in steps of the gap?",
+        f"The buffer holds {number_text(base)} * 65535, rounded: for which gap is ({number_text(base)} - gap) * 65535 "
+        "rounded to the same number?",
     )
     return Draft(text, given, answer, hints, {}, None, robust)
 
@@ -224,7 +227,8 @@ def draw_samples(draws: Draws) -> Draft | None:
     hints = (
         "Only pixels on the rim differ.",
         "One sample is all or nothing: how far is it off at a pixel that is half covered?",
-        "Bytes are sRGB: a quarter of the light is more than a quarter of the byte.",
+        f"Is an error of a quarter of the light more than {number_text(limit)} of 255? Bytes are sRGB: it is more than "
+        "a quarter of the byte.",
     )
     return Draft(text, given, answer, hints, {}, scene, base)
 

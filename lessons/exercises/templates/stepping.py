@@ -5,10 +5,9 @@ from fractions import Fraction
 from core import draw_lines
 from lessons.exercises.answers.steps import Step, StepsAnswer, Value, first_tries
 from lessons.exercises.draws import Draws
-from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import corner_text, twice_area
-from lessons.exercises.templates.fragments import FRAGMENT_PIXELS, card_scene
+from lessons.exercises.templates.fragments import FRAGMENT_PIXELS, again_text, card_scene
 from lessons.exercises.templates.lines import RULE, SIZE, TALL, Ends
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.twin import segment_ends
@@ -101,7 +100,7 @@ def draw_depth(draws: Draws) -> Draft | None:
     hints = (
         "The first fragment of every pixel passes.",
         "A fragment passes only where its z is smaller than what its pixel holds.",
-        "What a pixel holds is the z of the last fragment that passed there.",
+        again_text(fragments),
     )
     return Draft(text, "", StepsAnswer(steps), hints, wrong, card_scene(fragments))
 
@@ -136,10 +135,12 @@ def draw_clip(draws: Draws) -> Draft | None:
     )
     names = ("side 0 from corner 0 to 1", "side 1 from corner 1 to 2", "side 2 from corner 2 to 0")
     given = f"Corners 0, 1, 2: {corner_text(corners)}; {', '.join(names)}."
+    cut = next(k for k in range(3) if inside[k] != inside[(k + 1) % 3])
+    (x0, y0), (x1, y1) = corners[cut], corners[(cut + 1) % 3]
     hints = (
         "Only two things matter: is the start inside, and is the end?",
         "A side that ends inside puts out its end; a side that changes sides puts out its crossing first.",
-        f"y of the crossing is y0 + ({number_text(Fraction(BORDER))} - x0) (y1 - y0) / (x1 - x0).",
+        f"Side {cut} crosses the border at y = {y0} + ({BORDER} - {x0}) ({y1} - {y0}) / ({x1} - {x0}).",
     )
     return Draft(text, given, StepsAnswer(tuple(steps), (12, 9)), hints)
 

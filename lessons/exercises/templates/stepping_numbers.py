@@ -8,8 +8,8 @@ from lessons.exercises.answers.steps import Run, Step, StepsAnswer, first_tries
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.coverage import corner_text, twice_area
-from lessons.exercises.templates.drafting import TOLERANCE, WITHIN
+from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
+from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text
 from lessons.exercises.templates.fragments import COLORS, NAMES
 from lessons.small_scenes import triangle_scene
 
@@ -52,7 +52,7 @@ def draw_spaces(draws: Draws) -> Draft | None:
     hints = (
         "With 90 degrees the matrix keeps x and y.",
         "NDC is x/w and y/w.",
-        "The window is (NDC + 1)/2, times its width or height.",
+        f"w = -(-{d}), x in NDC is {factor_text(x)} / w, and x in the window is (NDC + 1)/2 * {SIZE[0]}.",
     )
     return Draft(text, given, StepsAnswer(steps, SIZE), hints, {"y-down": down, "w-is-one": no_w})
 
@@ -79,7 +79,7 @@ def draw_weights(draws: Draws) -> Draft | None:
     hints = (
         "The determinant (x1 - x0)(y2 - y0) - (y1 - y0)(x2 - x0) is twice the area.",
         "E0 belongs to the edge from vertex 1 to vertex 2.",
-        "Each weight is its E over twice the area.",
+        f"Twice the area is {facing_text(corners)}; each weight is its E over it.",
     )
     scene = triangle_scene(np.array([corners], float), (11, 9))
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"

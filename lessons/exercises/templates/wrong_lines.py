@@ -71,7 +71,7 @@ for j in range(rows):
         (
             "Which point of a pixel is put into the edge functions?",
             "How many of the three values must agree?",
-            "Take a small triangle and one pixel inside of it, and compute each line by hand.",
+            "Put i = 2 and j = 1 into each line: where is the centre of this pixel, and which values must be positive?",
         ),
     ),
     Listed(

@@ -15,7 +15,7 @@ from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template, ask, hints_after, judge
-from lessons.exercises.selftest import check_template, question_problems, question_text
+from lessons.exercises.selftest import check_template, numbers_in, question_problems, question_text
 from lessons.exercises.templates import (
     clipping,
     fragments,
@@ -40,6 +40,18 @@ def test_a_template_asks_fairly(template: Template) -> None:
     question = first_question(template.name)
     assert question_problems(question) == []
     assert len(question.draft.hints) >= 3
+
+
+def test_the_last_hint_is_written_from_the_numbers_of_the_question() -> None:
+    for name, template in TEMPLATES.items():
+        drafts = [first_question(name).draft, *(ask(template, seed).draft for seed in (1, 2))]
+        # The numbers of a listing's lines are none of the question.
+        offered = [draft.answer.offered * (draft.answer.kind != "line") for draft in drafts]
+        asked = {
+            frozenset(numbers_in(draft.text, draft.given, text))
+            for draft, text in zip(drafts, offered, strict=True)
+        }
+        assert len(asked) == 1 or len({draft.hints[-1] for draft in drafts}) > 1, name
 
 
 @pytest.mark.parametrize("template", TEMPLATES.values(), ids=TEMPLATES)
@@ -240,7 +252,10 @@ def test_a_hint_that_holds_a_number_of_the_answer_is_found() -> None:
     question = ask(TEMPLATES["bresenham-table"], 2)
     assert question_problems(question) == []
     telling = replace(question, draft=replace(question.draft, hints=("The third D is 77.",)))
-    assert question_problems(telling) == ["a hint holds 77, which the question does not show"]
+    assert question_problems(telling) == [
+        "the last hint has no number of the question",
+        "a hint holds 77, which the question does not show",
+    ]
 
 
 def test_malformed_tables_are_not_checked() -> None:
