@@ -22,6 +22,12 @@ from lessons.mistakes.twin import Twin
 PIXEL_LIMIT = 1 << 18
 """Most pixels of a picture: it is compared with one of each mistake and method."""
 RIGHT = "the right picture"
+GREYS: dict[tuple[float, ...], str] = {
+    (0.299, 0.587, 0.114): "0.299 R + 0.587 G + 0.114 B",
+    (0.2126, 0.7152, 0.0722): "0.2126 R + 0.7152 G + 0.0722 B",
+    (1 / 3, 1 / 3, 1 / 3): "(R + G + B)/3",
+}
+"""How programs make bytes of colours grey, by the weights of red, green and blue."""
 Report = Callable[[float, str], None]
 SLOW = ("fill=brute-force", "antialiasing=area")
 """Methods that take minutes for a mesh of more triangles than ``SLOW_LIMIT``: they are left out there."""
@@ -38,6 +44,8 @@ class Drawn:
     """(H, W), -1 for none."""
     covered: Flags | None = None
     """(H, W) bool."""
+    grey: tuple[float, ...] = ()
+    """Weights by which the colours are taken to be made grey; empty: they are not."""
 
     @property
     def size(self) -> tuple[int, int]:
@@ -135,7 +143,7 @@ def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report |
     -----
     Colours that are a byte apart are equal, and any colour may stand for the background. A picture in two colours that
     fits as no picture in colours is taken for covered pixels. One in a single colour shows nothing, also where ink has
-    the colour of the background, unless every pixel is to be covered.
+    the colour of the background, unless every pixel is to be covered. Of a grey picture the scene is made grey, too.
     """
     check_size(drawn.size, scene.size)
     seen = _compared(_with_corners(scene, settings, drawn), settings, drawn, report)
@@ -143,7 +151,52 @@ def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report |
     if (seen.is_right and is_seen) or seen.found:
         return seen
     others = [diagnose(scene, settings, each, report) for each in _as_coverage(drawn)]
-    return min(others, key=lambda one: int(one.differing.sum())) if others else seen
+    if others:
+        nearest = min(others, key=lambda one: int(one.differing.sum()))
+        return _of_another_color(nearest, seen, scene, settings, drawn)
+    if drawn.colors is None or (drawn.colors[..., :3] != drawn.colors[..., :1]).any():
+        return seen
+    return _of_grey(seen, scene, settings, drawn, report)
+
+
+def _of_another_color(
+    covering: Diagnosis, seen: Diagnosis, scene: AnyScene, settings: Settings, drawn: Drawn
+) -> Diagnosis:
+    """Name the colour of a picture in a single one, where every pixel is to have a single other one."""
+    frame = render(scene, settings)
+    if not _is_blank(drawn) or (frame.primitive < 0).any():
+        return covering
+    assert drawn.colors is not None
+    right = _shown(frame, settings, drawn)
+    if (right != right[0, 0]).any():
+        return covering
+    mine, its = (tuple(colors[0, 0].tolist()) for colors in (drawn.colors, right))
+    sentence = f"Every pixel has the colour {mine} instead of {its}."
+    other = Candidate("another-colour", sentence, lambda: frame, settings, True)
+    return replace(seen, found=(other, *covering.found))
+
+
+def _of_grey(
+    seen: Diagnosis, scene: AnyScene, settings: Settings, drawn: Drawn, report: Report | None
+) -> Diagnosis:
+    """Compare with the scene in grey, by the weights with which the right picture is nearest."""
+    frame = render(scene, settings)
+    greys = [_with_background(replace(drawn, grey=weights), frame, settings) for weights in GREYS]
+    nearest = min(greys, key=lambda each: int(_differing(frame, settings, each).sum()))
+    compared = _compared(_with_corners(scene, settings, drawn), settings, nearest, report)
+    if compared.differing.sum() >= seen.differing.sum():
+        return seen
+    sentence = f"The colours are made grey: {GREYS[nearest.grey]}."
+    grey = Candidate("grey", sentence, compared.nearest.draw, settings, True)
+    is_known = compared.is_right or compared.found
+    name = f"{compared.nearest.name} in grey"
+    return Diagnosis(
+        False,
+        (grey, *compared.found) if is_known else (),
+        grey if is_known else replace(grey, name=name),
+        compared.differing,
+        seen.from_right,
+    )
 
 
 def _with_corners(scene: AnyScene, settings: Settings, drawn: Drawn) -> AnyScene:
@@ -210,15 +263,21 @@ def _differing(frame: Frame, settings: Settings, drawn: Drawn) -> Flags:
     if drawn.covered is not None:
         return np.asarray((frame.primitive >= 0) != drawn.covered)
     assert drawn.colors is not None
-    shown = _shown(frame, settings, drawn.colors.shape[2]).astype(int)
+    shown = _shown(frame, settings, drawn).astype(int)
     return np.asarray((np.abs(shown - drawn.colors) > 1).any(axis=2))
 
 
-def _shown(frame: Frame, settings: Settings, channels: int) -> Bytes:
-    """Return the bytes (H, W, channels) of a frame: over black, or with its alpha."""
-    if channels == 4:
-        return picture_bytes(frame.color, resolve(settings).blend_name)
-    return to_display(frame.color).pixels[..., :3]
+def _shown(frame: Frame, settings: Settings, drawn: Drawn) -> Bytes:
+    """Return the bytes (H, W, 3 or 4) of a frame as a picture has them: over black, or with its alpha; or in grey."""
+    assert drawn.colors is not None
+    if drawn.colors.shape[2] == 4:
+        shown = picture_bytes(frame.color, resolve(settings).blend_name)
+    else:
+        shown = to_display(frame.color).pixels[..., :3]
+    if not drawn.grey:
+        return shown
+    grey = np.rint(sum(weight * shown[..., k] for k, weight in enumerate(drawn.grey)))
+    return np.dstack([grey, grey, grey, shown[..., 3:]]).astype(np.uint8)
 
 
 def _with_background(drawn: Drawn, right: Frame, settings: Settings) -> Drawn:
@@ -226,7 +285,7 @@ def _with_background(drawn: Drawn, right: Frame, settings: Settings) -> Drawn:
     empty = right.primitive < 0
     if drawn.colors is None or not empty.any():
         return drawn
-    shown = _shown(right, settings, drawn.colors.shape[2])
+    shown = _shown(right, settings, drawn)
     colors, counts = np.unique(drawn.colors[empty], axis=0, return_counts=True)
     theirs, ours = colors[np.argmax(counts)].astype(int), shown[empty][0]
     is_background = (np.abs(drawn.colors - theirs) <= 1).all(axis=2)

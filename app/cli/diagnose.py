@@ -25,6 +25,7 @@ EXAMPLES = """PICTURE is one of
   .npz  color (H, W, 3 or 4), primitive (H, W) numbers of triangles, -1 for none, or pixels (N, 2); row 0 at the bottom
   .csv  a pixel a line: column,row or column,row,triangle or column,row,red,green,blue; row 0 at the bottom
 Colours a byte apart are equal. The background may have any colour. A picture in two colours shows what is covered.
+A grey picture is compared with the scene in grey, too.
 
 examples:
   rasterscope diagnose shared-edge homework.png

@@ -1,6 +1,5 @@
 """The record of an exercise: what a TOML file holds, field by field."""
 
-import re
 from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
@@ -22,8 +21,6 @@ from lessons.exercises.fields import (
 
 PRIMITIVE_LIMIT = 64
 """Most triangles or segments of a scene."""
-COORDINATE = r"\{([xy])([0-9])\}"
-"""Stands in a hint for a coordinate of a corner of the first triangle or segment."""
 
 
 class ScenePart(Part):
@@ -65,12 +62,3 @@ class Exercise(Part):
     scene: ScenePart | None = None
     settings: SettingTexts = Field(default_factory=dict)
     answer: Annotated[AnswerPart, Field(discriminator="type")]
-
-    @model_validator(mode="after")
-    def _names_given_coordinates(self) -> "Exercise":
-        corners = [] if self.scene is None else [*self.scene.triangles, *self.scene.segments, []][0]
-        hidden = getattr(self.answer, "corner", None) or []
-        for found in re.finditer(COORDINATE, "".join(self.hints)):
-            if int(found[2]) >= len(corners) or [0, int(found[2])] == list(hidden):
-                raise ValueError(f"expected coordinates in hints that the scene gives, got {found[0]}")
-        return self

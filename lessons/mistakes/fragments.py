@@ -67,8 +67,10 @@ def only_places_sorted(scene: ClipScene) -> ClipScene:
 
 
 def v_flipped(scene: ClipScene) -> ClipScene:
-    """Take 1 - v for v."""
+    """Take 1 - v for v; without a texture there is none."""
     assert scene.attributes is not None
+    if scene.texture is None:
+        return scene
     attributes = scene.attributes.copy()
     attributes[..., 1] = 1 - attributes[..., 1]
     return replace(scene, attributes=attributes)

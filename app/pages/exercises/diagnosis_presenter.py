@@ -171,8 +171,8 @@ class DiagnosisPresenter(QObject):
         opening = Opening(scene, document.settings, stage, pixel)
         if not candidate.is_mistake:
             return StepRequest(opening, document.title, candidate.settings)
-        twin = SHELF[candidate.name]
-        if not (twin.is_run if isinstance(scene, ClipScene) else twin.takes_any_scene):
+        twin = SHELF.get(candidate.name)
+        if twin is None or not (twin.is_run if isinstance(scene, ClipScene) else twin.takes_any_scene):
             return None
         other = twin.change_scene(scene) if isinstance(scene, ClipScene) else scene
         title = f"with the mistake: {candidate.name.replace('-', ' ')}"

@@ -262,6 +262,34 @@ def test_two_colours_show_what_is_covered() -> None:
     assert "fill_rule=inclusive" in [each.name for each in found if not each.is_mistake]
 
 
+@pytest.mark.parametrize(("planted", "names"), [({}, []), ({"center": (0, 0)}, ["corner-for-center"])])
+def test_a_grey_picture_of_a_coloured_scene_is_named_with_its_mistake(
+    planted: dict, names: list[str]
+) -> None:
+    colors = np.array(shown(Homework(**planted).draw(FLAT, *SIZE)), float)
+    grey = np.repeat((colors @ (0.2126, 0.7152, 0.0722)).round()[..., None], 3, axis=2).astype(np.uint8)
+    diagnosis = diagnose(scene_of(FLAT), DEFAULTS, Drawn(colors=grey))
+    assert not diagnosis.is_right
+    assert [each.name for each in diagnosis.found if each.is_mistake] == ["grey", *names]
+    assert "0.2126 R" in diagnosis.found[0].sentence
+    grey[0, 15] = 255
+    other = diagnose(scene_of(FLAT), DEFAULTS, Drawn(colors=grey))
+    assert (other.found, other.nearest.name.endswith(" in grey")) == ((), True)
+    assert np.argwhere(other.differing).tolist() == [[0, 15]]
+
+
+def test_one_colour_in_place_of_another_is_named() -> None:
+    full = triangle_scene([[(-30, -30), (40, -30), (4, 60)]], (12, 8), attributes=[[RED] * 3])
+    green = np.full((8, 12, 3), (0, 255, 0), np.uint8)
+    named = diagnose(full, DEFAULTS, Drawn(colors=green)).found[0]
+    assert named.name == "another-colour"
+    assert named.sentence == "Every pixel has the colour (0, 255, 0) instead of (255, 0, 0)."
+    # A scene without colours is drawn in black: another colour is none of its texture.
+    bare = replace(triangle_scene([[(1.5, 1.5), (9.5, 1.5), (4, 6)]], (12, 8)), attributes=None)
+    ink = green * (render(bare).primitive >= 0)[..., None]
+    assert diagnose(bare, DEFAULTS, Drawn(colors=ink)).is_right
+
+
 def test_a_picture_with_nothing_in_it_is_not_right_where_something_is_drawn() -> None:
     """A scene without colours is drawn in black: an all-black picture would equal it."""
     scene = replace(triangle_scene([[(1.5, 1.5), (9.5, 1.5), (4, 6)]], (12, 8)), attributes=None)
