@@ -16,7 +16,7 @@ from lessons.exercises.drawn_scene import Corner, draw_scene, seen_pixels
 from lessons.exercises.draws import Draws
 from lessons.exercises.file_answers import NoQuestionError, answer_of
 from lessons.exercises.question import Draft, Template, ask
-from lessons.exercises.record import COORDINATE, Exercise
+from lessons.exercises.record import Exercise
 from lessons.exercises.templates.drafting import factor_text
 from lessons.exercises.toml_file import TomlFile
 from lessons.mistakes.shelf import SHELF
@@ -27,6 +27,8 @@ REVISIONS = 1_000_000
 """How many revisions a file can have that names none: short numbers, to be read out."""
 ASKED = ("question", "mistakes", "scene", "settings", "answer")
 """What a seed draws from, and what is right: titles, points and hints may change."""
+COORDINATE = r"\{([xy])([0-9])\}"
+"""Stands in a hint for a coordinate of a corner of the first triangle or segment."""
 
 
 def read_exercise(path: Path, revision: int | None = None) -> Template:
@@ -46,6 +48,9 @@ def read_exercise(path: Path, revision: int | None = None) -> Template:
     exercise = file.checked(Exercise)
     if exercise.mistakes and not (isinstance(exercise.answer, PixelPart) and exercise.answer.art is None):
         raise file.error(("mistakes",), "expected an answer that is found by drawing: pixels without art")
+    for found in re.finditer(COORDINATE, "".join(exercise.hints)):
+        if int(found[2]) not in _given_corners(exercise):
+            raise file.error(("hints",), f"expected coordinates that the scene gives, got {found[0]}")
     template = Template(
         path.stem,
         exercise.revision or revision or _revision_of(file.values),
@@ -95,6 +100,14 @@ def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:
     corners = drawn.places[0] if drawn and drawn.places else ()
     hints = tuple(_with_coordinates(hint, corners) for hint in exercise.hints)
     return Draft(exercise.question, given, answer, hints, mistakes, drawn_of, settings)
+
+
+def _given_corners(exercise: Exercise) -> set[int]:
+    """Return which corners of the first triangle or segment the question shows."""
+    scene, answer = exercise.scene, exercise.answer
+    first = [] if scene is None else [*scene.triangles, *scene.segments, []][0]
+    hidden = answer.corner[1:] if isinstance(answer, PlacePart) and answer.corner[:1] == [0] else []
+    return {*range(len(first))} - {*hidden}
 
 
 def _with_coordinates(hint: str, corners: Sequence[Corner]) -> str:

@@ -1,5 +1,6 @@
 """Exercises that teachers write: what they may say, and one sentence with file and line for what they may not."""
 
+import re
 from pathlib import Path
 
 import pytest
@@ -246,6 +247,19 @@ def test_what_is_no_exercise_is_refused_with_its_line(text: str | bytes, wanted:
     assert sentence.startswith(f"{path}: ")
     assert "\n" not in sentence
     assert len(sentence) - len(str(path)) < 1400
+
+
+def test_hints_name_coordinates_that_the_scene_gives(tmp_path: Path) -> None:
+    text = changed('"Look at the centres."', '"x = {x0} + (j + 1/2 - {y0}) ({x2} - {x0}) / ({y2} - {y0})"')
+    draft = ask(read_exercise(written(tmp_path, text)), 3).draft
+    (x0, y0), _, (x2, y2) = re.findall(r"\(([0-9.]+), ([0-9.]+)\)", draft.given)
+    assert draft.hints[0] == f"x = {x0} + (j + 1/2 - {y0}) ({x2} - {x0}) / ({y2} - {y0})"
+    place = (
+        HEAD.replace("[answer]", 'hints = ["{x2}"]\n[answer]') + 'type = "places"\ncorner = [0, 2]\n' + SCENE
+    )
+    for wrong in (text.replace("x2", "x3"), place):
+        with pytest.raises(ValueError, match=r"line [69]: hints: expected coordinates that the scene gives"):
+            read_exercise(written(tmp_path, wrong))
 
 
 def test_a_mistake_that_never_shows_is_refused(tmp_path: Path) -> None:
