@@ -43,7 +43,7 @@ class Draft:
     refutations: Mapping[Response, Refutation] = field(default_factory=dict)
     """By wrong answers behind which a belief stands, what refutes it."""
     sketch: Sketch | None = None
-    """The plane that the question is about, with what is given in it; ``None``: it is about no plane."""
+    """The plane or space that the question is about, with what is given in it; ``None``: it is about none."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,7 @@
-"""A plane with whole numbers on both axes, and the points and outlines of a question in it."""
+"""A plane or space with whole numbers on its axes, and the points and outlines of a question in it."""
+
+from collections.abc import Sequence
+from math import ceil
 
 from PySide6.QtCore import QPointF, QRectF, QSize, QSizeF, Qt, Slot
 from PySide6.QtGui import QColor, QFontMetricsF, QPainter, QPaintEvent, QPen, QPolygonF
@@ -14,10 +17,14 @@ HEIGHT = 260
 """Pixels at a text size of 13."""
 RADIUS = 4.0
 STEPS = (1, 2, 5, 10, 20, 50)
+AXES = {"x": QPointF(4, -6), "y": QPointF(6, 10), "z": QPointF(-14, 4)}
+"""Names of the axes of space, and how far from its end each stands."""
+DEPTH = 0.35
+"""How far a unit of z runs to the left and down: the z axis at 45 degrees, at half its length."""
 
 
 class SketchView(QWidget):
-    """Shows a `Sketch`; squares are square."""
+    """Shows a `Sketch`; squares are square, and space is drawn obliquely."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -61,7 +68,7 @@ class SketchView(QWidget):
         painter = QPainter(self)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         painter.fillRect(self.rect(), QColor(theme.panel))
-        self._paint_axes(painter, pixels)
+        (self._paint_space if sketch.is_space else self._paint_axes)(painter, pixels)
         painter.setPen(QPen(QColor(theme.text), 2.0))
         painter.setBrush(Qt.BrushStyle.NoBrush)
         for outline in sketch.outlines:
@@ -81,9 +88,30 @@ class SketchView(QWidget):
                 painter.drawText(box, Qt.AlignmentFlag.AlignCenter, name)
         painter.end()
 
-    def _at(self, place: Place, pixels: float) -> QPointF:
+    def _at(self, place: Sequence[float], pixels: float) -> QPointF:
         """Return where a place is on the widget: the origin in its middle, ``pixels`` to a unit."""
-        return QPointF(self.width() / 2 + place[0] * pixels, self.height() / 2 - place[1] * pixels)
+        x, y, z = (*place, 0.0)[:3]
+        x, y = x - DEPTH * z, y - DEPTH * z
+        return QPointF(self.width() / 2 + x * pixels, self.height() / 2 - y * pixels)
+
+    def _paint_space(self, painter: QPainter, pixels: float) -> None:
+        """Paint three axes with dots at whole numbers, and the way to each point: along x, then z, then y."""
+        theme, last = current_theme(), ceil(self.shown.reach)
+        painter.setFont(text_font(theme))
+        for axis, (name, beside) in enumerate(AXES.items()):
+            places = [
+                self._at([number * (axis == k) for k in range(3)], pixels)
+                for number in range(-last, last + 1)
+            ]
+            painter.setPen(QPen(QColor(theme.muted_text), 1.0))
+            painter.drawLine(places[0], places[-1])
+            painter.drawText(places[-1] + beside, name)
+            painter.setPen(QPen(QColor(theme.muted_text), 3.0))
+            painter.drawPoints(places)
+        painter.setPen(QPen(QColor(theme.muted_text), 1.0, Qt.PenStyle.DashLine))
+        for _, (x, y, z) in self.shown.points:
+            way = (x, 0, 0), (x, 0, z), (x, y, z)
+            painter.drawPolyline(QPolygonF([self._at(place, pixels) for place in way]))
 
     def _paint_axes(self, painter: QPainter, pixels: float) -> None:
         """Paint a line at every whole number, or at every fifth, tenth ..., and the number beside the axis."""

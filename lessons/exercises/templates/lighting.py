@@ -1,5 +1,6 @@
 """Light: how bright a point is, its normal, and where light is evaluated."""
 
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -7,7 +8,7 @@ from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.drafting import TOLERANCE, by_rule, factor_text, numbers, one_of, place_text
-from lessons.exercises.templates.transforms import wholes
+from lessons.exercises.templates.transforms import vectors_sketched, wholes
 from lessons.mistakes.shelf import RULES
 from lessons.mistakes.transforms import dot
 
@@ -50,7 +51,9 @@ def draw_lambert(draws: Draws) -> Draft | None:
         name: [number for place in places for number in RULES[name].wrong(*place)]
         for name in ("normal-too-long", "light-unclamped", "light-reversed")
     }
-    return numbers(text, given, right, hints, wrong, ("P", "Q"))
+    draft = numbers(text, given, right, hints, wrong, ("P", "Q"))
+    vectors = {"N at P": normals[0], "N at Q": normals[1], "L": to_light}
+    return replace(draft, sketch=vectors_sketched(vectors))
 
 
 def draw_between(draws: Draws) -> Draft:
@@ -75,7 +78,9 @@ def draw_between(draws: Draws) -> Draft:
         "Divide by its length, then take the dot product with L.",
         f"N is (1 - {number_text(t)}) N0 + {number_text(t)} N1, L is {place_text(to_light)}: each over its length.",
     )
-    return by_rule(text, given, (*units, t, to_light), ("normal-not-renormalized",), hints)
+    draft = by_rule(text, given, (*units, t, to_light), ("normal-not-renormalized",), hints)
+    vectors = {"N0": units[0], "N1": units[1], "L": to_light}
+    return replace(draft, sketch=vectors_sketched(vectors))
 
 
 def draw_highlight(draws: Draws) -> Draft | None:
@@ -100,7 +105,8 @@ def draw_highlight(draws: Draws) -> Draft | None:
         "Raise the cosine to the power s.",
         f"L is {place_text(to_light)} and V is {place_text(to_eye)}, each over its length; s = {shininess}.",
     )
-    return by_rule(text, given, arguments, names, hints)
+    draft = by_rule(text, given, arguments, names, hints)
+    return replace(draft, sketch=vectors_sketched({"N": normal, "L": to_light, "V": to_eye}))
 
 
 def draw_normal(draws: Draws) -> Draft:
@@ -119,7 +125,8 @@ def draw_normal(draws: Draws) -> Draft:
         f"Before that, x is {factor_text(normal[0])} / {factor_text(scale[0])}; y and z likewise.",
     )
     names = ("normal-as-position", "normal-untransformed", "normal-moved")
-    return by_rule(text, given, (scale, shift, normal), names, hints, ("x", "y", "z"))
+    draft = by_rule(text, given, (scale, shift, normal), names, hints, ("x", "y", "z"))
+    return replace(draft, sketch=vectors_sketched({"N": normal}))
 
 
 def draw_camera_normal(draws: Draws) -> Draft:
@@ -138,9 +145,10 @@ def draw_camera_normal(draws: Draws) -> Draft:
         "A rotation is its own transposed inverse.",
         f"Multiply each row of V M with {place_text(normal)}, then make the result of length 1.",
     )
-    return by_rule(
+    draft = by_rule(
         text, given, (model_view, focal, normal), ("normal-by-projection",), hints, ("x", "y", "z")
     )
+    return replace(draft, sketch=vectors_sketched({"N": normal}))
 
 
 def draw_byte(draws: Draws) -> Draft | None:

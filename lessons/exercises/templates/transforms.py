@@ -26,11 +26,16 @@ def wholes(draws: Draws, count: int, low: int, high: int) -> tuple[Any, ...]:
 
 
 def sketched(points: Mapping[str, Any], *outlines: Sequence[Any]) -> Sketch:
-    """Return a sketch of named points and of outlines."""
+    """Return a sketch of named points and of outlines, in the plane or in space."""
     return Sketch(
-        tuple((name, (float(x), float(y))) for name, (x, y) in points.items()),
-        tuple(tuple((float(x), float(y)) for x, y in outline) for outline in outlines),
+        tuple((name, tuple(map(float, place))) for name, place in points.items()),
+        tuple(tuple(tuple(map(float, place)) for place in outline) for outline in outlines),
     )
+
+
+def vectors_sketched(vectors: Mapping[str, Any]) -> Sketch:
+    """Return a sketch of named vectors from the origin of space."""
+    return sketched(vectors, *(((0, 0, 0), vector) for vector in vectors.values()))
 
 
 def turn_text(turn: Turn) -> str:
@@ -131,7 +136,8 @@ def draw_camera(draws: Draws) -> Draft:
         f"p - eye = {place_text(point)} - {place_text(eye)}.",
     )
     names = ("eye-not-turned", "target-for-eye", "camera-not-inverted")
-    return by_rule(text, given, ((right, up, backward), eye, target, point), names, hints, XYZ)
+    draft = by_rule(text, given, ((right, up, backward), eye, target, point), names, hints, XYZ)
+    return replace(draft, sketch=sketched({"eye": eye, "target": target, "p": point}, (eye, target)))
 
 
 def draw_projection(draws: Draws) -> Draft:

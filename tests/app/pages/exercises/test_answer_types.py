@@ -121,6 +121,8 @@ def check_that_a_typed_point_stands_in_the_sketch(page: Page) -> None:
     assert sketch.shown.points[-1] == ("your answer", (-1.5, 7))
     assert sketch.accessibleName().endswith("your answer at (-1.5, 7)")
     sketch.grab()
+    sketch = page("highlight").question_view.sketch
+    assert sketch.accessibleName().startswith("Sketch: space with three axes; N at (")
     assert page("bresenham-table").question_view.sketch.isHidden()
 
 
