@@ -25,7 +25,7 @@ WINDOW = (4, 3)
 """Columns and rows that are traced of a built-in scene."""
 ROWS = 2
 """Rows of a kind that are explained of a trace, spread over it; with --all twice as many."""
-ALIKE = 30
+ALIKE = 20
 """Steps of one key that are explained of a group of traces, spread over their settings; with --all every one."""
 
 RARE_CLIP = {

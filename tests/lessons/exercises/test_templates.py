@@ -77,6 +77,7 @@ def test_questions_are_those_that_were_recorded() -> None:
     assert asked == recorded
 
 
+@pytest.mark.slow  # a process has another hash seed every day
 def test_questions_are_the_same_in_another_process_with_another_hash_seed() -> None:
     code = (
         "from lessons.exercises.catalogue import TEMPLATES\n"

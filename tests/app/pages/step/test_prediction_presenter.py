@@ -91,7 +91,7 @@ def test_every_stage_can_be_gone_through_while_asking(asking: MainWindow) -> Non
     for stage in STAGES:
         session, view = asking.session, asking.page.prediction
         session.set_stage(stage, 0)
-        for _ in range(6):
+        for _ in range(3):
             session.step(1)
             QApplication.processEvents()
             row = session.stage_trace.steps.rows_done(session.cursor.position)

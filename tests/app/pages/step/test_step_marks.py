@@ -11,6 +11,7 @@ from core import STAGES, Settings
 from core.records.steps import Level
 from core.trace.geometry_progress import WINDOW, is_dropped, spaces_reached
 from lessons.scenes import make_scene
+from tests.covering import in_turn
 from widgets.space.diagram import Diagram
 from widgets.space.scene_view import SceneView
 from widgets.space.view import SpaceView
@@ -65,10 +66,9 @@ def test_the_item_of_a_step_is_marked_in_the_view_that_shows_its_stage(window: M
         assert not is_marked(window)
         steps = session.stage_trace.steps
         kinds = [np.flatnonzero(steps.kind == kind) for kind in range(len(steps.kinds))]
-        for row in {
-            int(place) for rows in kinds for place in rows[[0, len(rows) // 2, -1] if len(rows) else []]
-        }:
-            for level in (Level.TRIANGLE, Level.PIXEL, Level.OPERATION):
+        for rows in filter(len, kinds):
+            places = rows[[0, len(rows) // 2, -1]].tolist()
+            for row, level in in_turn(places, (Level.TRIANGLE, Level.PIXEL, Level.OPERATION)):
                 session.set_level(level)
                 session.go_to(steps.position_after(row))
                 if not is_marked(window):

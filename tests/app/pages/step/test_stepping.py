@@ -143,7 +143,7 @@ def test_dragging_over_the_chapters_goes_through_the_whole_run(window: MainWindo
     start = QPoint(2, 10)
     qtbot.mousePress(first, Qt.MouseButton.LeftButton, pos=start)
     visited = []
-    for x in range(20, row.width(), 5):
+    for x in range(20, row.width(), 15):
         qtbot.mouseMove(first, QPoint(x, 10))
         visited.append((STAGES.index(session.cursor.stage), session.cursor.position))
     qtbot.mouseMove(first, QPoint(row.width() + 50, 10))
