@@ -57,7 +57,6 @@ def prepare_mesh(work: ViewedMesh, draw_with: Callable[..., Picture] = draw_pict
 
     Parameters
     ----------
-    work : ViewedMesh
     draw_with : callable
         `core.draw_picture`, or what draws the same picture in another way.
     """

@@ -26,10 +26,7 @@ class Projected:
 def project(mesh: ViewedMesh) -> Projected:
     """Return where the triangles of ``mesh`` that face the eye are in the window.
 
-    Raises
-    ------
-    ValueError
-        If a vertex is not before the eye: such triangles have no place in the window.
+    Raises ValueError if a vertex is not before the eye: such triangles have no place in the window.
     """
     points = np.concatenate([mesh.positions, np.ones((len(mesh.positions), 1))], axis=1)
     clip = points @ (mesh.projection @ mesh.view).T

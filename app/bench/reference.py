@@ -205,10 +205,7 @@ class Difference:
 def compare(pixels: Bytes, is_top_down: bool, reference: Reference) -> Difference:
     """Compare pixels (H, W, 3 or 4) with the reference; what is black is not drawn.
 
-    Raises
-    ------
-    ValueError
-        If the picture has another size.
+    Raises ValueError if the picture has another size.
     """
     colors = (pixels[::-1] if is_top_down else pixels)[..., :3]
     if colors.shape != reference.colors.shape:

@@ -30,7 +30,6 @@ def run_benchmark(workloads: Sequence[Workload], rounds: int, folder: Path | Non
 
     Parameters
     ----------
-    workloads : sequence of Workload
     rounds : int
         Times that every contender has its turn.
     folder : Path, optional

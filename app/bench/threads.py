@@ -16,10 +16,7 @@ THREADS = {
 def set_threads() -> None:
     """Set the variables for this process and those that it starts.
 
-    Raises
-    ------
-    RuntimeError
-        If NumPy is imported already, which asks only once, and they are not so set.
+    Raises RuntimeError if NumPy is imported already, which asks only once, and they are not so set.
     """
     if "numpy" in sys.modules and any(os.environ.get(name) != count for name, count in THREADS.items()):
         raise RuntimeError("the number of threads must be set before NumPy is imported")

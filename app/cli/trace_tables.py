@@ -26,7 +26,6 @@ def table_parts(stage: StageTrace, header: Header, form: str) -> Iterator[tuple[
 
     Parameters
     ----------
-    stage : StageTrace
     header : dict
         What was traced, values that JSON has.
     form : str

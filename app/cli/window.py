@@ -12,12 +12,8 @@ is imported from then on, to look for its own features: some 0.1 ms for each of 
 def run(target: str | None, allows_outside: bool = False) -> int:
     """Show the window until it is closed; return the exit code.
 
-    ``allows_outside``: files that the target names may be read from outside its folder.
-
-    Raises
-    ------
-    ValueError
-        If there is no display, or Qt cannot be loaded.
+    ``allows_outside``: files that the target names may be read from outside its folder. Raises ValueError if there is
+    no display, or Qt cannot be loaded.
     """
     if is_display_missing():
         raise ValueError(

@@ -95,10 +95,7 @@ def atlas_sheet(atlas: Atlas) -> Sheet:
 def export_atlas(atlas: Atlas, folder: Path) -> list[Path]:
     """Write an experiment into a folder as CSV, JSON, SVG and PNG; files of the same name are replaced.
 
-    Raises
-    ------
-    OSError
-        If a file cannot be written; the message is one sentence.
+    Raises OSError if a file cannot be written; the message is one sentence.
     """
     stem = f"stress-{atlas.experiment.name}"
     return write_files(folder, stem, ENDINGS, partial(atlas_content, atlas))

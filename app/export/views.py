@@ -20,7 +20,6 @@ def export_widget(widget: QWidget, path: str | Path, scale: float | None = None)
 
     Parameters
     ----------
-    widget : QWidget
     path : str or Path
         Ends with ``.png``, ``.svg`` or ``.pdf``.
     scale : float, optional

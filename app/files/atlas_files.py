@@ -80,13 +80,7 @@ class AtlasFileRecord(Record):
 
 
 def load_atlas(path: str | Path) -> Atlas:
-    """Open an atlas file.
-
-    Raises
-    ------
-    AtlasFileError
-        If it cannot be opened; the message is one sentence that names the field.
-    """
+    """Open an atlas file; AtlasFileError if it cannot be opened; the message is one sentence that names the field."""
     path = Path(path)
     try:
         return _atlas(read_record(path, AtlasFileRecord, PROGRAM, "an atlas", VERSION))

@@ -86,10 +86,8 @@ class Autosave(QObject):
     def finish(self) -> None:
         """Save what is open now, and leave the file to the next start; a second time does nothing.
 
-        Raises
-        ------
-        OSError, StateFileError, MemoryError
-            If it cannot be saved; it is tried again later, unless `end` follows.
+        Raises OSError, StateFileError or MemoryError if it cannot be saved; it is tried again later, unless `end`
+        follows.
         """
         if self._is_finished:
             return

@@ -21,13 +21,7 @@ def own_folder() -> Path:
 
 
 def added_folders() -> list[Path]:
-    """Return the folders that were added.
-
-    Raises
-    ------
-    OSError
-        If their list cannot be read.
-    """
+    """Return the folders that were added; OSError if their list cannot be read."""
     try:
         content = read_input(data_folder() / LIST_NAME, SIZE_LIMIT)
     except FileNotFoundError:
@@ -39,12 +33,8 @@ def added_folders() -> list[Path]:
 def add_folder(folder: str | Path) -> None:
     """Look for exercises in a folder from now on.
 
-    Raises
-    ------
-    ValueError
-        If there is no such folder; the message is one sentence.
-    OSError
-        If the list of folders cannot be written.
+    Raises ValueError if there is no such folder; the message is one sentence; OSError if the list of folders cannot be
+    written.
     """
     path = Path(os.path.abspath(folder))
     if not path.is_dir() or len(str(path).splitlines()) != 1:
@@ -56,12 +46,8 @@ def add_folder(folder: str | Path) -> None:
 def remove_folder(folder: str | Path) -> None:
     """Look no more for exercises in a folder; its files stay.
 
-    Raises
-    ------
-    ValueError
-        If it was not added; the message is one sentence.
-    OSError
-        If the list of folders cannot be written.
+    Raises ValueError if it was not added; the message is one sentence; OSError if the list of folders cannot be
+    written.
     """
     path = Path(os.path.abspath(folder))
     left = [other for other in added_folders() if other != path]
@@ -73,10 +59,7 @@ def remove_folder(folder: str | Path) -> None:
 def all_templates() -> tuple[dict[str, Template], list[str]]:
     """Return the templates that ship with the program and those of all folders, and a sentence for each skipped file.
 
-    Raises
-    ------
-    OSError
-        If the list of folders cannot be read.
+    Raises OSError if the list of folders cannot be read.
     """
     own = own_folder()
     found, skipped = read_folders([*([own] if own.is_dir() else []), *added_folders()], TEMPLATES)

@@ -26,13 +26,7 @@ class FileWriteError(OSError):
 
 
 def make_folder(folder: Path) -> None:
-    """Make a folder and those above it, where they are not there yet.
-
-    Raises
-    ------
-    FileWriteError
-        If it cannot be made.
-    """
+    """Make a folder and those above it, where they are not there yet; FileWriteError if it cannot be made."""
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as problem:
@@ -50,10 +44,7 @@ def write_files(
 ) -> list[Path]:
     """Write a file for every ending, which ``content`` makes, and return the paths; others of that name are replaced.
 
-    Raises
-    ------
-    FileWriteError
-        If a file cannot be written.
+    Raises FileWriteError if a file cannot be written.
     """
     written = []
     for ending in endings:

@@ -93,10 +93,7 @@ class KeptResults(JobGroup):
 def write_result(folder: Path, name: str, content: bytes) -> None:
     """Write one result whole, and remove the oldest of the folder that are too many.
 
-    Raises
-    ------
-    OSError
-        If it cannot be written or is too large; the previous results are unchanged.
+    Raises OSError if it cannot be written or is too large; the previous results are unchanged.
     """
     if len(content) > LARGEST:
         raise FileWriteError(f"{name} is larger than {LARGEST >> 20} MiB")

@@ -69,7 +69,6 @@ def open_mesh(
 
     Parameters
     ----------
-    path : str or Path
     progress : callable, optional
         Called in this thread with how far the work is, from 0 to 1 or ``None``, and what is being done.
     is_cancelled : callable, optional

@@ -35,7 +35,6 @@ def read_record(
 
     Parameters
     ----------
-    path : Path
     model : type
         What its content must be.
     program : str

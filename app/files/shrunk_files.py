@@ -18,10 +18,7 @@ def shrunk_name(experiment: str, method: str) -> str:
 def save_shrunk(path: Path, shrunk: Shrunk, title: str) -> None:
     """Write a case as a Python test (``.py``) or as a state file (``.rasterscope``).
 
-    Raises
-    ------
-    OSError, ValueError
-        If it cannot be written, or for another ending; the message is one sentence.
+    Raises OSError or ValueError if it cannot be written, or for another ending; the message is one sentence.
     """
     if path.suffix == TEST_ENDING:
         write_file(path, shrunk.test.encode())
@@ -35,10 +32,7 @@ def save_shrunk(path: Path, shrunk: Shrunk, title: str) -> None:
 def export_shrunk(shrunk: Shrunk, experiment: str, method: str, folder: Path) -> list[Path]:
     """Write a case into a folder as a Python test and as a state file; files of the same name are replaced.
 
-    Raises
-    ------
-    OSError
-        If a file cannot be written; the message is one sentence.
+    Raises OSError if a file cannot be written; the message is one sentence.
     """
     name = shrunk_name(experiment, method)
     paths = [folder / f"test_{name}{TEST_ENDING}".replace("-", "_"), folder / f"{name}{EXTENSION}"]

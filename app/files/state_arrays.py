@@ -87,10 +87,7 @@ class ArrayFolder:
     def keep(self, array: NDArray[Any]) -> ArrayRecord:
         """Return the record of an array; a large one stands in the folder.
 
-        Raises
-        ------
-        FileWriteError
-            If it cannot be written.
+        Raises FileWriteError if it cannot be written.
         """
         if array.size <= READABLE_COUNT:
             return array_record(array)

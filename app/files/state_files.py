@@ -71,7 +71,6 @@ def save_state(path: str | Path, state: State, keep: Keep = array_record) -> Non
     ----------
     path : str or Path
         The ending is not added.
-    state : State
     keep : callable, optional
         Makes the record of a mesh's array that has no source; by default it stands in the file.
 
@@ -119,7 +118,6 @@ def load_state(
 
     Parameters
     ----------
-    path : str or Path
     progress, is_cancelled : callable, optional
         For the mesh file that the state names, as in ``app.files.mesh_files.open_mesh``.
     allows_outside : bool

@@ -217,10 +217,7 @@ def scene_from_record(
 ) -> tuple[AnyScene, str, tuple[str, ...]]:
     """Return the scene of the file ``state``, the mesh file that it is from (or empty), and warnings of that file.
 
-    Raises
-    ------
-    StateFileError
-        If a field does not fit, or the source is gone or has changed.
+    Raises StateFileError if a field does not fit, or the source is gone or has changed.
     """
     if isinstance(record, ClipSceneRecord):
         return _clip_scene(record), "", ()

@@ -159,13 +159,7 @@ def _point_record(point: Point) -> PointRecord:
 
 
 def load_study(path: str | Path) -> Study:
-    """Open a study file.
-
-    Raises
-    ------
-    StudyFileError
-        If it cannot be opened; the message is one sentence that names the field.
-    """
+    """Open a study file; StudyFileError if it cannot be opened; the message is one sentence that names the field."""
     path = Path(path)
     try:
         return _study(read_record(path, StudyRecord, "rasterscope study", "a study", VERSION))

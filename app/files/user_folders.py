@@ -35,10 +35,7 @@ def preferences_folder() -> Path:
 def user_folder(location: QStandardPaths.StandardLocation, purpose: str) -> Path:
     """Return the program's folder at a location; it may not exist yet.
 
-    Raises
-    ------
-    FileWriteError
-        If this user has none.
+    Raises FileWriteError if this user has none.
     """
     chosen = os.environ.get(FOLDER_VARIABLE)
     if chosen:

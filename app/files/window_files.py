@@ -60,10 +60,7 @@ class EarlierWindow:
 class WindowFile:
     """The file that one window saves to, and no other one until it is released.
 
-    Raises
-    ------
-    FileWriteError
-        If another window has the file, or its folder cannot be written to.
+    Raises FileWriteError if another window has the file, or its folder cannot be written to.
     """
 
     def __init__(self, path: Path) -> None:
@@ -78,10 +75,7 @@ class WindowFile:
     def save(self, state: State) -> None:
         """Write the state, and those of its arrays that have changed.
 
-        Raises
-        ------
-        OSError, StateFileError
-            If it cannot be written; what stood there stays.
+        Raises OSError or StateFileError if it cannot be written; what stood there stays.
         """
         with self._turn:
             arrays = ArrayFolder(array_folder(self.path))
@@ -94,13 +88,7 @@ class WindowFile:
 
 
 def new_window_file(folder: Path) -> WindowFile:
-    """Return a file that no window has had.
-
-    Raises
-    ------
-    FileWriteError
-        If the folder cannot be made or written to.
-    """
+    """Return a file that no window has had; FileWriteError if the folder cannot be made or written to."""
     make_folder(folder)
     return WindowFile(folder / f"{STEM}-{token_hex(4)}{EXTENSION}")
 

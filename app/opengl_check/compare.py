@@ -90,8 +90,6 @@ def compare(case: Case, expected: Picture, fill: str = "hierarchy", line: str = 
 
     Parameters
     ----------
-    case : Case
-    expected : Picture
     fill : str
         A method of the family ``fill``, for triangles.
     line : str

@@ -61,10 +61,7 @@ class Picture:
 class OpenGLRenderer:
     """An OpenGL context without a window; use it in a ``with`` statement, which releases everything.
 
-    Raises
-    ------
-    OpenGLMissingError
-        On entering, if there is no moderngl or no OpenGL.
+    Raises OpenGLMissingError on entering, if there is no moderngl or no OpenGL.
     """
 
     def __init__(self) -> None:

@@ -116,13 +116,7 @@ class Document:
         return drawn / TRIANGLES_PER_SECOND + self.most_tests / tests_per_second
 
     def check_length(self) -> None:
-        """Refuse a run that has too many steps to be kept.
-
-        Raises
-        ------
-        ValueError
-            With what to do about it.
-        """
+        """Refuse a run that has too many steps to be kept; ValueError with what to do about it."""
         triangles, tests = self.triangle_count if self.triangle is None else 1, self.most_tests
         if tests > LONGEST_RUN:
             raise ValueError(

@@ -28,10 +28,7 @@ def title_of(name: str) -> str:
 def settings_of(name: str, document: Document) -> tuple[Settings, Settings]:
     """Return the settings of a document with the right method, and with the listing in its place.
 
-    Raises
-    ------
-    ValueError
-        If the listing does not run in the pipeline, or not on this scene.
+    Raises ValueError if the listing does not run in the pipeline, or not on this scene.
     """
     printed = printed_listing(name)
     if printed not in runnable():

@@ -44,7 +44,6 @@ def move_corner(
 
     Parameters
     ----------
-    triangle, corner : int
     position : (x, y)
         Window position in pixels of a raster of ``size`` (width, height).
 
@@ -108,10 +107,7 @@ def outline(scene: AnyScene, triangle: int | None, size: tuple[int, int]) -> tup
 def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -> AnyScene:
     """Return the scene with the value at ``path`` of its outline replaced.
 
-    Raises
-    ------
-    ValueError
-        If the scene would not be valid.
+    Raises ValueError if the scene would not be valid.
     """
     kind, *names = path.split("/")
     if isinstance(scene, ClipScene) and kind == "clip-window":

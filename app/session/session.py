@@ -131,10 +131,7 @@ class Session(QObject):
     def open(self, document: Document, trace: Trace | None = None, cursor: Cursor | None = None) -> None:
         """Show another document, with its trace if that is there already, at a cursor; undo leads back.
 
-        Raises
-        ------
-        ValueError
-            If it cannot be traced; nothing changes.
+        Raises ValueError if it cannot be traced; nothing changes.
         """
         self.tracing.cancel()
         if trace is None:
@@ -154,12 +151,8 @@ class Session(QObject):
         """Take over an edited document; edits of one ``gesture`` are undone together.
 
         Every gesture has a name of its own. What takes long is traced in the background, and taken over when that is
-        done: also when the gesture has ended by then, as the last part of it.
-
-        Raises
-        ------
-        ValueError
-            If it cannot be traced; nothing changes.
+        done: also when the gesture has ended by then, as the last part of it. Raises ValueError if it cannot be traced;
+        nothing changes.
         """
         if document is not self.latest:
             self._put(document, gesture)
@@ -167,10 +160,7 @@ class Session(QObject):
     def drag(self, document: Document, gesture: str) -> None:
         """Take over a part of a gesture that changes the triangle in focus: until it rests, only that one is traced.
 
-        Raises
-        ------
-        ValueError
-            If it cannot be traced; nothing changes.
+        Raises ValueError if it cannot be traced; nothing changes.
         """
         source = self._trace.source
         run = document.settings, document.triangle, document.region, document.before

@@ -40,12 +40,8 @@ class Traced:
 def trace_now(document: Document, stage: str, earlier: Trace | None = None) -> Trace:
     """Trace a document and one of its stages, and draw its picture, so that nothing can fail later.
 
-    Triangles that are the same in the ``earlier`` trace are not traced again.
-
-    Raises
-    ------
-    ValueError
-        If the document has more steps than can be held, or a method does not serve the scene.
+    Triangles that are the same in the ``earlier`` trace are not traced again. Raises ValueError if the document has
+    more steps than can be held, or a method does not serve the scene.
     """
     document.check_length()
     trace = document.make_trace(earlier=earlier)
@@ -60,10 +56,7 @@ def trace_now(document: Document, stage: str, earlier: Trace | None = None) -> T
 def trace_drag(document: Document, stage: str, earlier: Trace) -> Trace:
     """Trace the triangle in focus, and one of its stages, of a document that differs from the one of ``earlier`` in it.
 
-    Raises
-    ------
-    ValueError
-        If a method does not serve the scene.
+    Raises ValueError if a method does not serve the scene.
     """
     trace = draft(document.traced_scene, earlier)
     trace.stage(stage)

@@ -67,10 +67,8 @@ def pyramid_diagram(source: TraceSource, triangle: int, pixel: PointedPixel | No
 
     Parameters
     ----------
-    source : TraceSource
     triangle : int
         One of the traced triangles.
-    pixel : PointedPixel, optional
     """
     homogeneous = homogeneous_corners(source, triangle)
     w = homogeneous[:, 2]

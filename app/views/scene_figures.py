@@ -113,10 +113,7 @@ def size_choices(scene_size: tuple[int, int]) -> tuple[SizeChoice, ...]:
 def fixed_size(name: str, scene_size: tuple[int, int]) -> tuple[int, int] | None:
     """Return width and height that a choice stands for, None: those of the view.
 
-    Raises
-    ------
-    ValueError
-        If there is no such choice.
+    Raises ValueError if there is no such choice.
     """
     named = {f"{width}x{height}": (width, height) for width, height in FIXED_SIZES}
     named[SCENE_SIZE] = scene_size

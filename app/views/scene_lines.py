@@ -93,7 +93,6 @@ def find_line_pixels(lines: Sequence[SpaceLine], matrix: Floats, size: tuple[int
 
     Parameters
     ----------
-    lines : sequence of SpaceLine
     matrix : (4, 4) float64
         Space to clip space of the viewing camera.
     size : (width, height)
@@ -122,7 +121,6 @@ def paint_lines(
     ----------
     pixels : (H, W, 4) uint8, contiguous
         The picture, written to.
-    found : LinePixels
     seen : (5 N,) float64
         1/w of what is seen at ``found.depth_at``.
     lines : sequence of SpaceLine

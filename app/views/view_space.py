@@ -130,10 +130,8 @@ def viewed_scene(
 
     Parameters
     ----------
-    space : ViewSpace
     scene : AnyScene
         The scene of ``space`` or one with fewer of its triangles.
-    camera : Camera
     size : (width, height)
     background : (4,) float64
 
@@ -215,12 +213,8 @@ def _mesh_of(mesh: Mesh, chosen: Integers) -> Mesh:
 def move_corner_to(space: ViewSpace, triangle: int, corner: int, place: Floats) -> AnyScene:
     """Return the scene with a corner at a place (3,) of the space that is shown.
 
-    In the world all triangles of the vertex move along. In the box of the view volume the corner keeps its w.
-
-    Raises
-    ------
-    ValueError
-        If the corner has no place there (w <= 0), or the mesh is flattened so that no vertex can get there.
+    In the world all triangles of the vertex move along. In the box of the view volume the corner keeps its w. Raises
+    ValueError if the corner has no place there (w <= 0), or the mesh is flattened so that no vertex can get there.
     """
     scene = space.scene
     if isinstance(scene, ClipScene):

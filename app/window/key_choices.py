@@ -28,10 +28,7 @@ class KeyChoices:
     def with_keys(self, action: KeyAction, keys: tuple[str, ...]) -> "KeyChoices":
         """Return the choices with other keys for an action.
 
-        Raises
-        ------
-        ValueError
-            If one of them is the key of another action on the same page; the message is a sentence.
+        Raises ValueError if one of them is the key of another action on the same page; the message is a sentence.
         """
         wanted = {portable(key): key for key in keys}
         for other in ACTIONS:

@@ -103,10 +103,7 @@ def _set_aside(path: Path, reason: str) -> str:
 def save_preferences(preferences: Preferences) -> None:
     """Write the preferences, and the folder where it is missing; recent files of other windows stay.
 
-    Raises
-    ------
-    OSError
-        If that is not possible; the message is one sentence.
+    Raises OSError if that is not possible; the message is one sentence.
     """
     folder = preferences_folder()
     make_folder(folder)

@@ -83,7 +83,6 @@ def split_pieces(pieces: Pieces, a: Floats, b: Floats, value: Floats) -> tuple[P
 
     Parameters
     ----------
-    pieces : Pieces
     a, b, value : (P,) float64
         Change of an edge function per column and row, and its value at the pixel's centre.
 

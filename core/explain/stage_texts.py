@@ -131,8 +131,6 @@ def summary_sentence(
 
     Parameters
     ----------
-    stage : str
-    level : Level
     counts : mapping
         ``rows`` and the marks among them, as ``StageTrace.summary`` counts them.
     triangle : int, optional

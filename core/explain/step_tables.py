@@ -122,14 +122,10 @@ def filled_table(
 
     Parameters
     ----------
-    trace : StageTrace
     rows : (r,) int64
         Rows of the trace, in order.
-    position : int
-    title, row_title : str
     labels : sequence of str
         Of the rows; more than r, where it is known that the work could have gone on.
-    columns : sequence of FilledColumn
     closing : int, optional
         The row of the trace that finishes the table; by default the last one of ``rows``.
     note : str

@@ -48,7 +48,6 @@ def account(
 
     Parameters
     ----------
-    explanation : Explanation
     triangle : int
         Number of the triangle that the step is about, -1 for none.
     pixel : (column, row), optional

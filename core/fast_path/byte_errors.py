@@ -128,7 +128,6 @@ def product_error(vertices: VertexBytes, index: Integers, low: Floats, encoding:
 
     Parameters
     ----------
-    vertices : VertexBytes
     index : (3, P) int64
         The vertices of the corners.
     low : (3, P) float64

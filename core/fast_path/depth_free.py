@@ -30,7 +30,6 @@ def all_pass_depth_test(geometry: Geometry, depth_format: DepthFormat) -> bool:
     ----------
     geometry : Geometry
         All corners projected, all triangles between the near and the far plane.
-    depth_format : DepthFormat
     """
     if not geometry.uses_depth_test:
         return True

@@ -111,8 +111,6 @@ def sample_colors(context: DrawContext, colors: FragmentColors, number: Numbers,
 
     Parameters
     ----------
-    context : DrawContext
-    colors : FragmentColors
     number : (4, N) int32
         What every sample shows, plus one; 0 for none.
     place : (N,) int64

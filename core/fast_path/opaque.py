@@ -32,7 +32,6 @@ def draw_opaque(
 
     Parameters
     ----------
-    context : DrawContext
     with_depth, depth_at, plain_colors
         As `draw_picture`.
 

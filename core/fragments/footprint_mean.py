@@ -38,7 +38,6 @@ def footprint_means(texture: Texture, corners: Floats, wrap: str = "repeat") -> 
 
     Parameters
     ----------
-    texture : Texture
     corners : (F, 4, 2) float64 array
         x and y in texels, (0, 0) the lower left corner of the texture; in turn, either way round, not crossing.
     wrap : str

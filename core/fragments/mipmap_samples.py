@@ -44,7 +44,6 @@ def mipmap_colors(
 
     Parameters
     ----------
-    texture : Texture
     uv : (F, 2) float64 array
         Texture coordinates.
     slopes : (4, F) float64 array

@@ -144,7 +144,6 @@ class PackedSampler:
 
     Parameters
     ----------
-    texture : Texture
     texture_filter, wrap : str
         Names of methods of these families: ``bilinear`` or ``nearest``.
     level_bytes : (8192,) uint8 array, optional

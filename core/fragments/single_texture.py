@@ -53,7 +53,6 @@ class SingleSampler:
 
     Parameters
     ----------
-    texture : Texture
     wrap : str
         Name of a method of this family.
     """

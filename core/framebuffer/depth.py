@@ -208,7 +208,6 @@ def run_depth_tests(
     stacks : PixelStacks
         Of the F fragments.
     initial : (H*W,) like ``stored``, the buffer before
-    depth_format : DepthFormat
     is_tested : bool
         False: every fragment passes.
     writes : (F,) bool, optional

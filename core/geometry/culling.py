@@ -99,7 +99,6 @@ def cull(
 
     Parameters
     ----------
-    assembled : IndexedPrimitives
     outcode : (M,) uint8, of its vertices
     facing : (T,) float64, see ``core.raster.edges.edge_functions.orient``
     drops_facing : callable

@@ -100,7 +100,6 @@ def projection(camera: Camera, aspect: float) -> Floats:
 
     Parameters
     ----------
-    camera : Camera
     aspect : float
         Width over height of the raster.
 

@@ -37,7 +37,6 @@ def checked(
     ----------
     name : str
         What the values are called in a message.
-    values : array_like
     shape : sequence of int or str
         A number must match, a letter (``"T"``) stands for any length.
     dtype : numpy scalar type

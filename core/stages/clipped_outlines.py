@@ -47,7 +47,6 @@ def clip_outlines(
 
     Parameters
     ----------
-    whole : Outlines
     method : str
         A method of the family ``line_clipping``.
     size : (width, height)

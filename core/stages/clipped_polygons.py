@@ -50,7 +50,6 @@ def clip_polygons(vertices: VertexStage, polygon: Integers, method: str, center:
 
     Parameters
     ----------
-    vertices : VertexStage
     polygon : (P,) int64
         Which of its polygons.
     method : str

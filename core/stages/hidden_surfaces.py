@@ -52,14 +52,8 @@ def run_visibility_tests(
 
     Parameters
     ----------
-    geometry : Geometry
-    fragments : Fragments
     stored : (F,) of the format's ``stored_type``
         What the depth buffer gets of each.
-    stacks : PixelStacks
-    start : StartBuffers
-    raster : Raster
-    depth_format : DepthFormat
 
     Returns
     -------

@@ -288,9 +288,7 @@ def clip(
 
     Parameters
     ----------
-    kept : IndexedPrimitives
     outcode : (M,) uint8, of its vertices
-    settings : Settings
     corner_count : int
         Less than 3 of segments and points.
 

@@ -66,8 +66,6 @@ def trace(
 
     Parameters
     ----------
-    scene : Scene or ClipScene
-    settings : Settings, optional
     triangle : int, optional
         Number of the triangle, in the order of the scene; all triangles by default.
     region : (column, row, columns, rows), optional

@@ -24,8 +24,6 @@ def with_division(found: StageTrace, source: TraceSource, polygon: Integers, pla
 
     Parameters
     ----------
-    found : StageTrace
-    source : TraceSource
     polygon, plane : (R,) int64
         Which of the kept triangles, and which plane (-1: none), the rows are about.
     """

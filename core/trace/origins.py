@@ -145,8 +145,6 @@ def origin(
 
     Parameters
     ----------
-    trace : Trace
-    stage : str
     position : int
         Operations of the stage that are done; the variable is that of the last row.
     variable : str

@@ -15,7 +15,6 @@ def next_event(trace: StageTrace, position: int, events: Flags, direction: int =
 
     Parameters
     ----------
-    trace : StageTrace
     position : int
         Where the cursor is: operations done.
     events : (R,) bool

@@ -69,7 +69,6 @@ def run_ray_tests(
 
     Parameters
     ----------
-    planes : RayPlanes
     triangle : (F,) int64
         In the order of drawing.
     m, n : (F,) float64

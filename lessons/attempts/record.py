@@ -166,10 +166,8 @@ def attempts_json(attempts: Iterable[Attempt]) -> bytes:
 def read_attempts_json(content: bytes, name: object) -> Sequence[Attempt]:
     """Return the attempts of a file, all of them or none.
 
-    Raises
-    ------
-    ValueError
-        If ``content`` is no such file, or one of a later version; the message is one sentence with ``name``.
+    Raises ValueError if ``content`` is no such file, or one of a later version; the message is one sentence with
+    ``name``.
     """
     try:
         head = _Head.model_validate_json(content)

@@ -117,13 +117,7 @@ class AttemptFile:
             return self._insert(attempts)
 
     def attempts(self, user: str | None = None) -> tuple[Attempt, ...]:
-        """Return the attempts of a user, or of all, in the order of time.
-
-        Raises
-        ------
-        AttemptFileError
-            If they cannot be read.
-        """
+        """Return the attempts of a user, or of all, in the order of time; AttemptFileError if they cannot be read."""
         query = f"SELECT {', '.join(COLUMNS)} FROM attempts WHERE user = ? OR ? IS NULL ORDER BY at, rowid"
         if not self.path.exists():
             return ()

@@ -34,13 +34,8 @@ COORDINATE = r"\{([xy])([0-9])\}"
 def read_exercise(path: Path, revision: int | None = None) -> Template:
     """Return the exercise of a file, of a ``revision`` where it names none; ``None``: by what it asks.
 
-    Raises
-    ------
-    ValueError
-        For what is no exercise, or cannot draw its question; the message is one sentence with file, line and what was
-        expected.
-    OSError
-        If the file cannot be read.
+    Raises ValueError for what is no exercise, or cannot draw its question; the message is one sentence with file, line
+    and what was expected; OSError if the file cannot be read.
     """
     if not path.stem.isprintable() or path.stem != path.stem.strip() or len(path.stem) > NAME_LIMIT:
         raise ValueError(f"{str(path)!a}: expected a name of up to {NAME_LIMIT} printable characters")

@@ -50,10 +50,7 @@ def answer_of(
 ) -> tuple[Answer, str]:
     """Return the answer and what the question shows of the scene.
 
-    Raises
-    ------
-    ValueError
-        If the file does not say what is needed, `NoQuestionError` if only this draw does not give it.
+    Raises ValueError if the file does not say what is needed, `NoQuestionError` if only this draw does not give it.
     """
     given = "" if drawn is None else drawn.text()
     if isinstance(part, NumberPart):

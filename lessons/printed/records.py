@@ -36,11 +36,8 @@ class ListedLines:
     def __call__(self, segments: Segments, last_pixel: bool) -> LineRun:
         """Run the listing for L segments.
 
-        Raises
-        ------
-        ValueError
-            If a segment does not run from left to right with a slope that the listing is printed for, or has too
-            many steps.
+        Raises ValueError if a segment does not run from left to right with a slope that the listing is printed for, or
+        has too many steps.
         """
         ends: np.ndarray = segments.pixel_indices if self.takes_pixels else segments.centered_ends
         dx, dy = (ends[:, 1] - ends[:, 0]).T
@@ -158,10 +155,7 @@ class PrintedListing:
     def settings(self, others: Settings) -> Settings:
         """Return ``others`` with this listing in place of a line method.
 
-        Raises
-        ------
-        ValueError
-            If it is not a line listing that runs in the pipeline.
+        Raises ValueError if it is not a line listing that runs in the pipeline.
         """
         if self.method is None:
             raise ValueError(f"{self.name} does not run in place of a line method")

@@ -67,7 +67,6 @@ def lay_out_maps(
         Cells of each.
     width, height : int
         Room in pixels.
-    metrics : AtlasMetrics
     """
     cell = metrics.smallest_cell
     for candidate in range(LARGEST_CELL, metrics.smallest_cell, -1):

@@ -179,7 +179,6 @@ def region_outline(pixels: NDArray[np.integer], placement: GridPlacement) -> lis
     ----------
     pixels : (N, 2) integer array
         Columns and rows; those outside the raster are left out.
-    placement : GridPlacement
     """
     columns, rows = pixels[:, 0], pixels[:, 1]
     inside = (columns >= 0) & (columns < placement.columns) & (rows >= 0) & (rows < placement.rows)

@@ -25,15 +25,9 @@ UNREADABLE = ("KHR_draco_mesh_compression", "EXT_meshopt_compression")
 def read_gltf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     """Read a GLB or glTF file; every primitive of the mesh of every node is a mesh with the node's transform.
 
-    Positions, normals, texture coordinates, vertex colours, base colours and their textures are read. Meshes of
-    several nodes share their arrays.
-
-    Raises
-    ------
-    MeshFileError
-        If the file is cut short, is no glTF 2.0, needs an extension that is not read, or has no triangles.
-    OSError
-        If ``path`` cannot be read.
+    Positions, normals, texture coordinates, vertex colours, base colours and their textures are read. Meshes of several
+    nodes share their arrays. Raises MeshFileError if the file is cut short, is no glTF 2.0, needs an extension that is
+    not read, or has no triangles; OSError if ``path`` cannot be read.
     """
     report(None, "reading nodes and meshes")
     file = GltfFile(path, TextureReader(files))

@@ -84,10 +84,7 @@ class TextureReader:
     def decode(self, file: BinaryIO, name: str) -> Texture:
         """Return the image in an open file as a texture of three channels, or four where it has transparency.
 
-        Raises
-        ------
-        ImageError
-            If it cannot be decoded, or takes more memory than an image of its size should.
+        Raises ImageError if it cannot be decoded, or takes more memory than an image of its size should.
         """
         from PIL import Image, UnidentifiedImageError  # Pillow takes a moment: not before there is an image.
 

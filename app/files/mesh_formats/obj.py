@@ -34,17 +34,12 @@ KINDS = ("vertex", "texture coordinate", "normal")
 def read_obj(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     """Read an OBJ file with its materials and textures.
 
-    Each run of faces with one material is a mesh, so that triangles stay in the order of the file. Where
-    the file names no material library and has texture coordinates, an image that stands beside it as
-    ``<stem>_texture.png`` or ``<stem>.png`` (or ``.jpg``) is its texture. Vertex colours, ``v x y z r g b``,
-    count as sRGB. Of a file without faces, ``l`` lines are segments, and without those ``p`` lines are points.
-
-    Raises
-    ------
-    MeshFileError
-        If a line cannot be read, a number names something that is not there, or there are no faces, lines and points.
-    OSError
-        If ``path`` cannot be read.
+    Each run of faces with one material is a mesh, so that triangles stay in the order of the file. Where the file names
+    no material library and has texture coordinates, an image that stands beside it as ``<stem>_texture.png`` or
+    ``<stem>.png`` (or ``.jpg``) is its texture. Vertex colours, ``v x y z r g b``, count as sRGB. Of a file without
+    faces, ``l`` lines are segments, and without those ``p`` lines are points. Raises MeshFileError if a line cannot be
+    read, a number names something that is not there, or there are no faces, lines and points; OSError if ``path``
+    cannot be read.
     """
     check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
     check_text(path, "OBJ")

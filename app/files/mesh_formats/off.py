@@ -81,15 +81,9 @@ class OffLines:
 def read_off(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     """Read an OFF file, also with colours (COFF) and normals (NOFF) of vertices.
 
-    Colours count as sRGB, from 0 to 255 or, where one has a point, from 0 to 1. Colours of faces are left out
-    with a warning.
-
-    Raises
-    ------
-    MeshFileError
-        If a line cannot be read, the file is cut short, or a face names a vertex that is not there.
-    OSError
-        If ``path`` cannot be read.
+    Colours count as sRGB, from 0 to 255 or, where one has a point, from 0 to 1. Colours of faces are left out with a
+    warning. Raises MeshFileError if a line cannot be read, the file is cut short, or a face names a vertex that is not
+    there; OSError if ``path`` cannot be read.
     """
     check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
     check_text(path, "OFF")

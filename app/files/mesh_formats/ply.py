@@ -86,15 +86,10 @@ def read_header(path: Path) -> Header:
 def read_ply(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     """Read a PLY file: text or binary of either byte order, polygons of any size.
 
-    Positions, normals, colours of vertices or faces, and texture coordinates of vertices or corners are read.
-    Colours count as sRGB. Without faces, the element ``edge`` is read as segments; without it, vertices are points.
-
-    Raises
-    ------
-    MeshFileError
-        If the file is cut short, names a vertex that it does not have, or has no vertices.
-    OSError
-        If ``path`` cannot be read.
+    Positions, normals, colours of vertices or faces, and texture coordinates of vertices or corners are read. Colours
+    count as sRGB. Without faces, the element ``edge`` is read as segments; without it, vertices are points. Raises
+    MeshFileError if the file is cut short, names a vertex that it does not have, or has no vertices; OSError if
+    ``path`` cannot be read.
     """
     header = read_header(path)
     check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)

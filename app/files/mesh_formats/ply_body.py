@@ -95,10 +95,7 @@ def read_body(
 ) -> dict[str, Rows]:
     """Read the rows of all ``elements`` behind byte ``start`` of ``path``.
 
-    Raises
-    ------
-    MeshFileError
-        If the file ends before its header says, or a text holds something other than numbers.
+    Raises MeshFileError if the file ends before its header says, or a text holds something other than numbers.
     """
     if encoding == "ascii":
         layout = Layout(read_numbers(path, start, report), encoding)

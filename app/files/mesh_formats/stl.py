@@ -33,14 +33,8 @@ MEMORY_PER_BYTE = 10
 def read_stl(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     """Read an STL file; each of its solids is a mesh.
 
-    The triangles share no vertices and keep no normals of the file, so that each is shaded by its own plane.
-
-    Raises
-    ------
-    MeshFileError
-        If the file is cut short, is no STL file, or has no triangles.
-    OSError
-        If ``path`` cannot be read.
+    The triangles share no vertices and keep no normals of the file, so that each is shaded by its own plane. Raises
+    MeshFileError if the file is cut short, is no STL file, or has no triangles; OSError if ``path`` cannot be read.
     """
     count, is_binary = check_layout(path)
     report(None, "reading triangles")

@@ -28,10 +28,6 @@ def translated_errors(path: Path) -> Iterator[None]:
 def load_with_trimesh(path: Path) -> Any:
     """Load ``path`` as what its extension says, without any clean-up of its triangles.
 
-    Returns
-    -------
-    trimesh.Scene
-
     Notes
     -----
     To be called under ``translated_errors``.

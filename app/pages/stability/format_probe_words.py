@@ -12,7 +12,6 @@ def dial_sentence(found: PixelInFormats, run: str) -> str:
 
     Parameters
     ----------
-    found : PixelInFormats
     run : str
         The method of the run, ``coverage=float32``.
     """

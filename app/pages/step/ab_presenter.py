@@ -118,12 +118,8 @@ class ComparePresenter(QObject):
     def show_printed(self, name: str, *, seeks: bool = True) -> None:
         """Let A run the right method, and B a listing as a slide prints it, see `lessons.printed`.
 
-        Both go to the first step in which they differ, where ``seeks`` is set.
-
-        Raises
-        ------
-        ValueError
-            If the listing does not run in the pipeline, or not on this scene.
+        Both go to the first step in which they differ, where ``seeks`` is set. Raises ValueError if the listing does
+        not run in the pipeline, or not on this scene.
         """
         from app.session.printed_run import settings_of, title_of  # Wanted by few, long after the start.
 

@@ -46,13 +46,7 @@ class Bookmarks(QObject):
             self.bookmarks_changed.emit()
 
     def describe(self, note: str) -> None:
-        """Remember this step with a note.
-
-        Raises
-        ------
-        ValueError
-            If the note is too long.
-        """
+        """Remember this step with a note; ValueError if the note is too long."""
         if len(note) > NOTE_LIMIT:
             raise ValueError(f"A note has at most {NOTE_LIMIT} characters, got {len(note)}.")
         cursor, before = self._session.cursor, self.here()

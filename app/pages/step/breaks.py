@@ -28,10 +28,7 @@ class Breaks:
     def set_condition(self, text: str, trace: StageTrace) -> None:
         """Stop where a condition holds, as ``E0 < 0.5 and covered``; an empty text takes it away.
 
-        Raises
-        ------
-        ValueError
-            If the text is not a condition, or names what no stage has; the old condition stays.
+        Raises ValueError if the text is not a condition, or names what no stage has; the old condition stays.
         """
         condition = parse_condition(text) if text.strip() else None
         if condition is not None:

@@ -32,8 +32,6 @@ class VertexDrags(QObject):
 
         Parameters
         ----------
-        session : Session
-        grids : sequence of PixelGrid
         focus : callable
             Returns the triangle with handles where the document has none in focus.
         take : callable
@@ -41,7 +39,6 @@ class VertexDrags(QObject):
             is looked at.
         name : str
             Of these drags, other than of those in other views.
-        parent : QObject, optional
         """
         super().__init__(parent)
         self._session, self._focus, self._take = session, focus, take

@@ -112,8 +112,6 @@ class BandWorkers:
 
         Parameters
         ----------
-        scene : Scene or ClipScene
-        settings : Settings, optional
         encoding : str
             ``"srgb"`` or ``"linear"``.
         depth_at : (N,) int64, optional

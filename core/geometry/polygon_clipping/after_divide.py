@@ -24,7 +24,6 @@ def clip_divided(primitives: Primitives, distances: Floats, planes: tuple[int, .
 
     Parameters
     ----------
-    primitives : Primitives
     distances : (P, 3, 6) float64, see ``core.geometry.culling.plane_distances``
     planes : indices of ``core.geometry.culling.PLANES``; none: only divide
     """

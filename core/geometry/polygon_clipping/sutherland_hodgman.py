@@ -78,7 +78,6 @@ def clip_primitives(
 
     Parameters
     ----------
-    primitives : Primitives
     distances : (P, 3, 6) float64, see ``core.geometry.culling.plane_distances``
     planes : indices of ``core.geometry.culling.PLANES``
     is_canonical : bool
@@ -104,7 +103,6 @@ def clip_chosen(
 
     Parameters
     ----------
-    primitives : Primitives
     clipped : (Q,) int64
         The primitives that the polygons stand for, ascending.
     polygon : (Q, 3, 4 + K) float64

@@ -207,7 +207,6 @@ def visible_range(
 
     Parameters
     ----------
-    segments : Segments
     is_steep : (L,) bool
     u, u_step : (L,) int64
         First major pixel, and 1 or -1.

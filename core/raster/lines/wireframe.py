@@ -120,8 +120,6 @@ def set_up_outlines(
 
     Parameters
     ----------
-    primitives : Primitives
-    corners : CornerPositions
     shares : (P, 3, 3) float64, optional
         See `trace_sides`; ``None``: nothing was clipped.
     size : (width, height)
@@ -223,8 +221,6 @@ def draw_outlines(
 
     Parameters
     ----------
-    outlines : Outlines
-    raster : Raster
     line : str
         A method of the family ``line``.
     """

@@ -24,10 +24,6 @@ def bit_pattern(value: float, layout: str) -> str:
         ``float16``, ``float32``, ``float64``: sign, exponent, fraction; or ``fixed-n.m``: two's complement, n bits
         before the point and m behind it, where what does not fit wraps around.
 
-    Returns
-    -------
-    str
-
     Raises
     ------
     ValueError

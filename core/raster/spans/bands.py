@@ -135,9 +135,6 @@ def rows_of_triangles(
     x, y : (3, P) float64
         Snapped window coordinates of the corners.
     doubled_area : (P,) float64
-    raster : Raster
-    owners : TieOwners
-    scratch : ScratchBuffers
     """
     first_column, first_row, end_column, end_row = raster.bounds
     all_columns = replace(raster, region=(0, first_row, raster.width, end_row - first_row))
@@ -196,7 +193,6 @@ def draw_band_words(words: Integers, band: Band, block: Integers) -> int:
     Parameters
     ----------
     words : (H, W) int64
-    band : Band
     block : (R, C) int64
         Words of all pixels of the band's block; those outside the triangle are overwritten.
     """

@@ -111,8 +111,6 @@ def set_up_lanes(
         Snapped window coordinates of the corners.
     doubled_area : (P,) float64
         Its sign is the facing; triangles where it is 0 are left out.
-    raster : Raster
-    owners : TieOwners
     scratch : ScratchBuffers
         The lanes live in its memory.
     """

@@ -190,8 +190,6 @@ def choose_layout(precision: Integers, is_minor: Flags, bounds: Bounds, stride: 
         Visible pixels times length of each line.
     is_minor : (2, L) bool
         Whether the columns, the rows have a fraction.
-    bounds : Bounds
-    stride : int
     """
     left, bottom, right, top = bounds
     column_bits, row_bits = (right - left - 1).bit_length(), (top - bottom - 1).bit_length()
@@ -210,8 +208,6 @@ def visible_steps(ends: Integers, bounds: Bounds, last_pixel: bool) -> tuple[Int
     ----------
     ends : (2, 2, N) int64
         First and second end, column and row.
-    bounds : Bounds
-    last_pixel : bool
 
     Notes
     -----

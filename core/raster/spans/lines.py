@@ -98,7 +98,6 @@ def find_line_pixels(
         Pixels of the ends, as in `paint_lines`.
     bounds : Bounds
         Pixels outside are left out; columns and rows count from its corner.
-    last_pixel : bool
     """
     batches = [
         set_up_line_words(segments[first : first + LINES], bounds, 1, last_pixel)

@@ -101,7 +101,6 @@ def draw_plane_words(
     Parameters
     ----------
     words : (H*W,) int64
-    planes : DepthPlanes
     spans : Spans
         Of `plane_spans`; used up.
     triangle : (L,) int64

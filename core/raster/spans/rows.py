@@ -203,7 +203,6 @@ def longest_first(
         Used up.
     columns : sequence of (R,) int64
         What is known of the rows.
-    scratch : ScratchBuffers
 
     Returns
     -------

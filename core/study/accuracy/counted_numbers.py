@@ -17,13 +17,7 @@ KINDS = {bool: "integer", int: "integer", float: "float", np.float32: "float"}
 
 
 class CountedNumber:
-    """A number that notes every operation in a tally: ``integer additions``, ``float divisions`` and so on.
-
-    Parameters
-    ----------
-    value : number
-    tally : Counter
-    """
+    """A number that notes every operation in a tally: ``integer additions``, ``float divisions`` and so on."""
 
     __slots__ = ("tally", "value")
 

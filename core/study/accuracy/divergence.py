@@ -53,8 +53,6 @@ def first_divergence(
 
     Parameters
     ----------
-    scene : Scene or ClipScene
-    first, second : Settings
     triangle, region : optional
         Trace only this triangle, or this part of the picture, see `core.trace.trace`.
     """

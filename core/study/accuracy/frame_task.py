@@ -35,8 +35,6 @@ class FrameTask(Task):
 
     Parameters
     ----------
-    scene : Scene or ClipScene
-    unit_count : int
     stages : tuple of str
         Only the time of these stages counts; none: the whole drawing.
     """

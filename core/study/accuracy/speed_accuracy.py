@@ -298,7 +298,6 @@ def pictures(study: Study, point: Point, scene: AnyScene | None = None) -> Pictu
 
     Parameters
     ----------
-    study : Study
     point : Point
         One of the study's, not refused.
     scene : Scene or ClipScene, optional

@@ -49,7 +49,6 @@ class PictureTask(Task):
 
     Parameters
     ----------
-    scene : Scene or ClipScene
     reference_settings : Settings
         Of the picture that the others are compared with.
     """

@@ -14,7 +14,6 @@ def exact_cover(rings: Rings, polygon: int, size: tuple[int, int], is_even_odd: 
     ----------
     rings : Rings
         Corners are snapped to 1/256 pixel.
-    polygon : int
     size : (width, height)
     is_even_odd : bool
         Inside is what an odd number of sides separates from the outside; else what rings run around.

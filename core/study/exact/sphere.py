@@ -30,7 +30,6 @@ def meet_sphere(eye: Floats, direction: Floats, radius: float) -> tuple[Flags, F
     ----------
     eye : (3,) float64
     direction : (H, W, 3) float64
-    radius : float
 
     Returns
     -------
@@ -52,7 +51,6 @@ def sphere_picture(scene: Scene, radius: float) -> tuple[Flags, Floats]:
     ----------
     scene : Scene
         Its camera (perspective), lights, and the material of its first mesh; the surface is white.
-    radius : float
     """
     meets, position = meet_sphere(scene.camera.eye, pixel_rays(scene.camera, scene.size), radius)
     seen = position[meets]

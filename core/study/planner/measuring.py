@@ -26,8 +26,6 @@ def measure_plan(
 
     Parameters
     ----------
-    scene : Scene or ClipScene
-    chosen : Plan
     rounds : int
         Timed drawings of each, in turn, from 1 on.
     watch : callable, optional

@@ -11,7 +11,6 @@ def reference_settings(scene: AnyScene, base: Settings | None = None) -> Setting
 
     Parameters
     ----------
-    scene : Scene or ClipScene
     base : Settings, optional
         What to draw, not how well: polygon mode, lines, wrapping, pixel centres; additive blending, culled fronts and
         pictures without light are such wishes too.

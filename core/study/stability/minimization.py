@@ -174,7 +174,6 @@ def minimize(
     ----------
     kind : Kind
         Of the scene.
-    scene : Scene or ClipScene
     judge : callable
         Runs a scene; a ``ValueError`` where nobody knows what is right for it.
     most_runs : int

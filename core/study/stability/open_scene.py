@@ -38,7 +38,6 @@ def watertightness(scene: AnyScene, title: str) -> CoverageExperiment:
 
     Parameters
     ----------
-    scene : Scene or ClipScene
     title : str
         What it is called.
 

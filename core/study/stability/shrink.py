@@ -69,8 +69,6 @@ def shrink_cell(
         One of its methods.
     place : tuple of float
         A value of every axis.
-    seed : int
-    most_runs : int
     is_cancelled : callable, optional
         Asked before every run.
 

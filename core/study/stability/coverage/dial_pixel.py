@@ -88,7 +88,6 @@ def pixel_in_formats(
 
     Parameters
     ----------
-    scene : ClipScene
     settings : Settings
         Those of the run.
     pixel : (column, row)

@@ -70,7 +70,6 @@ def edge_steps(
         Of one triangle, (1, 3, ...).
     numbers : NumberFormat
         Not ``inverse``, whose edges come from an elimination.
-    edge : int
     exact_corners : list of three (x, y, w)
         The corners before the format has them.
     turn : {-1, 1}

@@ -65,9 +65,7 @@ def precision_dial(
 
     Parameters
     ----------
-    scene : ClipScene
     pixel : (column, row)
-    triangle : int
     fill_rule : str
         That of the formats; what is right is always who owns the centre by ``shared-edge``.
 
