@@ -1,6 +1,7 @@
 """What stands beside the main view where a stage has two sides: the space entered, tables, texture, new depths."""
 
 import numpy as np
+from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QWidget
 
 from app.session.session import Session
@@ -11,7 +12,6 @@ from app.views.texture_footprint import texture_of
 from core.explain.kinds import of_kind
 from core.explain.step_tables import has_tables, step_table
 from core.records.arrays import Floats
-from core.records.tables import StepTable
 from core.trace import StageTrace
 from core.trace.geometry_progress import SPACES, spaces_reached
 from widgets.basics.controls import column_layout
@@ -43,8 +43,9 @@ class Companion(StageView):
         return 0
 
     def made_from(self) -> object:
-        """Return trace and cursor."""
-        return self.session.trace, self.session.cursor
+        """Return trace, the row of the step, and how many rows are done."""
+        steps, position = self.session.stage_trace.steps, self.session.cursor.position
+        return self.session.trace, steps.row_at(position)[0], steps.rows_done(position)
 
 
 class EnteredSpace(Companion):
@@ -62,17 +63,12 @@ class EnteredSpace(Companion):
         """Return whether there are corners."""
         return self.session.stage_trace.steps.row_count > 0
 
-    def made_from(self) -> object:
-        """Return trace, the row of the step, and how many rows are done."""
-        steps, position = self.session.stage_trace.steps, self.session.cursor.position
-        return self.session.trace, steps.row_at(position)[0], steps.rows_done(position)
-
     def draw(self) -> None:
         """Draw the corners that have been divided by w, and the triangles of three such corners."""
         self._space.show_diagram(entered_diagram(self.session))
 
 
-class TextureBeside(Companion, TextureView):
+class TextureBeside(TextureView, Companion):
     """The texture with what the pixel of the step reads of it."""
 
     def is_wanted(self) -> bool:
@@ -87,7 +83,7 @@ class FillingTable(Companion):
         """Return the table."""
         self._view = StepTableView()
         self._view.step_requested.connect(self.session.go_to)
-        self._first: tuple[StageTrace, StepTable | None] | None = None
+        self._width: tuple[StageTrace, QFont, int] | None = None
         return self._view
 
     def is_wanted(self) -> bool:
@@ -96,11 +92,15 @@ class FillingTable(Companion):
 
     def wanted_width(self) -> int:
         """Return the width of the first table of the stage, with a number in every cell."""
-        trace = self.session.stage_trace
-        if self._first is None or self._first[0] is not trace:
-            self._first = trace, step_table(trace, 0)
-        table = self._first[1]
-        return 0 if table is None else self._view.width_of(table)
+        trace, font = self.session.stage_trace, self._view.cells.font()
+        if self._width is None or self._width[0] is not trace or self._width[1] != font:
+            table = step_table(trace, 0)
+            self._width = trace, font, 0 if table is None else self._view.width_of(table)
+        return self._width[2]
+
+    def made_from(self) -> object:
+        """Return trace and cursor: a cell appears with its operation."""
+        return self.session.trace, self.session.cursor
 
     def draw(self) -> None:
         """Show the table with the cells filled so far."""

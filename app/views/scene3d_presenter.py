@@ -273,9 +273,12 @@ class Scene3dPresenter(QObject):
             for (x, y), (_, text) in zip(places.tolist(), words, strict=True)
             if 0 <= x <= 1 and 0 <= y <= 1
         )
+        found = step_marks(self._session, space)
+        points = fractions(matrix, np.concatenate([np.empty((0, 3)), *(mark.points for mark in found)]))
+        ends = np.cumsum([len(mark.points) for mark in found])[:-1]
         marks = [
-            SceneMark(fractions(matrix, mark.points), mark.ink, mark.label, mark.shape)
-            for mark in step_marks(self._session, space)
+            SceneMark(of_mark, mark.ink, mark.label, mark.shape)
+            for mark, of_mark in zip(found, np.split(points, ends), strict=False)
         ]
         marks += pixel_marks(self._session.trace.source, space, matrix, pointed_pixels(self._session))
         picture = ScenePicture(

@@ -8,7 +8,7 @@ from app.session.session import Session
 from app.views.view_space import ViewSpace
 from core.explain.kinds import of_kind
 from core.geometry.culling import KEPT, REASONS
-from core.records.arrays import Floats
+from core.records.arrays import Floats, Integers
 from core.stages.declared import GEOMETRY_STAGES, STAGES
 from core.trace.geometry_progress import SPACES, is_dropped, spaces_reached
 
@@ -99,11 +99,9 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     tested = int(np.searchsorted(trace.steps.triangle_ends, trace.steps.rows_done(position), "right"))
     current = -1 if row < 0 else int(np.flatnonzero(triangles == trace.triangle[row])[0])
     kept = np.flatnonzero(culled.verdict[: min(tested, len(triangles))] == KEPT)
-    marks = []
     has_arrows = len(kept) <= MOST_MARKS and source.scene.corner_count == 3
-    for number in kept.tolist() if has_arrows else []:
-        if number != current:
-            marks.append(_arrow(space, int(triangles[number]), float(culled.side[number]), "text"))
+    kept = kept[kept != current]
+    marks = _arrows(space, triangles[kept], culled.side[kept], "text") if has_arrows else []
     if current < 0:
         return marks
     triangle, kind = int(triangles[current]), trace.kind_of(row)
@@ -120,7 +118,8 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     elif not is_known:
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", name))
     elif kind not in ("behind", "plane") and source.scene.corner_count == 3:
-        marks.append(_arrow(space, triangle, facing, "accent", f"{name}: {side}"))
+        at = slice(current, current + 1)
+        marks += _arrows(space, triangles[at], culled.side[at], "accent", f"{name}: {side}")
     else:
         place = "behind the eye" if kind == "behind" else f"outside the {trace.columns['plane'][row]} plane"
         what = "kept" if kind == "kept" else f"not {place}"
@@ -134,10 +133,18 @@ def _outlines(space: ViewSpace, triangle: int) -> list[SpaceMark]:
     return [SpaceMark(np.concatenate([ring, ring[:1]]), "accent") for ring in rings]
 
 
-def _arrow(space: ViewSpace, triangle: int, facing: float, ink: str, label: str = "") -> SpaceMark:
-    corners = space.corners(triangle)
-    normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-    length = float(np.linalg.norm(normal))
-    foot = corners.mean(axis=0)
-    tip = foot + normal * (ARROW * space.radius / length) if length > 0 else foot
-    return SpaceMark(np.stack([foot, tip]), ink, label, "disc" if facing > 0 else "cross")
+def _arrows(
+    space: ViewSpace, triangles: Integers, facing: Floats, ink: str, label: str = ""
+) -> list[SpaceMark]:
+    if not len(triangles):
+        return []
+    corners = np.stack([space.corners(triangle) for triangle in triangles.tolist()])
+    normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    length = np.linalg.norm(normal, axis=1, keepdims=True)
+    foot = corners.mean(axis=1)
+    tip = foot + normal * (ARROW * space.radius / np.where(length > 0, length, np.inf))
+    shapes = ["disc" if side > 0 else "cross" for side in facing.tolist()]
+    return [
+        SpaceMark(ends, ink, label, shape)
+        for ends, shape in zip(np.stack([foot, tip], axis=1), shapes, strict=True)
+    ]

@@ -1,5 +1,7 @@
 """A pane with a drawing over its caption, which the pointer and the keyboard move and magnify."""
 
+from math import floor
+
 from PySide6.QtCore import QPointF, QRectF, QSize, Qt
 from PySide6.QtGui import QAccessible, QColor, QKeyEvent, QPainter, QPaintEvent, QWheelEvent
 from PySide6.QtWidgets import QSizePolicy, QWidget
@@ -74,14 +76,18 @@ class MovedArea(QWidget):
 
     # Events.
 
-    def paint_to(self, painter: QPainter) -> None:
-        """Paint what is seen, to any device of the widget's size; drawings in space are vectors in an SVG."""
+    def paint_to(self, painter: QPainter, is_caption: bool = False) -> None:
+        """Paint what is seen, to any device of the widget's size; drawings in space are vectors in an SVG.
+
+        ``is_caption``: only what stands below the drawing is to be seen.
+        """
         theme, caption = current_theme(), self._drawn_caption()
         if caption is None:
             paint_empty(painter, self.rect(), self.empty_text, theme)
             return
         painter.fillRect(self.rect(), QColor(theme.panel))
-        self._paint_drawing(painter, theme)
+        if not is_caption:
+            self._paint_drawing(painter, theme)
         paint_caption(painter, self.rect(), caption, theme)
 
     def sizeHint(self) -> QSize:
@@ -91,7 +97,7 @@ class MovedArea(QWidget):
     def paintEvent(self, event: QPaintEvent) -> None:
         """Paint the drawing, its caption and the focus ring."""
         with QPainter(self) as painter:
-            self.paint_to(painter)
+            self.paint_to(painter, event.rect().top() >= self._room().bottom())
             self._ring.paint(painter, self.rect())
 
     def wheelEvent(self, event: QWheelEvent) -> None:
@@ -119,6 +125,11 @@ class MovedArea(QWidget):
         """Return the part above the caption, which takes at most three fifths."""
         height = caption_height(self._kept_caption(), self.width(), current_theme())
         return QRectF(self.rect()).adjusted(0, 0, 0, -min(round(height), round(0.6 * self.height())))
+
+    def _update_captions(self, *captions: str) -> None:
+        """Paint again what stands or stood below the drawing."""
+        highest = max(caption_height(caption, self.width(), current_theme()) for caption in captions)
+        self.update(self.rect().adjusted(0, floor(self.height() - highest), 0, 0))
 
     def _repaint(self) -> None:
         """Paint again with the present theme."""

@@ -32,13 +32,17 @@ class SpaceView(OrbitArea):
 
     def show_diagram(self, diagram: Diagram | None) -> None:
         """Show a drawing; None: the empty text."""
-        self._diagram = diagram
+        before, self._diagram = self._diagram, diagram
         caption = "" if diagram is None else diagram.caption
+        room = self._room()
         self._longest_caption = max(self._longest_caption, caption, key=len)
         self.setAccessibleDescription(self.empty_text if diagram is None else diagram.caption)
-        if diagram is not None:
-            self._refit()
-        self.update()
+        if diagram is None or before is None or room != self._room() or not diagram.is_drawn_like(before):
+            if diagram is not None:
+                self._refit()
+            self.update()
+        elif caption != before.caption:
+            self._update_captions(caption, before.caption)
 
     def fit(self) -> None:
         """Show the whole drawing from the present direction, as the user's wish."""

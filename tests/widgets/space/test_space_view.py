@@ -1,7 +1,9 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
-from PySide6.QtCore import QPoint, QPointF, QRectF, QSizeF, Qt
-from PySide6.QtGui import QImage, QWheelEvent
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRect, QRectF, QSizeF, Qt
+from PySide6.QtGui import QImage, QPaintEvent, QWheelEvent
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
@@ -135,6 +137,39 @@ def test_an_empty_view_says_why(view):
     view.empty_text = ""
     view.update()
     assert picture(view) != first
+
+
+class PaintedParts(QObject):
+    def __init__(self) -> None:
+        super().__init__()
+        self.parts: list[QRect] = []
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        if isinstance(event, QPaintEvent):
+            self.parts.append(event.rect())
+        return False
+
+
+def test_a_step_paints_no_more_than_what_differs(view):
+    long = "A sentence that takes a few lines below the drawing, because it goes on and on. " * 3
+    other = replace(DIAGRAM, caption="Short.", spots=(replace(DIAGRAM.spots[0], label="2"),))
+    view.show_diagram(replace(DIAGRAM, caption=long))
+    QApplication.processEvents()
+    painted = PaintedParts()
+    view.installEventFilter(painted)
+    below = view.rect().adjusted(0, int(view._room().bottom()), 0, 0)
+    for diagram, part in (
+        (replace(DIAGRAM, caption=long, strokes=tuple(map(replace, DIAGRAM.strokes))), None),
+        (replace(DIAGRAM, caption="Short."), below),
+        (other, view.rect()),
+        (replace(other, caption=long), below),
+        (None, view.rect()),
+    ):
+        painted.parts.clear()
+        view.show_diagram(diagram)
+        QApplication.processEvents()
+        assert painted.parts == ([part] if part is not None else [])
+        assert view.screen().grabWindow(view.winId()).toImage() == picture(view)
 
 
 def test_words_do_not_overlap():
