@@ -5,6 +5,7 @@ import re
 import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 
 import numpy as np
 
@@ -13,12 +14,11 @@ from app.files.mesh_formats import OutsideMeshError, Report
 from app.files.open_any import Opened, open_any
 from app.files.state_files import OutsideSourceError
 from core import Settings
-from core.scene import SIZE_LIMIT
+from core.scene import SIZE_LIMIT, AnyScene
 from core.settings import settings_from_texts
 
 FILE_HELP = "a mesh file, a state file, or the name of a built-in scene"
 OUTSIDE_HINT = "--allow-outside reads it"
-MOST_ROUNDS = 1000
 
 
 def size_from_text(text: str) -> tuple[int, int]:
@@ -44,6 +44,18 @@ def add_file(parser: argparse.ArgumentParser) -> None:
     """Let the command take FILE."""
     parser.add_argument("file", metavar="FILE", help=FILE_HELP)
     add_allow_outside(parser)
+
+
+def add_size(parser: argparse.ArgumentParser, what: str = "pixels of the picture") -> None:
+    """Let the command take ``--size``, of `sized`."""
+    parser.add_argument(
+        "--size", metavar="WxH", type=size_from_text, help=f"{what}; default: those of the scene"
+    )
+
+
+def sized(scene: AnyScene, options: argparse.Namespace) -> AnyScene:
+    """Return the scene at the size that is asked for."""
+    return scene if options.size is None else replace(scene, size=options.size)
 
 
 SETTINGS_HELP = (
@@ -123,10 +135,3 @@ def show_progress(fraction: float | None, doing: str) -> None:
     """Write how far the work is over the line before."""
     done = "" if fraction is None else f" {100 * fraction:.0f} %"
     print(f"\r\x1b[K{doing}{done}", end="", file=sys.stderr, flush=True)
-
-
-def rounds_from_text(text: str) -> int:
-    """Return a number of rounds."""
-    if not text.isdecimal() or not 1 <= int(text) <= MOST_ROUNDS:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to {MOST_ROUNDS}, got {text}")
-    return int(text)

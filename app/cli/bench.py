@@ -7,7 +7,7 @@ import argparse
 from pathlib import Path
 
 from app.bench.threads import set_threads
-from app.cli.commands import UsageError
+from app.cli.commands import MOST_ROUNDS, UsageError, whole_number
 from lessons.os_errors import os_error_reason
 
 DESCRIPTION = """Draw the workloads with the core and with every other library that is installed, check the
@@ -35,7 +35,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="only these: A1 A2 B C D E F G H I J K1 K2 K3",
     )
     parser.add_argument(
-        "--rounds", metavar="N", type=rounds_from_text, help=f"rounds of measurement ({ROUNDS})"
+        "--rounds", metavar="N", type=whole_number(1, MOST_ROUNDS), help=f"rounds of measurement ({ROUNDS})"
     )
     parser.add_argument(
         "--quick", action="store_true", help=f"a short trial run: {QUICK_ROUNDS} rounds, fewer steps"
@@ -65,13 +65,6 @@ def made_folder(folder: Path) -> Path:
             f"argument -o: the folder {folder} cannot be made: {os_error_reason(problem)}"
         ) from problem
     return folder
-
-
-def rounds_from_text(text: str) -> int:
-    """Return a number of rounds."""
-    if not text.isdecimal() or not 1 <= int(text) <= 1000:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to 1000, got {text}")
-    return int(text)
 
 
 def run(options: argparse.Namespace) -> int:

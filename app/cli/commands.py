@@ -9,7 +9,7 @@ import importlib
 import io
 import os
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
@@ -18,6 +18,8 @@ from app import __version__
 from lessons.os_errors import os_error_reason
 
 PROGRAM = "rasterscope"
+MOST_ROUNDS = 1000
+MOST_SEED = 999_999_999
 USAGE_ERROR = 2
 INTERRUPTED = 130
 
@@ -72,6 +74,20 @@ def add_allow_outside(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="read files that FILE names from outside its folder, too",
     )
+
+
+def whole_number(low: int, high: int | None = None) -> Callable[[str], int]:
+    """Return what reads the whole number of an option."""
+
+    def read(text: str) -> int:
+        digits = 19 if high is None else max(len(str(high)), 10)
+        is_number = text.isascii() and text.isdecimal() and len(text) <= digits
+        if not is_number or int(text) < low or (high is not None and int(text) > high):
+            limits = f"from {low}" if high is None else f"from {low} to {high}"
+            raise argparse.ArgumentTypeError(f"must be a whole number {limits}, got {text}")
+        return int(text)
+
+    return read
 
 
 def output_folder(options: argparse.Namespace) -> Path | None:

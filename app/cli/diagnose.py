@@ -1,7 +1,6 @@
 """``rasterscope diagnose``: which mistake or method makes a picture that another program drew."""
 
 import argparse
-from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -9,10 +8,11 @@ import numpy as np
 from app.cli.arguments import (
     add_file,
     add_settings,
+    add_size,
     chosen_settings,
     open_file,
     progress_line,
-    size_from_text,
+    sized,
 )
 from app.files.drawn_pictures import read_drawn
 from core.records.arrays import Flags
@@ -40,9 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "picture", metavar="PICTURE", help="what another program drew of it: .png, .npz or .csv"
     )
-    parser.add_argument(
-        "--size", metavar="WxH", type=size_from_text, help="pixels; default: those of the scene"
-    )
+    add_size(parser, "pixels")
     add_settings(parser)
 
 
@@ -50,9 +48,7 @@ def run(options: argparse.Namespace) -> int:
     """Compare and report."""
     opened = open_file(options)
     settings = chosen_settings(opened.document.settings, options.set)
-    scene = opened.document.scene
-    if options.size is not None:
-        scene = replace(scene, size=options.size)
+    scene = sized(opened.document.scene, options)
     check_size(scene.size, scene.size)
     drawn = read_drawn(Path(options.picture), scene.size)
     with progress_line() as progress:

@@ -7,7 +7,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from app.cli import attempts, exercise_folders
-from app.cli.commands import UsageError
+from app.cli.commands import UsageError, whole_number
 from app.cli.exercise_coverage import coverage_lines
 from app.cli.exercise_folders import known_templates
 from lessons.exercises.answers.answer import NotCheckedError
@@ -37,6 +37,7 @@ Numbers: answer = "1/3", or a list of numbers. Table: a list of rows. Order and 
 Places: a list of [x, y]. Line: its number. Picture: {pixels = [[column, row]], option = "name"}. Steps: a list with one
 entry, or a list of tries, for each. Break: a list of numbers. Cheapest: {family = "method"}.
 """
+SEED = whole_number(0, SEED_LIMIT)
 
 
 class AnswerFile(BaseModel):
@@ -55,7 +56,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     check = parsers.add_parser("check", help="check an answer", allow_abbrev=False)
     for one in (show, check):
         one.add_argument("name", metavar="NAME", help="an exercise of the list, or a .toml file")
-        one.add_argument("--seed", metavar="N", type=seed_of_text, default=0, help="seed of the question (0)")
+        one.add_argument("--seed", metavar="N", type=SEED, default=0, help="seed of the question (0)")
     show.add_argument("--hints", action="store_true", help="print the hints, too")
     show.add_argument(
         "--answers", action="store_true", help="print the right answer and those of the mistakes, too"
@@ -66,17 +67,10 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     validate = parsers.add_parser("validate", help="check an exercise file", allow_abbrev=False)
     validate.add_argument("path", metavar="PATH", help="a .toml file")
     selftest = parsers.add_parser("selftest", help="check all exercises", allow_abbrev=False)
-    selftest.add_argument("--seeds", metavar="K", type=seed_of_text, default=10, help="seeds of each (10)")
+    selftest.add_argument("--seeds", metavar="K", type=SEED, default=10, help="seeds of each (10)")
     parsers.add_parser("coverage", help="list what the exercises ask, and what none asks", allow_abbrev=False)
     exercise_folders.add_parser(parsers)
     attempts.add_parsers(parsers)
-
-
-def seed_of_text(text: str) -> int:
-    """Return a seed, or a number of them."""
-    if not (text.isascii() and text.isdecimal() and len(text) <= 10 and int(text) <= SEED_LIMIT):
-        raise argparse.ArgumentTypeError(f"must be a whole number from 0 to {SEED_LIMIT}, got {text!a}")
-    return int(text)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -1,20 +1,19 @@
 """``rasterscope plan``: the cheapest methods that a scene needs, why, and what they were measured to do."""
 
 import argparse
-from dataclasses import replace
 
 import numpy as np
 
 from app.cli.arguments import (
     FILE_HELP,
     add_settings,
+    add_size,
     chosen_settings,
     open_file,
     progress_line,
-    rounds_from_text,
-    size_from_text,
+    sized,
 )
-from app.cli.commands import UsageError, add_allow_outside
+from app.cli.commands import MOST_ROUNDS, UsageError, add_allow_outside, whole_number
 from app.cli.study import aligned
 from core import Settings
 from core.explain.kinds import of_kind
@@ -52,31 +51,23 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--pixels", metavar="N", type=int, default=0, help="pixels that may differ by more (0)"
     )
+    add_size(parser)
     parser.add_argument(
-        "--size",
-        metavar="WxH",
-        type=size_from_text,
-        help="pixels of the picture; default: those of the scene",
-    )
-    parser.add_argument(
-        "--rounds", metavar="N", type=rounds_from_text, default=ROUNDS, help=f"timed drawings ({ROUNDS})"
+        "--rounds",
+        metavar="N",
+        type=whole_number(1, MOST_ROUNDS),
+        default=ROUNDS,
+        help=f"timed drawings ({ROUNDS})",
     )
     add_settings(parser, "what to draw, not its quality: wrap, polygon_mode, pixel_center, shading=unlit ...")
     parser.add_argument(
         "--corpus",
         metavar="N",
         nargs="?",
-        type=count_from_text,
+        type=whole_number(1, MOST_SCENES),
         const=CORPUS,
         help=f"plan N scenes made from seeds ({CORPUS}) instead of FILE",
     )
-
-
-def count_from_text(text: str) -> int:
-    """Return a number of scenes."""
-    if not text.isdecimal() or not 1 <= int(text) <= MOST_SCENES:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 1 to {MOST_SCENES}, got {text}")
-    return int(text)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -93,11 +84,9 @@ def run(options: argparse.Namespace) -> int:
         print("\n".join(corpus_text(options, tolerance)))
         return 0
     opened = open_file(options)
-    scene, settings = opened.document.scene, Settings()
+    scene, settings = sized(opened.document.scene, options), Settings()
     if opened.state is not None:
         settings = opened.document.settings
-    if options.size is not None:
-        scene = replace(scene, size=options.size)
     report = plan_and_check(scene, tolerance, chosen_settings(settings, options.set), options.rounds)
     print("\n".join(report_text(report)))
     return 0

@@ -2,17 +2,17 @@
 
 import argparse
 import os
-from dataclasses import replace
 
 import numpy as np
 
 from app.cli.arguments import (
     add_file,
     add_settings,
+    add_size,
     chosen_settings,
     open_file,
     overflow_reported,
-    size_from_text,
+    sized,
 )
 from app.cli.commands import UsageError
 from app.files.file_writing import check_writable, whole_file
@@ -40,12 +40,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
     add_file(parser)
     parser.add_argument("-o", "--output", metavar="out.png", help="the picture")
-    parser.add_argument(
-        "--size",
-        metavar="WxH",
-        type=size_from_text,
-        help="pixels of the picture; default: those of the scene",
-    )
+    add_size(parser)
     add_settings(parser)
     parser.add_argument("--buffers", metavar="out.npz", help="color, depth and primitive as arrays")
 
@@ -62,9 +57,7 @@ def run(options: argparse.Namespace) -> int:
 
     opened = open_file(options)
     settings = chosen_settings(opened.document.settings, options.set)
-    scene = opened.document.scene
-    if options.size is not None:
-        scene = replace(scene, size=options.size)
+    scene = sized(opened.document.scene, options)
     blend = resolve(settings).blend_name
     check_memory(scene.size, settings)
     with overflow_reported():

@@ -9,10 +9,9 @@ from app.cli.arguments import (
     add_settings,
     chosen_settings,
     outside_hinted,
-    rounds_from_text,
     size_from_text,
 )
-from app.cli.commands import UsageError
+from app.cli.commands import MOST_ROUNDS, UsageError, whole_number
 from app.cli.window import load_qt
 from app.files.file_writing import check_writable
 from core import STAGES
@@ -50,13 +49,6 @@ SMALLEST = (800, 500)
 """Least size of the window in pixels."""
 
 
-def step_from_text(text: str) -> int:
-    """Return a position in a stage."""
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"must be a whole number from 0, got {text}")
-    return int(text)
-
-
 def window_size_from_text(text: str) -> tuple[int, int]:
     """Return a size that the window can have."""
     size = size_from_text(text)
@@ -86,7 +78,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--step",
         metavar="N",
-        type=step_from_text,
+        type=whole_number(0),
         help="number of operations done in the stage; default: all",
     )
     parser.add_argument("--view", metavar="NAME", help="main view, as pixels or compare")
@@ -100,7 +92,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--rounds",
         metavar="N",
-        type=rounds_from_text,
+        type=whole_number(1, MOST_ROUNDS),
         help="timed runs of every method, fewer of slow ones (3)",
     )
     parser.add_argument(

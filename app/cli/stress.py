@@ -6,8 +6,7 @@ from pathlib import Path
 
 from app import __version__
 from app.cli.arguments import progress_line
-from app.cli.commands import UsageError, output_folder
-from app.cli.study import seed_from_text
+from app.cli.commands import MOST_SEED, UsageError, output_folder, whole_number
 from app.cli.window import load_qt
 from app.export.atlas_text import atlas_text
 from app.files.shrunk_files import export_shrunk
@@ -40,7 +39,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument("--shrink", metavar="METHOD", help="shrink the first failing cell of this method")
     parser.add_argument(
-        "--seed", metavar="N", type=seed_from_text, default=0, help="seed of the random cases (0)"
+        "--seed", metavar="N", type=whole_number(0, MOST_SEED), default=0, help="seed of the random cases (0)"
     )
     parser.add_argument("-o", "--output", metavar="DIR", help="folder for tables and maps; default: none")
 

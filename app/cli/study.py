@@ -9,9 +9,15 @@ from app.cli.arguments import (
     chosen_settings,
     outside_hinted,
     progress_line,
-    rounds_from_text,
 )
-from app.cli.commands import UsageError, add_allow_outside, output_folder
+from app.cli.commands import (
+    MOST_ROUNDS,
+    MOST_SEED,
+    UsageError,
+    add_allow_outside,
+    output_folder,
+    whole_number,
+)
 from app.cli.window import load_qt
 from app.files.open_any import open_any
 from app.pages.words import (
@@ -65,12 +71,12 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--rounds",
         metavar="N",
-        type=rounds_from_text,
+        type=whole_number(1, MOST_ROUNDS),
         default=ROUNDS,
         help=f"rounds of measurement, more until the order is stable ({ROUNDS})",
     )
     parser.add_argument(
-        "--seed", metavar="N", type=seed_from_text, default=0, help="seed of the random work (0)"
+        "--seed", metavar="N", type=whole_number(0, MOST_SEED), default=0, help="seed of the random work (0)"
     )
     parser.add_argument("--no-growth", action="store_true", help="leave out how time grows with the work")
     parser.add_argument(
@@ -93,13 +99,6 @@ def dial_from_text(text: str) -> tuple[str, float]:
     except ValueError:
         pass
     raise argparse.ArgumentTypeError(f"must be NAME=NUMBER such as size=64, got {text}")
-
-
-def seed_from_text(text: str) -> int:
-    """Return a seed."""
-    if not text.isdecimal() or len(text) > 9:
-        raise argparse.ArgumentTypeError(f"must be a whole number from 0 to 999999999, got {text}")
-    return int(text)
 
 
 def run(options: argparse.Namespace) -> int:

@@ -18,8 +18,9 @@ from app.cli.arguments import (
     overflow_reported,
     progress_line,
     size_from_text,
+    sized,
 )
-from app.cli.commands import PROGRAM, UsageError
+from app.cli.commands import PROGRAM, UsageError, whole_number
 from app.cli.trace_tables import arrays, table_parts
 from app.files.file_writing import check_writable, whole_file
 from app.files.memory import check_free
@@ -68,18 +69,11 @@ def region_from_text(text: str) -> tuple[int, int, int, int]:
     return column, row, columns, rows
 
 
-def triangle_from_text(text: str) -> int:
-    """Return the number of a triangle."""
-    if not text.isdecimal():
-        raise argparse.ArgumentTypeError(f"must be a whole number from 0, got {text}")
-    return int(text)
-
-
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
     add_file(parser)
     parser.add_argument(
-        "--triangle", metavar="N", type=triangle_from_text, help="number in the scene, from 0; default: all"
+        "--triangle", metavar="N", type=whole_number(0), help="number in the scene, from 0; default: all"
     )
     parser.add_argument("--stage", metavar="NAME", choices=STAGES, required=True, help=", ".join(STAGES))
     parser.add_argument(
@@ -147,7 +141,7 @@ def make_trace(opened: Opened, options: argparse.Namespace) -> Trace:
     settings = chosen_settings(document.settings, options.set)
     before = options.before or document.before
     if options.size is not None or options.region is not None:
-        scene = document.scene if options.size is None else replace(document.scene, size=options.size)
+        scene = sized(document.scene, options)
         check_region(options.region, scene.size)
         return trace(scene, settings, triangle, options.region, before)
     document = replace(document, settings=settings, before=before)

@@ -79,8 +79,6 @@ def text_rows(stage: StageTrace, header: Header) -> tuple[str, Callable[[int], s
 def json_rows(stage: StageTrace, header: Header) -> tuple[str, Callable[[int], str], str]:
     """Return a JSON object: what was traced, what writes a row on a line of its own, and its end.
 
-    Notes
-    -----
     NaN (no value) is ``null``, infinities are the texts ``"Infinity"`` and ``"-Infinity"``.
     """
     steps = stage.steps
