@@ -113,8 +113,6 @@ def torus(ring: float = 0.8, tube: float = 0.35, columns: int = 64, rows: int = 
 def knot(tube: float = 0.28, columns: int = 500, rows: int = 20) -> Mesh:
     """Return a tube around the trefoil, the torus knot (2, 3): ``2 columns rows`` triangles.
 
-    Notes
-    -----
     The tube's circles lie in the plane of the curve's normal and binormal (the Frenet frame). The curve
     bends everywhere, so the frame turns smoothly and comes back to where it began.
     """
@@ -157,8 +155,6 @@ def floor(half: float = 20.0, tiles: float = 20.0) -> Mesh:
 def plates(half: float = 1.1, gap: float = 0.0016) -> tuple[Mesh, Mesh]:
     """Return two squares that lean back, a blue one and then an orange one ``gap`` in front of it and to its left.
 
-    Notes
-    -----
     The plate behind comes first: where both get the same stored depth, the first one stays.
     """
     corners = np.array([[-1.0, -1.0, 0.5], [1.0, -1.0, 0.5], [1.0, 1.0, -0.5], [-1.0, 1.0, -0.5]]) * half

@@ -72,8 +72,6 @@ def _turned(curve: Floats, quarter: int) -> Floats:
 def teapot(cells: int = 6, height: float = 1.3) -> Mesh:
     """Return the teapot around the origin, y up: ``cells`` x ``cells`` cells of two triangles for each of 32 patches.
 
-    Notes
-    -----
     The first row of the knob and the last one of the bottom are single points: their cells keep one triangle, and
     their normals point along the axis. Patches do not share vertices, but those on a common border are equal.
     """

@@ -80,8 +80,6 @@ def make_reference(work: Work) -> Reference:
 def cover_triangles(corners: Floats, size: tuple[int, int]) -> Iterator[Cover]:
     """Yield the covered pixels of counter-clockwise window triangles (T, 3, 2), one after the other.
 
-    Notes
-    -----
     Corners and pixel centres are whole numbers of 1/256 pixel, so every edge function is exact in int64. A centre on
     an edge belongs to the triangle that contains the point moved an infinitesimal step right, then up.
     """

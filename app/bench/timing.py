@@ -41,8 +41,6 @@ def collector_off() -> Iterator[None]:
 def time_in_turn(calls: dict[str, Callable[[], object]], rounds: int) -> dict[str, Times]:
     """Call everything ``rounds`` times in turn and return the times by name.
 
-    Notes
-    -----
     Every round begins with another contender, so that none always finds the caches as the same one left them.
     """
     seconds: dict[str, list[float]] = {name: [] for name in calls}

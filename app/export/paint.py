@@ -34,8 +34,6 @@ def draws_vectors(widget: QWidget) -> bool:
 def paint_alone(widget: QWidget, painter: QPainter, *, as_vectors: bool = True) -> None:
     """Paint a widget at the origin, without its children.
 
-    Notes
-    -----
     Typeset formulas go in as pictures, because Qt draws them with outlines on anything but a screen, and
     textures, because its SVG writer knows no scaled patterns. A pixel grid sets its own clipping, so where a
     part of it is hidden (``as_vectors`` false) it goes in as a picture too.

@@ -28,8 +28,6 @@ TIMES = ("median_seconds_per_unit", "least", "interval_low", "interval_high")
 def study_csv(study: Study) -> str:
     """Return a table with a row for every method, in rows that stand alone.
 
-    Notes
-    -----
     Empty cells: not measured, or not defined; ``refused`` and ``not_defined`` say why. Points at other values of the
     cost dial follow with that value in the dial's column.
     """

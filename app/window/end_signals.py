@@ -16,8 +16,6 @@ NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
 class EndSignals(QObject):
     """Listens to the signals, and reports the first one; one that comes much later ends the program at once.
 
-    Notes
-    -----
     Qt's event loop is not Python, and Python handles a signal only between two of its own instructions. So Python
     writes the number of the signal into a socket, and Qt wakes up when there is something to read in it.
     """

@@ -64,8 +64,6 @@ def corner_rows(block: bytes) -> tuple[Integers, Integers] | None:
 
     Numbers that a corner does not have are 0. ``None``: some words are no corners, or name something else.
 
-    Notes
-    -----
     A word with one slash holds at most two numbers, one with two slashes three, or two if the slashes are side by
     side. So where there are as many numbers as that in all, each word has them.
     """

@@ -28,8 +28,6 @@ def translated_errors(path: Path) -> Iterator[None]:
 def load_with_trimesh(path: Path) -> Any:
     """Load ``path`` as what its extension says, without any clean-up of its triangles.
 
-    Notes
-    -----
     To be called under ``translated_errors``.
     """
     # trimesh takes a quarter of a second to import, which only those wait for who open such a file.
