@@ -1,10 +1,8 @@
 """Giving freed memory back to the system, a moment after what takes much of it."""
 
-from collections.abc import Callable
-
 from PySide6.QtCore import QObject, QTimer, Slot
 
-from app.background.workers import Job, Progress
+from app.background.workers import Job
 from core.numeric.buffers import give_back
 
 PAUSE = 500
@@ -39,7 +37,4 @@ class Freeing(QObject):
 
     @Slot()
     def _start(self) -> None:
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> None:
-            give_back()
-
-        self._job.start(work)
+        self._job.call(give_back)

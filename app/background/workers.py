@@ -93,6 +93,10 @@ class Job(QObject):
         """Whether a result is being waited for."""
         return self._worker is not None
 
+    def call(self, work: Callable[[], Any]) -> None:
+        """Begin work that tells no progress and ends by itself."""
+        self.start_in_parts(lambda *_: work())
+
     def start(self, work: Work) -> None:
         """Begin ``work(progress, is_cancelled)``."""
         self.start_in_parts(lambda progress, is_cancelled, _: work(progress, is_cancelled))

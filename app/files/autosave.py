@@ -1,10 +1,11 @@
 """Saving what is open soon after every edit: the next start has it, however this one ends."""
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 from PySide6.QtCore import QElapsedTimer, QObject, QTimer, Signal, SignalInstance, Slot
 
-from app.background.workers import Job, Progress
+from app.background.workers import Job
 from app.files.state_files import State, StateFileError
 from app.files.state_models import Breakpoints
 from app.files.user_folders import preferences_folder
@@ -128,16 +129,12 @@ class Autosave(QObject):
             self._timer.start(PAUSE)
             return
         state = self._state()
-
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> None:
-            file.save(state)
-
         try:
             file = self._open_file()
         except OSError as problem:
             self._fail(problem)
         else:
-            self._job.start(work)
+            self._job.call(partial(file.save, state))
 
     @Slot()
     def _succeed(self) -> None:

@@ -72,13 +72,13 @@ class KeptResults(JobGroup):
         if not self._has_begun:
             return
 
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> None:
+        def work() -> None:
             written = content()
             assert written is not None
             with _turn:
                 write_result(results_folder(), f"{self._kind}-{name}{ENDING}", written)
 
-        self._writing.start(work)
+        self._writing.call(work)
 
     @Slot(object)
     def _tell_unread(self, unread: tuple[str, ...]) -> None:

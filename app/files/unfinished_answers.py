@@ -1,13 +1,14 @@
 """Answers in progress: kept in a file soon after every change, so that leaving or the end of the program loses none."""
 
-from collections.abc import Callable, Set
+from collections.abc import Set
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
-from app.background.workers import Job, Progress
+from app.background.workers import Job
 from app.files.file_writing import make_folder, write_file
 from app.files.input_files import read_input
 from app.files.user_folders import ANSWERS, data_folder
@@ -149,11 +150,7 @@ class UnfinishedFile(QObject):
             self._timer.start()
             return
         answers, changed, self._is_dirty = self.answers, self._changed, False
-
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> None:
-            _write(answers, changed)
-
-        self._job.start(work)
+        self._job.call(partial(_write, answers, changed))
 
     @Slot()
     def _succeed(self) -> None:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.background.workers import Job, Progress
+from app.background.workers import Job
 from app.session.document import Document
 from core import Trace
 from core.resolved import resolve
@@ -97,11 +97,7 @@ class Tracing(QObject):
         if self._job.is_running:
             self._waiting = order
             return
-
-        def work(progress: Progress, is_cancelled: object) -> Traced:
-            return Traced(order, trace_now(order.document, order.stage, order.earlier))
-
-        self._job.start(work)
+        self._job.call(lambda: Traced(order, trace_now(order.document, order.stage, order.earlier)))
         self.busy_changed.emit(f"Tracing {order.document.title or 'the scene'}")
 
     @Slot()

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from PySide6.QtCore import QObject, Slot
@@ -118,12 +119,12 @@ class StudyJobs(JobGroup):
     def draw(self, result: StudyResult, points: tuple[Point, ...]) -> None:
         """Draw the pictures of one or two points."""
 
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> PointsShown:
+        def work() -> PointsShown:
             study, scene = result.study, result.scene
             drawn = tuple(pictures(study, point, scene) for point in points)
             return PointsShown(points, drawn, tuple(opening(study, point, scene) for point in points))
 
-        self.drawing.start(work)
+        self.drawing.call(work)
 
     @Slot()
     def stop_drawing(self) -> None:
@@ -133,11 +134,7 @@ class StudyJobs(JobGroup):
 
     def find_divergence(self, shown: PointsShown) -> None:
         """Find the first place at which two points part ways."""
-
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> StepRequest | str:
-            return divergence_of(shown)
-
-        self.searching.start(work)
+        self.searching.call(partial(divergence_of, shown))
 
 
 def divergence_of(shown: PointsShown) -> StepRequest | str:

@@ -1,13 +1,13 @@
 """Fills the catalogue: the exercises of every stage, how far the learner is, and what to try next."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
 from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.background.workers import Job, Progress
+from app.background.workers import Job
 from app.cli.attempts import attempt_file
 from app.files.exercise_folders import add_folder, all_templates
 from app.files.unfinished_answers import UnfinishedFile
@@ -90,7 +90,7 @@ class CataloguePresenter(QObject):
     def begin(self) -> None:
         """Read the exercises of teachers' folders, and what the learner has answered so far."""
 
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Found:
+        def work() -> Found:
             templates, skipped = all_templates()
             file = attempt_file()
             trouble = [f"Skipped: {sentence}." for sentence in skipped]
@@ -98,7 +98,7 @@ class CataloguePresenter(QObject):
             return Found(templates, file.attempts(user), " ".join(trouble))
 
         user = self.user
-        self._reading.start(work)
+        self._reading.call(work)
         self.refresh()
 
     def set_user(self, user: str) -> None:
@@ -131,11 +131,7 @@ class CataloguePresenter(QObject):
         templates = {
             name: self.templates[name] for name in dict.fromkeys((*FIRST_COURSE, *self._practised()))
         }
-
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Choice | None:
-            return next_question(attempts, templates, user, datetime.now(UTC))
-
-        self._choosing.start(work)
+        self._choosing.call(lambda: next_question(attempts, templates, user, datetime.now(UTC)))
         self.refresh()
 
     def _practised(self) -> list[str]:

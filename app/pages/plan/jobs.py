@@ -81,13 +81,13 @@ class PlanJobs(JobGroup):
             decision = next(each for each in chosen.decisions if each.setting == setting)
             before, settings = alone_settings(chosen, decision)
 
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> PlanPictures:
+        def work() -> PlanPictures:
             result, reference = shown(scene, settings), shown(scene, before)
             differs = difference(result, reference).astype(np.float32)
             pictures = result.astype(np.uint8), reference.astype(np.uint8)
             return PlanPictures(setting, settings, before, *pictures, differs)
 
-        self.drawing.start(work)
+        self.drawing.call(work)
 
     @Slot()
     def stop_drawing(self) -> None:

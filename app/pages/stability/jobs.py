@@ -119,7 +119,7 @@ class StabilityJobs(JobGroup):
     def look(self, order: CaseOrder) -> None:
         """Run one cell once more and draw it."""
 
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> CaseFound:
+        def work() -> CaseFound:
             experiment, method = order.experiment, order.place.key
             verdict = experiment.run(method, order.values, order.seed)
             opening = experiment.opening(method, order.values, order.seed)
@@ -127,7 +127,7 @@ class StabilityJobs(JobGroup):
             return CaseFound(order, verdict, opening, frame)
 
         self.shrinking.cancel()
-        self.looking.start(work)
+        self.looking.call(work)
 
     def shrink(self, order: CaseOrder) -> None:
         """Make one cell small."""

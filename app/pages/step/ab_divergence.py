@@ -1,23 +1,13 @@
 """Where A and B do something different first: the search, and what is said of it."""
 
-from collections.abc import Callable
-
-from app.background.workers import Progress
 from core import Trace
-from core.study.accuracy.divergence import Divergence, diverge, is_same_schedule, stage_divergence
+from core.study.accuracy.divergence import Divergence, is_same_schedule, stage_divergence
 from core.trace import StageTrace
 
 ALIKE = "A and B do the same in every stage."
 REORDERED = "A and B give the same results; only the order of their steps differs."
 ORDERED_STAGES = ("bin", "raster", "depth")
 """Stages in which methods may do the same in another order."""
-
-
-def search(
-    first: Trace, second: Trace, progress: Progress, is_cancelled: Callable[[], bool]
-) -> Divergence | None:
-    """Search in a thread for the first step that differs, in any stage."""
-    return diverge(first, second, by_outcome=True)
 
 
 def report(found: Divergence | None, first: Trace, second: Trace) -> str:

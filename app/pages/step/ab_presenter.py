@@ -217,7 +217,7 @@ class ComparePresenter(QObject):
         self._view.set_pixel_center(document.settings.pixel_center)
         earlier, stage = self._second or session.trace, self._stage
 
-        def work(*_: object) -> Trace:
+        def work() -> Trace:
             """Trace B up to the stage that is shown."""
             trace = other.make_trace(earlier=earlier)
             trace.stage(stage)
@@ -226,7 +226,7 @@ class ComparePresenter(QObject):
         if other.estimated_seconds > QUICK_SECONDS:
             self._second, self._refusal = None, "Drawing B …"
             self._show()
-            self._job.start(work)
+            self._job.call(work)
             return
         try:
             self._take(work())
@@ -307,12 +307,12 @@ class ComparePresenter(QObject):
     @Slot()
     def go_to_divergence(self) -> None:
         """Search for the first step that differs, in any stage, and put both runs there."""
-        from app.pages.step.ab_divergence import search
+        from core.study.accuracy.divergence import diverge
 
         if self._second is None:
             self.message_sent.emit(self._refusal or "Show A | B first (Ctrl+D).")
         else:
-            self._search.start(partial(search, self._session.trace, self._second))
+            self._search.call(partial(diverge, self._session.trace, self._second, by_outcome=True))
 
     @Slot(object)
     def _land(self, found: "Divergence | None") -> None:

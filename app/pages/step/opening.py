@@ -1,11 +1,10 @@
 """Opening on the Step page what another page shows: one method's run, at the place that matters."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.background.workers import Job, Progress
+from app.background.workers import Job
 from app.pages.page_bar import StepRequest
 from app.pages.step.ab_choice import OtherRun
 from app.pages.step.opening_document import document_at
@@ -44,11 +43,11 @@ class StepOpening(QObject):
     def open_request(self, request: StepRequest) -> None:
         """Open what a `StepRequest` names."""
 
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> _Ready:
+        def work() -> _Ready:
             document = document_at(request.opening, request.title, request.triangle)
             return _Ready(request, document, trace_now(document, request.opening.stage))
 
-        self.job.start(work)
+        self.job.call(work)
 
     def shut_down(self) -> None:
         """Cancel and wait for the thread."""
