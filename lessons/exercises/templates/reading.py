@@ -177,8 +177,8 @@ def draw_depth_picture(draws: Draws) -> Draft | None:
     hints = (
         "Only pixels that lie in two triangles can be wrong.",
         "Compare the depths there: which triangle should be seen?",
-        f"The middle of triangle 0 is at z = ({' + '.join(map(number_text, depth[0]))})/3. Is the wrong one always the "
-        "farther one, always the later one, or the one with the nearer middle?",
+        f"The mean depth of triangle 0 is a third of {' + '.join(map(number_text, depth[0]))}. Is the wrong one always "
+        "the farther one, always the later one, or the one with the nearer middle?",
     )
     return Draft(text, f"{given}\n{depths}", answer, hints, {}, scene)
 

@@ -119,8 +119,8 @@ def draw_wrap(draws: Draws) -> Draft | None:
     hints = (
         "An index inside is itself.",
         "repeat: the remainder, never negative. clamp: the nearest border.",
-        f"repeat: {indices[0]} + {size - 1} + 1, until it is inside. mirror: 0 to {size - 1}, then {size - 1} to 0, "
-        "and so on.",
+        f"repeat: add {size - 1} + 1 to {indices[0]} until it is inside. mirror: 0 to {size - 1}, then {size - 1} to "
+        "0, and so on.",
     )
     labels = [f"index {index}" for index in indices]
     return table(text, given, modes, labels, right, hints, wrong)

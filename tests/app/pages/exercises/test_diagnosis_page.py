@@ -71,6 +71,14 @@ def test_the_mistake_of_a_picture_is_named_marked_and_stepped(
     assert page.main_view() is page.panes
 
 
+def test_a_grey_picture_is_named_and_has_no_run(small: MainWindow, tmp_path: Path) -> None:
+    shown = to_display(render(small.session.document.traced_scene).color).pixels[::-1, :, :3]
+    Image.fromarray(np.ascontiguousarray(shown)).convert("L").save(tmp_path / "grey.png")
+    view = dropped(small, tmp_path / "grey.png").diagnosis_view
+    assert "Grey. The colours are made grey: 0.299 R + 0.587 G + 0.114 B." in view.spoken_text()
+    assert view.run_buttons == []
+
+
 def test_what_is_no_such_picture_is_one_sentence(small: MainWindow, tmp_path: Path) -> None:
     said: list[str] = []
     page = small.pages.page("exercises")
