@@ -118,10 +118,7 @@ class Mesh:
 def triangulate(polygons: list[list[int]]) -> tuple[Integers, Integers]:
     """Fan polygons into triangles: (T, 3) vertex indices and the (T,) polygon each came from.
 
-    Raises
-    ------
-    ValueError
-        If a polygon has fewer than three corners.
+    Raises ValueError if a polygon has fewer than three corners.
     """
     triangles, faces = [], []
     for face, polygon in enumerate(polygons):

@@ -26,10 +26,7 @@ from core.scene import AnyScene
 class Settings:
     """Which method runs at each stage; every value names a row of ``core.methods.table``.
 
-    Raises
-    ------
-    ValueError
-        If a value is not in the table; the message lists those that are.
+    Raises ValueError if a value is not in the table; the message lists those that are.
     """
 
     cull: str = choice(

@@ -51,13 +51,7 @@ def in_squares(geometry: Geometry, settings: Settings, side: int) -> Geometry:
 
 
 def finer_scene(scene: AnyScene, side: int) -> AnyScene:
-    """Return the scene at ``side`` times its size.
-
-    Raises
-    ------
-    ValueError
-        If that is larger than a raster may be.
-    """
+    """Return the scene at ``side`` times its size; ValueError if that is larger than a raster may be."""
     width, height = (side * length for length in scene.size)
     if max(width, height) > SIZE_LIMIT:
         raise ValueError(

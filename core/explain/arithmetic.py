@@ -75,13 +75,7 @@ def in_full(value: float) -> Number:
 
 
 def read(text: str) -> Term:
-    """Read arithmetic in LaTeX.
-
-    Raises
-    ------
-    UnreadError
-        For anything else.
-    """
+    """Read arithmetic in LaTeX; UnreadError for anything else."""
     reader = _Reader(text)
     found = reader.sum()
     if reader.place < len(reader.tokens) or found.name == "vector":

@@ -33,13 +33,7 @@ ROWS: dict[str, Row] = {}
 
 
 def explains(*keys: str, asks: Callable[[StepValues], Asked | None] | None = None) -> Callable[[Say], Say]:
-    """Enter a function as the row of these keys.
-
-    Raises
-    ------
-    ValueError
-        For a key that has a row already.
-    """
+    """Enter a function as the row of these keys; ValueError for a key that has a row already."""
 
     def enter(say: Say) -> Say:
         for key in keys:

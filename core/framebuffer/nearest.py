@@ -24,10 +24,7 @@ READ_AT_ONCE = 8 * BLOCK
 class NearestFragments:
     """Least key per pixel over all fragments added so far; primitives are numbered in drawing order.
 
-    Raises
-    ------
-    ValueError
-        If the key has too few bits for the number of primitives.
+    Raises ValueError if the key has too few bits for the number of primitives.
     """
 
     def __init__(

@@ -38,10 +38,7 @@ def checked_region(region: ArrayLike, size: tuple[int, int]) -> Floats:
 def checked_polygon_region(region: ArrayLike) -> Floats:
     """Return what polygons are clipped to as a read-only array: a rectangle (4,), or corners (M, 2) of any rings.
 
-    Raises
-    ------
-    ValueError
-        If a rectangle has no area, or a corner lies farther than `REGION_REACH`.
+    Raises ValueError if a rectangle has no area, or a corner lies farther than `REGION_REACH`.
     """
     if np.ndim(region) == 2:
         return checked("clip_region", region, ("M", 2), limit=REGION_REACH)

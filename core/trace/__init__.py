@@ -33,13 +33,7 @@ class Trace:
         self._stages: dict[str, StageTrace] = {}
 
     def stage(self, name: str) -> "StageTrace":
-        """Return the trace of a stage of ``core.STAGES``.
-
-        Raises
-        ------
-        ValueError
-            If there is no such stage.
-        """
+        """Return the trace of a stage of ``core.STAGES``; ValueError if there is no such stage."""
         if name not in STAGES:
             raise ValueError(f"stage must be one of {', '.join(STAGES)}, got {name}")
         if name not in self._stages:

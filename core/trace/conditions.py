@@ -48,10 +48,7 @@ class Condition:
     def holds(self, trace: StageTrace) -> Flags:
         """Return (R,) bool, the rows that meet it.
 
-        Raises
-        ------
-        ValueError
-            For a name that the stage does not have, a list without an index, or a result that is no flag.
+        Raises ValueError for a name that the stage does not have, a list without an index, or a result that is no flag.
         """
         with np.errstate(all="ignore"):
             found = np.asarray(_evaluate(self.tree, trace))

@@ -122,10 +122,7 @@ def rectangle_window(left: float, bottom: float, right: float, top: float) -> Cl
 def polygon_window(corners: ArrayLike) -> ClipWindow:
     """Return a convex polygon (M, 2), counter-clockwise, as a window.
 
-    Raises
-    ------
-    ValueError
-        If it has fewer than three corners, is not convex (decided exactly), clockwise, or without area.
+    Raises ValueError if it has fewer than three corners, is not convex (decided exactly), clockwise, or without area.
     """
     points = checked("window", corners, ("M", 2), limit=LINE_CLIP_LIMIT)
     check_convex(points)

@@ -170,10 +170,7 @@ def round_half_up(values: Any) -> Any:
 def limited_steps(method: str, first: Integers, last: Integers) -> tuple[Integers, int]:
     """Return where the steps first <= k < last, (L,) int64 each, end, not before they begin, and the largest end.
 
-    Raises
-    ------
-    ValueError
-        If one of them is beyond `STEP_LIMIT`: ``method`` adds step by step from 0.
+    Raises ValueError if one of them is beyond `STEP_LIMIT`: ``method`` adds step by step from 0.
     """
     end = np.where(first < last, last, 0)
     longest = int(end.max(initial=0))

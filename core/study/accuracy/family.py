@@ -117,10 +117,7 @@ def settings_of(base: Settings, method: str) -> Settings:
 def chosen_dials(work: WorkKind, given: Mapping[str, float] | None) -> dict[str, float]:
     """Return the value of every dial of a work: those ``given``, the defaults of the others.
 
-    Raises
-    ------
-    ValueError
-        For a dial that the work does not have, or a value beyond those that can be chosen.
+    Raises ValueError for a dial that the work does not have, or a value beyond those that can be chosen.
     """
     dials = {dial.name: dial for dial in work.dials}
     values = {name: dial.default for name, dial in dials.items()}

@@ -81,10 +81,7 @@ def _quoted(value: str | int) -> str:
 def scene_text(scene: AnyScene) -> str:
     """Return statements that make ``scene``, with all that matters to a picture.
 
-    Raises
-    ------
-    ValueError
-        For a scene of meshes other than one with normals under one distant light.
+    Raises ValueError for a scene of meshes other than one with normals under one distant light.
     """
     return _triangles_text(scene) if isinstance(scene, ClipScene) else _mesh_text(scene)
 

@@ -41,10 +41,7 @@ class Case(ABC):
     def judge(self, settings: Settings) -> Judgement:
         """Draw the scene, and compare the picture with the reference.
 
-        Raises
-        ------
-        ValueError
-            If a method does not take the scene.
+        Raises ValueError if a method does not take the scene.
         """
 
     def assertions(self, settings: Settings, wrong: Flags) -> str:
@@ -157,10 +154,7 @@ experiments = ExperimentTable()
 def check_in_view_volume(scene: ClipScene) -> None:
     """Refuse triangles that are cut at the near or the far plane, or reach behind the eye.
 
-    Raises
-    ------
-    ValueError
-        If there is one.
+    Raises ValueError if there is one.
     """
     z, w = scene.clip[..., 2], scene.clip[..., 3]
     bad = ((w <= 0) | (np.abs(z) > w)).any(axis=1)

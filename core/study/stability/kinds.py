@@ -135,10 +135,8 @@ def segment_of(scene: AnyScene) -> Parts:
 def scene_of_segment(ends: Floats, size: tuple[int, int]) -> ClipScene:
     """Return a triangle whose first edge is the segment (2, 2), and whose third corner is in the picture.
 
-    Raises
-    ------
-    ValueError
-        If the ends are no numbers that clip space holds without rounding: what opens has to be what was judged.
+    Raises ValueError if the ends are no numbers that clip space holds without rounding: what opens has to be what was
+    judged.
     """
     (x0, y0), (x1, y1) = ([Fraction(value) for value in end] for end in ends.tolist())
     corners = [np.array(place) * size for place in INSIDE]

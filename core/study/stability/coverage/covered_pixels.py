@@ -134,10 +134,7 @@ def coverage_experiment(
 def count_cover(scene: ClipScene, settings: Settings) -> tuple[Integers, Geometry]:
     """Run the stages up to the rasterization: (H, W) int64 how often each pixel is covered, and the geometry.
 
-    Raises
-    ------
-    ValueError
-        If a method does not take the scene.
+    Raises ValueError if a method does not take the scene.
     """
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, settings, counts)

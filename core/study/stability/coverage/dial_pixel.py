@@ -146,10 +146,7 @@ def settings_in(settings: Settings, method: str) -> Settings:
 def covering_triangles(scene: ClipScene, settings: Settings, pixel: Pixel) -> Integers:
     """Return the triangles (N,) int64 that cover one pixel, a triangle as often as it does.
 
-    Raises
-    ------
-    ValueError
-        If a method does not take the scene.
+    Raises ValueError if a method does not take the scene.
     """
     geometry = _geometry_of(scene, settings)
     raster = make_raster(scene.size, settings.pixel_center, (*pixel, 1, 1))

@@ -114,10 +114,7 @@ def decide(known: dict[str, Fraction], turn: int) -> bool:
 def rounded(numbers: NumberFormat, operation: str, exact: Fraction) -> Fraction:
     """Return what a format makes of the exact result of an operation, in pixels.
 
-    Raises
-    ------
-    OverflowError
-        If a floating-point format has no such number.
+    Raises OverflowError if a floating-point format has no such number.
     """
     if numbers.rounding == "wrapped":
         is_slope = operation in SLOPES

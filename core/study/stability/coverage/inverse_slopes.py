@@ -47,10 +47,7 @@ def level_triangle(place: tuple[float, ...], seed: int) -> ClipScene:
 def printed_cover(scene: ClipScene, settings: Settings) -> Integers:
     """Return how often LMU's program covers each pixel, (H, W) int64, if its sums are fractions and never rounded.
 
-    Raises
-    ------
-    ValueError
-        If a corner does not lie in front of the eye.
+    Raises ValueError if a corner does not lie in front of the eye.
     """
     width, height = scene.size
     cover = np.zeros((height, width), np.int64)

@@ -29,10 +29,7 @@ HALF_TEXEL = 1 / 512
 class StripCase(Case):
     """Triangles that lead away, u their first value; right is u with perspective, by fractions.
 
-    Raises
-    ------
-    ValueError
-        If a triangle is cut by a plane of depth: its pieces have other ratios of w.
+    Raises ValueError if a triangle is cut by a plane of depth: its pieces have other ratios of w.
     """
 
     scene: ClipScene

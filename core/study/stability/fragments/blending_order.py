@@ -36,10 +36,7 @@ ORDERS = {
 class LayersCase(Case):
     """Triangles of one colour each; right is the colour from back to front, whatever the order of drawing.
 
-    Raises
-    ------
-    ValueError
-        If a triangle has several colours.
+    Raises ValueError if a triangle has several colours.
     """
 
     scene: ClipScene

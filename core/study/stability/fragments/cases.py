@@ -126,10 +126,7 @@ def faces_the_eye(scene: Scene) -> Flags:
 def mesh_and_normals(scene: Scene) -> tuple[Mesh, Floats]:
     """Return the mesh of a scene that has one, and its normals (N, 3), which need not be unit.
 
-    Raises
-    ------
-    ValueError
-        If it has several, or no normals.
+    Raises ValueError if it has several, or no normals.
     """
     if len(scene.meshes) != 1 or scene.meshes[0].normals is None:
         raise ValueError("expected one mesh with normals, got another scene")

@@ -31,10 +31,7 @@ SLACK = 1 / 16
 class HighlightCase(Case):
     """Triangles with corners on a sphere; right is as bright a highlight as the sphere itself has where they are seen.
 
-    Raises
-    ------
-    ValueError
-        If the mesh is no part of the sphere of radius 1 around the origin.
+    Raises ValueError if the mesh is no part of the sphere of radius 1 around the origin.
     """
 
     scene: Scene
@@ -93,10 +90,8 @@ class HighlightCase(Case):
 def highlight_case(scene: Scene) -> HighlightCase:
     """Return what is right for part of a sphere, of which so much has to be left that light per pixel keeps it.
 
-    Raises
-    ------
-    ValueError
-        If Phong loses the highlight too: then the triangles are too coarse for the sphere where they are looked at.
+    Raises ValueError if Phong loses the highlight too: then the triangles are too coarse for the sphere where they are
+    looked at.
     """
     case = HighlightCase(scene)
     if case.judge(Settings(shading="phong")).verdict.outcome != Outcome.RIGHT:

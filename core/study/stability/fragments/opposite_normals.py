@@ -32,10 +32,7 @@ LIGHT = DirectionalLight(np.array([0.3, -0.2, -1.0]))
 class NormalsCase(Case):
     """Triangles whose normals are turned about the upright; right is light on normals that turn evenly between them.
 
-    Raises
-    ------
-    ValueError
-        If a normal is not level, or leads away from the eye, or a triangle is seen from behind.
+    Raises ValueError if a normal is not level, or leads away from the eye, or a triangle is seen from behind.
     """
 
     scene: Scene

@@ -38,12 +38,8 @@ ANGLES = Axis("angle", "Angle of the surface", "degrees", (0, 15, 30, 45, 60, 70
 class TextureCase(Case):
     """Triangles on which the texture lies without perspective; right are the means of the footprints.
 
-    Pixels count that are covered as a whole, by as many triangles as it takes.
-
-    Raises
-    ------
-    ValueError
-        If it lies with perspective, or otherwise on one triangle than on another.
+    Pixels count that are covered as a whole, by as many triangles as it takes. Raises ValueError if it lies with
+    perspective, or otherwise on one triangle than on another.
     """
 
     scene: ClipScene

@@ -29,10 +29,8 @@ TOLERANCE = 1 / 4
 class ThinCase(Case):
     """One white triangle; right is the exact area of it in every pixel, with its corners on the grid.
 
-    Raises
-    ------
-    ValueError
-        If there are several triangles, which may cover the same part of a pixel, or it is cut by a plane of depth.
+    Raises ValueError if there are several triangles, which may cover the same part of a pixel, or it is cut by a plane
+    of depth.
     """
 
     scene: ClipScene
