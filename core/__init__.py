@@ -21,16 +21,7 @@ from typing import TYPE_CHECKING
 
 from core.lazy_import import import_on_demand
 from core.records.frame import Frame
-from core.scene import (
-    Camera,
-    ClipScene,
-    DirectionalLight,
-    Material,
-    Mesh,
-    PointLight,
-    Scene,
-    Texture,
-)
+from core.scene import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Texture
 from core.settings import Settings
 from core.stages.declared import STAGES
 from core.trace import Trace, trace

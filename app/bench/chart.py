@@ -204,14 +204,7 @@ def figure(ratio: float) -> str:
 
 
 def text(
-    x: float,
-    y: float,
-    words: str,
-    *,
-    size: int,
-    color: str = TEXT,
-    weight: int = 400,
-    anchor: str = "start",
+    x: float, y: float, words: str, *, size: int, color: str = TEXT, weight: int = 400, anchor: str = "start"
 ) -> str:
     """Return a line of text whose foot is at ``y``."""
     return (

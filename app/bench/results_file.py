@@ -61,10 +61,6 @@ def result_rows(result: Result) -> list[dict[str, object]]:
             goal = goal_of(result.workload.name, entry.contender.library, entry.detail)
             if goal is not None:
                 wanted = "" if goal.wanted is None else f"{goal.wanted:g}"
-                row |= {
-                    "goal": wanted,
-                    "prototype": prototype_text(goal),
-                    "verdict": goal.verdict(ratio),
-                }
+                row |= {"goal": wanted, "prototype": prototype_text(goal), "verdict": goal.verdict(ratio)}
         rows.append(row)
     return rows + [common | {"library": each.library, "missing": each.reason} for each in result.missing]

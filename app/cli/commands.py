@@ -70,9 +70,7 @@ class UsageError(ValueError):
 def add_allow_outside(parser: argparse.ArgumentParser) -> None:
     """Let a command take ``--allow-outside``."""
     parser.add_argument(
-        "--allow-outside",
-        action="store_true",
-        help="read files that FILE names from outside its folder, too",
+        "--allow-outside", action="store_true", help="read files that FILE names from outside its folder, too"
     )
 
 

@@ -4,13 +4,7 @@ import argparse
 import os
 import sys
 
-from app.cli.arguments import (
-    add_file,
-    add_settings,
-    chosen_settings,
-    outside_hinted,
-    size_from_text,
-)
+from app.cli.arguments import add_file, add_settings, chosen_settings, outside_hinted, size_from_text
 from app.cli.commands import MOST_ROUNDS, UsageError, whole_number
 from app.cli.window import load_qt
 from app.files.file_writing import check_writable

@@ -3,13 +3,7 @@
 import argparse
 
 from app import __version__
-from app.cli.arguments import (
-    FILE_HELP,
-    add_settings,
-    chosen_settings,
-    outside_hinted,
-    progress_line,
-)
+from app.cli.arguments import FILE_HELP, add_settings, chosen_settings, outside_hinted, progress_line
 from app.cli.commands import (
     MOST_ROUNDS,
     MOST_SEED,

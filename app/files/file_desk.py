@@ -59,11 +59,7 @@ class FileActions(QObject):
         self.job.failed.connect(self._tell_failed)
 
     def _tell(
-        self,
-        text: str,
-        kind: MessageKind = MessageKind.INFORMATION,
-        details: str = "",
-        action: str = "",
+        self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "", action: str = ""
     ) -> None:
         self.message_sent.emit(Message(kind, text, details, action))
 

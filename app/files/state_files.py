@@ -15,15 +15,7 @@ from app.files.file_writing import write_file
 from app.files.mesh_formats import Report
 from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_arrays import array_record
-from app.files.state_models import (
-    MIGRATIONS,
-    VERSION,
-    Bookmark,
-    Breakpoints,
-    Look,
-    RasterRecord,
-    StateRecord,
-)
+from app.files.state_models import MIGRATIONS, VERSION, Bookmark, Breakpoints, Look, RasterRecord, StateRecord
 from app.files.state_scenes import (
     Keep,
     OutsideSourceError,

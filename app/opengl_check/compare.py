@@ -160,11 +160,7 @@ def _draw_triangles(case: Case, fill: str) -> OurPicture:
             texels_moved = reach * steepest * max(case.texture.pixels.shape[:2])
             color_tolerance[row, column] = BILINEAR_TOLERANCE + texels_moved
     return OurPicture(
-        frame.color.astype(float),
-        frame.depth.astype(float),
-        primitive,
-        color_tolerance,
-        depth_tolerance,
+        frame.color.astype(float), frame.depth.astype(float), primitive, color_tolerance, depth_tolerance
     )
 
 

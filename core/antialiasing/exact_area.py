@@ -274,11 +274,7 @@ class PiecePainter:
             with self._counts["blend"]:
                 color = color.copy()
                 color[passes] = self._resolved.blend_method.function(source, color[passes])
-        return DrawnPieces(
-            there.pieces,
-            np.where(passes, primitive, there.primitive),
-            color,
-        )
+        return DrawnPieces(there.pieces, np.where(passes, primitive, there.primitive), color)
 
     def _is_nearer(self, new: Integers, old: Integers, x: Floats, y: Floats) -> Flags:
         """Compare primitives (P,) at window positions without rounding to a depth format: the rays of ray casting.

@@ -25,10 +25,7 @@ def _cull_account(counts: Mapping[str, int]) -> list[str]:
 
 def _clip_account(counts: Mapping[str, int]) -> list[str]:
     outside = [f"{counts['rejected']:,} wholly outside"] if counts["rejected"] else []
-    return [
-        counted(counts["rows"], "edge or untouched triangle", "edges or untouched triangles"),
-        *outside,
-    ]
+    return [counted(counts["rows"], "edge or untouched triangle", "edges or untouched triangles"), *outside]
 
 
 def _edges_account(counts: Mapping[str, int]) -> list[str]:

@@ -133,10 +133,5 @@ def projection(camera: Camera, aspect: float) -> Floats:
 def viewport(width: int, height: int) -> Floats:
     """Return D, (4, 4): NDC to window, x in [0, width], y in [0, height] upwards, depth in [0, 1]."""
     return np.array(
-        [
-            [width / 2, 0, 0, width / 2],
-            [0, height / 2, 0, height / 2],
-            [0, 0, 0.5, 0.5],
-            [0, 0, 0, 1],
-        ]
+        [[width / 2, 0, 0, width / 2], [0, height / 2, 0, height / 2], [0, 0, 0.5, 0.5], [0, 0, 0, 1]]
     )

@@ -9,10 +9,7 @@ from core.methods import method
     "Filled",
     source="OpenGL 4.6, 14.6.4",
     exact_for="every triangle",
-    takes=(
-        "fill",
-        "fill_rule",
-    ),
+    takes=("fill", "fill_rule"),
 )
 def filled() -> bool:
     """Return whether only the edges are drawn."""
@@ -27,10 +24,7 @@ def filled() -> bool:
     exact_for="outlines of triangles in front of the eye, as exact as the line method",
     breaks_where="edges seen end-on and triangles seen edge-on: they vanish. Shared edges: they are drawn twice",
     needs=("projected",),
-    takes=(
-        "line",
-        "line_clipping",
-    ),
+    takes=("line", "line_clipping"),
 )
 def outlined() -> bool:
     """Return whether only the edges are drawn."""

@@ -238,10 +238,7 @@ class Phase:
 
 PHASES = (
     Phase(
-        "Vertex processing",
-        ("transform",),
-        "in object space, with {values}",
-        "in clip space, with {values}",
+        "Vertex processing", ("transform",), "in object space, with {values}", "in clip space, with {values}"
     ),
     Phase(
         "Clipping and rasterization",

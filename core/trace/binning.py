@@ -135,10 +135,7 @@ def trace_bin(source: TraceSource) -> StageTrace:
             "whole-image": box,
             "block": block,
         },
-        marks={
-            "rejected": is_block & (verdict == OUTSIDE),
-            "covered": is_block & (verdict == INSIDE),
-        },
+        marks={"rejected": is_block & (verdict == OUTSIDE), "covered": is_block & (verdict == INSIDE)},
         extra={"blocks": blocks, "boxes": boxes, "is_split": verdict == SPLIT},
         constants={
             "center": source.raster.center,

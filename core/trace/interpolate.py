@@ -35,10 +35,7 @@ ALONG_LINES: dict[str, tuple[Callable[..., Any], tuple[Operation, ...]]] = {
             Operation("weight", "weight", ("s", "weights")),
         ),
     ),
-    "line-affine": (
-        interpolate_affine_along,
-        (Operation("weight", "weight", ("t", "s", "weights")),),
-    ),
+    "line-affine": (interpolate_affine_along, (Operation("weight", "weight", ("t", "s", "weights")),)),
 }
 """Kind of row along the lines of a wireframe to its listing and to what it does before the values."""
 

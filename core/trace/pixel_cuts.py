@@ -13,14 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.antialiasing.exact_area import DrawnLayer, PiecePainter
-from core.antialiasing.pixel_pieces import (
-    ON_LINE,
-    Pieces,
-    area_of,
-    join_pieces,
-    split_pieces,
-    whole_pixels,
-)
+from core.antialiasing.pixel_pieces import ON_LINE, Pieces, area_of, join_pieces, split_pieces, whole_pixels
 from core.antialiasing.polygon_cut import cut_polygon, polygon_area, shown_areas
 from core.records.arrays import Flags, Floats, Integers
 from core.records.listing import listing

@@ -48,10 +48,7 @@ FILL_OPERATIONS: dict[str, tuple[Operation, ...]] = {
         Operation("ends", "draw", ("crossing_0", "crossing_1")),
         Operation("round", "draw", ("start", "stop")),
     ),
-    "lane": (
-        Operation("rows", "count", ("first_row", "row_count")),
-        Operation("lane", "place", ("lane",)),
-    ),
+    "lane": (Operation("rows", "count", ("first_row", "row_count")), Operation("lane", "place", ("lane",))),
     "lane-row": (
         *(Operation(f"edge-{k}", _crossing_label(k), (f"numerator_{k}", f"quotient_{k}")) for k in range(3)),
         Operation("start", "start", ("left", "start")),

@@ -212,11 +212,7 @@ def _at_samples(columns: dict[str, NDArray[Any]], sample: Integers) -> dict[str,
     # Rows about lanes and spans are about the moved triangle as a whole.
     way = np.where(np.isnan(columns["values"]).any(axis=1, keepdims=True), 0.0, way)
     x, y, a, b = (columns[name] for name in ("x", "y", "a", "b"))
-    moved = {
-        "x": x - way[:, 0],
-        "y": y - way[:, 1],
-        "c": columns["c"] + (a * way[:, :1] + b * way[:, 1:]),
-    }
+    moved = {"x": x - way[:, 0], "y": y - way[:, 1], "c": columns["c"] + (a * way[:, :1] + b * way[:, 1:])}
     value = edge_value(a, b, moved["c"], moved["x"][:, None], moved["y"][:, None])
     is_pixel = columns["column"] >= 0
     is_same = np.array_equal(value[is_pixel], columns["values"][is_pixel], equal_nan=True)

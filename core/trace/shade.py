@@ -150,10 +150,7 @@ def _of_lights(label: str) -> Labels:
 def _operations(source: TraceSource, has_normals: bool) -> dict[str, tuple[Operation, ...]]:
     """Return what a row of each kind does."""
     plain = (Operation("color", "color", ("albedo", "color")),)
-    texture = (
-        *texture_operations(source.settings.texture_filter),
-        Operation("albedo", "color", ("albedo",)),
-    )
+    texture = (*texture_operations(source.settings.texture_filter), Operation("albedo", "color", ("albedo",)))
     light: tuple[Operation, ...] = (Operation("interpolated", "color", ("diffuse_light", "specular_light")),)
     if has_normals:
         light = (

@@ -13,13 +13,7 @@ from core.trace.stage_trace import StageTrace, Value
 
 OF_FILLS = {f"value_{k}": f"E{k}" for k in range(3)}
 OF_LINES = {
-    **{
-        "slope": "m",
-        "intercept": "b",
-        "intensity": "I",
-        "length": "L",
-        "along": "s",
-    },
+    **{"slope": "m", "intercept": "b", "intensity": "I", "length": "L", "along": "s"},
     **{"cosine": "c", "share": "g", "fraction": "f", "line_distance": "d", "filtered": "T"},
 }
 """Column of the raster stage to its symbol, where triangles are filled and where lines are drawn."""

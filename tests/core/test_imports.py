@@ -111,11 +111,9 @@ def test_chosen_methods_are_imported_before_stages_are_timed() -> None:
     code = "import sys; import core.pipeline; from core.settings import Settings, import_methods; "
     code += "old = set(sys.modules); import_methods(Settings(visibility='painters', shading='gouraud')); "
     imported = run_fresh(code + "print(*set(sys.modules) - old, sep='\\n')")
-    assert {
-        "core.fragments.shading",
-        "core.visibility.painters",
-        "core.raster.number_formats.floats",
-    } <= set(imported)
+    assert {"core.fragments.shading", "core.visibility.painters", "core.raster.number_formats.floats"} <= set(
+        imported
+    )
     assert "core.raster.number_formats.exact" not in imported
 
 

@@ -19,11 +19,7 @@ REFUSED = {
         "ply\nformat ascii 1.0\nelement vertex 1000000000000\nelement face 1000000000\nend_header\n",
         "has no vertices",
     ),
-    "a list that is 2.5 long": (
-        "a.ply",
-        ply_text(LINES, ["2.5 0 1 2"]),
-        "a list of face has length -1",
-    ),
+    "a list that is 2.5 long": ("a.ply", ply_text(LINES, ["2.5 0 1 2"]), "a list of face has length -1"),
     "a list that is not a number long": ("a.ply", ply_text(LINES, ["nan 0 1 2"]), "has length -1"),
     "a word among numbers": ("a.ply", ply_text([*LINES[:2], "0 x 0"], ["3 0 1 2"]), "a.ply, line 12"),
     "a texture coordinate without numbers": ("a.obj", SQUARE + "vt\nf 1 2 3\n", "line 5"),

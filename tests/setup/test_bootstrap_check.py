@@ -17,10 +17,7 @@ def test_check_has_all_parts() -> None:
 
 @pytest.mark.parametrize("failing", [[], ["lint"], ["format", "tests"]])
 def test_every_part_runs_and_failures_are_named(
-    failing: list[str],
-    tmp_path: Path,
-    monkeypatch: pytest.MonkeyPatch,
-    capfd: pytest.CaptureFixture[str],
+    failing: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     def parts(root: Path, arguments: list[str]) -> list[tuple[str, list[str]]]:
         code = "import sys; print('ran', sys.argv[1]); sys.exit(int(sys.argv[2]))"

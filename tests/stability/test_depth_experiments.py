@@ -21,11 +21,7 @@ SQUARE = {
     "depth=fixed-38": (2.0**-31, 2.0**-42),
 }
 """The gap that is surely enough, and one that is not, over the square of the distance."""
-LINEAR = {
-    "depth=inverse-w": 2.0**-23,
-    "depth=reversed-z": 2.0**-23,
-    "depth=logarithmic": log(FAR) * 2.0**-24,
-}
+LINEAR = {"depth=inverse-w": 2.0**-23, "depth=reversed-z": 2.0**-23, "depth=logarithmic": log(FAR) * 2.0**-24}
 """The largest step, as a part of the distance."""
 SOURCE = np.random.default_rng(11)
 DISTANCES = [float(value) for value in np.exp(SOURCE.uniform(np.log(10), np.log(1e4), 4))]

@@ -107,10 +107,7 @@ def test_candidates_that_are_no_scene_are_passed_over() -> None:
 
     scene, settings = inner.case("coverage=snapped", (2.0**-12, 2.0**-14), 0)
     found = minimize(
-        TRIANGLES,
-        ClipScene(2 * scene.clip, size=scene.size),
-        lambda scene: judge(scene, settings),
-        3000,
+        TRIANGLES, ClipScene(2 * scene.clip, size=scene.size), lambda scene: judge(scene, settings), 3000
     )
     assert found.verdict.outcome == Outcome.HOLE
     assert not (found.parts.numbers["vertices"][:, 3] == 1).any()

@@ -4,11 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import (
-    QScrollArea,
-    QTabWidget,
-    QWidget,
-)
+from PySide6.QtWidgets import QScrollArea, QTabWidget, QWidget
 
 from widgets.atlas.format_probe import DialRow, DialView
 from widgets.basics.controls import button_with_tip, column_layout
@@ -57,9 +53,7 @@ class CaseView(PinnedPictures):
         self.formats = DialView(self)
         self.tabs = QTabWidget(self)
         self.step_button = button_with_tip(
-            "Open in the stepper",
-            "Step this run at the wrong pixel (Enter on the cell, Ctrl+Return)",
-            self,
+            "Open in the stepper", "Step this run at the wrong pixel (Enter on the cell, Ctrl+Return)", self
         )
         self.shrink_button = button_with_tip(
             "Shrink", "Find the smallest scene that still fails in the same way (S)", self

@@ -291,13 +291,7 @@ def _skeleton(groups: Sequence[OutlineGroup]) -> list[object]:
             group.path,
             group.title,
             [
-                (
-                    r.path,
-                    r.label,
-                    r.vertex,
-                    r.note,
-                    [(v.name, v.lowest, v.highest) for v in r.values],
-                )
+                (r.path, r.label, r.vertex, r.note, [(v.name, v.lowest, v.highest) for v in r.values])
                 for r in group.rows
             ],
         )

@@ -60,10 +60,7 @@ _CYRUS_BECK = (
         "room",
     ),
     FilledColumn(
-        "N ·\n(P₀ − Pₑ)",
-        "Above 0 the first end is outside.",
-        lambda step: 0.0 - step.number("room"),
-        "room",
+        "N ·\n(P₀ − Pₑ)", "Above 0 the first end is outside.", lambda step: 0.0 - step.number("room"), "room"
     ),
     FilledColumn(
         "PE/PL", "Potentially entering, or potentially leaving.", lambda step: _way(step, 1), "room"

@@ -58,10 +58,7 @@ def snapped(step: StepValues) -> Said:
         [
             (rf"\vertex{{{k}}}{{{axis}_{k}}}", grid_latex(after)),
             "=",
-            (
-                _rounded(rf"\vertex{{{k}}}{{{axis}_{{\mathrm{{window}}}}}}"),
-                _rounded(signed_latex(before)),
-            ),
+            (_rounded(rf"\vertex{{{k}}}{{{axis}_{{\mathrm{{window}}}}}}"), _rounded(signed_latex(before))),
         ]
         for axis, before, after in zip("xy", window, grid, strict=True)
     ]
@@ -267,8 +264,7 @@ shows(
         "snapped": VariableText("snapped", "Position on the 1/256-pixel grid, used for coverage."),
         "rounded": VariableText("rounded", "x, y and w in the number format."),
         "doubled_area": VariableText(
-            lambda step: "2A" if _has_area(step) else "D",
-            "Twice the signed area 2A, or the determinant D.",
+            lambda step: "2A" if _has_area(step) else "D", "Twice the signed area 2A, or the determinant D."
         ),
         "direction": VariableText("direction", "a and b before snapping, not in whole numbers.", "a"),
         "start": VariableText("edge start", "Start of the edge as (x, y, w).", "a"),

@@ -263,11 +263,7 @@ shows(
             for k in range(3)
         },
         **{
-            f"value_{k}": VariableText(
-                partial(_value_label, k=k),
-                partial(_value_meaning, k=k),
-                edge=k,
-            )
+            f"value_{k}": VariableText(partial(_value_label, k=k), partial(_value_meaning, k=k), edge=k)
             for k in range(3)
         },
         "covered": VariableText("covered", "Whether the pixel is drawn."),

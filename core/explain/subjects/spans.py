@@ -168,7 +168,7 @@ def pixel_drawn(step: StepValues) -> Said:
 
 OF_LANE = frozenset({"corner_y", "first_row", "row_count", "lane", "lane_count"})
 OF_LANE_ROW = frozenset({f"{name}_{k}" for name in ("numerator", "quotient") for k in range(3)}) | {
-    *("dx", "dy", "left", "left_guard", "right", "right_guard", "length", "span_count"),
+    *("dx", "dy", "left", "left_guard", "right", "right_guard", "length", "span_count")
 }
 OF_PASS = frozenset({"pass_number", "pass_size", "drawn_before", "rank"})
 OF_SPANS = OF_LANE | (OF_LANE_ROW - {"length"}) | OF_PASS | {"level", "place"}

@@ -44,12 +44,7 @@ def normal_error(places: CornerPlaces) -> float:
     return float(turn.max(initial=0)) / sqrt((1 + 2 * ALIKE) / 3) + SINGLE
 
 
-def light_error(
-    turn: float,
-    light: PixelLight,
-    brightest: float,
-    encoding: str,
-) -> float:
+def light_error(turn: float, light: PixelLight, brightest: float, encoding: str) -> float:
     """Return how many bytes a lit pixel may be off before rounding.
 
     Parameters

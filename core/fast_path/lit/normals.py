@@ -25,10 +25,7 @@ NormalPlanes = tuple[Plane, Plane, Plane]
 
 
 def normal_planes(
-    context: DrawContext,
-    camera: Camera,
-    facts: VertexFacts,
-    places: CornerPlaces,
+    context: DrawContext, camera: Camera, facts: VertexFacts, places: CornerPlaces
 ) -> tuple[NormalPlanes, Flags] | None:
     """Return the normals of all primitives, and which of them hold too different ones.
 

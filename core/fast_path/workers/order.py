@@ -25,10 +25,7 @@ class Order:
     out: NDArray[np.uint8] | None
 
     def draw(
-        self,
-        out: NDArray[np.uint8] | None,
-        rows: tuple[int, int] | None = None,
-        plain_colors: bool = False,
+        self, out: NDArray[np.uint8] | None, rows: tuple[int, int] | None = None, plain_colors: bool = False
     ) -> Picture:
         """Draw rows from first to end, or all, in this process; pixels go to ``out`` (H, W, 4)."""
         return draw_picture(

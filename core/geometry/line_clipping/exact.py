@@ -18,14 +18,7 @@ from typing import Any
 import numpy as np
 
 from core.geometry.line_clipping.edge_walk import EdgeWalk, rows_of_walk
-from core.geometry.line_clipping.records import (
-    ENTER,
-    LEAVE,
-    OUTSIDE,
-    PARALLEL,
-    ClippedLines,
-    ClipWindow,
-)
+from core.geometry.line_clipping.records import ENTER, LEAVE, OUTSIDE, PARALLEL, ClippedLines, ClipWindow
 from core.methods import method
 from core.records.arrays import Flags, Floats
 

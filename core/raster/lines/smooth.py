@@ -24,14 +24,7 @@ import numpy as np
 
 from core.methods import method
 from core.raster.lines.dda import LineColumns, ends_by_column, line_equation
-from core.raster.lines.records import (
-    BLENDING,
-    LineRun,
-    LineSteps,
-    Segments,
-    enumerate_steps,
-    round_half_up,
-)
+from core.raster.lines.records import BLENDING, LineRun, LineSteps, Segments, enumerate_steps, round_half_up
 from core.raster.lines.traits import (
     EVALUATE,
     OCTANT,

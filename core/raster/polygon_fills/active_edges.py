@@ -164,10 +164,7 @@ def fill_rings(rings: Rings, raster: Raster, rule: Rule) -> Runs:
 
 
 def fill_listing(
-    sides: Sequence[tuple[Place, Place]],
-    rows: range,
-    center: Fraction,
-    is_inside: Callable[[int, int], bool],
+    sides: Sequence[tuple[Place, Place]], rows: range, center: Fraction, is_inside: Callable[[int, int], bool]
 ) -> Listed:
     """Listing of the fill of one polygon: both ends of its sides, in pixels; returns the spans."""
     table: dict[int, list[list[Fraction]]] = {}

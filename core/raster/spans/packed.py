@@ -80,11 +80,7 @@ def word_spans(
 
 
 def bent_spans(
-    planes: QuadraticPlanes,
-    lanes: TriangleSetup,
-    raster: Raster,
-    owners: TieOwners,
-    scratch: ScratchBuffers,
+    planes: QuadraticPlanes, lanes: TriangleSetup, raster: Raster, owners: TieOwners, scratch: ScratchBuffers
 ) -> WordSpans:
     """Walk the rows of all lanes and return their spans with words and steps to start from."""
     first_row = lanes.first_row.astype(np.int64)

@@ -132,12 +132,7 @@ DEPTH_STEPS = StudyFamily(
     ("depth",),
     (
         WorkKind("separate", "Two float32 matrices (Upchurch 2012)", "depth", (FAR, STEPS)),
-        WorkKind(
-            "precomposed",
-            "One float32 matrix (Upchurch 2012)",
-            "depth",
-            (FAR, STEPS),
-        ),
+        WorkKind("precomposed", "One float32 matrix (Upchurch 2012)", "depth", (FAR, STEPS)),
     ),
     (EQUAL, SWAPPED),
     DepthStepsTask,

@@ -108,11 +108,7 @@ def is_same_schedule(first: StageTrace, second: StageTrace) -> bool:
 
 
 def _differing(
-    first: StageTrace,
-    second: StageTrace,
-    names: tuple[str, ...],
-    rows: Integers,
-    others: Integers | None,
+    first: StageTrace, second: StageTrace, names: tuple[str, ...], rows: Integers, others: Integers | None
 ) -> Flags:
     """Return (N, R) bool: where each of the N columns differs between ``rows`` and ``others`` (R,)."""
     others = rows if others is None else others

@@ -157,10 +157,7 @@ def measure(
     dial = cost_dial(kind) if grow else None
     others = [value for value in dial.values if value != assignment.dials[dial.name]] if dial else []
     watch = _Watch(
-        progress,
-        is_cancelled,
-        point_done,
-        len(candidates) * (1 + rounds + len(others) * (1 + GROWTH_ROUNDS)),
+        progress, is_cancelled, point_done, len(candidates) * (1 + rounds + len(others) * (1 + GROWTH_ROUNDS))
     )
     points = _measure_points(found, assignment, candidates, rounds, watch)
     growth = {} if dial is None else {assignment.dials[dial.name]: points}

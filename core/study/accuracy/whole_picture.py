@@ -205,10 +205,7 @@ class ChoiceTask(PictureTask):
         return self._judge(settings).pictures(settings, made)
 
 
-SHOWS_IN = {
-    "provoking": Settings(interpolation="flat"),
-    "resolve_filter": Settings(antialiasing="ssaa-4"),
-}
+SHOWS_IN = {"provoking": Settings(interpolation="flat"), "resolve_filter": Settings(antialiasing="ssaa-4")}
 """Settings that a family's choice shows in, where the defaults hide it."""
 
 

@@ -6,11 +6,7 @@ from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene
 from core.study.accuracy.workloads import flat_scene
-from core.study.stability.coverage.covered_pixels import (
-    CoverageExperiment,
-    coverage_experiment,
-    on_its_grid,
-)
+from core.study.stability.coverage.covered_pixels import CoverageExperiment, coverage_experiment, on_its_grid
 from core.study.stability.record import Axis, ExperimentInfo
 
 NAME = "open-scene"

@@ -50,12 +50,7 @@ def said(line: str, key: str, place: int = 0) -> tuple[str, str, str]:
         ("bresenham-float", ".test", 1, "The error e plus the slope m is 0.5, not above 0.5, so y stays."),
         ("bresenham", ".plot", 0, "Pixel (2, 1) is drawn: its centre lies at t = 0.125 of edge 2."),
         ("bresenham", "-start.plot", 0, "Pixel (1, 1) is drawn: its centre lies at the first end of edge 2."),
-        (
-            "midpoint",
-            ".evaluate",
-            0,
-            "At x = 2 the line has y = 1.25, with pixel centres at whole numbers.",
-        ),
+        ("midpoint", ".evaluate", 0, "At x = 2 the line has y = 1.25, with pixel centres at whole numbers."),
         ("midpoint", ".round", 0, "The nearest pixel centre to y = 1.25 is at 1."),
         (
             "midpoint",

@@ -4,12 +4,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from core import STAGES
-from core.explain.stage_texts import (
-    ACCOUNTS,
-    family_title,
-    method_text,
-    stage_card,
-)
+from core.explain.stage_texts import ACCOUNTS, family_title, method_text, stage_card
 from core.methods import table
 from core.settings import FAMILIES, families
 from core.stages.declared import DECLARED, stage_of

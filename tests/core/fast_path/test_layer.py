@@ -27,12 +27,7 @@ def picture_of(clip, **chosen: str) -> Picture:
 
 def square(left: float, bottom: float, side: float, z: float) -> list[np.ndarray]:
     """Return clip positions (2, 3, 4) of a square."""
-    a, b, c, d = (
-        (left, bottom),
-        (left + side, bottom),
-        (left + side, bottom + side),
-        (left, bottom + side),
-    )
+    a, b, c, d = ((left, bottom), (left + side, bottom), (left + side, bottom + side), (left, bottom + side))
     return list(clip_of_window([[a, b, c], [a, c, d]], SIZE, 1.0, z))
 
 

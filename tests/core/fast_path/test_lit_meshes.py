@@ -150,13 +150,7 @@ def test_a_region_is_that_part_of_the_picture(name: str) -> None:
             replace(PHONG, clipping="sutherland-hodgman"),
         ),
     ],
-    ids=[
-        "see-through",
-        "point light",
-        "nearest texel",
-        "many meshes",
-        "cut by the near plane",
-    ],
+    ids=["see-through", "point light", "nearest texel", "many meshes", "cut by the near plane"],
 )
 def test_otherwise_attributes_and_light_come_from_every_pixel(scene: Scene, chosen: Settings) -> None:
     picture = draw_picture(scene, chosen)

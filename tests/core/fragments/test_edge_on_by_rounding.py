@@ -9,10 +9,7 @@ from tests.core.strategies import clip_of_window
 
 @pytest.mark.parametrize(
     "points",
-    [
-        [(9.599, 6.908), (10.235, 3.092), (9.359, 8.348)],
-        [(4.714, 3.155), (1.354, -2.605), (7.507, 7.943)],
-    ],
+    [[(9.599, 6.908), (10.235, 3.092), (9.359, 8.348)], [(4.714, 3.155), (1.354, -2.605), (7.507, 7.943)]],
 )
 def test_a_triangle_on_a_line_that_snapping_opens_has_the_values_of_its_corners(points) -> None:
     clip = clip_of_window([points], (16, 16))

@@ -40,8 +40,7 @@ def test_families_in_order():
 
 
 @pytest.mark.parametrize(
-    ("wrap", "expected"),
-    [("repeat", "2301230123"), ("clamp", "0001233333"), ("mirror", "1001233210")],
+    ("wrap", "expected"), [("repeat", "2301230123"), ("clamp", "0001233333"), ("mirror", "1001233210")]
 )
 def test_wraps_of_four_texels(wrap, expected):
     index = np.arange(-2, 8)

@@ -37,14 +37,7 @@ def test_triangle_on_pixel_centres(fill: str) -> None:
     size = (8, 6)
     clip = clip_of_window([[(1.5, 0.5), (6.5, 0.5), (1.5, 5.5)]], size)
     # The left and the bottom side own their centres; the slanted side meets none but at the corners.
-    drawing = [
-        "........",
-        ".#......",
-        ".##.....",
-        ".###....",
-        ".####...",
-        ".#####..",
-    ]
+    drawing = ["........", ".#......", ".##.....", ".###....", ".####...", ".#####.."]
     assert text(cover_each(clip, size, fill)[0] > 0) == drawing
 
 
@@ -54,12 +47,7 @@ def test_triangle_with_a_corner_behind_the_eye_runs_off_the_window(fill: str) ->
     # upwards. The left one meets the centres (1.5, 1.5) and (0.5, 2.5) and owns them, the right one does not.
     size = (8, 4)
     clip = clip_of_window([[(2, 1), (6, 1), (4, -1)]], size, [[1.0, 1.0, -1.0]])
-    drawing = [
-        "########",
-        "#######.",
-        ".#####..",
-        "........",
-    ]
+    drawing = ["########", "#######.", ".#####..", "........"]
     assert text(cover_each(clip, size, fill)[0] > 0) == drawing
 
 

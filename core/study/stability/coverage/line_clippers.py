@@ -162,10 +162,7 @@ SHORT = segment_experiment(
         "Segments of zero length, or of a few ulp",
         "A segment of zero length, or of a few ulp, begins just right of the window. Is it dropped where it lies "
         "outside?",
-        (
-            Axis("across", "Reach to the right", "ulp", STEPS),
-            Axis("up", "Reach upwards", "ulp", STEPS),
-        ),
+        (Axis("across", "Reach to the right", "ulp", STEPS), Axis("up", "Reach upwards", "ulp", STEPS)),
         CLIPPERS,
         "Cyrus-Beck as printed keeps vertical segments outside, however short. All methods drop a point outside, "
         "and keep segments that reach the inside.",

@@ -4,10 +4,7 @@ import numpy as np
 
 from core.scene import ClipScene
 from core.study.accuracy.workloads import flat_scene, on_grid, random_source, window_mesh
-from core.study.stability.coverage.covered_pixels import (
-    coverage_experiment,
-    once_everywhere,
-)
+from core.study.stability.coverage.covered_pixels import coverage_experiment, once_everywhere
 from core.study.stability.coverage.number_formats import powers, scene_of_window
 from core.study.stability.record import Axis, ExperimentInfo
 

@@ -167,13 +167,7 @@ SNAPPING = coverage_experiment(
                 (-0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5),
             ),
         ),
-        (
-            "coverage=float32",
-            "coverage=snapped",
-            "coverage=int64",
-            "coverage=float64",
-            "coverage=exact",
-        ),
+        ("coverage=float32", "coverage=snapped", "coverage=int64", "coverage=float64", "coverage=exact"),
         "Snapping can turn over triangles of about 1/256 pixel, and they are drawn twice. float32 errs below 2^-9"
         " pixel, whatever the grid. float64 and whole numbers draw every pixel once.",
     ),

@@ -26,10 +26,7 @@ SIDE = 4
 BACKGROUND = (0.25, 0.25, 0.25, 1.0)
 TOLERANCE = 1e-3
 """1/255 of linear light: far above the rounding of float32, far below what can be seen."""
-ORDERS = {
-    2: tuple(permutations(range(2))),
-    3: tuple(permutations(range(3))),
-}
+ORDERS = {2: tuple(permutations(range(2))), 3: tuple(permutations(range(3)))}
 """Every order of two and of three layers; 0 is the farthest layer, and the first order is from back to front."""
 
 

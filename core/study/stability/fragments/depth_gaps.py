@@ -88,12 +88,7 @@ def orthographic_walls(distance: float, gap: float, lean: float) -> Scene:
     farther = _leaning_wall(1.0, 0.0, 1.2)
     farther[:, 2] = -distance * (1 + lean * farther[:, 0])
     camera = Camera(
-        np.zeros(3),
-        np.array([0.0, 0.0, -1.0]),
-        projection="orthographic",
-        view_height=2.0,
-        near=0.0,
-        far=1.0,
+        np.zeros(3), np.array([0.0, 0.0, -1.0]), projection="orthographic", view_height=2.0, near=0.0, far=1.0
     )
     return _between(farther, farther + np.array([0.0, 0.0, gap]), camera)
 

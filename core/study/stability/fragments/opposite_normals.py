@@ -92,12 +92,7 @@ def flattened_tube(angle: float, parts: int) -> Scene:
     triangles = np.stack([first, first + 2, first + 3, first, first + 3, first + 1], axis=1).reshape(-1, 3)
     mesh = Mesh(positions, triangles, normals, material=MATERIAL, name="half a tube, flattened")
     camera = Camera(
-        np.array([0.0, 0.0, 1.0]),
-        np.zeros(3),
-        projection="orthographic",
-        view_height=2.0,
-        near=0.5,
-        far=2.0,
+        np.array([0.0, 0.0, 1.0]), np.zeros(3), projection="orthographic", view_height=2.0, near=0.5, far=2.0
     )
     return Scene((mesh,), camera, (LIGHT,), SIZE)
 
