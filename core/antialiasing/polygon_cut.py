@@ -26,8 +26,9 @@ def cut_polygon(polygon: Polygon, a: float, b: float, value: float) -> Polygon:
         return []  #: nothing
     kept = []
     for k, (x, y) in enumerate(polygon):
-        next_x, next_y = polygon[(k + 1) % len(polygon)]
-        here, there = distance[k], distance[(k + 1) % len(polygon)]
+        after = (k + 1) % len(polygon)
+        next_x, next_y = polygon[after]
+        here, there = distance[k], distance[after]
         if here >= 0:
             kept.append((x, y))
         if here < 0 < there or there < 0 < here:

@@ -11,7 +11,7 @@ coordinates".
 P. Shirley, S. Marschner, *Fundamentals of Computer Graphics*, 3rd edition, 2009, section 2.7.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -101,13 +101,19 @@ def divide_areas(corner: Floats, x: Floats, y: Floats) -> Numbers:
     return _with_weights(numbers, [part / whole for part in parts], whole == 0)
 
 
+def doubled_area(a: Sequence[float], b: Sequence[float], c: Sequence[float]) -> float:
+    """Return twice the signed area of a triangle."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1])
+
+
 def divide_areas_at(corners: Floats, x: float, y: float, values: Floats) -> tuple[list[float], float]:
     """Listing of weights by areas, all of them doubled: corners in the window (3, 2), corner values (3,)."""
-    (x0, y0), (x1, y1), (x2, y2) = corners
-    area = (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)  #: whole
-    area0 = (x1 - x) * (y2 - y) - (x2 - x) * (y1 - y)  #: areas
-    area1 = (x2 - x) * (y0 - y) - (x0 - x) * (y2 - y)
-    area2 = (x0 - x) * (y1 - y) - (x1 - x) * (y0 - y)
+    p0, p1, p2 = corners
+    p = x, y
+    area = doubled_area(p0, p1, p2)  #: whole
+    area0 = doubled_area(p, p1, p2)  #: areas
+    area1 = doubled_area(p, p2, p0)
+    area2 = doubled_area(p, p0, p1)
     if area == 0:
         weights = [1 / 3, 1 / 3, 1 / 3]  #: no-area
     else:
@@ -139,7 +145,9 @@ def divide_distances_at(corners: Floats, x: float, y: float, values: Floats) -> 
     """Listing of weights by distances: corners in the window (3, 2), corner values (3,)."""
     at_pixel, at_corner = [], []
     for k in range(3):
-        (xi, yi), (xj, yj), (xk, yk) = corners[k - 2], corners[k - 1], corners[k]
+        xi, yi = corners[k - 2]
+        xj, yj = corners[k - 1]
+        xk, yk = corners[k]
         a, b, c = yi - yj, xj - xi, xi * yj - xj * yi  #: lines
         at_pixel.append(a * x + b * y + c)  #: functions
         at_corner.append(a * xk + b * yk + c)  #: opposite

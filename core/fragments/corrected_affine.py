@@ -17,7 +17,7 @@ from math import floor, inf
 
 import numpy as np
 
-from core.fragments.interpolation import Planes, perspective
+from core.fragments.interpolation import Planes, perspective, weights_at
 from core.methods import method
 from core.records.arrays import Floats, Integers
 from core.records.operation import Operation
@@ -74,23 +74,22 @@ def interpolate_corrected_at(
     """Listing of affine interpolation corrected every ``interval`` pixels: adjugate (3,) each, corner values (3,)."""
     row_left, row_right = -inf, inf
     for k in range(3):
+        rest = b[k] * y + c[k]
         if a[k] * determinant > 0:
-            row_left = max(row_left, -(b[k] * y + c[k]) / a[k])  #: row
+            row_left = max(row_left, -rest / a[k])  #: row
         if a[k] * determinant < 0:
-            row_right = min(row_right, -(b[k] * y + c[k]) / a[k])
+            row_right = min(row_right, -rest / a[k])
     column = floor(x)
     grid = floor(column / interval) * interval + (x - column)  #: grid
     left, right = max(grid, row_left), min(grid + interval, row_right)  #: anchors
     if not row_left <= x <= row_right:
         left = right = x
     t = (x - left) / (right - left) if right > left else 0.0  #: fraction
+    first = weights_at(a, b, c, left, y)  #: corrected
+    second = weights_at(a, b, c, right, y)
     weights = []
-    at_left = [a[k] * left + (b[k] * y + c[k]) for k in range(3)]  #: corrected
-    at_right = [a[k] * right + (b[k] * y + c[k]) for k in range(3)]
     for k in range(3):
-        first = at_left[k] / (at_left[0] + at_left[1] + at_left[2])
-        second = at_right[k] / (at_right[0] + at_right[1] + at_right[2])
-        weights.append(first * (1 - t) + second * t)  #: weights
+        weights.append(first[k] * (1 - t) + second[k] * t)  #: weights
     value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]  #: value
     return weights, value
 

@@ -151,6 +151,12 @@ def _over_their_sum(parts: Floats) -> Floats:
     return parts.T
 
 
+def weights_at(a: Floats, b: Floats, c: Floats, x: float, y: float) -> list[float]:
+    """Return the perspective-correct weights of one place: adjugate (3,) each."""
+    n = [a[k] * x + (b[k] * y + c[k]) for k in range(3)]
+    return [n[k] / (n[0] + n[1] + n[2]) for k in range(3)]
+
+
 def interpolate_at(
     a: Floats, b: Floats, c: Floats, x: float, y: float, values: Floats
 ) -> tuple[list[float], float, float]:

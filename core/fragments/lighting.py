@@ -330,18 +330,19 @@ def blinn_phong(
 ) -> tuple[list[float], list[float]]:
     """Return diffuse and specular light of one point (listing of the rule)."""
     n = _scalar_unit(normal)  #: normal
-    v = _scalar_unit(_scalar_difference(eye, position))  #: to-eye
+    v = _direction(position, eye)  #: to-eye
     if two_sided and _scalar_dot(n, v) < 0:
         n = (-n[0], -n[1], -n[2])  #: turn
     diffuse_light, specular_light = [material.ambient] * 3, [0.0] * 3  #: ambient
     for light in lights:
-        to_light = _scalar_unit(_scalar_to_light(light, position))  #: to-light
-        h = _scalar_unit((to_light[0] + v[0], to_light[1] + v[1], to_light[2] + v[2]))  #: half
-        n_dot_l, n_dot_h = _scalar_dot(n, to_light), _scalar_dot(n, h)  #: cosines
+        to_light = _direction_to(light, position)  #: to-light
+        h = _halfway(to_light, v)  #: half
+        n_dot_l = _scalar_dot(n, to_light)  #: cosines
+        n_dot_h = _scalar_dot(n, h)
         power = max(n_dot_h, 0.0) ** material.shininess if n_dot_l > 0 else 0.0  #: power
-        for channel, color in enumerate(light.color.tolist()):
-            diffuse_light[channel] += material.diffuse * max(n_dot_l, 0.0) * color  #: diffuse
-            specular_light[channel] += material.specular * power * color  #: specular
+        for k, color in enumerate(light.color):
+            diffuse_light[k] += material.diffuse * max(n_dot_l, 0.0) * color  #: diffuse
+            specular_light[k] += material.specular * power * color  #: specular
     return diffuse_light, specular_light
 
 
@@ -349,8 +350,12 @@ def _scalar_dot(a: Vector, b: Vector) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def _scalar_difference(a: Vector, b: Vector) -> Vector:
-    return a[0] - b[0], a[1] - b[1], a[2] - b[2]
+def _halfway(a: Vector, b: Vector) -> Vector:
+    return _scalar_unit((a[0] + b[0], a[1] + b[1], a[2] + b[2]))
+
+
+def _direction(start: Vector, end: Vector) -> Vector:
+    return _scalar_unit((end[0] - start[0], end[1] - start[1], end[2] - start[2]))
 
 
 def _scalar_unit(vector: Vector) -> Vector:
@@ -358,9 +363,7 @@ def _scalar_unit(vector: Vector) -> Vector:
     return vector[0] / length, vector[1] / length, vector[2] / length
 
 
-def _scalar_to_light(light: Light, position: Vector) -> Vector:
+def _direction_to(light: Light, position: Vector) -> Vector:
     if isinstance(light, DirectionalLight):
-        x, y, z = (-light.direction).tolist()
-        return x, y, z
-    x, y, z = light.position.tolist()
-    return _scalar_difference((x, y, z), position)
+        return _scalar_unit((-light.direction).tolist())
+    return _direction(position, light.position.tolist())

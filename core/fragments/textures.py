@@ -132,13 +132,17 @@ def bilinear_color(
     """Return the mean of the four texels of ``pixels[row][column]`` around (u, v) (listing of bilinear)."""
     width, height = len(pixels[0]), len(pixels)
     x, y = u * width - 0.5, v * height - 0.5  #: position
-    w_u, w_v = x - floor(x), y - floor(y)  #: weights
-    left, right = wrapped_index(floor(x), width, wrap), wrapped_index(floor(x) + 1, width, wrap)  #: columns
-    bottom, top = wrapped_index(floor(y), height, wrap), wrapped_index(floor(y) + 1, height, wrap)  #: rows
+    i, j = floor(x), floor(y)
+    w_u, w_v = x - i, y - j  #: weights
+    left = wrapped_index(i, width, wrap)  #: columns
+    right = wrapped_index(i + 1, width, wrap)
+    bottom = wrapped_index(j, height, wrap)  #: rows
+    top = wrapped_index(j + 1, height, wrap)
+    low, high = pixels[bottom], pixels[top]
     color = []
-    for channel in range(len(pixels[0][0])):
-        c_b = pixels[bottom][left][channel] * (1 - w_u) + pixels[bottom][right][channel] * w_u  #: bottom
-        c_t = pixels[top][left][channel] * (1 - w_u) + pixels[top][right][channel] * w_u  #: top
+    for k in range(len(pixels[0][0])):
+        c_b = low[left][k] * (1 - w_u) + low[right][k] * w_u  #: bottom
+        c_t = high[left][k] * (1 - w_u) + high[right][k] * w_u  #: top
         color.append(c_b * (1 - w_v) + c_t * w_v)  #: color
     return tuple(color)
 

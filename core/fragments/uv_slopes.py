@@ -89,12 +89,12 @@ def slope_numerators(
 
 
 def slopes_at(
-    a: Floats, b: Floats, n: Floats, u: float, v: float, corner_u: Floats, corner_v: Floats
+    a: Floats, b: Floats, n: Floats, u: float, v: float, us: Floats, vs: Floats
 ) -> tuple[float, float, float, float]:
     """Listing of the slopes: changes and values of the three numerators (3,) each, and u, v at the corners (3,)."""
     total = n[0] + n[1] + n[2]  #: total
-    du = [corner_u[k] - u for k in range(3)]  #: draw
-    dv = [corner_v[k] - v for k in range(3)]
+    du = [us[k] - u for k in range(3)]  #: draw
+    dv = [vs[k] - v for k in range(3)]
     du_dx = (a[0] * du[0] + a[1] * du[1] + a[2] * du[2]) / total  #: slopes
     dv_dx = (a[0] * dv[0] + a[1] * dv[1] + a[2] * dv[2]) / total
     du_dy = (b[0] * du[0] + b[1] * du[1] + b[2] * du[2]) / total

@@ -19,6 +19,7 @@ M. I. Jubair, "Backface Culling" (N . V > 0 culls, V leads from the eye to the p
 J. F. Blinn, *Backface culling snags*, IEEE CG&A 13(6), 1993.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -171,20 +172,24 @@ def stored_turns_away(
 ) -> tuple[list[float], float, bool]:
     """Listing with the mesh's N: object corners (3, 3), rows of C^-1 M (3, 3), the first corner in camera space."""
     (ax, ay, az), (bx, by, bz), (cx, cy, cz) = given
-    ux, uy, uz = bx - ax, by - ay, bz - az
-    vx, vy, vz = cx - ax, cy - ay, cz - az
-    n = [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx]  #: stored
-    (a, b, c), (d, e, f), (g, h, i) = carry
-    cofactors = [
-        [e * i - f * h, f * g - d * i, d * h - e * g],
-        [h * c - i * b, i * a - g * c, g * b - h * a],
-        [b * f - c * e, c * d - a * f, a * e - b * d],
-    ]
-    determinant = a * cofactors[0][0] + b * cofactors[0][1] + c * cofactors[0][2]  #: determinant
-    n = [(row[0] * n[0] + row[1] * n[1] + row[2] * n[2]) / determinant for row in cofactors]  #: carried
+    u = bx - ax, by - ay, bz - az
+    v = cx - ax, cy - ay, cz - az
+    n = _cross(u, v)  #: stored
+    a, b, c = carry
+    cofactors = _cross(b, c), _cross(c, a), _cross(a, b)
+    determinant = _dot(a, cofactors[0])  #: determinant
+    n = [_dot(row, n) / determinant for row in cofactors]  #: carried
     view = (0.0, 0.0, -1.0) if is_parallel else corner  #: view
-    product = n[0] * view[0] + n[1] * view[1] + n[2] * view[2]  #: product
+    product = _dot(n, view)  #: product
     return n, product, product > 0  #: test
+
+
+def _cross(a: Sequence[float], b: Sequence[float]) -> list[float]:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def _dot(a: Sequence[float], b: Sequence[float]) -> float:
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
 _TESTS = (

@@ -219,13 +219,17 @@ def runs_of_blocks(blocks: Blocks, boxes: Boxes) -> Runs:
 
 
 def block_verdict(
-    coefficients: list[tuple[float, float, float, bool]], left: float, bottom: float, right: float, top: float
+    edges: list[tuple[float, float, float, bool]], left: float, bottom: float, right: float, top: float
 ) -> str:
     """Listing of the block test: (a, b, c, owns tie) of the three edges, centres of the corner pixels."""
     all_inside = True
-    for a, b, c, owns_tie in coefficients:
-        high = a * (right if a > 0 else left) + (b * (top if b > 0 else bottom) + c)  #: high
-        low = a * (left if a > 0 else right) + (b * (bottom if b > 0 else top) + c)  #: low
+    for a, b, c, owns_tie in edges:
+        x = right if a > 0 else left
+        y = top if b > 0 else bottom
+        high = a * x + (b * y + c)  #: high
+        x = left if a > 0 else right
+        y = bottom if b > 0 else top
+        low = a * x + (b * y + c)  #: low
         if not (high > 0 or (high == 0 and owns_tie)):  #: reject
             return "outside"  #: outside
         if not (low > 0 or (low == 0 and owns_tie)):  #: accept

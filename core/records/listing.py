@@ -3,6 +3,7 @@
 A line of the function is named by a comment at its end, ``#: name``; a step says the name, the window marks the line.
 """
 
+import ast
 import inspect
 import re
 from collections.abc import Callable
@@ -16,7 +17,7 @@ _LABEL = re.compile(r"\s*#: (?P<name>[\w-]+)\s*$")
 
 @dataclass(frozen=True, eq=False)
 class Listing:
-    """Source of a scalar function without its labels, and the line each label stands on."""
+    """Source of a scalar function without labels and types, and the line each label stands on."""
 
     function: Callable[..., Any]
     source: str
@@ -26,12 +27,32 @@ class Listing:
 
 @cache
 def listing(function: Callable[..., Any]) -> Listing:
-    """Read the source of ``function`` and take its labels out."""
+    """Read the source of ``function`` as a textbook prints it: its labels and types are taken out."""
     lines, labels = [], {}
-    for number, line in enumerate(dedent(inspect.getsource(function)).splitlines(), start=1):
+    for number, line in enumerate(_untyped(dedent(inspect.getsource(function))), start=1):
         label = _LABEL.search(line)
         if label:
             labels[label["name"]] = number
             line = line[: label.start()]
         lines.append(line)
     return Listing(function, "\n".join(lines), labels)
+
+
+def _untyped(source: str) -> list[str]:
+    """Return the lines of a function: signatures in one line and without types, every indent half as wide."""
+    lines = source.splitlines()
+    typed = [
+        node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.FunctionDef | ast.AnnAssign)
+    ]
+    for node in sorted(typed, key=lambda node: -node.lineno):
+        first, indent = node.lineno - 1, " " * node.col_offset
+        if isinstance(node, ast.AnnAssign):
+            line, end = lines[first], node.annotation.end_col_offset
+            lines[first] = line[: node.target.end_col_offset] + line[end:]
+            continue
+        for argument in ast.walk(node.args):
+            if isinstance(argument, ast.arg):
+                argument.annotation = None
+        last = next(k for k in range(first, len(lines)) if lines[k].endswith(":"))
+        lines[first : last + 1] = [f"{indent}def {node.name}({ast.unparse(node.args)}):"]
+    return [" " * ((len(line) - len(line.lstrip())) // 2) + line.lstrip() for line in lines]

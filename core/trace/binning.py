@@ -1,5 +1,6 @@
 """Trace of binning: the box of every triangle and the verdict on every block."""
 
+from math import ceil, floor
 from typing import Any
 
 import numpy as np
@@ -26,10 +27,10 @@ def bounding_box(
     x: np.ndarray, y: np.ndarray, center: float, bounds: tuple[int, int, int, int]
 ) -> tuple[int, int, int, int]:
     """Listing of the box: corners (3,) in pixels; bounds and result are column, row, end column, end row."""
-    column = max(int(np.ceil(min(x) - center)), bounds[0])  #: column
-    row = max(int(np.ceil(min(y) - center)), bounds[1])  #: row
-    column_end = min(int(np.floor(max(x) - center)) + 1, bounds[2])  #: column-end
-    row_end = min(int(np.floor(max(y) - center)) + 1, bounds[3])  #: row-end
+    column = max(ceil(min(x) - center), bounds[0])  #: column
+    row = max(ceil(min(y) - center), bounds[1])  #: row
+    column_end = min(floor(max(x) - center) + 1, bounds[2])  #: column-end
+    row_end = min(floor(max(y) - center) + 1, bounds[3])  #: row-end
     return column, row, column_end, row_end
 
 
@@ -37,12 +38,12 @@ def outer_box(
     x: np.ndarray, y: np.ndarray, center: float, bounds: tuple[int, int, int, int]
 ) -> tuple[int, int, int, int]:
     """Listing of the box around corners (3,) that are not snapped: outward to whole pixels, then as every box."""
-    left, bottom = np.floor(min(x)), np.floor(min(y))  #: low
-    right, top = np.ceil(max(x)), np.ceil(max(y))  #: high
-    column = max(int(np.ceil(left - center)), bounds[0])  #: column
-    row = max(int(np.ceil(bottom - center)), bounds[1])
-    column_end = min(int(np.floor(right - center)) + 1, bounds[2])  #: column-end
-    row_end = min(int(np.floor(top - center)) + 1, bounds[3])
+    left, bottom = floor(min(x)), floor(min(y))  #: low
+    right, top = ceil(max(x)), ceil(max(y))  #: high
+    column = max(ceil(left - center), bounds[0])  #: column
+    row = max(ceil(bottom - center), bounds[1])
+    column_end = min(floor(right - center) + 1, bounds[2])  #: column-end
+    row_end = min(floor(top - center) + 1, bounds[3])
     return column, row, column_end, row_end
 
 

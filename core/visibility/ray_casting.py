@@ -144,7 +144,8 @@ def hit_is_nearer(
         return True  #: first
     if abs(value - nearest_value) > (error + nearest_error) * (1 + 2.0**-50):  #: margin
         return value > nearest_value  #: floats
-    new, old = exact_plane(corners, by_w), exact_plane(nearest_corners, by_w)  #: planes
+    new = exact_plane(corners, by_w)  #: planes
+    old = exact_plane(nearest_corners, by_w)
     if new is None or old is None:
         return new is not None and old is None  #: no-point
     (m, width), (n, height) = x, y

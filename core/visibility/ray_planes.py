@@ -152,7 +152,8 @@ def hit_value(
     plane: Sequence[float], sizes: Sequence[float], m: int, n: int, width: int, height: int
 ) -> tuple[float, float]:
     """Listing of where a ray meets a plane (a, b, c, d), and of a bound of the error; larger is nearer."""
-    (a, b, c, d), (size_a, size_b, size_c, size_d) = plane, sizes
+    a, b, c, d = plane
+    size_a, size_b, size_c, size_d = sizes
     x, y = m / width, n / height  #: ray
     error_d = ROUNDING * size_d + UNDERFLOW
     least = abs(d) - error_d  #: determinant

@@ -57,6 +57,8 @@ QTextBrowser, QTextEdit[readOnly="true"], QPlainTextEdit[readOnly="true"] { bord
 QTextBrowser:focus, QTextEdit[readOnly="true"]:focus, QPlainTextEdit[readOnly="true"]:focus {
     border: 2px solid $focus; padding: 2px ${u}px;
 }
+ListingView { padding: 3px 1px; }
+ListingView:focus { padding: 2px 0px; }
 QSlider { border: 2px solid transparent; border-radius: 3px; }
 QSlider:focus { border-color: $focus; }
 

@@ -1,7 +1,7 @@
 """The algorithm as code: the line of the step just done is marked, a click runs to a line."""
 
 import math
-from collections.abc import Collection, Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -30,6 +30,8 @@ from widgets.inspector.listing_margin import ListingMargin
 
 _COMMANDS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
 
+SEEN_LINES = 10
+"""Lines of which the present one is in sight, whole."""
 MOST_ROWS = 19
 """Rows that the pane is made high for: beyond them a listing is scrolled."""
 HINT = "The algorithm of the stage appears here, with the line of each step marked."
@@ -135,13 +137,18 @@ class ListingView(QPlainTextEdit):
         if self._line is None or self.textCursor().hasSelection():
             return
         block = self.document().findBlockByNumber(self._line - 1)
-        if block.isValid():
-            # Its last row first, then its first one: a line that is wrapped is seen whole where there is room.
-            cursor = QTextCursor(block)
-            for part in (QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveOperation.StartOfBlock):
-                cursor.movePosition(part)
-                self.setTextCursor(cursor)
-                self.ensureCursorVisible()
+        if not block.isValid():
+            return
+        self.setTextCursor(QTextCursor(block))
+        rows, at = {}, self.document().firstBlock()
+        while at.isValid():
+            if at.isVisible():
+                self.blockBoundingRect(at)  # It is laid out at the latest now.
+                rows[at.blockNumber()] = range(at.firstLineNumber(), at.firstLineNumber() + at.lineCount())
+            at = at.next()
+        height = self.viewport().height() - self.document().documentMargin()
+        page, bar = int(height / self.fontMetrics().lineSpacing()), self.verticalScrollBar()
+        bar.setValue(best_first_row([*rows.values()], rows[self._line - 1], page, bar.value()))
 
     @Slot(object)
     def show_breakpoints(self, lines: Collection[int]) -> None:
@@ -178,12 +185,17 @@ class ListingView(QPlainTextEdit):
         return self._breakpoints
 
     def height_of(self, lines: int, is_wrapped: bool = True) -> int:
-        """Return the height of the first lines of every listing shown in turn, wrapped, or of so many rows."""
+        """Return the height of any so many lines of every listing shown in turn, wrapped, or of so many rows."""
         row, rows = self.fontMetrics().lineSpacing(), lines
         if is_wrapped:
             # Beside a scroll bar.
             bar = self.verticalScrollBar().sizeHint().width()
-            width = self.width() - self._margin.wanted_width() - bar - 2 * self.document().documentMargin()
+            width = (
+                self.contentsRect().width()
+                - self._margin.wanted_width()
+                - bar
+                - 2 * self.document().documentMargin()
+            )
             font, option = self.font(), self.document().defaultTextOption()
             sources = {self.toPlainText(), *self._in_turn}
             rows = max(_rows(source, lines, width, font, option.wrapMode()) for source in sources)
@@ -295,18 +307,33 @@ class ListingView(QPlainTextEdit):
 
 @lru_cache(maxsize=1024)
 def _rows(source: str, lines: int, width: float, font: QFont, wrap: QTextOption.WrapMode) -> int:
-    """Return how many rows the first lines of a source that are shown take in a width; at least one for each."""
+    """Return how many rows so many successive lines of a source take at most in a width; at least one for each."""
     folded = docstring_lines(source)
     shown = [text for line, text in enumerate(source.split("\n"), 1) if line not in folded]
     option = QTextOption()
     option.setWrapMode(wrap)
-    rows = lines
-    for text in shown[:lines]:
+    rows = []
+    for text in shown:
         layout = QTextLayout(text, font)
         layout.setTextOption(option)
         layout.beginLayout()
         while (line := layout.createLine()).isValid():
             line.setLineWidth(width)
         layout.endLayout()
-        rows += max(layout.lineCount() - 1, 0)
-    return rows
+        rows.append(max(layout.lineCount(), 1))
+    successive = [sum(rows[first : first + lines]) for first in range(max(len(rows) - lines, 0) + 1)]
+    return max(*successive, lines)
+
+
+def best_first_row(lines: Sequence[range], marked: range, page: int, present: int) -> int:
+    """Return which row to scroll to, the nearest that shows the marked line whole and ten lines, or the most that go.
+
+    Each line is given by its rows; `page` rows are seen, now from row `present` on.
+    """
+
+    def worth(first: int) -> tuple[bool, int, int]:
+        seen = range(first, first + page)
+        whole = sum(line[0] in seen and line[-1] in seen for line in lines)
+        return marked[0] in seen and marked[-1] in seen, min(whole, SEEN_LINES), -abs(first - present)
+
+    return max(range(max(lines[-1].stop - page, 0) + 1), key=worth)

@@ -29,7 +29,7 @@ class ListingMargin(QWidget):
     def wanted_width(self) -> int:
         """Return the room for a mark and the largest line number."""
         digits = max(2, len(str(self._view.blockCount())))
-        return self._view.fontMetrics().horizontalAdvance("0") * digits + self._mark_size() + 18
+        return self._view.fontMetrics().horizontalAdvance("0") * digits + self._mark_size() + 13
 
     def sizeHint(self) -> QSize:
         """Be as wide as that."""
@@ -73,7 +73,7 @@ class ListingMargin(QWidget):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(row.adjusted(2, 0, -3, -1))
         painter.setPen(QColor(theme.text if is_current else theme.muted_text))
-        first = QRect(row.left(), row.top(), row.width() - 8, line_height)
+        first = QRect(row.left(), row.top(), row.width() - 6, line_height)
         painter.drawText(first, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, str(line))
 
     def _mark_size(self) -> int:

@@ -19,7 +19,7 @@ LISTING_LINES, PRESENTED_LINES = 10, 4
 """Lines of the listing that are seen whole, and the same while presenting: the formula goes before it."""
 SENTENCE_LINES, FORMULA_LINES = 3, 6.5
 """Height of the sentence, and of the formula, in which two fractions stand one below the other, in lines of text."""
-DETAIL_LINES = 8
+DETAIL_LINES = 7
 """Height of variables and history, in lines, for which the listing wraps onto fewer rows."""
 
 

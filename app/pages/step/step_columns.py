@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.theme import current_theme, theme_notifier
 
-WIDTHS = (28.0, 29.5)
+WIDTHS = (28.0, 32.0)
 """Widths of the side pane and of the inspector at first, in heights of the text."""
 NARROWEST = (15, 18)
 """Least widths of both, in heights of the text."""

@@ -50,10 +50,12 @@ def cohen_sutherland_listing(
         edge = (codes[end] & -codes[end]).bit_length() - 1  #: edge
         if edge < 2:
             border = left if edge == 0 else right
-            x, y = border, y0 + (y1 - y0) * ((border - x0) / (x1 - x0))  #: point-x
+            t = (border - x0) / (x1 - x0)
+            x, y = border, y0 + (y1 - y0) * t  #: point-x
         else:
             border = bottom if edge == 2 else top
-            x, y = x0 + (x1 - x0) * ((border - y0) / (y1 - y0)), border  #: point-y
+            t = (border - y0) / (y1 - y0)
+            x, y = x0 + (x1 - x0) * t, border  #: point-y
         x = max(x, left) if done[end] & 1 else min(x, right) if done[end] & 2 else x  #: hold
         y = max(y, bottom) if done[end] & 4 else min(y, top) if done[end] & 8 else y
         ends[end] = [x, y]  #: move

@@ -36,7 +36,8 @@ def exact_listing(
     dx, dy = x1 - x, y1 - y
     t_e, t_l, entry, exit = Fraction(0), Fraction(1), -1, -1
     seen: Listed = []
-    for k, ((nx, ny), (ex, ey)) in enumerate(zip(normals, points, strict=True)):
+    for k, (nx, ny) in enumerate(normals):
+        ex, ey = points[k]
         t = None
         along = nx * dx + ny * dy  #: along
         room = -(nx * (x - Fraction(ex)) + ny * (y - Fraction(ey)))  #: edges

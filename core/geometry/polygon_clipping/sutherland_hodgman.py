@@ -231,27 +231,25 @@ def join_rows(parts: list[ClipRows], width: int) -> ClipRows:
     return ClipRows(**{name: values[order] for name, values in columns.items()})
 
 
-def clip_edge(start: Floats, end: Floats, start_distance: float, end_distance: float) -> list[Floats]:
+def clip_edge(start: Floats, end: Floats, d_start: float, d_end: float) -> list[Floats]:
     """Listing of one edge against one plane: the corners it hands on."""
-    if start_distance >= 0 and end_distance >= 0:  #: in-in
+    if d_start >= 0 and d_end >= 0:  #: in-in
         return [end]
-    if start_distance >= 0:  #: in-out
-        t = start_distance / (start_distance - end_distance)  #: t-out
+    if d_start >= 0:  #: in-out
+        t = d_start / (d_start - d_end)  #: t-out
         return [start + t * (end - start)]  #: leave
-    if end_distance >= 0:  #: out-in
-        t = end_distance / (end_distance - start_distance)  #: t-in
+    if d_end >= 0:  #: out-in
+        t = d_end / (d_end - d_start)  #: t-in
         return [end + t * (start - end), end]  #: enter
     return []  #: out-out
 
 
-def clip_edge_in_order(
-    start: Floats, end: Floats, start_distance: float, end_distance: float
-) -> list[Floats]:
+def clip_edge_in_order(start: Floats, end: Floats, d_start: float, d_end: float) -> list[Floats]:
     """Listing of one edge against one plane, new corners always computed from its start."""
-    if start_distance >= 0 and end_distance >= 0:  #: in-in
+    if d_start >= 0 and d_end >= 0:  #: in-in
         return [end]
-    if start_distance < 0 and end_distance < 0:  #: out-out
+    if d_start < 0 and d_end < 0:  #: out-out
         return []
-    t = start_distance / (start_distance - end_distance)  #: t
+    t = d_start / (d_start - d_end)  #: t
     corner = start + t * (end - start)  #: corner
-    return [corner] if end_distance < 0 else [corner, end]
+    return [corner] if d_end < 0 else [corner, end]

@@ -103,17 +103,28 @@ def find_crossings(rings: Sequence[Ring], region: Sequence[Ring]) -> list[Crossi
         for k, (p, q) in enumerate(sides_of(ring)):
             for s, other in enumerate(region):
                 for m, (a, b) in enumerate(sides_of(other)):
-                    if max(p[0], q[0]) < min(a[0], b[0]) or max(a[0], b[0]) < min(p[0], q[0]):
+                    if max(p[0], q[0]) < min(a[0], b[0]):
                         continue
-                    start, end = turn_about_moved(a, b, p), turn_about_moved(a, b, q)
-                    first, last = turn_of_moved(p, q, a), turn_of_moved(p, q, b)
-                    if is_above(start) == is_above(end) or is_above(first) == is_above(last):
+                    if max(a[0], b[0]) < min(p[0], q[0]):
                         continue
-                    t = _share(start, end)  #: place
-                    place = (p[0] + t[0] * (q[0] - p[0]), p[1] + t[0] * (q[1] - p[1]))
-                    is_entering = is_above(end)  #: way
-                    found.append(Crossing((r, k), (s, m), t, _share(first, last), is_entering, place))
+                    start = turn_about_moved(a, b, p)
+                    end = turn_about_moved(a, b, q)
+                    if is_above(start) == is_above(end):
+                        continue
+                    first = turn_of_moved(p, q, a)
+                    last = turn_of_moved(p, q, b)
+                    if is_above(first) == is_above(last):
+                        continue
+                    t, u = _share(start, end), _share(first, last)  #: place
+                    place = _between(p, q, t)
+                    entering = is_above(end)  #: way
+                    found.append(Crossing((r, k), (s, m), t, u, entering, place))
     return found
+
+
+def _between(p: Place, q: Place, t: Share) -> Place:
+    """Return the point at a share of the way, without the parts of it that are infinitely small."""
+    return p[0] + t[0] * (q[0] - p[0]), p[1] + t[0] * (q[1] - p[1])
 
 
 def _share(start: Near, end: Near) -> Share:

@@ -95,19 +95,20 @@ def turning_column(
 
 
 def span(
-    coefficients: list[tuple[float, float, float, bool]], y: float, start: int, stop: int, center: float
+    edges: list[tuple[float, float, float, bool]], y: float, start: int, stop: int, center: float
 ) -> tuple[int, int]:
     """Listing of one row: coefficients (a, b, c, owns tie) of the three edges, columns from start to stop."""
-    for a, b, c, owns_tie in coefficients:
-        if a == 0 and (b * y + c < 0 or (b * y + c == 0 and not owns_tie)):  #: parallel
+    for a, b, c, owns_tie in edges:
+        rest = b * y + c
+        if a == 0 and (rest < 0 or (rest == 0 and not owns_tie)):  #: parallel
             stop = start  #: empty
         while a > 0 and start < stop:  #: left
-            value = a * (start + center) + (b * y + c)  #: left-value
+            value = a * (start + center) + rest  #: left-value
             if value > 0 or (value == 0 and owns_tie):  #: left-inside
                 break
             start += 1  #: move-right
         while a < 0 and start < stop:  #: right
-            value = a * (stop - 1 + center) + (b * y + c)  #: right-value
+            value = a * (stop - 1 + center) + rest  #: right-value
             if value > 0 or (value == 0 and owns_tie):  #: right-inside
                 break
             stop -= 1  #: move-left

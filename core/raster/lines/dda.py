@@ -237,7 +237,8 @@ def dda_float32_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: 
     b = y0 - m * x0  #: intercept
     x_step = -1 if x1 < x0 else 1  #: directions
     x = ceil(x0) if x_step > 0 else floor(x0)  #: start
-    y, y_step = np.float32(m * x + b), np.float32(m * x_step)  #: evaluate
+    y = np.float32(m * x + b)  #: evaluate
+    y_step = np.float32(m * x_step)
     pixels = []
     while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
         row = floor(y) + (float(y) - floor(y) >= 0.5)  #: round

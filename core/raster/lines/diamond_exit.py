@@ -157,14 +157,19 @@ def _judge(course: _Course, owner: Integers, k: Integers, last_pixel: bool) -> _
     return _Verdict(minor, is_drawn, offset, is_tie | is_edge.any(axis=1), exits[:, 0], exits[:, 1])
 
 
+def _rounded(number: float, parts: int) -> Fraction:
+    return Fraction(round(number * parts), parts)
+
+
 def diamond_exit_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
     """List the pixels of ``diamond-exit`` on one segment, exactly; pixel centres are whole numbers."""
     ends = (x0, y0, x1, y1)
-    u0, v0, u1, v1 = [Fraction(round(end * END_SUBPIXELS), END_SUBPIXELS) for end in ends]  #: exact
-    a, b, c, d = [Fraction(round(end * SUBPIXELS), SUBPIXELS) for end in ends]  #: snap
+    u0, v0, u1, v1 = [_rounded(end, END_SUBPIXELS) for end in ends]  #: exact
+    a, b, c, d = [_rounded(end, SUBPIXELS) for end in ends]  #: snap
     is_steep = abs(v1 - v0) > abs(u1 - u0)  #: octant
     if is_steep:
-        u0, v0, u1, v1, a, b, c, d = v0, u0, v1, u1, b, a, d, c  #: swap-axes
+        u0, v0, u1, v1 = v0, u0, v1, u1  #: swap-axes
+        a, b, c, d = b, a, d, c
     s = -1 if u1 < u0 else 1  #: directions
     m, half = Fraction(0), Fraction(1, 2)
     if c != a:
@@ -183,15 +188,18 @@ def diamond_exit_listing(x0: float, y0: float, x1: float, y1: float, last_pixel:
         return reach < half
 
     pixels = []
-    for x in range(ceil(min(u0, u1) - half), floor(max(u0, u1) + half) + 1)[::s]:  #: columns
+    first, last = ceil(min(u0, u1) - half), floor(max(u0, u1) + half)
+    for x in range(first, last + 1)[::s]:  #: columns
         height = b + (x - a) * m  #: evaluate
         y = floor(height + half)  #: round
         if height + half == y and (is_steep or m <= 0):
             y -= 1  #: tie
-        leaves = not is_through(u0, v0) and is_through(u1, v1)  #: leaves
-        ends_here = last_pixel and not is_through(u0, v0) and is_reached(u1, v1)  #: ends
+        begins = not is_through(u0, v0)
+        leaves = begins and is_through(u1, v1)  #: leaves
+        ends_here = last_pixel and begins and is_reached(u1, v1)  #: ends
         if leaves or ends_here:
-            pixels.append((y, x, float(height - y)) if is_steep else (x, y, float(height - y)))  #: draw
+            place = (y, x) if is_steep else (x, y)
+            pixels.append((*place, float(height - y)))  #: draw
     return pixels
 
 

@@ -210,21 +210,29 @@ def rectangle_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bo
     is_below = dy < 0 or (dy == 0 and dx > 0)
 
     is_steep = abs(dy) > abs(dx)  #: octant
-    low, high = (min(b, d), max(b, d)) if is_steep else (min(a, c), max(a, c))
-    columns = range(ceil(low / SUBPIXELS - 0.5), floor(high / SUBPIXELS + 0.5) + 1)  #: columns
-    du, dv, u0, v0 = (dy, dx, b, a) if is_steep else (dx, dy, a, b)
+    low, high = sorted((b, d) if is_steep else (a, c))
+    first, last = ceil(low / SUBPIXELS - 0.5), floor(high / SUBPIXELS + 0.5)
+    columns = range(first, last + 1)  #: columns
+    du, dv, u0, v0 = dx, dy, a, b
+    if is_steep:
+        du, dv, u0, v0 = dy, dx, b, a
 
     pixels = []
     for u in columns[::-1] if du < 0 else columns:
-        nearest = floor((v0 + (SUBPIXELS * u - u0) * dv / du) / SUBPIXELS + 0.5)
-        for v in (nearest - 1, nearest, nearest + 1):
+        place = v0 + (SUBPIXELS * u - u0) * dv / du
+        nearest = floor(place / SUBPIXELS + 0.5)
+        for v in range(nearest - 1, nearest + 2):
             column, row = (v, u) if is_steep else (u, v)
-            x, y = SUBPIXELS * column - a, SUBPIXELS * row - b
-            cross, dot = dx * y - dy * x, dx * x + dy * y  #: across
-            is_side = cross * cross == half_squared
-            beside = abs(cross) <= half and (not is_side or (cross < 0) == is_below)  #: inside
-            between = 0 <= dot < squared or (dot == squared and last_pixel)  #: along
-            if beside and between:
+            x = SUBPIXELS * column - a
+            y = SUBPIXELS * row - b
+            cross = dx * y - dy * x  #: across
+            dot = dx * x + dy * y
+            is_inside = abs(cross) <= half  #: inside
+            if cross**2 == half_squared:
+                is_inside = (cross < 0) == is_below
+            if dot < 0 or dot > squared:  #: along
+                continue
+            if is_inside and (dot < squared or last_pixel):
                 pixels.append((column, row, cross / pixel))  #: draw
     return pixels
 

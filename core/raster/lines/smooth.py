@@ -193,7 +193,8 @@ def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> 
     b = y0 - m * x0  #: intercept
     x_step = -1 if x1 < x0 else 1  #: directions
     low, high = min(x0, x1), max(x0, x1)
-    first, last = floor(low) + (low - floor(low) >= 0.5), ceil(high) - (ceil(high) - high >= 0.5)  #: start
+    first = floor(low) + (low - floor(low) >= 0.5)  #: start
+    last = ceil(high) - (ceil(high) - high >= 0.5)
     pixels = []
     for x in range(first, last + 1)[::x_step]:
         y = m * x + b  #: evaluate
@@ -202,7 +203,8 @@ def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> 
         for row, part in ((floor(y), 1 - fraction), (floor(y) + 1, fraction)):
             intensity = part * share  #: intensity
             if intensity > 0:
-                pixels.append((row, x, y, intensity) if is_steep else (x, row, y, intensity))  #: draw
+                place = (row, x) if is_steep else (x, row)
+                pixels.append((*place, y, intensity))  #: draw
     return pixels
 
 
@@ -252,18 +254,22 @@ def gupta_sproull_listing(x0: float, y0: float, x1: float, y1: float, last_pixel
     cosine = 1 / sqrt(1 + m * m)  #: cosine
     x_step = -1 if x1 < x0 else 1  #: directions
     low, high = min(x0, x1), max(x0, x1)
-    first, last = floor(low) + (low - floor(low) >= 0.5), ceil(high) - (ceil(high) - high >= 0.5)  #: start
+    first = floor(low) + (low - floor(low) >= 0.5)  #: start
+    last = ceil(high) - (ceil(high) - high >= 0.5)
     pixels = []
     for x in range(first, last + 1)[::x_step]:
         y = m * x + b  #: evaluate
-        share = max(min(x + 0.5, high) - max(x - 0.5, low), 0.0)  #: share
-        nearest = floor(y) + (y - floor(y) >= 0.5)  #: round
-        for row in (nearest, nearest + 1, nearest - 1):
+        left, right = max(x - 0.5, low), min(x + 0.5, high)
+        share = max(right - left, 0.0)  #: share
+        near = floor(y) + (y - floor(y) >= 0.5)  #: round
+        for row in (near, near + 1, near - 1):
             distance = abs(row - y) * cosine  #: distance
             entry = floor(distance * TABLE_STEPS + 0.5)  #: entry
-            intensity = float(FILTER_TABLE[entry]) * share  #: intensity
+            weight = float(FILTER_TABLE[entry])
+            intensity = weight * share  #: intensity
             if intensity > 0:
-                pixels.append((row, x, y, intensity) if is_steep else (x, row, y, intensity))  #: draw
+                place = (row, x) if is_steep else (x, row)
+                pixels.append((*place, y, intensity))  #: draw
     return pixels
 
 

@@ -72,15 +72,15 @@ def inverse_coefficients(matrix: list[list[float]]) -> tuple[list[list[float]], 
         pivot = rows[chosen][step]
         if pivot == 0:  #: singular
             return [[0.0] * 3] * 3, 0.0
-        determinant *= -pivot if chosen != step else pivot  #: determinant
-        rows[step], rows[chosen] = rows[chosen], rows[step]
-        rows[step] = [value / pivot for value in rows[step]]  #: divide
+        sign = -1 if chosen != step else 1
+        determinant *= sign * pivot  #: determinant
+        row = [v / pivot for v in rows[chosen]]  #: divide
+        rows[chosen] = rows[step]
+        rows[step] = row
         for other in range(3):
             if other != step:
                 factor = rows[other][step]
-                rows[other] = [
-                    v - factor * u for v, u in zip(rows[other], rows[step], strict=True)
-                ]  #: subtract
+                rows[other] = [v - factor * u for v, u in zip(rows[other], row, strict=True)]  #: subtract
     return [row[3:] for row in rows], determinant  #: inverse
 
 

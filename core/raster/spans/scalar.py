@@ -35,12 +35,15 @@ def span_of_row(
             continue
         numerator = (x0 - center) * dy + (y - y0) * dx  #: numerator
         crossing = numerator * (1 / dy)  #: crossing
-        if dy < 0:  #: side
-            guard = -ROUNDING_MARGIN if owns_tie else ROUNDING_MARGIN
-            start = max(start, floor(crossing + (1 + guard)))  #: start
+        is_left = dy < 0  #: side
+        guard = ROUNDING_MARGIN
+        if owns_tie == is_left:
+            guard = -guard
+        column = floor(crossing + (1 + guard))
+        if is_left:
+            start = max(start, column)  #: start
         else:
-            guard = ROUNDING_MARGIN if owns_tie else -ROUNDING_MARGIN
-            stop = min(stop, floor(crossing + (1 + guard)))  #: stop
+            stop = min(stop, column)  #: stop
     return start, max(start, stop)  #: span
 
 

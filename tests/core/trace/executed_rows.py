@@ -1,8 +1,10 @@
 """Which rows of a trace the tests execute the listings on, when two numbers are the same, and which lines ran."""
 
+import inspect
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+from functools import cache
 from pathlib import Path
 from types import CodeType, FrameType
 
@@ -18,7 +20,7 @@ FOLLOWED_ROWS = 25 if is_everything() else 10
 """Those of them that are followed line by line, at least."""
 
 Ran = dict[CodeType, list[list[int]]]
-"""Function to the lines of each of its calls, in the order in which they ran, from 1."""
+"""Function to the lines of its listing of each of its calls, in the order in which they ran, from 1."""
 
 
 def rows_of_kind(found: StageTrace, kind: str) -> Iterator[int]:
@@ -35,6 +37,13 @@ def rows_of_kind(found: StageTrace, kind: str) -> Iterator[int]:
         check_marks(found, row, ran)
 
 
+@cache
+def _lines_joined(code: CodeType) -> int:
+    """Return how many lines a signature has beyond the one that it has in a listing."""
+    lines = inspect.getsource(code).splitlines()
+    return next((k for k, line in enumerate(lines) if line.endswith(":")), 0)
+
+
 @contextmanager
 def lines_that_run() -> Iterator[Ran]:
     """Note the lines of all functions of the program that are called inside."""
@@ -45,7 +54,7 @@ def lines_that_run() -> Iterator[Ran]:
         if not frame.f_code.co_filename.startswith(folder):
             return None
         lines: list[int] = []
-        first = frame.f_code.co_firstlineno
+        first = frame.f_code.co_firstlineno + _lines_joined(frame.f_code)
         ran.setdefault(frame.f_code, []).append(lines)
 
         def stepped(frame: FrameType, event: str, argument: object) -> object:

@@ -1,5 +1,10 @@
 """The picture comes first: how much of the window the main view has, and what may not move it."""
 
+import inspect
+from collections.abc import Iterator
+from importlib import import_module
+from pathlib import Path
+
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
@@ -18,16 +23,18 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
+import core
 from app.pages.step.inspector_column import InspectorColumn
 from app.window.main_window import MainWindow
 from app.window.preferences import Preferences
+from core.records.listing import Listing, listing
 from core.stages.declared import STAGES
 from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.message_bar import Message, MessageKind
 from widgets.basics.settings_panel import SettingsPanel
 from widgets.basics.style_sheet import style_sheet
 from widgets.basics.theme import current_theme
-from widgets.inspector.listing import ListingView
+from widgets.inspector.listing import ListingText, ListingView
 
 pytestmark = pytest.mark.shared_window
 
@@ -217,6 +224,44 @@ def test_every_method_can_be_read_whole_in_its_box(window: MainWindow) -> None:
                 assert len(rows) * box.fontMetrics().lineSpacing() < box.height()
     finally:
         panel.show_more(False)
+
+
+def listings_of_the_program() -> Iterator[Listing]:
+    """Return every function of core that is shown line by line."""
+    for file in sorted(Path(core.__file__).parent.rglob("*.py")):
+        if "#:" not in file.read_text(encoding="utf-8"):
+            continue
+        module = import_module(
+            ".".join(["core", *file.relative_to(Path(core.__file__).parent).with_suffix("").parts])
+        )
+        for function in vars(module).values():
+            if inspect.isfunction(function) and function.__module__ == module.__name__:
+                yield from [found] if (found := listing(function)).lines else []
+
+
+@pytest.mark.own_window
+def test_ten_lines_are_in_sight_around_each_line_of_every_listing(window: MainWindow) -> None:
+    """Whole, though some are wrapped; all of them where a function has fewer."""
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    application.setStyleSheet(style_sheet(current_theme()))
+    QApplication.processEvents()
+    view = window.page.listing
+    seen = 0
+    for found in listings_of_the_program():
+        title = found.function.__name__
+        view.keep_room_for([found.source])
+        view.show_listing(ListingText(title, found.source))
+        QApplication.processEvents()
+        shown = len(list(view.visible_lines()))
+        for line in sorted(set(found.lines.values())):
+            view.show_line(line)
+            bottom = view.viewport().height()
+            whole = [k for k, box in view.visible_lines() if box.top() >= 0 and box.bottom() <= bottom]
+            assert line in whole, (title, line)
+            assert len(whole) >= min(10, shown), (title, line, whole)
+        seen += 1
+    assert seen >= 100
 
 
 @pytest.mark.own_window

@@ -114,7 +114,7 @@ def test_panes_that_are_folded_away_are_filled_when_they_are_unfolded(window: Ma
 
 def test_listings_that_take_turns_in_a_stage_move_nothing(window: MainWindow, qtbot: QtBot) -> None:
     session, listing = window.session, window.page.listing
-    qtbot.waitUntil(lambda: listing.width() < 400)
+    qtbot.waitUntil(lambda: listing.width() < 440)
     session.set_stage("edges", 0)
     session.set_level(Level.GROUP)
     session.step(1)
