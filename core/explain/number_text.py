@@ -109,6 +109,7 @@ def is_short(value: float, digits: int = EXACT_DIGITS) -> bool:
     return "e" not in text and len(text.removesuffix(".0").replace(".", "").lstrip("-0")) <= digits
 
 
+@lru_cache(maxsize=4096)
 def exact_text(value: float, digits: int = DIGITS) -> str:
     """Write a number in full where that is short, as formulas do, else with so many significant digits."""
     if math.isfinite(value) and is_short(value, max(EXACT_DIGITS, digits)):

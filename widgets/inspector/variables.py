@@ -5,13 +5,14 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QEvent, QModelIndex, QPersistentModelIndex, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QAction,
     QColor,
     QFont,
     QFontMetrics,
     QGuiApplication,
+    QHelpEvent,
     QKeySequence,
     QPainter,
     QPaintEvent,
@@ -21,6 +22,7 @@ from PySide6.QtWidgets import (
     QHeaderView,
     QStyledItemDelegate,
     QStyleOptionViewItem,
+    QToolTip,
     QTreeWidget,
     QTreeWidgetItem,
     QWidget,
@@ -30,13 +32,12 @@ from core.explain.number_text import DIGITS, exact_text, fraction_text, full_tex
 from core.explain.records import Value, Variable
 from widgets.basics.controls import LEAST_TARGET
 from widgets.basics.key_claim import KeyClaim
-from widgets.basics.theme import current_theme, theme_notifier
+from widgets.basics.theme import Theme, current_theme, theme_notifier
 from widgets.basics.typed_value import tabular_font
 
 EVERY_DEFAULT: Mapping[float, int] = MappingProxyType({})
 """No number has other digits than usual."""
 _COMPONENTS = ("x", "y", "z", "w")
-_CHANGED = Qt.ItemDataRole.UserRole + 1
 
 
 def value_text(
@@ -65,22 +66,26 @@ def value_text(
     return fraction_text(value) if is_fraction else exact_text(value, digits.get(abs(value), DIGITS))
 
 
-class _ChangeDelegate(QStyledItemDelegate):
-    """Draws a bar before each value that the step has changed."""
+class _CellDelegate(QStyledItemDelegate):
+    """Gives each cell its height, and writes the tooltip of one that is pointed at."""
 
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
         return QSize(
             super().sizeHint(option, index).width(), max(option.fontMetrics.height() + 6, LEAST_TARGET)
         )
 
-    def paint(
-        self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
-    ) -> None:
-        super().paint(painter, option, index)
-        if index.column() == 1 and index.data(_CHANGED):
-            bar = option.rect.adjusted(1, 3, 0, -3)
-            bar.setWidth(4)
-            painter.fillRect(bar, QColor(current_theme().accent))
+    def helpEvent(
+        self,
+        event: QHelpEvent,
+        view: QAbstractItemView,
+        option: QStyleOptionViewItem,
+        index: QModelIndex | QPersistentModelIndex,
+    ) -> bool:
+        item = view.itemFromIndex(index) if isinstance(view, QTreeWidget) else None
+        if event.type() != QEvent.Type.ToolTip or not isinstance(item, _VariableItem):
+            return super().helpEvent(event, view, option, index)
+        QToolTip.showText(event.globalPos(), item.tip(index.column()), view.viewport(), option.rect)
+        return True
 
 
 class VariablesView(QTreeWidget):
@@ -95,6 +100,7 @@ class VariablesView(QTreeWidget):
         super().__init__(parent)
         self._variables: tuple[Variable, ...] = ()
         self._is_fraction = False
+        self._kept_look: _Look | None = None
         self.setColumnCount(3)
         self.setHeaderLabels(["Name", "Now", "Before"])
         self.setAlternatingRowColors(True)
@@ -105,7 +111,7 @@ class VariablesView(QTreeWidget):
         self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setTextElideMode(Qt.TextElideMode.ElideRight)
-        self.setItemDelegate(_ChangeDelegate(self))
+        self.setItemDelegate(_CellDelegate(self))
         self.setAccessibleName("Variables")
         KeyClaim(self, (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Left, Qt.Key.Key_Right))
         header = self.header()
@@ -143,9 +149,7 @@ class VariablesView(QTreeWidget):
         is_same_rows = [_shape(v) for v in variables] == [_shape(v) for v in self._variables]
         self._variables = variables
         if not is_same_rows:
-            self.clear()
-            self.addTopLevelItems([_new_item(variable) for variable in variables])
-            self._fit_names()
+            self._begin_anew()
         self._fill()
 
     @Slot(bool)
@@ -161,11 +165,11 @@ class VariablesView(QTreeWidget):
         """Put the selected variables on the clipboard, one a line, with full precision."""
         lines = []
         for item in self.selectedItems():
-            name, value = item.text(0), item.data(1, Qt.ItemDataRole.UserRole)
             owner = item.parent()
-            if owner is not None and not owner.isExpanded():
+            if not isinstance(item, _VariableItem) or (owner is not None and not owner.isExpanded()):
                 continue
-            lines.append(f"{f'{owner.text(0)}.{name}' if owner else name} = {value}")
+            name = f"{owner.text(0)}.{item.text(0)}" if owner else item.text(0)
+            lines.append(f"{name} = " + item.in_full().replace("\u2212", "-"))
         if lines:
             QGuiApplication.clipboard().setText("\n".join(lines))
 
@@ -196,16 +200,25 @@ class VariablesView(QTreeWidget):
         self.origin_requested.emit(variable)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Say what the pane is for when it is empty."""
+        """Draw a bar before each value that the step has changed; say what the pane is for when it is empty."""
         super().paintEvent(event)
+        painter, theme = QPainter(self.viewport()), current_theme()
         if not self._variables:
-            painter = QPainter(self.viewport())
-            painter.setPen(QColor(current_theme().muted_text))
+            painter.setPen(QColor(theme.muted_text))
             flags = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextWordWrap
             box = self.viewport().rect().adjusted(8, 0, -8, 0)
             painter.drawText(
                 box, flags, "The variables of each step appear here; changed ones are highlighted."
             )
+        left, seen = self.columnViewportPosition(1) + 1, event.rect()
+        item = self.itemAt(left, seen.top())
+        while isinstance(item, _VariableItem):
+            row = self.visualItemRect(item)
+            if row.top() > seen.bottom():
+                break
+            if item.is_changed:
+                painter.fillRect(left, row.top() + 3, 4, row.height() - 6, QColor(theme.accent))
+            item = self.itemBelow(item)
 
     def _fit_names(self) -> None:
         """Give the names the room that they need in bold, so that what a step has changed moves no column."""
@@ -216,51 +229,47 @@ class VariablesView(QTreeWidget):
         room = self.indentation() + 3 * metrics.horizontalAdvance("0")
         self.header().resizeSection(0, max(map(metrics.horizontalAdvance, names)) + room)
 
+    def _begin_anew(self) -> None:
+        """Have a closed row for each variable; rows that there are stay, for Qt lays out every one that is added."""
+        self.selectionModel().clear()
+        while self.topLevelItemCount() > len(self._variables):
+            self.takeTopLevelItem(self.topLevelItemCount() - 1)
+        missing = len(self._variables) - self.topLevelItemCount()
+        self.addTopLevelItems([_VariableItem() for _ in range(missing)])
+        for row, variable in enumerate(self._variables):
+            item = self.topLevelItem(row)
+            assert isinstance(item, _VariableItem)
+            item.begin_anew(variable)
+        self._fit_names()
+
     @Slot()
     def _fill(self) -> None:
         """Write what differs from what is written; the parts of a vector once it is open."""
+        look = self._look()
         for row, variable in enumerate(self._variables):
             item = self.topLevelItem(row)
-            assert item is not None
-            self._fill_item(item, variable)
+            assert isinstance(item, _VariableItem)
+            item.show_variable(variable, look)
             if isinstance(variable.now, tuple) and item.isExpanded():
                 was = variable.before if isinstance(variable.before, tuple) else ()
+                is_named = len(variable.now) <= len(_COMPONENTS)
                 for k, part in enumerate(variable.now):
                     child, before = item.child(k), was[k] if k < len(was) else None
-                    assert child is not None
-                    self._fill_item(
-                        child, Variable(child.text(0), part, before, "", variable.vertex, variable.digits)
+                    name = _COMPONENTS[k] if is_named else f"[{k}]"
+                    assert isinstance(child, _VariableItem)
+                    child.show_variable(
+                        Variable(name, part, before, "", variable.vertex, variable.digits), look
                     )
 
-    def _fill_item(self, item: QTreeWidgetItem, variable: Variable) -> None:
-        assert isinstance(item, _VariableItem)
-        for column, cell in enumerate(self._cells(variable)):
-            item.show_cell(column, cell, self.font())
-
-    def _cells(self, variable: Variable) -> "tuple[_Cell, _Cell, _Cell]":
-        theme, font, is_changed = current_theme(), self.font().key(), variable.is_changed()
-        # A polygon has more corners than there are colours: they begin anew.
-        name_color = theme.text if variable.vertex is None else theme.vertex_text[variable.vertex % 3]
-        texts, full = (
-            [value_text(value, **how) for value in (variable.now, variable.before)]
-            for how in ({"is_fraction": self._is_fraction, "digits": variable.digits}, {"is_full": True})
-        )
-        tips = [f"{variable.name} = {text}" for text in full]
-        state = "changed" if is_changed else "unchanged"
-        spoken = f"{variable.name} {value_text(variable.now, digits=variable.digits)}, {state}"
-        return (
-            _Cell(variable.name, name_color, font, is_changed, variable.meaning or variable.name),
-            _Cell(
-                texts[0],
-                theme.accent_text if is_changed else theme.text,
-                font,
-                is_changed,
-                f"{tips[0]}\nClick: go to the step that made it. Ctrl+[ comes back.",
-                full[0].replace("\u2212", "-"),
-                spoken,
-            ),
-            _Cell(texts[1], theme.muted_text, font, False, tips[1]),
-        )
+    def _look(self) -> "_Look":
+        """Return how values are written now."""
+        font, kept = self.font(), self._kept_look
+        if kept is None or kept[:3] != (current_theme(), font, self._is_fraction):
+            names, figures = (QFont(font), QFont(font)), (tabular_font(font), tabular_font(font))
+            for pair in (names, figures):
+                pair[True].setBold(True)
+            kept = self._kept_look = _Look(current_theme(), font, self._is_fraction, names, figures)
+        return kept
 
     @Slot()
     def _follow_theme(self) -> None:
@@ -272,57 +281,87 @@ class VariablesView(QTreeWidget):
 _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
-class _Cell(NamedTuple):
-    """What a cell of the table shows."""
+class _Look(NamedTuple):
+    """How values are written."""
 
-    text: str
-    color: str
-    font: str
-    """Key of the table's font."""
-    is_changed: bool
-    """Written in bold."""
-    tip: str
-    copied: str = ""
-    """The value in full."""
-    spoken: str = ""
+    theme: Theme
+    font: QFont
+    is_fraction: bool
+    """In exact 1/256ths."""
+    names: tuple[QFont, QFont]
+    """Fonts of names, in bold the second one."""
+    figures: tuple[QFont, QFont]
+    """The same of values."""
 
 
 class _VariableItem(QTreeWidgetItem):
     """A row of the table, which knows what it shows: every setter has the view lay out and paint again."""
 
-    def __init__(self, name: str) -> None:
-        super().__init__([name])
-        self._shown: list[_Cell | None] = [None, None, None]
+    def __init__(self) -> None:
+        super().__init__()
+        self._variable = Variable("", None)
+        self._shown: tuple[str, str, str, bool, int | None, _Look] | None = None
+        """Texts now and before, what is spoken, whether the step has changed it, its vertex, and how it is written."""
         self.setTextAlignment(1, _RIGHT)
         self.setTextAlignment(2, _RIGHT)
 
-    def show_cell(self, column: int, cell: _Cell, font: QFont) -> None:
-        """Set what differs from what the cell shows."""
-        shown, self._shown[column] = self._shown[column], cell
-        if shown is None or cell.text != shown.text:
-            self.setText(column, cell.text)
-        if shown is None or cell.color != shown.color:
-            self.setForeground(column, QColor(cell.color))
-        if shown is None or (cell.font, cell.is_changed) != (shown.font, shown.is_changed):
-            written = tabular_font(font) if column else QFont(font)
-            written.setBold(cell.is_changed)
-            self.setFont(column, written)
-            self.setData(column, _CHANGED, cell.is_changed)
-        if shown is None or cell.tip != shown.tip:
-            self.setToolTip(column, cell.tip)
-        if cell.spoken and (shown is None or (cell.copied, cell.spoken) != (shown.copied, shown.spoken)):
-            self.setData(column, Qt.ItemDataRole.UserRole, cell.copied)
-            self.setData(column, Qt.ItemDataRole.AccessibleTextRole, cell.spoken)
+    def begin_anew(self, variable: Variable) -> None:
+        """Be the closed row of another variable."""
+        if self.childCount():
+            self.setExpanded(False)
+            self.takeChildren()
+        if isinstance(variable.now, tuple):
+            self.addChildren([_VariableItem() for _ in variable.now])
+
+    @property
+    def is_changed(self) -> bool:
+        """Whether the step has changed the value."""
+        return self._shown is not None and self._shown[3]
+
+    def in_full(self, *, is_before: bool = False) -> str:
+        """Return the value with full precision."""
+        value = self._variable.before if is_before else self._variable.now
+        return value_text(value, is_full=True)
+
+    def tip(self, column: int) -> str:
+        """Return what the tooltip of a cell says."""
+        if column == 0:
+            return self._variable.meaning or self._variable.name
+        where = "\nClick: go to the step that made it. Ctrl+[ comes back." if column == 1 else ""
+        return f"{self._variable.name} = {self.in_full(is_before=column == 2)}{where}"
+
+    def show_variable(self, variable: Variable, look: _Look) -> None:
+        """Set what differs from what the row shows."""
+        self._variable, is_changed = variable, variable.is_changed()
+        now, before = (
+            value_text(value, is_fraction=look.is_fraction, digits=variable.digits)
+            for value in (variable.now, variable.before)
+        )
+        said = value_text(variable.now, digits=variable.digits) if look.is_fraction else now
+        spoken = f"{variable.name} {said}, {'changed' if is_changed else 'unchanged'}"
+        if variable.name != self.text(0):
+            self.setText(0, variable.name)
+        shown, self._shown = self._shown, (now, before, spoken, is_changed, variable.vertex, look)
+        if shown == self._shown:
+            return
+        if shown is None or now != shown[0]:
+            self.setText(1, now)
+        if shown is None or before != shown[1]:
+            self.setText(2, before)
+        if shown is None or spoken != shown[2]:
+            self.setData(1, Qt.ItemDataRole.AccessibleTextRole, spoken)
+        if shown is None or shown[3:] != self._shown[3:]:
+            self._color(is_changed, look)
+
+    def _color(self, is_changed: bool, look: _Look) -> None:
+        """Let what the step has changed stand out by weight and colour; a polygon has more corners than colours."""
+        theme, vertex = look.theme, self._variable.vertex
+        name_color = theme.text if vertex is None else theme.vertex_text[vertex % 3]
+        colors = (name_color, theme.accent_text if is_changed else theme.text, theme.muted_text)
+        for column, color in enumerate(colors):
+            self.setFont(column, (look.figures if column else look.names)[is_changed and column < 2])
+            self.setForeground(column, QColor(color))
 
 
 def _shape(variable: Variable) -> tuple[str, int]:
     return variable.name, len(variable.now) if isinstance(variable.now, tuple) else 0
-
-
-def _new_item(variable: Variable) -> _VariableItem:
-    item = _VariableItem(variable.name)
-    if isinstance(variable.now, tuple):
-        named = len(variable.now) <= len(_COMPONENTS)
-        for k in range(len(variable.now)):
-            item.addChild(_VariableItem(_COMPONENTS[k] if named else f"[{k}]"))
-    return item

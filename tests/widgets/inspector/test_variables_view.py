@@ -1,8 +1,9 @@
 import math
 
 import pytest
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QColor, QGuiApplication
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtGui import QColor, QGuiApplication, QHelpEvent
+from PySide6.QtWidgets import QApplication, QToolTip
 
 from core.explain.number_text import latex_text
 from core.explain.records import Variable
@@ -87,7 +88,10 @@ def test_full_precision_on_hover_and_copy(qtbot, view) -> None:
     view.show_variables(STEP)
     item = view.topLevelItem(2)
     assert item.text(1) == "0.3333"
-    assert "0.3333333333333333" in item.toolTip(1)
+    place = view.visualItemRect(item).center()
+    pointing = QHelpEvent(QEvent.Type.ToolTip, place, view.viewport().mapToGlobal(place))
+    QApplication.sendEvent(view.viewport(), pointing)
+    assert "alpha = 0.3333333333333333" in QToolTip.text()
     view.setCurrentItem(item)
     qtbot.keyClick(view, Qt.Key.Key_C, Qt.KeyboardModifier.ControlModifier)
     assert QGuiApplication.clipboard().text() == "alpha = 0.3333333333333333"
@@ -106,6 +110,27 @@ def test_other_names_give_other_rows_and_none_gives_an_empty_pane(view) -> None:
     assert view.topLevelItemCount() == 1
     view.show_variables(())
     assert view.topLevelItemCount() == 0
+
+
+def test_rows_keep_nothing_of_the_variables_before(qtbot, view) -> None:
+    others = (Variable("p", (0.5, 2.0, 1.0), None), Variable("t", False, True), Variable("u", 2, 2, "", 1))
+    view.show_variables(STEP)
+    view.topLevelItem(1).setExpanded(True)
+    view.selectAll()
+    view.show_variables(others)
+    fresh = shown(qtbot, VariablesView(), 360, 260)
+    fresh.show_variables(others)
+
+    def look(of: VariablesView) -> list[object]:
+        items = [of.topLevelItem(row) for row in range(of.topLevelItemCount())]
+        assert not any((items[0].isExpanded(), of.selectedItems(), of.currentItem()))
+        items[0].setExpanded(True)
+        items += [items[0].child(k) for k in range(items[0].childCount())]
+        roles = (Qt.ItemDataRole.DisplayRole, Qt.ItemDataRole.FontRole, Qt.ItemDataRole.ForegroundRole)
+        roles += (Qt.ItemDataRole.AccessibleTextRole,)
+        return [(item.tip(k), *(item.data(k, role) for role in roles)) for item in items for k in range(3)]
+
+    assert look(view) == look(fresh)
 
 
 def test_vertex_colours_name_the_vertex(view) -> None:
