@@ -213,19 +213,20 @@ class FormulaSetter:
             baseline += line.descent
 
     def _paint_piece(self, painter: QPainter, piece: Piece, baseline: float) -> None:
-        painter.setPen(QColor(piece.color))
         if _is_quick(piece.latex):
             self._paint_quickly(painter, piece, baseline)
             return
         cell = self._typesetter.cached(piece.latex, piece.color, self._size)
         if cell is None or cell.renderer is None:
             painter.setFont(self._text_font)
+            painter.setPen(QColor(piece.color))
             painter.drawText(QPointF(piece.left, baseline), plain_text(piece.latex))
             return
         cell.renderer.render(painter, cell.box.translated(piece.left - cell.box.left(), baseline))
 
     def _paint_quickly(self, painter: QPainter, piece: Piece, baseline: float) -> None:
         painter.setFont(self._number_font)
+        painter.setPen(QColor(piece.color))
         fraction = _FRACTION.match(piece.latex)
         if fraction is None:
             painter.drawText(QPointF(piece.left, baseline), _minus(piece.latex))
@@ -290,6 +291,7 @@ def _number_in(piece: Piece, across: float, down: float) -> FormulaNumber | None
     return FormulaNumber(symbols[k] if k < len(symbols) == len(numbers) else "", numbers[k][0])
 
 
+@lru_cache(KEPT_LAYOUTS)
 def extent(lines: tuple[Line, ...]) -> tuple[float, float]:
     """Return width and height of lines in logical pixels."""
     width = max((piece.left + piece.width for line in lines for piece in line.pieces), default=1.0)

@@ -66,7 +66,7 @@ class FormulaView(QWidget):
         self._formula: Formula | None = None
         self._hint = "The formula of each step appears here."
         self._shown_at = -math.inf
-        self._lines: tuple[Line, ...] = ()
+        self._kept_lines: tuple[Line, ...] | None = None
         self._kept_setter: tuple[str, float, FormulaSetter] | None = None
         self._catch_up_timer = QTimer(self)
         self._catch_up_timer.setSingleShot(True)
@@ -107,6 +107,8 @@ class FormulaView(QWidget):
 
     def show_where(self, text: str) -> None:
         """Say where the number under the pointer comes from, as a tooltip; empty: from nowhere."""
+        if text == self._where:
+            return
         self._where = text
         self.setCursor(Qt.CursorShape.PointingHandCursor if text else Qt.CursorShape.ArrowCursor)
 
@@ -208,7 +210,14 @@ class FormulaView(QWidget):
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Wrap anew."""
         super().resizeEvent(event)
-        self._lines = self._best_lines()
+        self._kept_lines = None
+
+    @property
+    def _lines(self) -> tuple[Line, ...]:
+        """What is painted and pointed at: laid out only then, for the view takes its height a moment after a step."""
+        if self._kept_lines is None:
+            self._kept_lines = self._best_lines()
+        return self._kept_lines
 
     def _best_lines(self) -> tuple[Line, ...]:
         """Return the lines that can be read largest: where there is little height, fewer of them, a little smaller."""
@@ -260,9 +269,9 @@ class FormulaView(QWidget):
             self.number_clicked.emit(number)
 
     def event(self, event: QEvent) -> bool:
-        """Say where the number under the pointer comes from."""
-        if isinstance(event, QHelpEvent) and event.type() == QEvent.Type.ToolTip and self._where:
-            QToolTip.showText(event.globalPos(), self._where, self)
+        """Say where the number under the pointer comes from, or else the formula as text."""
+        if isinstance(event, QHelpEvent) and event.type() == QEvent.Type.ToolTip:
+            QToolTip.showText(event.globalPos(), self._where or self.tip(), self)
             return True
         return super().event(event)
 
@@ -299,8 +308,7 @@ class FormulaView(QWidget):
             self._refresh()
 
     def _refresh(self) -> None:
-        self._lines = self._best_lines()
-        self._describe()
+        self._kept_lines = None
         self.updateGeometry()
         self.update()
 
@@ -321,10 +329,10 @@ class FormulaView(QWidget):
         else:
             self._catch_up_timer.stop()
 
-    def _describe(self) -> None:
+    def tip(self) -> str:
+        """Return the formula as text, and why it is shown as such if it is."""
         if self._formula is None:
-            self.setToolTip("")
-            return
+            return ""
         lines = [plain_text(line) for line in (self._formula.symbolic, self._formula.substituted) if line]
         notes = [f"Shown as plain text: {problem}" for problem in self._setter().problems(self._formula)]
-        self.setToolTip("\n".join(lines + notes))
+        return "\n".join(lines + notes)

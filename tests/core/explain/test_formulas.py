@@ -229,7 +229,7 @@ def test_the_view_shows_them(qtbot: QtBot) -> None:
     view.show_formula(only("raster", "raster.test.edge-0", Settings(fill="brute-force")))
     qtbot.waitUntil(view.is_complete)
     assert not view.to_image(1.0).isNull()
-    assert "plain text" not in view.toolTip()
+    assert "plain text" not in view.tip()
 
 
 BIG_TRIANGLE = [[[-30.0, -30, 0, 1], [40, -30, 0, 1], [-30, 45, 0, 1]]]

@@ -187,13 +187,13 @@ def test_a_hurried_run_of_formulas_is_typeset_when_it_pauses(qtbot, view) -> Non
     assert len(view._typesetter._cells) <= known + 1
     assert not view.is_complete()
     wait_for_typesetting(qtbot, view)
-    assert "Shown as plain text" not in view.toolTip()
+    assert "Shown as plain text" not in view.tip()
 
 
 def test_a_formula_that_cannot_be_typeset_is_shown_as_text_with_the_reason(qtbot, view) -> None:
     view.show_formula(Formula(r"\frac{a}{"))
     wait_for_typesetting(qtbot, view)
-    assert "Shown as plain text" in view.toolTip()
+    assert "Shown as plain text" in view.tip()
     assert (pixels(view.grab().toImage()) & 0xFFFFFF != QColor(LIGHT.panel).rgb() & 0xFFFFFF).sum() > 30
 
 

@@ -18,7 +18,7 @@ def test_a_typesetter_that_cannot_be_loaded_is_not_waited_for(qtbot, monkeypatch
     qtbot.addWidget(view)
     view.show_formula(Formula(r"u_9 = v_7", r"97 = 97"))
     qtbot.waitUntil(view.is_complete, timeout=20000)
-    assert "Shown as plain text: import: there is no ziamath" in view.toolTip()
+    assert "Shown as plain text: import: there is no ziamath" in view.tip()
     assert capfd.readouterr().err == ""
     typesetter.load_typesetter.cache_clear()
     # Formulas of other tests that waited meanwhile became plain text, too.

@@ -35,7 +35,7 @@ def place_of(window: MainWindow, symbol: str) -> QPoint:
             number = view.number_under(QPointF(x, y))
             if number is not None and number.symbol.replace("_", "") == symbol:
                 return QPoint(x, y)
-    raise AssertionError(f"no number of {symbol} in {view.toolTip()}")
+    raise AssertionError(f"no number of {symbol} in {view.tip()}")
 
 
 def click_variable(window: MainWindow, qtbot: QtBot, name: str) -> None:
