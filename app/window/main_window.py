@@ -155,7 +155,7 @@ class MainWindow(QMainWindow):
         if self.pages.is_covered and (name in own or name in OF_VIEW):
             self.notices.tell(COVERED)
         else:
-            {**window_handlers(self), **own}[name]()
+            (own if name in own else window_handlers(self))[name]()
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:

@@ -255,15 +255,13 @@ class Timeline(QWidget):
         self.position_box.setFixedWidth(self.position_box.fontMetrics().horizontalAdvance(text) + 16)
 
     def _update_state(self) -> None:
-        is_after_start, is_before_end = self._position > 0, self._position < self._count
-        self.first_button.setEnabled(is_after_start)
-        self.back_button.setEnabled(is_after_start or self.bar.run().has_before)
-        self.forward_button.setEnabled(self._can_go_on())
-        self.last_button.setEnabled(is_before_end)
-        self.play_button.setEnabled(self._can_go_on())
-        for button, (name, key, why) in zip(self.transport_buttons(), _BUTTONS, strict=True):
-            if button is not self.play_button:
-                button.setToolTip(f"{name} ({key})" + ("" if button.isEnabled() else f"\n{why}"))
+        is_after_start, can_go_on = self._position > 0, self._can_go_on()
+        can_go_back = is_after_start or self.bar.run().has_before
+        are_usable = (is_after_start, can_go_back, can_go_on, can_go_on, self._position < self._count)
+        for button, is_usable, how in zip(self.transport_buttons(), are_usable, _BUTTONS, strict=True):
+            if is_usable != button.isEnabledTo(self) or not button.toolTip():
+                button.setEnabled(is_usable)
+                _explain(button, *how)
         if not (self.position_box.hasFocus() and self.position_box.isModified()):
             self.position_box.setText(str(self._position))
         self._follow_play()
@@ -276,8 +274,7 @@ class Timeline(QWidget):
         self.play_button.setIcon(icon)
         name = "Pause" if is_playing else "Play"
         self.play_button.setAccessibleName(name)
-        why = "" if self.play_button.isEnabled() else f"\n{_AT_LAST}"
-        self.play_button.setToolTip(f"{name} (Space){why}")
+        _explain(self.play_button, name, "Space", _AT_LAST)
 
     @Slot()
     def _tick(self) -> None:
@@ -336,6 +333,11 @@ class Timeline(QWidget):
         self.forward_button.setIcon(self._icons["forward"])
         self.last_button.setIcon(self._icons["last"])
         self._follow_play()
+
+
+def _explain(button: QToolButton, name: str, key: str, why: str) -> None:
+    """Name a button and its key in its tooltip, and why it cannot be used where that is so."""
+    button.setToolTip(f"{name} ({key})" + ("" if button.isEnabled() else f"\n{why}"))
 
 
 _Corners = tuple[tuple[float, float], ...]

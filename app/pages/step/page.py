@@ -1,7 +1,7 @@
 """The stepping page: side panes, main view, inspector and the run at the bottom, around one session."""
 
 from collections.abc import Iterable
-from functools import partial
+from functools import cached_property, partial
 
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, QThread, Signal, Slot
 from PySide6.QtWidgets import QScrollArea, QSplitter, QStackedWidget, QWidget
@@ -302,6 +302,10 @@ class StepPage(Page):
 
     def handlers(self) -> Handlers:
         """Return what the keys of this page do."""
+        return self._handlers
+
+    @cached_property
+    def _handlers(self) -> Handlers:
         return {
             "ask_step": self.asking.ask_step,
             "ask_value": self.ask_value,

@@ -262,3 +262,12 @@ def test_every_control_has_a_name_and_a_tooltip(timeline) -> None:
         *timeline.level_buttons.values(),
     ]
     assert all(control.accessibleName() and control.toolTip() for control in controls)
+
+
+def test_a_button_that_cannot_be_used_says_why_until_it_can(timeline) -> None:
+    timeline.show_run(TimelineRun(4))
+    for position, unusable in ((0, (0, 1)), (2, ()), (4, (2, 3, 4)), (3, ())):
+        timeline.show_position(position)
+        for place, button in enumerate(timeline.transport_buttons()):
+            assert button.isEnabled() == (place not in unusable)
+            assert ("\n" in button.toolTip()) == (place in unusable), button.toolTip()
