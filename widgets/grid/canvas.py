@@ -13,8 +13,8 @@ from widgets.grid.outline_layer import OutlineLayer
 from widgets.grid.overlay import Overlay, bounds, changed_cells, union
 from widgets.grid.overlay_paint import paint_above, paint_below
 from widgets.grid.paint import (
+    Rulers,
     Writing,
-    beside_rulers,
     centres_are_free,
     number_writing,
     paint_border,
@@ -25,6 +25,7 @@ from widgets.grid.paint import (
     paint_numbers,
     paint_pale_edges,
     paint_rulers,
+    rulers_of,
 )
 from widgets.grid.sample_dots import SampleDots, paint_samples
 from widgets.grid.view import GridPlacement
@@ -55,6 +56,9 @@ class GridCanvas:
         """Grids that show the same triangles may share one."""
         self._pixmap: QPixmap | None = None
         self._painted: tuple[GridPlacement, QRect, Theme, Writing | None] | None = None
+        # What is made again only where what it is made from differs.
+        self._rulers: tuple[tuple[GridPlacement, QRect, Theme], Rulers] | None = None
+        self._writing: tuple[tuple[object, ...], Writing | None] | None = None
         self._dirty: Cells | None = None
         """Cells to paint again; None: everything."""
 
@@ -141,8 +145,7 @@ class GridCanvas:
     def paint(self, painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme) -> None:
         """Paint from the kept picture, after painting again what changed in it."""
         ratio = painter.device().devicePixelRatioF()
-        writing = number_writing(placement, self._buffer, theme, self._samples) if self._buffer else None
-        key = (placement, area, theme, writing)
+        key = (placement, area, theme, self.writing(placement, theme))
         if self._pixmap is None or self._painted != key or self._pixmap.devicePixelRatio() != ratio:
             size = area.size() * ratio
             if self._pixmap is None or self._pixmap.size() != size:
@@ -175,8 +178,9 @@ class GridCanvas:
             if self._is_compact:
                 painter.setClipRect(placement.seen_raster)
             else:
-                paint_rulers(painter, placement, area, theme)
-                painter.setClipRegion(beside_rulers(placement, area, theme))
+                rulers = self.rulers(placement, area, theme)
+                paint_rulers(painter, rulers, theme)
+                painter.setClipRegion(rulers.beside)
         else:
             # One cell more on each side: glyphs, outlines and lines reach over the border of a cell.
             visible = (
@@ -204,19 +208,36 @@ class GridCanvas:
         self, painter: QPainter, placement: GridPlacement, buffer: GridBuffer, theme: Theme, cells: Cells
     ) -> None:
         """Paint colours, overlays, lines and numbers, in this order."""
-        image = self.image(theme)
+        image, writing = self.image(theme), self.writing(placement, theme)
         paint_image(painter, placement, image)
         paint_nan(painter, placement, buffer, theme)
         paint_below(painter, placement, self._overlays, theme)
         if not self._is_compact or placement.cell >= COMPACT_LINE_CELL:
-            is_free = not self._is_compact and centres_are_free(number_writing(placement, buffer, theme))
-            paint_lines(painter, placement, theme, self._samples is None and is_free)
+            is_free = self._samples is None and not self._is_compact and centres_are_free(writing)
+            paint_lines(painter, placement, theme, is_free)
             if self._samples is not None:
                 paint_samples(painter, placement, self._samples, cells)
         paint_pale_edges(painter, placement, buffer, image, theme, cells)
         paint_border(painter, placement, theme)
-        paint_numbers(painter, placement, buffer, image, theme, cells, self._hidden, self._samples)
+        if writing is not None:
+            paint_numbers(painter, placement, buffer, image, theme, cells, self._hidden, writing)
         paint_above(painter, placement, self._overlays, theme)
+
+    def rulers(self, placement: GridPlacement, area: QRect, theme: Theme) -> Rulers:
+        """Return the rulers of a placement in the widget's area."""
+        made_from = placement, area, theme
+        if self._rulers is None or self._rulers[0] != made_from:
+            self._rulers = made_from, rulers_of(*made_from)
+        return self._rulers[1]
+
+    def writing(self, placement: GridPlacement, theme: Theme) -> Writing | None:
+        """Return how values are written into the cells; None: they are not."""
+        if self._buffer is None:
+            return None
+        made_from = placement, self._buffer, theme, self._samples
+        if self._writing is None or self._writing[0] != made_from:
+            self._writing = made_from, number_writing(*made_from)
+        return self._writing[1]
 
     def image(self, theme: Theme) -> QImage:
         """Return the picture of the buffer, made once."""

@@ -12,18 +12,11 @@ from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import Theme, current_theme, theme_notifier
 from widgets.grid.buffer import NO_VALUE, GridBuffer
 from widgets.grid.canvas import GridCanvas
-from widgets.grid.geometry import GridGeometry, name_boxes, paint_focus
+from widgets.grid.geometry import GridGeometry, NameBox, name_boxes, paint_focus
 from widgets.grid.marks import StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
 from widgets.grid.outline_layer import OutlineLayer
 from widgets.grid.overlay import Overlay
-from widgets.grid.paint import (
-    beside_rulers,
-    number_boxes,
-    number_writing,
-    paint_ruler_pixel,
-    ruler_areas,
-    ruler_size,
-)
+from widgets.grid.paint import number_boxes, paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid.sample_dots import SampleDots
 from widgets.grid.view import FIT, GridPlacement, GridView, clamped, place
 
@@ -43,8 +36,7 @@ class GridDisplay(QWidget):
         self._corner = 0.0
         # What is made again only where what it is made from differs.
         self._placed: tuple[tuple[object, ...], GridPlacement] | None = None
-        self._beside_rulers: tuple[tuple[GridPlacement, QRect, Theme], QRegion] | None = None
-        self._names: tuple[tuple[GridPlacement, GridGeometry | None, Theme], QRegion] | None = None
+        self._names: tuple[tuple[GridPlacement, GridGeometry | None, Theme], list[NameBox]] | None = None
         self._hover: tuple[int, int] | None = None
         self._pin: tuple[int, int] | None = None
         self._step = StepMark()
@@ -138,8 +130,8 @@ class GridDisplay(QWidget):
         before, self._step = self._step, mark
         if not before.is_same(mark):
             placement = self.placement()
-            for reach in (before.reach(placement), mark.reach(placement)):
-                self._update_rect(reach)
+            for each in (before, mark):
+                self.update(self._with_room(each.reach(placement)))
 
     def show_hidden(self, hidden: NDArray[np.bool_] | None) -> None:
         """Cover the cells of an (H, W) mask until they have been predicted; None covers none."""
@@ -173,8 +165,7 @@ class GridDisplay(QWidget):
     def has_numbers(self) -> bool:
         """Return whether the values are written into the cells at this zoom."""
         buffer = self._canvas.buffer
-        samples = self._canvas.samples
-        return buffer is not None and bool(number_writing(self.placement(), buffer, current_theme(), samples))
+        return buffer is not None and bool(self._canvas.writing(self.placement(), current_theme()))
 
     def samples_text(self, pixel: tuple[int, int]) -> str:
         """Return who has the samples of a pixel as text; empty: it has one sample, or is covered up."""
@@ -245,35 +236,38 @@ class GridDisplay(QWidget):
 
     def _paint_geometry(self, painter: QPainter, placement: GridPlacement, geometry: GridGeometry) -> None:
         """Paint the triangle in focus, on the screen from a kept picture: smooth lines are slow to draw."""
-        theme, free = current_theme(), self._free(placement)
+        theme = current_theme()
+        # Outlines may go beside the numbers of the rulers; a thumbnail has neither these nor names.
+        free = None if self._compact else self._canvas.rulers(placement, self.rect(), theme).beside
+        shown = placement, geometry, theme, self._vertex, free, self._name_boxes(placement)
         if painter.device() is self:
-            outlines = self._canvas.outlines
-            outlines.paint_focus(painter, placement, self.rect(), geometry, theme, self._vertex, free)
+            self._canvas.outlines.paint_focus(painter, self.rect(), *shown)
         else:
-            paint_focus(painter, placement, geometry, theme, self._vertex, free)
+            paint_focus(painter, *shown)
+
+    def _name_boxes(self, placement: GridPlacement) -> list[NameBox]:
+        """Return the names of the vertices and edges of the triangle in focus, and where they are written."""
+        made_from = placement, self._geometry, current_theme()
+        if self._compact or self._geometry is None:
+            return []
+        if self._names is None or self._names[0] != made_from:
+            self._names = made_from, name_boxes(placement, self._geometry, current_theme())
+        return self._names[1]
 
     def _written(self, placement: GridPlacement) -> QRegion:
         """Return what names and the numbers below the step's mark take."""
-        theme, buffer, geometry = current_theme(), self._canvas.buffer, self._geometry
+        region, buffer = QRegion(), self._canvas.buffer
         if self._compact or buffer is None:
-            return QRegion()
-        if self._names is None or self._names[0] != (placement, geometry, theme):
-            boxes = name_boxes(placement, geometry, theme) if geometry is not None else []
-            names = QRegion()
-            for box, _, _ in boxes:
-                names += box.toAlignedRect()
-            self._names = (placement, geometry, theme), names
-        cells = {cell for cell in self._step.crossed if self._is_inside(cell) and not self._is_hidden(cell)}
-        return self._names[1] + number_boxes(placement, buffer, theme, cells, self._canvas.samples)
-
-    def _free(self, placement: GridPlacement) -> QRegion | None:
-        """Return where outlines may go: beside the numbers of the rulers. None: there are no rulers."""
-        if self._compact:
-            return None
-        made_from = placement, self.rect(), current_theme()
-        if self._beside_rulers is None or self._beside_rulers[0] != made_from:
-            self._beside_rulers = made_from, beside_rulers(*made_from)
-        return self._beside_rulers[1]
+            return region
+        for box, _, _ in self._name_boxes(placement):
+            region += box.toAlignedRect()
+        writing = self._canvas.writing(placement, current_theme())
+        if writing is not None:
+            cells = {
+                cell for cell in self._step.crossed if self._is_inside(cell) and not self._is_hidden(cell)
+            }
+            region += number_boxes(placement, buffer, writing, cells)
+        return region
 
     def _update_dirty(self) -> None:
         """Have the cells painted that changed."""

@@ -31,6 +31,8 @@ SIDES = {3: (0, 1, 2), 2: (2,), 1: ()}
 """By the vertices of the primitive in focus, the edges that it has, each opposite to the vertex of its number."""
 _NAMED_LENGTH = 7.0
 """Least length of an edge that is named, in heights of the text."""
+NameBox = tuple[QRectF, str, str]
+"""Where a name is written, the name and its colour."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -172,11 +174,12 @@ def paint_focus(
     theme: Theme,
     held: int | None,
     free: QRegion | None,
+    names: list[NameBox],
 ) -> None:
     """Paint the triangle in focus: edges and vertices in their colours, snapped positions as hollow diamonds.
 
     ``held`` is the vertex under the pointer or being dragged; ``free`` is where lines may go, which cross no number of
-    the rulers, while handles and names may lie on them. ``None``: a thumbnail, without rulers, handles and names.
+    the rulers, while handles and ``names`` may lie on them. ``None``: a thumbnail, without rulers, handles and names.
     """
     small = free is None
     corners = geometry.focus_vertices
@@ -220,7 +223,7 @@ def paint_focus(
                 painter.drawEllipse(position, radius + more / 2, radius + more / 2)
         _paint_snapped(painter, placement, geometry, corners, scale)
         painter.setFont(_name_font(theme))
-        for box, text, color in name_boxes(placement, geometry, theme):
+        for box, text, color in names:
             paint_chip(painter, box, text, color, theme)
     painter.restore()
 
@@ -259,9 +262,7 @@ def _paint_snapped(
             painter.drawPolygon(diamond)
 
 
-def name_boxes(
-    placement: GridPlacement, geometry: GridGeometry, theme: Theme
-) -> list[tuple[QRectF, str, str]]:
+def name_boxes(placement: GridPlacement, geometry: GridGeometry, theme: Theme) -> list[NameBox]:
     """Return the boxes, texts and colours of the names of the vertices and edges of the primitive in focus."""
     if not geometry.focus_vertices:
         return []
@@ -285,7 +286,7 @@ def _name_font(theme: Theme) -> QFont:
 
 def _vertex_names(
     placement: GridPlacement, geometry: GridGeometry, theme: Theme, metrics: QFontMetrics
-) -> list[tuple[QRectF, str, str]]:
+) -> list[NameBox]:
     """Return the names of the vertices away from the middle of the triangle."""
     names = []
     corners = list(geometry.focus_vertices)
@@ -317,7 +318,7 @@ def _edge_names(
     edges: list[tuple[QLineF, int]],
     theme: Theme,
     metrics: QFontMetrics,
-) -> list[tuple[QRectF, str, str]]:
+) -> list[NameBox]:
     """Return the name of each edge function beside its edge, outside of the triangle."""
     names = []
     width, height = metrics.horizontalAdvance("E0") + 6, metrics.height()

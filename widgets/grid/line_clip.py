@@ -38,30 +38,21 @@ def clip_segments(
     Y. Liang, B. Barsky: A new concept and method for line clipping, 1984.
     """
     segments = np.asarray(segments, dtype=np.float64).reshape(-1, 2, 2)
-    start = segments[:, 0]
+    start, low, high = segments[:, 0], np.array(box[:2]), np.array(box[2:])
     with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
         direction = segments[:, 1] - start
-        keep = np.isfinite(segments).all(axis=(1, 2)) & np.isfinite(direction).all(axis=1)
-        enter = np.full(len(segments), -np.inf if extended else 0.0)
-        leave = np.full(len(segments), np.inf if extended else 1.0)
-        if extended:
-            keep &= (direction != 0).any(axis=1)
-        for axis in (0, 1):
-            low, high = box[axis], box[axis + 2]
-            moves = direction[:, axis] != 0
-            first = (low - start[:, axis]) / direction[:, axis]
-            second = (high - start[:, axis]) / direction[:, axis]
-            enter = np.where(moves, np.maximum(enter, np.minimum(first, second)), enter)
-            leave = np.where(moves, np.minimum(leave, np.maximum(first, second)), leave)
-            keep &= moves | ((start[:, axis] >= low) & (start[:, axis] <= high))
-        keep &= enter <= leave
-        ends = np.stack((enter, leave), axis=1)[:, :, None]
-        cut = start[:, None, :] + ends * direction[:, None, :]
-        keep &= np.isfinite(cut).all(axis=(1, 2))
+        moves = direction != 0
+        first, second = (low - start) / direction, (high - start) / direction
+        enter, leave = (-np.inf, np.inf) if extended else (0.0, 1.0)
+        entered = np.where(moves, np.minimum(first, second), -np.inf).max(axis=1, initial=enter)
+        left = np.where(moves, np.maximum(first, second), np.inf).min(axis=1, initial=leave)
+        is_beside = (~moves & ((start < low) | (start > high))).any(axis=1)
+        cut = start[:, None] + np.array([entered, left]).T[..., None] * direction[:, None]
+        # Where an end or the direction is not finite, so is what is cut.
+        keep = (entered <= left) & ~is_beside & np.isfinite(cut).all(axis=(1, 2))
+        source = np.flatnonzero(keep)
         # Ends of 1e300 leave rounding errors far larger than the box.
-        cut = np.clip(cut, box[:2], box[2:])
-    source = np.flatnonzero(keep)
-    return cut[source], source
+        return np.minimum(np.maximum(cut[source], low), high), source
 
 
 def widget_lines(
@@ -73,7 +64,6 @@ def widget_lines(
     left, top = placement.to_window(rect.topLeft())
     right, bottom = placement.to_window(rect.bottomRight())
     cut, source = clip_segments(segments, (left, bottom, right, top), extended)
-    x = placement.left + (cut[:, :, 0] - placement.corner) * placement.cell
-    y = placement.bottom - (cut[:, :, 1] - placement.corner) * placement.cell
-    ends = np.stack((x[:, 0], y[:, 0], x[:, 1], y[:, 1]), axis=1)
-    return [QLineF(*row) for row in ends.tolist()], source
+    scale = np.array([placement.cell, -placement.cell])
+    ends = np.array([placement.left, placement.bottom]) + (cut - placement.corner) * scale
+    return [QLineF(*row) for row in ends.reshape(-1, 4).tolist()], source

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF, QRegion
+from PySide6.QtGui import QColor, QPainter, QPen, QRegion
 
 from core.records.cached import cached_property
 from widgets.basics.theme import Theme, faded
@@ -47,14 +47,15 @@ class StepMark:
     def reach(self, placement: GridPlacement) -> QRectF:
         """Return where in the widget something is marked; of nothing, nothing."""
         if len(self.lines) or len(self.points):
-            points = self.points[np.isfinite(self.points).all(axis=1)].tolist()
-            places = [placement.to_widget(x, y) for x, y in points]
-            places += [
-                end for line in widget_lines(self.lines, placement)[0] for end in (line.p1(), line.p2())
-            ]
+            is_drawn = np.isfinite(self.lines).all(axis=(1, 2))
+            places = np.concatenate([self.lines[is_drawn].reshape(-1, 2), self.points])
+            places = places[np.isfinite(places).all(axis=1)]
+            if not len(places):
+                return QRectF()
+            (left, low), (right, high) = places.min(axis=0).tolist(), places.max(axis=0).tolist()
             ring = _RING + 3.0  # with its pen
-            around = QPolygonF(places).boundingRect().adjusted(-ring, -ring, ring, ring)
-            return around.intersected(QRectF(placement.viewport)) if places else QRectF()
+            around = QRectF(placement.to_widget(left, high), placement.to_widget(right, low))
+            return around.adjusted(-ring, -ring, ring, ring).intersected(QRectF(placement.viewport))
         pixels = np.concatenate([self.pixels, self.trail])
         if not len(pixels):
             return QRectF()
@@ -84,7 +85,7 @@ def paint_step_mark(
     if not written.isEmpty():
         painter.setClipRegion(QRegion(placement.viewport) - written, Qt.ClipOperation.IntersectClip)
     _paint_trail(painter, placement, mark.trail, theme)
-    lines, _ = widget_lines(mark.lines, placement, False)
+    lines = widget_lines(mark.lines, placement)[0] if len(mark.lines) else []
     for pen in (_pen(theme.halo(), 5.0), _pen(theme.accent, 3.0)):
         painter.setPen(pen)
         painter.drawLines(lines)

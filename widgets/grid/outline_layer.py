@@ -6,7 +6,14 @@ from PySide6.QtCore import QLineF, QRect, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPixmap, QRegion
 
 from widgets.basics.theme import Theme
-from widgets.grid.geometry import HALO_OPACITY, HALO_WIDTH, GridGeometry, outline_lines, paint_focus
+from widgets.grid.geometry import (
+    HALO_OPACITY,
+    HALO_WIDTH,
+    GridGeometry,
+    NameBox,
+    outline_lines,
+    paint_focus,
+)
 from widgets.grid.view import GridPlacement
 
 
@@ -38,12 +45,13 @@ class OutlineLayer:
     def paint_focus(
         self,
         painter: QPainter,
-        placement: GridPlacement,
         area: QRect,
+        placement: GridPlacement,
         geometry: GridGeometry,
         theme: Theme,
         held: int | None,
         free: QRegion | None,
+        names: list[NameBox],
     ) -> None:
         """Paint the triangle in focus, as the function `paint_focus` does."""
         if not geometry.focus_vertices:
@@ -52,7 +60,7 @@ class OutlineLayer:
         def draw(picture: QPixmap) -> None:
             with QPainter(picture) as inner:
                 inner.translate(-area.topLeft())
-                paint_focus(inner, placement, geometry, theme, held, free)
+                paint_focus(inner, placement, geometry, theme, held, free, names)
 
         self._paint(painter, area, ("focus", placement), (geometry, theme, held, free), draw)
 

@@ -124,7 +124,8 @@ def paint_border(painter: QPainter, placement: GridPlacement, theme: Theme) -> N
 
 def paint_nan(painter: QPainter, placement: GridPlacement, buffer: GridBuffer, theme: Theme) -> None:
     """Paint a fine checker over NaN pixels."""
-    if buffer.values.dtype.kind == "f" and placement.cell >= LINE_CELL:
+    has_nan = buffer.values.dtype.kind == "f" and np.isnan(buffer.values.min())
+    if has_nan and placement.cell >= LINE_CELL:
         is_nan = np.isnan(buffer.values)
         is_nan = is_nan.any(axis=2) if is_nan.ndim == 3 else is_nan
         if buffer.known is not None:
@@ -167,6 +168,18 @@ def _characters(cell: float, size: int, theme: Theme) -> int:
     return int((cell - 5) / QFontMetricsF(text_font(theme, size)).horizontalAdvance("0"))
 
 
+class Writing(NamedTuple):
+    """How values are written into cells."""
+
+    font: QFont
+    height: float
+    """Of a line."""
+    width: int
+    """Most characters."""
+    top: float
+    """Where the first line begins below the middle of a cell."""
+
+
 def paint_numbers(
     painter: QPainter,
     placement: GridPlacement,
@@ -175,15 +188,9 @@ def paint_numbers(
     theme: Theme,
     cells: tuple[int, int, int, int],
     hidden: NDArray[np.bool_] | None,
-    samples: SampleDots | None = None,
+    writing: Writing,
 ) -> None:
-    """Write values into cells (column0, row0, column1, row1), in black or white, whichever is seen better.
-
-    They stand clear of the sample in the middle, or of several ``samples`` where there is room between them.
-    """
-    writing = number_writing(placement, buffer, theme, samples)
-    if writing is None:
-        return
+    """Write values into cells (column0, row0, column1, row1), in black or white, whichever is seen better."""
     font, height, width, top = writing
     dark, light = QColor("#000000"), QColor("#ffffff")
     backdrop = QColor(theme.canvas)
@@ -211,18 +218,6 @@ def paint_numbers(
                 box = QRectF(rect.left(), first + index * height, rect.width(), height)
                 painter.drawText(box, flags, line)
     painter.restore()
-
-
-class Writing(NamedTuple):
-    """How values are written into cells."""
-
-    font: QFont
-    height: float
-    """Of a line."""
-    width: int
-    """Most characters."""
-    top: float
-    """Where the first line begins below the middle of a cell."""
 
 
 def number_writing(
@@ -253,15 +248,11 @@ def centres_are_free(writing: Writing | None) -> bool:
 def number_boxes(
     placement: GridPlacement,
     buffer: GridBuffer,
-    theme: Theme,
+    writing: Writing,
     cells: set[tuple[int, int]],
-    samples: SampleDots | None = None,
 ) -> QRegion:
     """Return what the values written into some cells (column, row) take, which no line may cross."""
     region = QRegion()
-    writing = number_writing(placement, buffer, theme, samples)
-    if writing is None:
-        return region
     font, height, width, top = writing
     digit = QFontMetricsF(font).horizontalAdvance("0")
     for column, row in cells:
@@ -321,25 +312,32 @@ def ruler_size(rows: int, theme: Theme) -> tuple[int, int]:
     return int(metrics.horizontalAdvance("0" * max(len(str(rows - 1)), 2)) + 12), int(metrics.height() + 6)
 
 
-def paint_rulers(painter: QPainter, placement: GridPlacement, area: QRect, theme: Theme) -> None:
-    """Write column numbers below and row numbers left of the viewport, as many as have room."""
+class Rulers(NamedTuple):
+    """The rulers of a grid."""
+
+    labels: list[tuple[QRectF, str]]
+    """Boxes and texts of the numbers, in widget pixels."""
+    beside: QRegion
+    """The viewport without them, as no line may cross them: outlines that leave a small raster come upon them."""
+
+
+def paint_rulers(painter: QPainter, rulers: Rulers, theme: Theme) -> None:
+    """Write the numbers of the rulers."""
     painter.save()
     painter.setFont(text_font(theme, theme.small_px))
     painter.setPen(QColor(theme.muted_text))
-    for box, number in ruler_labels(placement, area, theme):
+    for box, number in rulers.labels:
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, number)
     painter.restore()
 
 
-def beside_rulers(placement: GridPlacement, area: QRect, theme: Theme) -> QRegion:
-    """Return the viewport without the numbers of the rulers, which no line may cross.
-
-    They stand at the raster; where it does not fill the viewport, outlines that leave it come upon them.
-    """
-    region = QRegion(placement.viewport)
-    for box, _ in ruler_labels(placement, area, theme):
-        region -= QRegion(box.toAlignedRect())
-    return region
+def rulers_of(placement: GridPlacement, area: QRect, theme: Theme) -> Rulers:
+    """Return the column numbers below and the row numbers left of the raster, as many as have room."""
+    labels = ruler_labels(placement, area, theme)
+    beside = QRegion(placement.viewport)
+    for box, _ in labels:
+        beside -= QRegion(box.toAlignedRect())
+    return Rulers(labels, beside)
 
 
 def ruler_labels(placement: GridPlacement, area: QRect, theme: Theme) -> list[tuple[QRectF, str]]:

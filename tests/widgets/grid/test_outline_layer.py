@@ -6,7 +6,7 @@ from PySide6.QtCore import QRect, Qt
 from PySide6.QtGui import QImage, QPainter, QRegion
 
 from widgets.basics.theme import DARK, LIGHT, Theme
-from widgets.grid.geometry import GridGeometry, outline_lines, paint_focus, paint_outlines
+from widgets.grid.geometry import GridGeometry, name_boxes, outline_lines, paint_focus, paint_outlines
 from widgets.grid.outline_layer import OutlineLayer
 from widgets.grid.view import GridPlacement, GridView, place
 
@@ -47,7 +47,8 @@ def below_and_above(below: GridGeometry, above: GridGeometry, free: QRegion | No
 
     def paint(painter: QPainter) -> None:
         layer.paint_others(painter, placed(), AREA, below, LIGHT)
-        layer.paint_focus(painter, placed(), AREA, above, LIGHT, None, free)
+        names = name_boxes(placed(), above, LIGHT)
+        layer.paint_focus(painter, AREA, placed(), above, LIGHT, None, free, names)
 
     return on_canvas(paint)
 
@@ -96,12 +97,10 @@ def test_the_triangle_in_focus_is_as_painted_directly() -> None:
     layer, geometry = OutlineLayer(), geometry_at(5.0)
     for held in (None, 4, None):
         for free in (QRegion(AREA), QRegion(0, 0, 40, 120), None):
-            shown = placed(), geometry, LIGHT, held, free
+            shown = placed(), geometry, LIGHT, held, free, name_boxes(placed(), geometry, LIGHT)
             expected = on_canvas(lambda painter, shown=shown: paint_focus(painter, *shown))
             for _ in range(2):
-                kept = on_canvas(
-                    lambda painter, shown=shown: layer.paint_focus(painter, shown[0], AREA, *shown[1:])
-                )
+                kept = on_canvas(lambda painter, shown=shown: layer.paint_focus(painter, AREA, *shown))
                 assert is_alike(kept, expected)
 
 

@@ -17,7 +17,7 @@ from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry, handle_part, name_boxes
 from widgets.grid.marks import StepMark
 from widgets.grid.overlay import Mark, MaskOverlay
-from widgets.grid.paint import number_boxes, ruler_labels
+from widgets.grid.paint import number_boxes, number_writing, ruler_labels
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import FIT, GridView
 
@@ -410,7 +410,9 @@ def test_no_mark_of_a_step_strikes_out_what_is_written(qtbot) -> None:
     assert buffer is not None
     written = [box.toRect() for box, _, _ in name_boxes(placement, geometry, theme)]
     assert len(written) == 6
-    written += [*number_boxes(placement, buffer, theme, mark.crossed)]
+    writing = number_writing(placement, buffer, theme)
+    assert writing is not None
+    written += [*number_boxes(placement, buffer, writing, mark.crossed)]
     before = picture(widget)
     widget.show_step(mark)
     after = picture(widget)
@@ -427,10 +429,9 @@ def test_nothing_is_written_where_a_picture_is_cleared(qtbot) -> None:
     values[0, 0] = 255
     buffer = GridBuffer("display", values, "color")
     widget.show_buffer(buffer)
-    taken = [
-        number_boxes(widget.placement(), buffer, current_theme(), {(column, 0)}).isEmpty()
-        for column in (0, 1)
-    ]
+    writing = number_writing(widget.placement(), buffer, current_theme())
+    assert writing is not None
+    taken = [number_boxes(widget.placement(), buffer, writing, {(column, 0)}).isEmpty() for column in (0, 1)]
     assert taken == [False, True]
 
 
