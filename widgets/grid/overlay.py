@@ -3,7 +3,7 @@
 Nothing depends on colour alone: every mark has a fill, hatch, ring, glyph or outline of its own.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from enum import Enum
 
 import numpy as np
@@ -73,6 +73,19 @@ class NamedOverlay:
     def label(self) -> str:
         """Name in the legend."""
         return self.title
+
+    def looks_like(self, other: "NamedOverlay") -> bool:
+        """Return whether ``other`` has the same kind and values."""
+        if type(self) is not type(other):
+            return False
+        for each in fields(self):
+            mine, its = getattr(self, each.name), getattr(other, each.name)
+            if isinstance(mine, np.ndarray):
+                if not np.array_equal(mine, its, equal_nan=mine.dtype.kind == "f"):
+                    return False
+            elif mine != its:
+                return False
+        return True
 
 
 @dataclass(frozen=True, eq=False)
@@ -193,11 +206,14 @@ def changed_cells(
     for old, new in zip(before, after, strict=True):
         if old is new:
             continue
-        if not (isinstance(old, MaskOverlay) and isinstance(new, MaskOverlay)):
+        if (
+            isinstance(old, MaskOverlay)
+            and isinstance(new, MaskOverlay)
+            and (old.key, old.mark, old.mask.shape) == (new.key, new.mark, new.mask.shape)
+        ):
+            changed = union(changed, bounds(old.mask != new.mask))
+        elif not old.looks_like(new):
             return None
-        if (old.key, old.mark, old.mask.shape) != (new.key, new.mark, new.mask.shape):
-            return None
-        changed = union(changed, bounds(old.mask != new.mask))
     return changed
 
 

@@ -140,6 +140,22 @@ def test_what_changed_between_steps() -> None:
     assert changed_cells((before,), (one(Mark.TIE),)) is None
 
 
+@pytest.mark.parametrize("wider", [0, 1])
+def test_lines_and_blocks_that_are_made_again_change_nothing(wider: int) -> None:
+    def overlays(width: int) -> tuple[Overlay, ...]:
+        ends = np.array([[[0.0, np.nan], [width, 1.0]]])
+        blocks = np.array([[0, 0, width, 2]])
+        return (
+            SegmentOverlay("l", ends, (0,), extended=True),
+            BlockOverlay("b", blocks, (BlockState.LEAF,), labels=("1",)),
+            SpanOverlay("s", blocks[:, 1:]),
+            CountOverlay("c", blocks),
+        )
+
+    for before, after in zip(overlays(3), overlays(3 + wider), strict=True):
+        assert changed_cells((before,), (after,)) == (None if wider else (0, 0, 0, 0))
+
+
 def test_bounds_and_union() -> None:
     assert bounds(np.zeros((3, 3), np.bool_)) == (0, 0, 0, 0)
     assert union((0, 0, 0, 0), (1, 1, 2, 2)) == (1, 1, 2, 2)
