@@ -87,17 +87,18 @@ class GridCanvas:
         before, self._buffer = self._buffer, buffer
         if buffer is None or before is None:
             return self._forget(before is not buffer)
-        if buffer.is_same_picture(before):
-            return False
         if before.values.shape != buffer.values.shape:
             self._hidden = None
-        looks = [(each.kind, each.values.dtype, each.known is None) for each in (before, buffer)]
-        if (
-            looks[0] != looks[1]
-            or before.values.shape != buffer.values.shape
-            or value_range(before) != value_range(buffer)
-        ):
+        if (before.values.shape, before.origin) != (buffer.values.shape, buffer.origin):
             return self._forget(True)
+        if buffer.is_same_picture(before):
+            return False
+        self._image = None
+        looks = [
+            (each.kind, each.values.dtype, each.known is None, value_range(each)) for each in (before, buffer)
+        ]
+        if looks[0] != looks[1]:
+            return self._add_dirty((0, 0, buffer.columns, buffer.rows))
         with np.errstate(invalid="ignore"):
             differs = before.values != buffer.values
         if buffer.values.dtype.kind == "f":
@@ -105,7 +106,6 @@ class GridCanvas:
         changed = differs.any(axis=2) if differs.ndim == 3 else differs
         if before.known is not None and buffer.known is not None:
             changed = changed | (before.known != buffer.known)
-        self._image = None
         return self._add_dirty(bounds(changed))
 
     def set_overlays(self, overlays: tuple[Overlay, ...]) -> bool:

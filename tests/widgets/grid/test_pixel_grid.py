@@ -203,6 +203,26 @@ def test_a_cell_under_the_trail_is_painted_as_with_everything(grid: PixelGrid) -
         assert in_parts == grid.screen().grabWindow(grid.winId()).toImage()
 
 
+def test_another_range_or_place_is_painted_as_with_everything(grid: PixelGrid, qtbot) -> None:
+    values = np.random.default_rng(3).random((16, 24))
+    for buffer in (
+        GridBuffer("z", values),
+        GridBuffer("z", 2 * values),
+        GridBuffer("z", 2 * values, origin=(40, 7)),
+        GridBuffer("z", values > 0.5, "bool", origin=(40, 7)),
+    ):
+        grid.show_buffer(buffer)
+        QApplication.processEvents()
+        in_parts = grid.screen().grabWindow(grid.winId()).toImage()
+        grid.repaint()
+        assert in_parts == grid.screen().grabWindow(grid.winId()).toImage()
+        fresh = PixelGrid()
+        qtbot.addWidget(fresh)
+        fresh.resize(grid.size())
+        fresh.show_buffer(buffer)
+        assert picture(grid) == picture(fresh)
+
+
 def test_the_same_again_paints_nothing(grid: PixelGrid, qtbot) -> None:
     values = np.arange(384.0).reshape(16, 24)
     mask = values > 100
