@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 from widgets.basics.drawn_text import LabelPlaces
 from widgets.basics.theme import Theme, faded, ink_color, ink_text_color, text_font
 from widgets.grid.line_clip import clip_segments
-from widgets.space.diagram import Diagram, Patch, Spot, Stroke
+from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word
 from widgets.space.orbit import Orbit
 
 PIECE = 60.0
@@ -91,11 +91,11 @@ def paint_diagram(
             pen.setDashOffset((offsets[piece] / pen.widthF()) % sum(dashes))
         painter.setPen(pen)
         painter.drawLine(QLineF(*lines[piece]))
-    for spot in diagram.spots:
-        place = projection.place(spot.point)
-        if place is not None:
-            paint_spot(painter, place, spot, theme)
-    _paint_words(painter, diagram, projection, area, theme)
+    spots = [(spot, place) for spot in diagram.spots if (place := projection.place(spot.point)) is not None]
+    words = [(word, place) for word in diagram.words if (place := projection.place(word.point)) is not None]
+    for spot, place in spots:
+        paint_spot(painter, place, spot, theme)
+    _paint_words(painter, spots, words, area, theme)
     painter.restore()
 
 
@@ -237,23 +237,22 @@ def paint_spot(
 
 
 def _paint_words(
-    painter: QPainter, diagram: Diagram, projection: Projection, area: QRectF, theme: Theme
+    painter: QPainter,
+    spots: list[tuple[Spot, QPointF]],
+    words: list[tuple[Word, QPointF]],
+    area: QRectF,
+    theme: Theme,
 ) -> None:
     """Write names of points first, then words, each where there is room."""
     places = LabelPlaces(area.adjusted(2, 2, -2, -2))
-    for spot in diagram.spots:
-        place = projection.place(spot.point)
-        if place is not None:
-            places.take(QRectF(place.x() - 5, place.y() - 5, 10, 10))
-    for spot in diagram.spots:
-        place = projection.place(spot.point)
-        if place is not None and spot.label:
+    for _, place in spots:
+        places.take(QRectF(place.x() - 5, place.y() - 5, 10, 10))
+    for spot, place in spots:
+        if spot.label:
             is_vertex = spot.ink.startswith("vertex ")
             paint_label(painter, places, place, spot.label, spot.ink, theme, spot.radius + 3, is_vertex)
-    for word in diagram.words:
-        place = projection.place(word.point)
-        if place is not None:
-            paint_label(painter, places, place, word.text, word.ink, theme, 3.0)
+    for word, place in words:
+        paint_label(painter, places, place, word.text, word.ink, theme, 3.0)
 
 
 def paint_label(

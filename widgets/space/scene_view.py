@@ -124,6 +124,8 @@ class SceneView(OrbitArea):
         self._origin = (0.0, 0.0)
         self._fixed_size: tuple[int, int] | None = None
         self._has_new_pixels = False
+        self._left_free = QRectF()
+        """Where the corner was when words were painted."""
         self._corner = FrameCorner(self)
         self._corner.size_chosen.connect(self.size_chosen)
         self.setAccessibleName("3D scene")
@@ -142,7 +144,8 @@ class SceneView(OrbitArea):
             self._has_new_pixels = True
         caption = self.empty_text if picture is None else picture.caption
         self.setAccessibleDescription(caption)
-        if before is None or picture is None or not picture.is_same(before):
+        is_painted = before is not None and picture is not None and picture.is_same(before)
+        if not is_painted or self._corner_area() != self._left_free:
             self.update()
 
     def set_caption(self, caption: str) -> None:
@@ -163,9 +166,7 @@ class SceneView(OrbitArea):
 
     def show_figures(self, text: str) -> None:
         """Show in the corner what the last picture took."""
-        if text != self._corner.text():
-            self._corner.show_figures(text)
-            self.update()  # Words keep clear of the corner.
+        self._corner.show_figures(text)
 
     def show_sizes(self, choices: Sequence[SizeChoice], chosen: str) -> None:
         """Offer sizes of the picture in the corner's menu; one of them is chosen."""
@@ -174,6 +175,10 @@ class SceneView(OrbitArea):
     def corner(self) -> FrameCorner:
         """Return the corner with figures and sizes."""
         return self._corner
+
+    def _corner_area(self) -> QRectF:
+        """Return where the corner is; empty while it is hidden."""
+        return QRectF(self._corner.geometry()) if self._corner.isVisible() else QRectF()
 
     def fix_picture_size(self, size: tuple[int, int] | None) -> None:
         """Ask for pictures of this (width, height), whatever the size of the view; None: of the view's own."""
@@ -258,8 +263,9 @@ class SceneView(OrbitArea):
     def _paint_over(self, painter: QPainter, picture: ScenePicture, area: QRectF, theme: Theme) -> None:
         """Paint marks, handles and words."""
         places = LabelPlaces(area.adjusted(2, 2, -2, -2))
-        if self._corner.isVisible():
-            places.take(QRectF(self._corner.geometry()))
+        self._left_free = self._corner_area()
+        if not self._left_free.isEmpty():
+            places.take(self._left_free)
         handles = self._placed_handles()
         for _, place in handles:
             places.take(QRectF(place.x() - 7, place.y() - 7, 14, 14))
