@@ -16,7 +16,9 @@ NARROWEST = (15, 18)
 WIDEST = 60.0
 PRESENTED = 0.39
 """Part of the page that the inspector takes while presenting; the picture has 55 % of the screen."""
-SIDES_AT_MOST = 0.66
+GIVES_WAY_TO = 28
+"""Width down to which the inspector gives way to an open side pane, in heights of the text; then both get narrower."""
+SIDES_AT_MOST = 0.6
 """Largest part of the page that both take together."""
 
 
@@ -53,7 +55,9 @@ class StepColumns(PaneSplitter):
         ]
         if self._is_presenting and wanted[1]:
             wanted[1] = PRESENTED * self.width()
-        scale = min(1.0, SIDES_AT_MOST * self.width() / max(sum(wanted), 1.0))
+        room = SIDES_AT_MOST * self.width()
+        wanted[1] -= min(max(sum(wanted) - room, 0.0), max(wanted[1] - GIVES_WAY_TO * text, 0.0))
+        scale = min(1.0, room / max(sum(wanted), 1.0))
         left, right = (round(width * scale) for width in wanted)
         self.setSizes([left, max(self.width() - left - right, 1), right])
 

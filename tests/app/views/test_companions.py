@@ -15,6 +15,8 @@ from core.settings import settings_from_texts
 from core.trace.geometry_progress import SPACES, spaces_reached
 from lessons.scenes import make_scene
 from lessons.slides.scenes import ALL_SCENES, LECTURE_SCENES
+from widgets.basics.style_sheet import style_sheet
+from widgets.basics.theme import current_theme
 from widgets.space.diagram import CUBE, Diagram
 from widgets.space.view import SpaceView
 from widgets.tables.step_table_view import StepTableView
@@ -58,7 +60,9 @@ def test_both_depths_are_alike_and_lie_where_they_are_largest(window: MainWindow
 
 
 def test_no_tab_of_a_view_is_hidden_beside_a_pane(window: MainWindow) -> None:
-    bar = window.page.main_area.view_bar
+    bar, application = window.page.main_area.view_bar, QApplication.instance()
+    assert isinstance(application, QApplication)
+    application.setStyleSheet(style_sheet(current_theme()))
     window.page.show_panes(["inspector", "scene"])
     window.page.settle()
     assert bar.width() >= bar.sizeHint().width()
