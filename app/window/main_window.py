@@ -100,6 +100,7 @@ class MainWindow(QMainWindow):
     def _connect(self) -> None:
         session, page, menus, notices = self.session, self.page, self.menus, self.notices
         session.document_changed.connect(self._show_document)
+        session.document_changed.connect(self.notices.settle_edit)
         session.hover_changed.connect(self._show_pointed)
         session.pin_changed.connect(self._show_pointed)
         session.cursor_changed.connect(self._show_pointed)
@@ -160,7 +161,7 @@ class MainWindow(QMainWindow):
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
         """Say why an edit came to nothing, and show again what is there."""
-        self.notices.warn(f"{error}")
+        self.notices.refuse(f"{error}")
         self.page.scene.refresh()
         self._show_document()
 
@@ -182,7 +183,7 @@ class MainWindow(QMainWindow):
     def _take_page(self, page: Page) -> None:
         """Listen to a page that has just been made, and give its panes the sizes that they had."""
         page.message_sent.connect(self.notices.tell)
-        page.edit_refused.connect(self.notices.warn)
+        page.edit_refused.connect(self.notices.refuse if page is self.page else self.notices.warn)
         page.went_well.connect(self.notices.settle)
         page.step_requested.connect(self.opening.open_request)
         page.question_requested.connect(self._ask_question)

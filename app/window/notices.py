@@ -24,6 +24,8 @@ class Notices(QObject):
         self._hints, self._messages = hints, messages
         self._warned: tuple[QObject | None, Message | None] = None, None
         """Who sent the last message that stays, and the message."""
+        self._refused: Message | None = None
+        """Why the last edit of the scene was not taken."""
 
     @Slot(str)
     def tell(self, text: str, kind: MessageKind = MessageKind.INFORMATION, details: str = "") -> None:
@@ -50,6 +52,17 @@ class Notices(QObject):
     def warn(self, text: str) -> None:
         """Show a warning."""
         self.tell(text, MessageKind.WARNING)
+
+    @Slot(str)
+    def refuse(self, text: str) -> None:
+        """Warn that an edit of the scene was not taken, until another one is."""
+        self.warn(text)
+        self._refused = self._warned[1]
+
+    @Slot()
+    def settle_edit(self) -> None:
+        """Take the warning about a refused edit away: the scene has been edited since."""
+        self._messages.take_back(self._refused)
 
     @Slot(object)
     def show_message(self, message: Message) -> None:

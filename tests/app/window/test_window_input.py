@@ -110,6 +110,9 @@ def test_w_of_zero_is_refused_with_a_reason(window: MainWindow, qtbot: QtBot) ->
     assert window.session.document is document
     assert "w must not be 0" in window.messages.text.text()
     assert window.page.outline.field("corner/0/0/w").value() == 1
+    type_value(window, qtbot, "corner/0/0/x", "0.25")  # an edit that is taken
+    assert window.session.document is not document
+    assert not window.messages.isVisible()
 
 
 def test_bad_values_of_a_scene_are_told(window: MainWindow, qtbot: QtBot) -> None:
