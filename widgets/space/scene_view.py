@@ -279,6 +279,10 @@ class SceneView(OrbitArea):
             spot, is_held = Spot(np.zeros(3), ink, radius=radius), handle.index == self._handle
             paint_spot(painter, place, spot, theme, is_handle=True, is_held=is_held)
             paint_label(painter, places, place, str(handle.index), ink, theme, reach, is_bold=True)
+        if picture.sight is not None:
+            for left, bottom, right, top in picture.sight.covered():
+                corners = area.left() + left * area.width(), area.bottom() - top * area.height()
+                places.avoid(QRectF(*corners, (right - left) * area.width(), (top - bottom) * area.height()))
         for x, y, text, ink in picture.labels:
             placed = _place(area, x, y)
             if placed is not None:

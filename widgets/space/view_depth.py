@@ -23,6 +23,18 @@ class ViewDepth:
         if self.distance.ndim != 2 or 0 in self.distance.shape:
             raise ValueError(f"distance must be (R, C) with at least one place, got {self.distance.shape}")
 
+    def covered(self) -> list[tuple[float, float, float, float]]:
+        """Return the places where something is seen, row by row: left, bottom, right and top, fractions."""
+        rows, columns = self.distance.shape
+        is_seen = ~np.isnan(self.distance)
+        seen = np.flatnonzero(is_seen.any(axis=1))
+        first = is_seen[seen].argmax(axis=1) / columns
+        last = 1 - is_seen[seen, ::-1].argmax(axis=1) / columns
+        return [
+            (left, row / rows, right, (row + 1) / rows)
+            for row, left, right in zip(seen.tolist(), first.tolist(), last.tolist(), strict=True)
+        ]
+
     def focused(self, orbit: Orbit, x: float, y: float) -> Orbit:
         """Return ``orbit`` with its target as far away as what is seen at a place, and the same picture.
 

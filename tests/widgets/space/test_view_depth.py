@@ -47,3 +47,11 @@ def test_an_older_picture_tells_distances_from_where_the_eye_is_now():
 def test_distances_are_a_grid():
     with pytest.raises(ValueError, match=r"distance must be \(R, C\)"):
         ViewDepth(ORBIT, ANGLE, np.zeros(3))
+
+
+def test_what_is_seen_is_covered_row_by_row():
+    empty, seen = np.nan, 3.0
+    sight = ViewDepth(
+        ORBIT, ANGLE, np.array([[empty] * 4, [empty, seen, empty, seen], [seen, empty, empty, empty]])
+    )
+    assert sight.covered() == [(0.25, 1 / 3, 1.0, 2 / 3), (0.0, 2 / 3, 0.25, 1.0)]
