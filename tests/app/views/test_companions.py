@@ -150,10 +150,12 @@ def test_a_clipper_fills_its_table_beside_the_pixels(window: MainWindow) -> None
     assert session.explanation.values["border"] == "right"
 
 
+@pytest.mark.own_window
 @pytest.mark.parametrize(("scene", "is_below"), [("jubair-cyrus-beck", True), ("lmu-clipped", False)])
 def test_a_table_too_wide_for_half_the_area_stands_below(
     window: MainWindow, scene: str, is_below: bool
 ) -> None:
+    window.resize(1366, 800)
     row = ALL_SCENES[scene]
     window.session.open(open_document(row.make(), row.title, settings=settings_from_texts(row.settings)))
     session, area = window.session, window.page.main_area
