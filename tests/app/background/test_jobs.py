@@ -23,6 +23,7 @@ def test_what_was_worked_on_goes_when_the_work_is_done(qtbot: QtBot) -> None:
         job.start(work)
     del work, large
     qtbot.waitUntil(lambda: seen() is None)
+    job.shut_down()
 
 
 def test_it_goes_too_when_nobody_waits_for_it_any_more(qtbot: QtBot) -> None:
@@ -36,6 +37,7 @@ def test_it_goes_too_when_nobody_waits_for_it_any_more(qtbot: QtBot) -> None:
     job.cancel()
     del work, large
     qtbot.waitUntil(lambda: seen() is None)
+    job.shut_down()
 
 
 @pytest.mark.parametrize(
@@ -50,5 +52,6 @@ def test_only_an_expected_error_is_reported(qtbot: QtBot, error: Exception, is_e
     job.failed.connect(reported.append)
     with qtbot.captureExceptions() as raised, qtbot.waitSignal(job.ended):
         job.start(work)
+    job.shut_down()
     assert reported == [error] * is_expected
     assert [each for _, each, _ in raised] == [error] * (not is_expected)

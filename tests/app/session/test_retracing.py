@@ -39,8 +39,10 @@ def dragged(document: Document, triangle: int, x: float) -> Document:
 
 
 @pytest.fixture
-def session(qapp: object) -> Session:
-    return Session(open_document(many_triangles(), "Triangles"))
+def session(qapp: object) -> Iterator[Session]:
+    found = Session(open_document(many_triangles(), "Triangles"))
+    yield found
+    found.tracing.shut_down()
 
 
 @pytest.fixture

@@ -154,7 +154,7 @@ def test_a_typed_segment_is_stepped_in_six_actions_and_clipped_in_three_more(
     assert session.stage_trace.extra["outline_clip"].lines.is_kept.all()
 
 
-def test_clippers_of_rectangles_are_refused_for_a_polygon(window: MainWindow) -> None:
+def test_clippers_of_rectangles_are_refused_for_a_polygon(window: MainWindow, qtbot: QtBot) -> None:
     open_scene(window, "polygon-window")
     (record,) = (r for r in settings_records(window.session.document) if r.family == "line_clipping")
     refused = {choice.value for choice in record.choices if choice.refusal}
@@ -169,6 +169,8 @@ def test_clippers_of_rectangles_are_refused_for_a_polygon(window: MainWindow) ->
     open_scene(window, "clipped-segment")
     window.session.set_setting("line_clipping", "liang-barsky")
     window.open_path("polygon-window")
+    qtbot.waitUntil(lambda: not window.files.job.is_running)
+    assert window.session.document.title == "Segment and convex polygon"
     assert window.session.document.settings.line_clipping in ("none", "liang-barsky")
 
 
