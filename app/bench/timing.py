@@ -1,12 +1,13 @@
 """Time several calls fairly: in turn, in one process, warm, with the garbage collector off."""
 
 import gc
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from dataclasses import dataclass
 from time import perf_counter
 
 import numpy as np
+
+from core.study.accuracy.timing import collector_off
 
 SHORT = 0.030
 """Seconds: a shorter call is warmed up in every round by one untimed call, and then timed more than once."""
@@ -25,19 +26,6 @@ class Times:
     """Timed calls."""
 
 
-@contextmanager
-def collector_off() -> Iterator[None]:
-    """Keep the garbage collector from running in the block."""
-    was_on = gc.isenabled()
-    gc.collect()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
-
-
 def time_in_turn(calls: dict[str, Callable[[], object]], rounds: int) -> dict[str, Times]:
     """Call everything ``rounds`` times in turn and return the times by name.
 
@@ -48,6 +36,7 @@ def time_in_turn(calls: dict[str, Callable[[], object]], rounds: int) -> dict[st
     for turn in range(rounds):
         first = turn % max(len(names), 1)
         for name in names[first:] + names[:first]:
+            gc.collect()
             with collector_off():
                 seconds[name] += _time_round(calls[name])
     return {name: summary(values) for name, values in seconds.items()}

@@ -29,9 +29,7 @@ def run(options: argparse.Namespace) -> int:
 
 def known_templates() -> dict[str, Template]:
     """Return all exercises, of the program and of folders; what is skipped is said on stderr."""
-    from app.files.exercise_folders import (
-        all_templates,
-    )  # Qt takes a moment: not before folders are looked into.
+    from app.files.exercise_folders import all_templates  # Qt takes a moment: not before it is needed.
 
     templates, skipped = all_templates()
     for sentence in skipped:

@@ -7,6 +7,7 @@ import sys
 from app.cli.arguments import add_file, add_settings, chosen_settings, outside_hinted, size_from_text
 from app.cli.commands import MOST_ROUNDS, UsageError, whole_number
 from app.cli.window import load_qt
+from app.files.file_names import VIEW_ENDINGS
 from app.files.file_writing import check_writable
 from core import STAGES
 
@@ -38,7 +39,6 @@ ONLY_OF = {
     "choose": ("compare", "stability", "exercises"),
 }
 """Options that are of some pages only."""
-ENDINGS = (".png", ".svg", ".pdf")
 SMALLEST = (800, 500)
 """Least size of the window in pixels."""
 
@@ -119,8 +119,10 @@ def check_page(options: argparse.Namespace) -> None:
 
 def run(options: argparse.Namespace) -> int:
     """Draw the window and write it."""
-    if not options.output.lower().endswith(ENDINGS):
-        raise UsageError(f"argument -o: the file must end with {', '.join(ENDINGS)}, got {options.output}")
+    if not options.output.lower().endswith(VIEW_ENDINGS):
+        raise UsageError(
+            f"argument -o: the file must end with {', '.join(VIEW_ENDINGS)}, got {options.output}"
+        )
     if sys.platform.startswith("linux"):
         os.environ["QT_QPA_PLATFORM"] = "offscreen"
     check_page(options)

@@ -9,10 +9,9 @@ from PySide6.QtWidgets import QWidget
 
 from app.export.paint import drawn_image, paint_tree, seen_image
 from app.export.svg import svg_text
+from app.files.file_names import VIEW_ENDINGS
 from app.files.file_writing import write_file
 from widgets.inspector.formula_view import FormulaView
-
-ENDINGS = (".png", ".svg", ".pdf")
 
 
 def export_widget(widget: QWidget, path: str | Path, scale: float | None = None) -> None:
@@ -39,7 +38,9 @@ def export_widget(widget: QWidget, path: str | Path, scale: float | None = None)
     }
     ending = Path(path).suffix.lower()
     if ending not in makers:
-        raise ValueError(f"the name of the file must end with {', '.join(ENDINGS)}, got {Path(path).name}")
+        raise ValueError(
+            f"the name of the file must end with {', '.join(VIEW_ENDINGS)}, got {Path(path).name}"
+        )
     if widget.size().isEmpty():
         raise ValueError("this view has no size, there is nothing to export")
     content = makers[ending]()

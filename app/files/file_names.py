@@ -2,6 +2,8 @@
 
 import re
 
+VIEW_ENDINGS = (".png", ".svg", ".pdf")
+"""Of pictures of a view."""
 DRAWN_ENDINGS = (".png", ".npz", ".csv")
 """Of pictures that other programs drew."""
 

@@ -7,7 +7,7 @@ Triangles whose box does not contain the pixel are only counted. Of several samp
 own; of exact areas ``pieces`` lists which triangle covers how much of the pixel, and this one what is at its centre.
 """
 
-from core.pixel_history.candidates import PixelCandidates, candidates_at, whole_geometry
+from core.pixel_history.candidates import PixelCandidates, candidates_at, check_pixel, whole_geometry
 from core.pixel_history.events import list_events
 from core.pixel_history.records import Link, PixelEvent, PixelHistory, PixelState
 from core.pixel_history.verdict import pixel_verdict, triangle_verdict
@@ -49,9 +49,7 @@ def why(
     'all-missed'
     """
     scene, settings = source.scene, source.settings
-    width, height = scene.size
-    if not (0 <= column < width and 0 <= row < height):
-        raise ValueError(f"pixel must be inside the {width}x{height} image, got ({column}, {row})")
+    check_pixel(scene, column, row)
     geometry = whole_geometry(source)
     count = len(geometry.assembled)
     if triangle is not None and not 0 <= triangle < count:

@@ -35,6 +35,13 @@ _finer: list[tuple[AnyScene, Settings, AnyScene, Geometry]] = []
 """The last scene and settings that were asked about, the scene at n times its size, and its geometry."""
 
 
+def check_pixel(scene: AnyScene, column: int, row: int) -> None:
+    """Raise ValueError for a pixel that the image of a scene does not have."""
+    width, height = scene.size
+    if not (0 <= column < width and 0 <= row < height):
+        raise ValueError(f"pixel must be inside the {width}x{height} image, got ({column}, {row})")
+
+
 def whole_geometry(source: TraceSource) -> Geometry:
     """Return the geometry of all triangles; that of a scene is kept for its next pixel."""
     if source.triangle is None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from core.antialiasing.exact_area import ColoredPieces, PiecePainter, piece_painter, sum_areas
 from core.antialiasing.pixel_pieces import area_of, split_pieces, whole_pixels
-from core.pixel_history.candidates import whole_geometry
+from core.pixel_history.candidates import check_pixel, whole_geometry
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Singles, read_only
 from core.records.frame import StageCount
@@ -71,9 +71,7 @@ def pixel_pieces(source: TraceSource, column: int, row: int) -> PixelPieces | No
         For a pixel outside the image.
     """
     scene, settings = source.scene, source.settings
-    width, height = scene.size
-    if not (0 <= column < width and 0 <= row < height):
-        raise ValueError(f"pixel must be inside the {width}x{height} image, got ({column}, {row})")
+    check_pixel(scene, column, row)
     geometry = whole_geometry(source)
     if not geometry.is_cut_to_pixels:
         return None

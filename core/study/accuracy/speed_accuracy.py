@@ -7,9 +7,7 @@ whose runs are slow fewer are timed: it takes part in the first round, and in an
 below `BUDGET` seconds together.
 """
 
-import gc
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from time import perf_counter, thread_time
 
@@ -20,7 +18,7 @@ from core.settings import Settings
 from core.study.accuracy.families import study_family
 from core.study.accuracy.family import Assignment, Candidate, StudyFamily, Task, chosen_dials, settings_of
 from core.study.accuracy.record import Dial, Opening, Pictures, Point, Study, WorkKind
-from core.study.accuracy.timing import SURE, Load, is_settled, ranks
+from core.study.accuracy.timing import SURE, Load, collector_off, is_settled, ranks
 
 ROUNDS = 9
 GROWTH_ROUNDS = 3
@@ -276,18 +274,6 @@ def _timed_block(task: Task, turn: _Turn, load: Load) -> None:
     turn.last, turn.spent = spent, turn.spent + spent
     turn.seconds.append(least)
     turn.point = replace(turn.point, seconds=np.array(turn.seconds))
-
-
-@contextmanager
-def collector_off() -> Iterator[None]:
-    """Keep the garbage collector from running in the block; afterwards it is as it was."""
-    was_on = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was_on:
-            gc.enable()
 
 
 def pictures(study: Study, point: Point, scene: AnyScene | None = None) -> Pictures:

@@ -9,8 +9,10 @@ References
 W. J. Conover, *Practical Nonparametric Statistics*, 1971 (an interval of the median from ordered values).
 """
 
+import gc
 import os
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import combinations
 from math import comb
@@ -26,6 +28,18 @@ SURE = 6
 """Runs from which on an interval has that chance."""
 CLOSE = 1.3
 """Ratio of two medians below which the order may stay open; fewer than `SURE` runs tell only larger ones apart."""
+
+
+@contextmanager
+def collector_off() -> Iterator[None]:
+    """Keep the garbage collector from running in the block; afterwards it is as it was."""
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()
 
 
 class Timed(Protocol):

@@ -16,7 +16,7 @@ from time import perf_counter, thread_time
 from core.fast_path import draw_picture
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.accuracy.speed_accuracy import collector_off
+from core.study.accuracy.timing import collector_off
 
 ROUNDS = 3
 """Timed drawings of each, in turn, after one that does not count; fewer once it is plain."""
