@@ -27,8 +27,8 @@ LEAST_ROOM_OF_BOTH = 34
 """Heights of the text below which the area shows one side of a stage only."""
 STACKED_GAIN = 1.05
 """How much larger two pictures alike must be one above the other to lie so."""
-CHOICES_WIDTH = 24
-"""Heights of the text that the choice of a buffer and its range take at most."""
+CHOICES_WIDTH, LEAST_CHOICE = 24, 7
+"""Heights of the text that the choice of a buffer and its range take, and its box alone at least."""
 
 
 class MainArea(QWidget):
@@ -156,6 +156,9 @@ class MainArea(QWidget):
         needed = self.view_bar.sizeHint().width() + CHOICES_WIDTH * current_theme().text_px
         directions = QBoxLayout.Direction.LeftToRight, QBoxLayout.Direction.TopToBottom
         direction = directions[needed > self.width()]
+        # The box of the buffers gives way before a view is hidden.
+        self.view_bar.setMinimumWidth(0 if needed > self.width() else self.view_bar.sizeHint().width())
+        self.buffer_choice.setMinimumWidth(LEAST_CHOICE * current_theme().text_px)
         if direction != self._row_layout.direction():
             self._row_layout.setDirection(direction)
             self._row.updateGeometry()

@@ -25,10 +25,12 @@ from pytestqt.qtbot import QtBot
 
 import core
 from app.pages.step.inspector_column import InspectorColumn
+from app.session.document import open_document
 from app.window.main_window import MainWindow
 from app.window.preferences import Preferences
 from core.records.listing import Listing, listing
 from core.stages.declared import STAGES
+from lessons.scenes import make_scene
 from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.message_bar import Message, MessageKind
 from widgets.basics.settings_panel import SettingsPanel
@@ -206,6 +208,21 @@ def test_nothing_is_cut_that_stands_nowhere_else(window: MainWindow) -> None:
                 rows = sum(widget.blockBoundingRect(line).height() for line in lines if line.isValid())
                 least = min(rows, 10 * widget.fontMetrics().lineSpacing())
                 assert least <= widget.viewport().height(), (where, rows)
+
+
+@pytest.mark.own_window
+def test_the_tabs_of_the_views_are_whole_beside_the_range_of_a_buffer(window: MainWindow) -> None:
+    application = QApplication.instance()
+    assert isinstance(application, QApplication)
+    application.setStyleSheet(style_sheet(current_theme()))
+    window.session.open(open_document(make_scene("near-plane"), "A range of many digits"))
+    window.session.set_stage("edges", 11)
+    window.page.settle()
+    area = window.page.main_area
+    assert area.range_button.isVisible()
+    assert area.view_bar.width() >= area.view_bar.sizeHint().width()
+    places = [widget.mapTo(area, QPoint(0, 0)).x() for widget in (area.view_bar, area.range_button)]
+    assert places[0] + area.view_bar.width() <= places[1]
 
 
 def test_every_method_can_be_read_whole_in_its_box(window: MainWindow) -> None:
