@@ -44,10 +44,7 @@ def triangle_scene(
 
 def rectangle_corners(left: float, bottom: float, right: float, top: float) -> list[list[Point]]:
     """Return a rectangle as two triangles that share its rising diagonal."""
-    return [
-        [(left, bottom), (right, bottom), (right, top)],
-        [(left, bottom), (right, top), (left, top)],
-    ]
+    return [[(left, bottom), (right, bottom), (right, top)], [(left, bottom), (right, top), (left, top)]]
 
 
 def segment_scene(ends: Sequence[tuple[Point, Point]], size: tuple[int, int]) -> ClipScene:

@@ -9,15 +9,7 @@ from app.session.cursor import Cursor, cursor_for, placed, stepped
 from app.session.document import Document
 from app.session.held_bytes import held_arrays
 from app.session.history import History
-from app.session.tracing import (
-    QUICK_SECONDS,
-    RESTING_SECONDS,
-    Order,
-    Traced,
-    Tracing,
-    trace_drag,
-    trace_now,
-)
+from app.session.tracing import QUICK_SECONDS, RESTING_SECONDS, Order, Traced, Tracing, trace_drag, trace_now
 from core import STAGES, Settings, Trace
 from core.records.steps import Level
 from core.trace import Explanation, StageTrace

@@ -159,10 +159,7 @@ def _ndc_diagram(state: ClipState) -> Diagram:
 
     faces = [_cube_face(plane) for plane in range(6)]
     strokes = cube_strokes()
-    words = [
-        Word(np.array([1.0, -1.0, 1.0]), "near"),
-        Word(np.array([1.0, -1.0, -1.0]), "far"),
-    ]
+    words = [Word(np.array([1.0, -1.0, 1.0]), "near"), Word(np.array([1.0, -1.0, -1.0]), "far")]
     shapes = _shapes(state, place, faces[state.plane] if state.plane >= 0 else None, NDC_EQUATIONS)
     axes = _axes(np.array([-1.0, -1.0, 1.0]), np.diag([0.5, 0.5, -0.5]), ("x", "y", "z"))
     return Diagram(

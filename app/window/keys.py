@@ -321,10 +321,7 @@ LOCAL_KEYS = (
             CHARTS,
         ),
         KeyAction(
-            "chart_add",
-            ("Shift+Return",),
-            "In a chart: select a second point, as Ctrl+click does",
-            CHARTS,
+            "chart_add", ("Shift+Return",), "In a chart: select a second point, as Ctrl+click does", CHARTS
         ),
     ),
     *_on(

@@ -9,14 +9,7 @@ from core import Settings, render, trace
 from core.geometry.vertex_stage import transform_vertices
 from core.raster.edges.snapping import SUBPIXELS, snap
 from core.scene import ClipScene, Scene
-from lessons.scenes import (
-    CATALOGUE,
-    TEACHING_SIZE,
-    built_in_scene,
-    make_scene,
-    scene_names,
-    window_triangle,
-)
+from lessons.scenes import CATALOGUE, TEACHING_SIZE, built_in_scene, make_scene, scene_names, window_triangle
 from lessons.teapot import patches
 
 sizes = st.tuples(st.integers(1, 4096), st.integers(1, 4096))

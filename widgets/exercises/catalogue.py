@@ -17,11 +17,7 @@ ROW_ROOM = 11
 TITLE_MARGINS = 6
 """Pixels left and right of a title, and of its mark, together."""
 _NAME = int(Qt.ItemDataRole.UserRole)
-_MARKS = {
-    Standing.BEGUN: Mark.BOOKMARK,
-    Standing.MISSED: Mark.WRONG,
-    Standing.SOLVED: Mark.RIGHT,
-}
+_MARKS = {Standing.BEGUN: Mark.BOOKMARK, Standing.MISSED: Mark.WRONG, Standing.SOLVED: Mark.RIGHT}
 
 
 class Catalogue(QWidget):

@@ -52,12 +52,7 @@ class QuestionView(QWidget):
         self.list_button.hide()
         self.title = text_label("", self, role="title", wraps=True)
         self.mark = text_label(
-            "",
-            self,
-            role="muted",
-            wraps=True,
-            is_selectable=True,
-            name="Line that gives this question again",
+            "", self, role="muted", wraps=True, is_selectable=True, name="Line that gives this question again"
         )
         self.copy_button = self._button(
             "Copy line", "Copy the line that gives this question to anybody", flat=True

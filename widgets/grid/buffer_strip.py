@@ -2,14 +2,7 @@
 
 from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent, QWheelEvent
-from PySide6.QtWidgets import (
-    QLabel,
-    QMenu,
-    QScrollArea,
-    QSizePolicy,
-    QToolButton,
-    QWidget,
-)
+from PySide6.QtWidgets import QLabel, QMenu, QScrollArea, QSizePolicy, QToolButton, QWidget
 
 from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.focus_order import ArrowGroup

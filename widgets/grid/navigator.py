@@ -17,12 +17,7 @@ KEY_PART = 0.25
 _FRAME = 3
 _LEAST_BOX = 6.0
 """Least side of the outlined region, in logical pixels: a few pixels of a large picture can be found too."""
-_MOVES = {
-    Qt.Key.Key_Left: (-1, 0),
-    Qt.Key.Key_Right: (1, 0),
-    Qt.Key.Key_Down: (0, -1),
-    Qt.Key.Key_Up: (0, 1),
-}
+_MOVES = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Down: (0, -1), Qt.Key.Key_Up: (0, 1)}
 
 
 class Navigator(QWidget):

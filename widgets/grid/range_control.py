@@ -46,13 +46,7 @@ class RangeControl(QWidget):
         self._reset_button = button_with_tip("Reset", "Back to the buffer's own range", self)
         self._reset_button.clicked.connect(self._reset)
         row = row_layout(self, 2 * current_theme().unit)
-        self._parts = (
-            self._low_edit,
-            self._histogram,
-            self._high_edit,
-            self._fit_button,
-            self._reset_button,
-        )
+        self._parts = (self._low_edit, self._histogram, self._high_edit, self._fit_button, self._reset_button)
         for part in self._parts:
             policy = part.sizePolicy()
             policy.setRetainSizeWhenHidden(True)

@@ -63,10 +63,7 @@ def color_tokens(document: QTextDocument) -> None:
     """Give the tokens of a document their looks."""
     theme = current_theme()
     looks = {f"vertex{k}": _look(theme.vertex_text[k]) for k in range(3)}
-    looks |= {
-        "keyword": _look(theme.text, is_bold=True),
-        "comment": _look(theme.muted_text, is_italic=True),
-    }
+    looks |= {"keyword": _look(theme.text, is_bold=True), "comment": _look(theme.muted_text, is_italic=True)}
     looks |= {"string": _look(theme.muted_text), "number": _look(theme.text)}
     everything = QTextCursor(document)
     everything.beginEditBlock()  # The text is laid out once, at its end.

@@ -207,10 +207,7 @@ class TextureView(MovedArea):
         self._take(x, y, placement.scale * factor)
         # What is under the pointer stays there, at the scale that was possible.
         scale, center = self.placement().scale, placement.area.center()
-        self._middle = (
-            x - (position.x() - center.x()) / scale,
-            y + (position.y() - center.y()) / scale,
-        )
+        self._middle = (x - (position.x() - center.x()) / scale, y + (position.y() - center.y()) / scale)
 
     def _take(self, x: float, y: float, scale: float) -> None:
         """Take over a view that the user chose."""

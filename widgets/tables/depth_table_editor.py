@@ -17,13 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from core.framebuffer.display import to_display
-from core.records.depth_table import (
-    DEPTH_TESTS,
-    MOST_CELLS,
-    DepthTable,
-    depth_text,
-    text_of_depths,
-)
+from core.records.depth_table import DEPTH_TESTS, MOST_CELLS, DepthTable, depth_text, text_of_depths
 from widgets.basics.controls import LEAST_TARGET, column_layout, flat_button, row_layout
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.labels import text_label

@@ -10,10 +10,7 @@ from core.stages.declared import GEOMETRY_STAGES, stage_of
 from core.trace import TraceSource
 from widgets.timeline.chapter_button import Chapter, ChapterState
 
-INSERTED_FOR = {
-    "clip": "corners in front of the eye",
-    "blend": 'its pixels blended "over"',
-}
+INSERTED_FOR = {"clip": "corners in front of the eye", "blend": 'its pixels blended "over"'}
 """What a method lacked that made the pipeline insert a stage."""
 COMPUTED = "No pixel is tested: the ends of the spans are computed."
 """Why the pixels that go into the rasterization are those that come out."""

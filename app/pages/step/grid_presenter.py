@@ -52,11 +52,7 @@ class GridPresenter(QObject):
     """The user has chosen another buffer, overlay or colour range."""
 
     def __init__(
-        self,
-        session: Session,
-        area: MainArea,
-        legend: OverlayLegend,
-        parent: QObject | None = None,
+        self, session: Session, area: MainArea, legend: OverlayLegend, parent: QObject | None = None
     ) -> None:
         super().__init__(parent)
         self._session = session

@@ -101,11 +101,7 @@ class InspectorColumn(QScrollArea):
         if code > seen:
             # In large type or a low window: it scrolls to the line of the step, which else would be out of sight.
             code = max(self.listing.height_of(PRESENTED_LINES, False), seen)
-        for widget, height in (
-            (self._step_pane, step),
-            (self.listing, code),
-            (self.detail_tabs, details),
-        ):
+        for widget, height in ((self._step_pane, step), (self.listing, code), (self.detail_tabs, details)):
             if widget.minimumHeight() != height:
                 widget.setMinimumHeight(height)
         if self.listing.height() > max(code, seen):

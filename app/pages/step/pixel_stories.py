@@ -5,13 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from app.window.message_words import sentence_case
-from core.explain.history.parts import (
-    of_sample,
-    piece_reason,
-    pieces_verdict,
-    samples_name,
-    samples_verdict,
-)
+from core.explain.history.parts import of_sample, piece_reason, pieces_verdict, samples_name, samples_verdict
 from core.explain.history.sentences import count_sentences, event_reason, event_title, verdict_sentence
 from core.explain.kinds import of_kind
 from core.framebuffer.display import encode_linear, encode_srgb

@@ -248,10 +248,7 @@ def draw_texels(draws: Draws) -> Draft | None:
     rows = [
         f"Row {j} of texels: {', '.join(('dark', 'light')[int(c)] for c in texels[j])}" for j in (2, 1, 0)
     ]
-    given = [
-        f"u runs from 0 to {across} across the window, v from 0 to 1 upwards.",
-        *rows,
-    ]
+    given = [f"u runs from 0 to {across} across the window, v from 0 to 1 upwards.", *rows]
     hints = (
         "How many pixels wide and high is a texel in the window?",
         "The lowest row of texels is in the lowest rows.",

@@ -138,11 +138,7 @@ for z, color in fragments:
     if z < stored:
         stored = z
         shown = color""",
-        {
-            0: ("stored = 0",),
-            3: ("    if z > stored:", "    if z <= stored:"),
-            4: ("        stored = inf",),
-        },
+        {0: ("stored = 0",), 3: ("    if z > stored:", "    if z <= stored:"), 4: ("        stored = inf",)},
         (
             "Follow three fragments with a tie among them.",
             "What must the buffer hold after a fragment passed?",

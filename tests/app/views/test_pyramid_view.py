@@ -35,8 +35,7 @@ NUMBERS = st.floats(-4, 4).map(lambda value: round(value * 8) / 8)
 
 
 @given(
-    st.lists(NUMBERS, min_size=12, max_size=12),
-    st.tuples(st.integers(0, 15), st.integers(0, 11)) | st.none(),
+    st.lists(NUMBERS, min_size=12, max_size=12), st.tuples(st.integers(0, 15), st.integers(0, 11)) | st.none()
 )
 def test_any_triangle_can_be_drawn(numbers, pixel):
     source = ClipScene(np.array(numbers).reshape(1, 3, 4), size=(16, 12))
@@ -75,11 +74,7 @@ def test_what_is_covered_of_the_raster_is_drawn_exactly(qapp):
 
 
 @pytest.mark.parametrize(
-    ("scene", "words"),
-    [
-        ("single-triangle", "in front of the eye"),
-        ("near-plane", "reaches behind the eye"),
-    ],
+    ("scene", "words"), [("single-triangle", "in front of the eye"), ("near-plane", "reaches behind the eye")]
 )
 def test_the_caption_says_where_the_triangle_is(qapp, scene, words):
     assert words in pyramid_diagram(source_of(scene), 0, None).caption

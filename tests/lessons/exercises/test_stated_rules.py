@@ -53,8 +53,7 @@ def beside(start: Place, end: Place, pixel: Place) -> bool:
 
 
 @pytest.mark.parametrize(
-    ("name", "rule"),
-    [("midpoint-line", nearest), ("diamond-exit", left_or_last), ("rectangle-line", beside)],
+    ("name", "rule"), [("midpoint-line", nearest), ("diamond-exit", left_or_last), ("rectangle-line", beside)]
 )
 def test_the_answer_follows_from_the_stated_rule(
     name: str, rule: Callable[[Place, Place, Place], bool]

@@ -16,15 +16,7 @@ from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template, ask, hints_after, judge
 from lessons.exercises.selftest import check_template, numbers_in, question_problems, question_text
-from lessons.exercises.templates import (
-    clipping,
-    fragments,
-    interpolation,
-    lines,
-    mixing,
-    placing,
-    textures,
-)
+from lessons.exercises.templates import clipping, fragments, interpolation, lines, mixing, placing, textures
 from lessons.exercises.templates.clipping import outcode_table, parameter_table
 from lessons.exercises.templates.lines import d_table
 from lessons.mistakes.shelf import SHELF
@@ -109,12 +101,7 @@ def test_one_slip_in_the_table_of_d_costs_one_cell() -> None:
 
 def test_one_slip_in_the_table_of_p_q_t_costs_one_cell() -> None:
     table = parameter_table(SEGMENT)
-    right = [
-        ["-10", "-1", "PE 1/10"],
-        ["10", "9", "PL 9/10"],
-        ["-9", "-2", "PE 2/9"],
-        ["9", "8", "PL 8/9"],
-    ]
+    right = [["-10", "-1", "PE 1/10"], ["10", "9", "PL 9/10"], ["-9", "-2", "PE 2/9"], ["9", "8", "PL 8/9"]]
     assert table.is_same(table.read(right), table.reference)
     assert table.check(table.read(right)).score == 1
     slip = [*right[:2], ["-8", "-2", "PE 1/4"], right[3]]

@@ -66,8 +66,7 @@ def test_b_differs_in_the_stage_that_is_shown_and_draws(window: MainWindow, name
 
 
 @pytest.mark.parametrize(
-    ("name", "expected"),
-    [("intersecting", {"visibility": "last-drawn"}), ("z-fighting", {"depth": "z-16"})],
+    ("name", "expected"), [("intersecting", {"visibility": "last-drawn"}), ("z-fighting", {"depth": "z-16"})]
 )
 def test_b_hides_other_pixels_where_any_method_of_the_depth_stage_does(
     name: str, expected: dict[str, str]

@@ -59,16 +59,7 @@ def test_a_byte_is_followed_to_its_vertex_in_a_few_clicks(
     session.set_stage("resolve", int(resolve.steps.starts[shown[len(shown) // 2] + 1]))
     start, way = session.cursor, []
     is_lit = scene == "cube"
-    clicks = (
-        "*linear",
-        "*source",
-        "*albedo" if is_lit else "*colour",
-        "λ0",
-        "n0",
-        "a0",
-        "y1",
-        "ywindow",
-    )
+    clicks = ("*linear", "*source", "*albedo" if is_lit else "*colour", "λ0", "n0", "a0", "y1", "ywindow")
     for what in clicks:
         before = session.cursor
         if what.startswith("*"):
