@@ -5,7 +5,7 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
 
-from PySide6.QtCore import QEvent, QModelIndex, QPersistentModelIndex, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QEvent, QModelIndex, QPersistentModelIndex, QSignalBlocker, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QAction,
     QColor,
@@ -227,7 +227,12 @@ class VariablesView(QTreeWidget):
         metrics, names = QFontMetrics(bold), [variable.name for variable in self._variables]
         names += [self.headerItem().text(0)]
         room = self.indentation() + 3 * metrics.horizontalAdvance("0")
-        self.header().resizeSection(0, max(map(metrics.horizontalAdvance, names)) + room)
+        header = self.header()
+        # Told of it, the table would paint again a moment later.
+        with QSignalBlocker(header):
+            header.resizeSection(0, max(map(metrics.horizontalAdvance, names)) + room)
+            header.sectionSize(1)  # The other columns follow when they are asked for.
+        self.viewport().update()
 
     def _begin_anew(self) -> None:
         """Have a closed row for each variable; rows that there are stay, for Qt lays out every one that is added."""
@@ -241,6 +246,7 @@ class VariablesView(QTreeWidget):
             assert isinstance(item, _VariableItem)
             item.begin_anew(variable)
         self._fit_names()
+        self.executeDelayedItemsLayout()
 
     @Slot()
     def _fill(self) -> None:
