@@ -159,7 +159,7 @@ class ListingView(QPlainTextEdit):
     def visible_lines(self) -> Iterator[tuple[int, QRectF]]:
         """Return the lines (from 1) that are in sight, and where each stands in the viewport."""
         block = self.firstVisibleBlock()
-        while block.isValid() and self.toPlainText():
+        while block.isValid() and not self.document().isEmpty():
             if block.isVisible():
                 box = self.blockBoundingGeometry(block).translated(self.contentOffset())
                 yield block.blockNumber() + 1, box
