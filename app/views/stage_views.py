@@ -13,7 +13,12 @@ from widgets.space.orbit import Orbit
 from widgets.space.orbit_area import OrbitArea
 from widgets.space.scene_view import SceneView
 
-VIEWS: tuple[type[StageView], ...] = (ClipView, PyramidView, TextureView, FlowView)
+VIEWS: tuple[type[StageView], ...] = (
+    ClipView,
+    PyramidView,
+    TextureView,
+    FlowView,
+)
 """The views behind the 3D scene, in the order of their tabs."""
 
 
