@@ -10,16 +10,13 @@ from pydantic import ValidationError
 
 from app.cli.commands import PROGRAM, UsageError
 from app.cli.exercise_folders import known_templates
+from app.files.attempts import SIZE_LIMIT, attempt_file
 from app.files.file_writing import write_file
 from app.files.input_files import read_input
 from lessons.attempts.practice import Progress, next_question, progress
 from lessons.attempts.record import DEFAULT_USER, attempt_of, exported_attempts, read_attempts_json
-from lessons.attempts.store import FILE_NAME, AttemptFile
 from lessons.exercises.answers.answer import Response
 from lessons.exercises.question import Judgement, Question
-
-SIZE_LIMIT = 1 << 26
-"""Most bytes of an imported file."""
 
 
 def add_parsers(parsers: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
@@ -97,10 +94,3 @@ def keep(user: str, question: Question, response: Response, judgement: Judgement
 def counted(count: int) -> str:
     """Return a number of attempts in words."""
     return "1 attempt" if count == 1 else f"{count} attempts"
-
-
-def attempt_file() -> AttemptFile:
-    """Return the file of attempts in the user's folder of data; FileWriteError where there is none."""
-    from app.files.user_folders import data_folder  # Qt takes a moment: not before an attempt is kept.
-
-    return AttemptFile(data_folder() / FILE_NAME)

@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job
-from app.cli.attempts import attempt_file
+from app.files.attempts import attempt_file
 from app.files.exercise_folders import add_folder, all_templates
 from app.files.unfinished_answers import UnfinishedFile
 from core import STAGES

@@ -9,7 +9,7 @@ from pydantic import TypeAdapter, ValidationError
 from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QFileDialog
 
-from app.cli.attempts import SIZE_LIMIT, attempt_file
+from app.files.attempts import SIZE_LIMIT, attempt_file
 from app.files.file_writing import write_file
 from app.files.input_files import read_input
 from app.files.save_dialog import SaveDialog

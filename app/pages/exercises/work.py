@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 
 from app.background.workers import Progress
-from app.cli.attempts import attempt_file
+from app.files.attempts import attempt_file
 from app.pages.exercises.answer_kind import AnswerKind, Live
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.scene_outline import outline_of

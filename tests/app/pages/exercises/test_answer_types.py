@@ -5,7 +5,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLineEdit
 from pytestqt.qtbot import QtBot
 
-from app.cli.attempts import attempt_file
+from app.files.attempts import attempt_file
 from app.pages.exercises.answer_kinds import KINDS
 from app.window.main_window import MainWindow
 from lessons.exercises.answers.spots import SpotAnswer

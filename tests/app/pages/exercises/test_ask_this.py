@@ -6,7 +6,7 @@ import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.cli.attempts import attempt_file
+from app.files.attempts import attempt_file
 from app.pages.exercises.page import ExercisesPage
 from app.pages.page_bar import COVERED
 from app.window.main_window import MainWindow

@@ -10,7 +10,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.cli.attempts import attempt_file
+from app.files.attempts import attempt_file
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.feedback import CORRECTED, feedback_of
 from app.pages.exercises.page import ExercisesPage
