@@ -228,7 +228,7 @@ def rectangle_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bo
             cross = dx * y - dy * x  #: across
             dot = dx * x + dy * y
             is_inside = abs(cross) <= half  #: inside
-            if cross**2 == half_squared:
+            if cross * cross == half_squared:
                 is_inside = (cross < 0) == is_below
             if dot < 0 or dot > squared:  #: along
                 continue
