@@ -131,7 +131,7 @@ def grab_window(
     target : str
         A mesh, a state, the name of a built-in scene, or a saved study or atlas, which is shown on its page.
     stage : str, optional
-        A stage of ``core.STAGES``; by default the one that a state file was saved at, or ``raster``.
+        A stage of ``core.STAGES``; by default the one that a state file was saved at, or the first.
     step : int, optional
         Position in the stage, in operations done; by default all of them.
     view : str, optional

@@ -73,7 +73,7 @@ class ListingMargin(QWidget):
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(row.adjusted(2, 0, -3, -1))
         painter.setPen(QColor(theme.text if is_current else theme.muted_text))
-        first = QRect(row.left(), row.top(), row.width() - 6, line_height)
+        first = QRect(row.left(), row.top(), row.width() - 3, line_height)
         painter.drawText(first, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, str(line))
 
     def _mark_size(self) -> int:
