@@ -75,8 +75,10 @@ class InspectorColumn(QScrollArea):
         self.fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:
-        """Give the listing what room there is now."""
+        """Give the listing what room there is now; beside a bar or without one, everything is as wide."""
         super().resizeEvent(event)
+        bar = self.verticalScrollBar()
+        self._parts.setContentsMargins(0, 0, 0 if bar.isVisible() else bar.sizeHint().width(), 0)
         self.fit()
 
     def set_presenting(self, is_presenting: bool) -> None:
