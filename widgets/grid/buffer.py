@@ -7,15 +7,14 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from core.explain.number_text import exact_text, is_short
+from core.explain.number_text import full_text, is_short
 
 BufferKind = Literal["scalar", "signed", "color", "weights", "ids", "bool"]
 """How values become colours: see :class:`GridBuffer`."""
 
 KINDS: tuple[BufferKind, ...] = ("scalar", "signed", "color", "weights", "ids", "bool")
 MINUS = "\u2212"
-
-
+NAN = "NaN"
 NO_VALUE = "\u2013"
 """What stands for the value of a pixel that has none."""
 
@@ -96,10 +95,11 @@ class GridBuffer:
         """Return the value of a pixel as text, one line per channel; see :func:`number_text`."""
         if not self.is_known(column, row):
             return []
-        value = self.values[row, column]
-        if self.kind == "ids" and int(value.item() if value.ndim == 0 else value.flat[0].item()) < 0:
+        value = self.values[row, column].tolist()
+        items = value if isinstance(value, list) else [value]
+        if self.kind == "ids" and items[0] < 0:
             return [MINUS]
-        return [number_text(item, digits, width) for item in np.atleast_1d(value).tolist()]
+        return [number_text(item, digits, width) for item in items]
 
     def text_at(self, column: int, row: int, digits: int = 4) -> str:
         """Return the value of a pixel on one line, with its unit; ``digits`` 0 gives full precision."""
@@ -151,14 +151,15 @@ def number_text(value: bool | int | float, digits: int = 4, width: int | None = 
     if isinstance(value, int):
         return str(value).replace("-", MINUS)
     if isnan(value):
-        return "NaN"
+        return NAN
     if not isfinite(value):
         return "∞" if value == inf else MINUS + "∞"
     if digits == 0:
         return _tidy(repr(value))
-    text = exact_text(value, digits)
-    if value and is_short(value) and (width is None or len(text) <= width):
-        return text
+    if value and is_short(value):
+        text = full_text(value)
+        if width is None or len(text) <= width:
+            return text
     text = _significant(value, digits)
     while width is not None and len(text) > width and digits > 1:
         digits -= 1

@@ -10,7 +10,7 @@ from PySide6.QtGui import QBrush, QColor, QFont, QFontMetricsF, QImage, QPainter
 from core.framebuffer.display import linear_light
 from widgets.basics.mark_patterns import cell_tile
 from widgets.basics.theme import LUMINANCE, Theme, relative_luminance, text_font
-from widgets.grid.buffer import GridBuffer
+from widgets.grid.buffer import NAN, GridBuffer
 from widgets.grid.overlay import Mark
 from widgets.grid.overlay_paint import paint_pattern
 from widgets.grid.sample_dots import SampleDots, between_samples, has_room
@@ -194,7 +194,6 @@ def paint_numbers(
     font, height, width, top = writing
     dark, light = QColor("#000000"), QColor("#ffffff")
     backdrop = QColor(theme.canvas)
-    is_nan = np.isnan(buffer.values) if buffer.values.dtype.kind == "f" else None
     painter.save()
     painter.setFont(font)
     flags = Qt.AlignmentFlag.AlignCenter
@@ -202,14 +201,14 @@ def paint_numbers(
         for column in range(cells[0], cells[2]):
             if (hidden is not None and hidden[row, column]) or not buffer.is_known(column, row):
                 continue
-            color = image.pixelColor(column, placement.rows - 1 - row)
             if buffer.is_cleared(column, row):
                 continue  # four zeros in every cell would hide what is drawn over them
+            color = image.pixelColor(column, placement.rows - 1 - row)
             painter.setPen(dark if _is_light(color, backdrop) else light)
             rect = placement.cells_rect(column, row)
             lines = buffer.lines_at(column, row, 4, width)
             first = rect.center().y() + top
-            if is_nan is not None and is_nan[row, column].any():
+            if NAN in lines:
                 chip = QRectF(0, first - 1, placement.cell * 0.8, height * len(lines) + 2)
                 chip.moveLeft(rect.center().x() - chip.width() / 2)
                 painter.fillRect(chip, QColor(theme.nan_light))
