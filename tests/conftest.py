@@ -3,6 +3,7 @@
 import contextlib
 import gc
 import importlib.util
+import locale
 import os
 import random
 import sys
@@ -23,6 +24,11 @@ FONTS_CONF = """<?xml version="1.0"?><!DOCTYPE fontconfig SYSTEM "fonts.dtd">
 
 # Windows that nobody watches; QT_QPA_PLATFORM=xcb (or wayland, cocoa, windows) shows them.
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+try:
+    locale.setlocale(locale.LC_CTYPE, "")
+except locale.Error:  # It is not on this machine: Qt would say so in every program that is started.
+    os.environ["LC_ALL"] = "C.UTF-8"
 
 if "PYTEST_XDIST_WORKER" not in os.environ:  # a worker has it from the process that starts it
     # The only font of the tests, and of the programs that they start, is the one that ziafont brings along.
