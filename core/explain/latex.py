@@ -150,14 +150,13 @@ def may_begin_line(cells: Sequence[str], place: int) -> bool:
 
 def vertex_of(latex: str) -> int | None:
     """Return the vertex (0, 1, 2) that all symbols of a cell belong to; None where there is none."""
-    if _VERTEX_MACRO.search(latex):
-        rest = ""
-    else:
-        rest = _EDGE_LETTER.sub("", _SUBSCRIPTED.sub("", latex))
+    found = {int(match[1]) for match in _VERTEX_MACRO.finditer(latex)}
+    if found:
+        return found.pop() if len(found) == 1 else None
+    rest = _EDGE_LETTER.sub("", _SUBSCRIPTED.sub("", latex))
     if re.search(r"[A-Za-z]", re.sub(r"\\[A-Za-z]+", "", rest)):
         return None
-    found = {int(match[1]) for match in _VERTEX_MACRO.finditer(latex)}
-    found |= {int(match["bare"] or match["braced"]) for match in _SUBSCRIPTED.finditer(latex)}
+    found = {int(match["bare"] or match["braced"]) for match in _SUBSCRIPTED.finditer(latex)}
     found |= {_EDGE_LETTERS[match[1]] for match in _EDGE_LETTER.finditer(latex)}
     return found.pop() if len(found) == 1 else None
 

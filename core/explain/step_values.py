@@ -82,14 +82,18 @@ class StepValues:
         """Return a list of lists of numbers."""
         return [[float(value) for value in row] for row in np.asarray(self.explanation.values[name], float)]
 
-    def corner_values(self, attribute: str) -> list[list[float]]:
-        """Return the values of an interpolated attribute at the three corners."""
+    def corner_values(self, attribute: str, column: str = "corner_values") -> list[list[float]]:
+        """Return the values of an interpolated attribute at the corners, or at the ends of a line."""
         first = 0
         for name in self.explanation.values:
             if name == attribute:
                 break
             first += len(self.vector(name)) if name in ATTRIBUTES else 0
-        return [row[first : first + len(self.vector(attribute))] for row in self.rows("corner_values")]
+        return [row[first : first + len(self.vector(attribute))] for row in self.rows(column)]
+
+    def of_end(self, symbol: str, end: int) -> str:
+        """Write the symbol of the first (0) or second (1) end of a line, in the colour of the corner on its side."""
+        return rf"\vertex{{{(self.whole('edge') + 1 + end) % 3}}}{{{symbol}_{end}}}"
 
     def fill_rule(self, edge: int) -> str:
         """Return the name of the fill rule; without a name, the rule that agrees with the answers."""

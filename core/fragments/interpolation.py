@@ -221,7 +221,7 @@ def affine(
 
 def take_provoking_value(provoking: int, values: Floats) -> tuple[list[float], float]:
     """Listing of flat interpolation."""
-    weights = [1.0 if k == provoking else 0.0 for k in range(3)]  #: weights
+    weights = [1.0 if k == provoking else 0.0 for k in range(len(values))]  #: weights
     return weights, values[provoking]  #: value
 
 

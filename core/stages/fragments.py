@@ -36,13 +36,22 @@ def fragments_at(geometry: Geometry, owner: Integers, column: Integers, row: Int
 
 
 def fragment_values(geometry: Geometry, fragments: Fragments, raster: Raster) -> tuple[Floats, Floats]:
-    """Return weights of the corners (F, 3) and interpolated values (F, K) of fragments."""
+    """Return weights of the corners (F, C) and interpolated values (F, K) of fragments.
+
+    C is 3, of segments 2 and of points 1: these are drawn as triangles that repeat their last corner.
+    """
     mode, varyings = geometry.settings.interpolation, geometry.primitives.varyings
     if isinstance(fragments, LineFragments) and interpolation_form(mode) != "flat":
         assert geometry.outlines is not None
-        return interpolate_outlines(geometry.outlines, varyings, fragments, raster.center, mode)
-    interpolator = Interpolator(geometry.planes, varyings, *resolve(geometry.settings).interpolation)
-    return interpolator.weighted(fragments.primitive, *raster.centers(fragments.column, fragments.row))
+        weights, values = interpolate_outlines(geometry.outlines, varyings, fragments, raster.center, mode)
+    else:
+        interpolator = Interpolator(geometry.planes, varyings, *resolve(geometry.settings).interpolation)
+        centers = raster.centers(fragments.column, fragments.row)
+        weights, values = interpolator.weighted(fragments.primitive, *centers)
+    last = geometry.vertices.corner_count - 1
+    if last < 2:
+        weights = np.column_stack([weights[:, :last], weights[:, last:].sum(axis=1)])
+    return weights, values
 
 
 def interpolate(geometry: Geometry, raster: Raster, fragments: Fragments, count: StageCount) -> Floats:

@@ -15,6 +15,7 @@ from core.raster.lines.wireframe import (
     interpolate_along,
     inverse_w_parts,
     line_parameter,
+    take_point_value,
     values_at_ends,
 )
 from core.records.arrays import Floats
@@ -32,18 +33,19 @@ ALONG_LINES: dict[str, tuple[Callable[..., Any], tuple[Operation, ...]]] = {
         (
             Operation("parts", "parts", ("t", "end_w", "parts")),
             Operation("total", "total", ("total", "inverse_w")),
-            Operation("weight", "weight", ("s", "weights")),
+            Operation("weight", "weight", ("s",)),
         ),
     ),
-    "line-affine": (interpolate_affine_along, (Operation("weight", "weight", ("t", "s", "weights")),)),
+    "line-affine": (interpolate_affine_along, (Operation("weight", "weight", ("t", "s")),)),
+    "point": (take_point_value, ()),
 }
-"""Kind of row along the lines of a wireframe to its listing and to what it does before the values."""
+"""Kind of row of lines and points to its listing and to what it does before the values."""
 
 
 def trace_interpolate(source: TraceSource) -> StageTrace:
     """Return one row for every fragment."""
     geometry, mode = source.geometry, source.settings.interpolation
-    along_lines = _is_along_lines(source)
+    outline_kind = _outline_kind(source)
     rows = source.rows_of("interpolate", _rows)
     values_of_layout = tuple(
         Operation(f"value-{name}", "value", (name,)) for name in geometry.primitives.layout
@@ -51,7 +53,7 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
     of_layout = {name: source.interpolated[1][:, part] for name, part in geometry.primitives.layout.items()}
     triangle = source.triangle_of_fragment
     method = table.get("interpolation", mode)
-    kinds = (mode, f"line-{_along(mode)}") if along_lines else tuple(method.operations)
+    kinds = (mode, outline_kind) if outline_kind else tuple(method.operations)
     operations = {**method.operations, **{kind: done for kind, (_, done) in ALONG_LINES.items()}}
     listings = dict.fromkeys(method.operations, method.listing)
     listings |= {kind: made for kind, (made, _) in ALONG_LINES.items()}
@@ -76,21 +78,24 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
     )
 
 
-def _is_along_lines(source: TraceSource) -> bool:
-    """Return whether values are interpolated along the lines of a wireframe."""
-    return (
-        isinstance(source.fragments, LineFragments)
-        and interpolation_form(source.settings.interpolation) != "flat"
-    )
+def _outline_kind(source: TraceSource) -> str:
+    """Return the kind of all rows where values come from the ends of lines or from points; empty: from areas."""
+    if source.scene.corner_count == 1:
+        return "point"
+    form = interpolation_form(source.settings.interpolation)
+    if not isinstance(source.fragments, LineFragments) or form == "flat":
+        return ""
+    # Lines have no rows of pixels to be corrected along.
+    return "line-affine" if form == "affine" else "line-perspective"
 
 
 def _rows(source: TraceSource) -> StageRows:
     """Return the numbers of every fragment."""
     geometry, fragments = source.geometry, source.fragments
     weights, values = source.interpolated
-    along_lines = _is_along_lines(source)
+    outline_kind, corners = _outline_kind(source), weights.shape[1]
     x, y = source.centers
-    kind = np.full(len(fragments), int(along_lines))
+    kind = np.full(len(fragments), int(outline_kind != ""))
     varyings = geometry.primitives.varyings[fragments.primitive]
     columns: dict[str, np.ndarray] = {
         "column": fragments.column,
@@ -100,15 +105,16 @@ def _rows(source: TraceSource) -> StageRows:
         "a": geometry.planes.a[fragments.primitive],
         "b": geometry.planes.b[fragments.primitive],
         "c": geometry.planes.c[fragments.primitive],
-        "corner_w": geometry.planes.w[fragments.primitive],
+        "corner_w": geometry.planes.w[fragments.primitive, :corners],
         "inverse_w": source.inverse_w,
         "weights": weights,
-        "corner_values": varyings,
+        "corner_values": varyings[:, :corners],
         "values": values,
         "primitive": fragments.primitive,
     }
-    if along_lines:
-        columns |= _along_lines(source)
+    if outline_kind:
+        mode = outline_kind.removeprefix("line-")
+        columns |= _along_lines(source, mode) if mode != "point" else {}
     elif source.settings.interpolation in WAYS:
         columns["corner_window"] = geometry.planes.window.take(fragments.primitive, axis=2).transpose(2, 0, 1)
         columns |= numbers_at(source.settings.interpolation, geometry.planes, fragments.primitive, x, y)
@@ -125,11 +131,6 @@ def _rows(source: TraceSource) -> StageRows:
         np.stack([fragments.column, fragments.row], axis=1),
         {"covered": np.ones(len(fragments), bool), "nan": np.any(~np.isfinite(values), axis=1)},
     )
-
-
-def _along(interpolation: str) -> str:
-    """Return how values are interpolated along the lines of a wireframe: there are no rows to be corrected along."""
-    return "affine" if interpolation_form(interpolation) == "affine" else "perspective"
 
 
 def _between_anchors(source: TraceSource) -> dict[str, np.ndarray]:
@@ -163,12 +164,12 @@ def _over_areas(source: TraceSource) -> dict[str, np.ndarray]:
     return {"numerators": n, "total": n[:, 0] + n[:, 1] + n[:, 2]}
 
 
-def _along_lines(source: TraceSource) -> dict[str, np.ndarray]:
+def _along_lines(source: TraceSource, mode: str) -> dict[str, np.ndarray]:
     """Return the same of fragments (F,) on the segments of a wireframe, and the values (F, 2, K) at their ends."""
     outlines, fragments = source.geometry.outlines, source.fragments
     assert outlines is not None
     assert isinstance(fragments, LineFragments)
-    mode, center = _along(source.settings.interpolation), source.raster.center
+    center = source.raster.center
     t = line_parameter(outlines, fragments, center)
     start, end = inverse_w_parts(outlines, fragments, center)
     at_ends = values_at_ends(outlines, source.geometry.primitives.varyings, mode)
@@ -193,7 +194,7 @@ def _buffers(source: TraceSource) -> tuple[BufferTrack, ...]:
         initial = np.full((*source.raster.shape, *written.shape[1:]), np.nan)
         return BufferTrack(name, initial, rows, place, written, kind)
 
-    tracks = [track(f"weight {k}", weights[:, k], "signed") for k in range(3)]
+    tracks = [track(f"weight {k}", weights[:, k], "signed") for k in range(weights.shape[1])]
     tracks.append(BufferTrack("1/w", unknown, rows, place, source.inverse_w))
     for name, part in source.geometry.primitives.layout.items():
         if name == "uv":

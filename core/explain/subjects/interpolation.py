@@ -79,7 +79,8 @@ def total(step: StepValues) -> Said:
 def first_weight(step: StepValues) -> Asked | None:
     """Ask for the weight of the first corner."""
     weights = step.vector("weights")
-    reveal = f"λ0, λ1, λ2 are {', '.join(map(spoken, weights))}."
+    names = ", ".join(f"λ{k}" for k in range(len(weights)))
+    reveal = f"{names} are {', '.join(map(spoken, weights))}."
     return number(f"What is λ0, the weight of corner 0, at {step.the_pixel}?", weights[0], reveal)
 
 
@@ -104,29 +105,62 @@ def weights(step: StepValues) -> Said:
 def flat_weights(step: StepValues) -> Said:
     """The weight of the provoking corner alone."""
     values = step.vector("weights")
-    corner = max(range(3), key=lambda k: values[k])
-    text = f"{step.pixel_name}: only corner {corner} counts, the others have weight 0."
-    return text, equation(*beside(*([(rf"\lambda_{k}", values[k])] for k in range(3))))
+    corner = values.index(max(values))
+    others = "the other has" if len(values) == 2 else "the others have"
+    text = f"{step.pixel_name}: only corner {corner} counts, {others} weight 0."
+    return text, equation(*beside(*([(rf"\lambda_{k}", weight)] for k, weight in enumerate(values))))
+
+
+def _value(step: StepValues, how: str) -> str:
+    """Return the sentence of an interpolated value, and how it was found."""
+    name = step.operation.removeprefix("value-")
+    values = step.vector(name)
+    shown = spoken(values[0]) if len(values) == 1 else vector_text(values)
+    title = ATTRIBUTE_NAMES.get(name, name.replace("_", " "))
+    return f"{step.pixel_name}: its {title} {'are' if name == 'uv' else 'is'} {shown}, {how}."
+
+
+def _component(step: StepValues, corners: list[list[float]]) -> tuple[str, float, list[float]]:
+    """Return the component in which the corners differ most: its letter, its value, and those of the corners."""
+    name = step.operation.removeprefix("value-")
+    values = step.vector(name)
+    spread = [max(column) - min(column) for column in zip(*corners, strict=True)]
+    k = outstanding(spread if any(spread) else values[:3])
+    return component_names(name, len(values))[k][0], values[k], [corner[k] for corner in corners]
 
 
 @explains("interpolate.*.value")
 def value(step: StepValues) -> Said:
-    """An interpolated value; the formula has the component in which the corners differ most."""
-    name = step.operation.removeprefix("value-")
-    values, corners, shares = step.vector(name), step.corner_values(name), step.vector("weights")
-    shown = spoken(values[0]) if len(values) == 1 else vector_text(values)
-    title = ATTRIBUTE_NAMES.get(name, name.replace("_", " "))
+    """An interpolated value."""
     how = (
         "taken from the provoking corner"
         if step.kind == "flat"
         else "the weighted sum of the corners' values"
     )
-    text = f"{step.pixel_name}: its {title} {'are' if name == 'uv' else 'is'} {shown}, {how}."
-    spread = [max(column) - min(column) for column in zip(*corners, strict=True)]
-    k = outstanding(spread if any(spread) else values[:3])
-    letter = component_names(name, len(values))[k][0]
-    terms = [(rf"\lambda_{i}", shares[i]) for i in range(3)]
-    return text, linear(letter, values[k], terms, *((f"{letter}_{i}", corners[i][k]) for i in range(3)))
+    letter, found, corners = _component(step, step.corner_values(step.operation.removeprefix("value-")))
+    terms = [(rf"\lambda_{k}", share) for k, share in enumerate(step.vector("weights"))]
+    units = ((f"{letter}_{k}", corner) for k, corner in enumerate(corners))
+    return _value(step, how), linear(letter, found, terms, *units)
+
+
+@explains("interpolate.line-perspective|line-affine.value")
+def value_along(step: StepValues) -> Said:
+    """A value between those of the ends of a line."""
+    s = step.number("s")
+    how = f"{spoken(1 - s)} of the first end's and {spoken(s)} of the second end's"
+    name = step.operation.removeprefix("value-")
+    letter, found, (first, second) = _component(step, step.corner_values(name, "end_values"))
+    symbols = (step.of_end(letter, end) for end in range(2))
+    return _value(step, how), linear(
+        letter, found, [("(1 - s)", 1 - s), ("s", s)], *zip(symbols, (first, second), strict=True)
+    )
+
+
+@explains("interpolate.point.value")
+def value_of_point(step: StepValues) -> Said:
+    """The value of a point."""
+    letter, found, (of_point,) = _component(step, step.corner_values(step.operation.removeprefix("value-")))
+    return _value(step, "that of the point"), equation((letter, found), "=", (f"{letter}_0", of_point))
 
 
 @explains("interpolate.affine-n.row")
@@ -256,3 +290,5 @@ shows(
     },
 )
 hides("interpolate.line-perspective", ("total",))
+hides("interpolate.line-perspective|line-affine|point|flat", ("corner_w", *COEFFICIENTS))
+hides("interpolate.line-perspective|line-affine", ("weights", "corner_values"))

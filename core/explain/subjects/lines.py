@@ -277,8 +277,8 @@ def parts(step: StepValues) -> Said:
         f"{step.pixel_name}: at t = {spoken(t)} between ends with w = {spoken(w[0])} and w = {spoken(w[1])}, "
         f"the first end gives {spoken(start)} of 1/w and the second {spoken(end)}."
     )
-    first = fraction(("1 - t", f"1 - {number_latex(t)}"), ("w_0", w[0]))
-    second = fraction(("t", t), ("w_1", w[1]))
+    first = fraction(("1 - t", f"1 - {number_latex(t)}"), (step.of_end("w", 0), w[0]))
+    second = fraction(("t", t), (step.of_end("w", 1), w[1]))
     return text, equation(*beside([("p_0", start), "=", first], [("p_1", end), "=", second]))
 
 
@@ -373,5 +373,6 @@ shows(
         "end_w": given("w of the ends", "w of the line's first and second end."),
         "parts": VariableText("p₀, p₁", "Weight of each end over its w."),
         "s": VariableText("s", "Weight of the second end in the value."),
+        "end_values": VariableText("at end #", "All values at the line's end, in order.", "s", "parts"),
     },
 )

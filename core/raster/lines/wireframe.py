@@ -313,3 +313,8 @@ def interpolate_affine_along(t: float, first: Floats, second: Floats) -> Floats:
     """Listing of affine interpolation along a segment: the value between two ends."""
     s = t  #: weight
     return (1 - s) * first + s * second  #: value
+
+
+def take_point_value(value: Floats) -> Floats:
+    """Listing of the values of a point: its pixel takes them."""
+    return value  #: value
