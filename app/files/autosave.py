@@ -11,6 +11,7 @@ from app.files.state_models import Breakpoints
 from app.files.user_folders import preferences_folder
 from app.files.window_files import WindowFile, new_window_file
 from app.session.document import Document
+from app.session.moment import Change
 from app.session.session import Session
 from app.window.message_words import sentences
 
@@ -40,7 +41,7 @@ class Autosave(QObject):
         """Save what ``state`` returns whenever the document or the pin changes, or one of ``edits`` is emitted."""
         super().__init__(parent)
         self._session, self._state = session, state
-        self._edits = (session.document_changed, session.pin_changed, *edits)
+        self._edits = edits
         self._file: WindowFile | None = None
         self._stand_in: Document | None = None
         self._has_failed = self._is_finished = False
@@ -69,6 +70,12 @@ class Autosave(QObject):
         self._file, self._stand_in = file, stand_in
         for edited in self._edits:
             edited.connect(self.ask)
+        self._session.changed.connect(self._follow)
+
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        if what & (Change.DOCUMENT | Change.PIN):
+            self.ask()
 
     @property
     def is_waiting(self) -> bool:

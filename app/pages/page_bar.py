@@ -8,6 +8,7 @@ from PySide6.QtCore import QByteArray, QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QApplication, QSplitter, QStackedWidget, QTabBar, QWidget
 
+from app.session.moment import Change
 from app.session.session import Session
 from core.explain.records import Formula
 from core.settings import Settings
@@ -214,7 +215,7 @@ class Pages(QWidget):
         self._cover.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._cover.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self._stack.addWidget(self._cover)
-        session.asked_changed.connect(self._place)
+        session.changed.connect(self._follow)
         for kind in kinds:
             index = self.bar.addTab(kind.title)
             self.bar.setTabToolTip(index, kind.tip)
@@ -322,7 +323,11 @@ class Pages(QWidget):
             self.current.take_focus()
         self.page_changed.emit(self._kinds[index].name)
 
-    @Slot()
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        if Change.ASKED in what:
+            self._place()
+
     def _place(self) -> None:
         """Show the page of the bar, or its cover."""
         before, page = self._stack.currentWidget(), self.page(self.current_name)

@@ -1,7 +1,7 @@
-"""The only mutable state of the program: what is open, where the cursor is, what is pointed at. With signals."""
+"""The only mutable state of the program: what is open, where the cursor is, what is pointed at. With one signal."""
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
@@ -9,6 +9,7 @@ from app.session.cursor import Cursor, cursor_for, placed, stepped
 from app.session.document import Document
 from app.session.held_bytes import held_arrays
 from app.session.history import History
+from app.session.moment import NOTHING, Change, Moment, Pixel, Step
 from app.session.tracing import QUICK_SECONDS, RESTING_SECONDS, Order, Traced, Tracing, trace_drag, trace_now
 from core import STAGES, Settings, Trace
 from core.records.steps import Level
@@ -18,30 +19,15 @@ from core.trace.incremental.draft import Draft
 if TYPE_CHECKING:
     from core.study.planner import PlanReport  # As in app.pages.page_bar.
 
-Pixel = tuple[int, int]
 REST_MS = 150
 """A drag rests where it has not moved for so long, in milliseconds."""
 
 
 class Session(QObject):
-    """Document, trace, cursor, pinned and hovered pixel. A value equal to the present one changes and emits nothing."""
+    """A Moment, and the ways from one to the next. A value equal to the present one changes and emits nothing."""
 
-    document_changed = Signal()
-    """Another scene, other settings, focus or raster: the trace is a new one, and the cursor may have moved along."""
-    cursor_changed = Signal()
-    """Another step of the same trace, or another stage."""
-    pin_changed = Signal()
-    hover_changed = Signal()
-    history_changed = Signal()
-    """What can be undone, redone or gone back to."""
-    predicting_changed = Signal()
-    """What comes next is hidden, or shown again."""
-    revealed = Signal()
-    """What comes next was shown while predicting, or a part of it."""
-    asked_changed = Signal()
-    """An exercise asks about another scene, or about none; or the open scene is the one from now on, or no longer."""
-    plan_changed = Signal()
-    """Something else is known of what the scene needs."""
+    changed = Signal(Change)
+    """What an operation has changed, all at once; `moment` is the new one."""
     edit_failed = Signal(object)
     """Why an edit that was traced in the background came to nothing: the exception."""
 
@@ -51,26 +37,31 @@ class Session(QObject):
         """What traces large documents in the background."""
         self.tracing.traced.connect(self._take_traced)
         self.tracing.failed.connect(self._refuse)
-        self.tracing.busy_changed.connect(self.history_changed)
         self._history = History(document, held_arrays)
-        self._cursor = cursor_for(document.scene, Cursor())
-        self._visited = History(self._cursor)
-        self._pin: Pixel | None = None
-        self._hover: Pixel | None = None
-        self._is_predicting = self._is_asked_about = False
+        self._moment = Moment(document.make_trace(), cursor_for(document.scene, Cursor()), document=document)
+        self._visited = History(self.cursor)
         self._asked_scene = ""
         self._plan: PlanReport | None = None
-        self._trace = document.make_trace()
         self._resting = QTimer(self)
         """Runs from the last move of a drag until it rests."""
         self._resting.setSingleShot(True)
         self._resting.setInterval(REST_MS)
         self._resting.timeout.connect(self.come_to_rest)
 
+    def _become(self, what: Change, **fields: Any) -> None:
+        """Go to another moment, and tell what has changed."""
+        self._moment = replace(self._moment, **fields)
+        self.changed.emit(what)
+
+    @property
+    def moment(self) -> Moment:
+        """All that may be shown now."""
+        return self._moment
+
     @property
     def document(self) -> Document:
         """What is open."""
-        return self._history.present
+        return self._moment.document
 
     @property
     def latest(self) -> Document:
@@ -81,32 +72,32 @@ class Session(QObject):
     @property
     def trace(self) -> Trace:
         """Its trace."""
-        return self._trace
+        return self._moment.trace
 
     @property
     def cursor(self) -> Cursor:
         """Where the stepping is."""
-        return self._cursor
+        return self._moment.cursor
 
     @property
     def stage_trace(self) -> StageTrace:
         """The trace of the stage at the cursor."""
-        return self._trace.stage(self._cursor.stage)
+        return self._moment.stage_trace
 
     @property
     def explanation(self) -> Explanation | None:
         """What the step just done did."""
-        return self.stage_trace.explain(self._cursor.position)
+        return self._moment.explanation
 
     @property
     def pin(self) -> Pixel | None:
         """The pinned pixel: column and row in the traced picture."""
-        return self._pin
+        return self._moment.pin
 
     @property
     def hover(self) -> Pixel | None:
         """The pixel under the pointer."""
-        return self._hover
+        return self._moment.hover
 
     @property
     def plan(self) -> "PlanReport | None":
@@ -116,7 +107,7 @@ class Session(QObject):
     def set_plan(self, plan: "PlanReport") -> None:
         """Say what a scene needs."""
         self._plan = plan
-        self.plan_changed.emit()
+        self.changed.emit(Change.PLAN)
 
     # Editing.
 
@@ -127,17 +118,15 @@ class Session(QObject):
         """
         self.tracing.cancel()
         if trace is None:
-            trace = trace_now(document, (cursor or self._cursor).stage)
+            trace = trace_now(document, (cursor or self.cursor).stage)
         self._history.put(document)
-        self._pin = self._hover = None
-        before = self._cursor = cursor_for(document.scene, self._cursor)
+        self._moment = replace(
+            self._moment, cursor=cursor_for(document.scene, self.cursor), pin=None, hover=None
+        )
         if cursor is not None:
             cursor = placed(cursor, trace, cursor.position)
             self._remember(cursor)
-        self._document_replaced(trace, cursor)
-        if cursor not in (None, before):
-            self.cursor_changed.emit()
-        self.pin_changed.emit()
+        self._document_replaced(trace, cursor, Change.PIN)
 
     def edit(self, document: Document, gesture: str = "") -> None:
         """Take over an edited document; edits of one ``gesture`` are undone together.
@@ -154,23 +143,23 @@ class Session(QObject):
 
         Raises ValueError if it cannot be traced; nothing changes.
         """
-        source = self._trace.source
+        source = self.trace.source
         run = document.settings, document.triangle, document.region, document.before
         is_same_run = run == (source.settings, source.triangle, source.region, source.before)
         if document.triangle is None or not is_same_run:
             self.edit(document, gesture)
             return
         self.tracing.cancel()
-        self._take(document, gesture, trace_drag(document, self._cursor.stage, self._trace))
+        self._take(document, gesture, trace_drag(document, self.cursor.stage, self.trace))
         self._resting.start()
 
     @Slot()
     def come_to_rest(self) -> None:
         """Trace what a drag has left out; a scene that cannot be drawn is as it was before the drag."""
         self._resting.stop()
-        if not isinstance(self._trace.source, Draft):
+        if not isinstance(self.trace.source, Draft):
             return
-        document, gesture, stage = self.document, self._history.gesture, self._cursor.stage
+        document, gesture, stage = self.document, self._history.gesture, self.cursor.stage
         if document.estimated_seconds > RESTING_SECONDS:
             self.tracing.start(Order(document, gesture, stage))
             return
@@ -184,7 +173,7 @@ class Session(QObject):
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
         """Say why something could not be traced; a drag that came to rest there is taken back."""
-        if isinstance(self._trace.source, Draft) and self.tracing.newest is None:
+        if isinstance(self.trace.source, Draft) and self.tracing.newest is None:
             self.take_back(self._history.gesture)
         self.edit_failed.emit(error)
 
@@ -214,14 +203,14 @@ class Session(QObject):
         self._go_in_history(1)
 
     def _go_in_history(self, direction: int) -> None:
-        document, stage = self._history.neighbour(direction), self._cursor.stage
+        document, stage = self._history.neighbour(direction), self.cursor.stage
         if document is None:
             return
         if document.estimated_seconds > RESTING_SECONDS:
-            self.tracing.start(Order(document, "", stage, direction, self._trace))
+            self.tracing.start(Order(document, "", stage, direction, self.trace))
             return
         self.tracing.cancel()
-        self._take_neighbour(direction, trace_now(document, stage, self._trace))
+        self._take_neighbour(direction, trace_now(document, stage, self.trace))
 
     def _take_neighbour(self, direction: int, trace: Trace) -> None:
         if direction < 0:
@@ -241,14 +230,14 @@ class Session(QObject):
         return self._history.can_redo
 
     def _put(self, document: Document, gesture: str = "") -> None:
-        stage = self._cursor.stage
+        stage = self.cursor.stage
         if document.estimated_seconds > QUICK_SECONDS:
             document.check_length()
-            self.tracing.start(Order(document, gesture, stage, earlier=self._trace))
+            self.tracing.start(Order(document, gesture, stage, earlier=self.trace))
             return
         # An edit that is ready takes the place of one that is still being traced.
         self.tracing.cancel()
-        self._take(document, gesture, trace_now(document, stage, self._trace))
+        self._take(document, gesture, trace_now(document, stage, self.trace))
 
     @Slot(object)
     def _take_traced(self, traced: Traced) -> None:
@@ -262,50 +251,55 @@ class Session(QObject):
         self._history.put(document, gesture)
         self._document_replaced(trace)
 
-    def _document_replaced(self, trace: Trace, cursor: Cursor | None = None) -> None:
-        was_at_end = self._cursor.position >= self.stage_trace.steps.count > 0
+    def _document_replaced(self, trace: Trace, cursor: Cursor | None = None, also: Change = NOTHING) -> None:
+        """Show the present document of the history, and what stays of the present moment."""
+        before = self._moment
+        was_at_end = before.is_stage_done and before.steps.count > 0
+        cursor = cursor or placed(before.cursor, trace, None if was_at_end else before.cursor.position)
+        bare = Step(trace, cursor)
+        pin, hover = (
+            None if pixel is None or not bare.has_pixel(pixel) else pixel
+            for pixel in (before.pin, before.hover)
+        )
+        also |= NOTHING if pin == before.pin else Change.PIN
         # The previous trace stays until everything shows the new one, which takes over what did not change.
-        earlier, self._trace = self._trace, trace
-        self._cursor = cursor or placed(self._cursor, trace, None if was_at_end else self._cursor.position)
-        has_lost_pin = self._pin is not None and not self.has_pixel(self._pin)
-        if has_lost_pin:
-            self._pin = None
-        if self._hover is not None and not self.has_pixel(self._hover):
-            self._hover = None
-        self.document_changed.emit()
-        del earlier
-        if has_lost_pin:
-            self.pin_changed.emit()
-        self.history_changed.emit()
+        self._become(
+            Change.DOCUMENT | also,
+            document=self._history.present,
+            trace=trace,
+            cursor=cursor,
+            pin=pin,
+            hover=hover,
+        )
 
     # Stepping.
 
     def step(self, direction: int, level: Level | None = None) -> None:
         """Go one step forward (1) or back (-1), at the present level or another one, from stage to stage."""
-        level = self._cursor.level if level is None else level
-        self._move(stepped(self._cursor, self._trace, direction, level))
+        level = self.cursor.level if level is None else level
+        self._move(stepped(self.cursor, self.trace, direction, level))
 
     def go_to(self, position: int) -> None:
         """Go to a position of the present stage; the jump can be undone by ``go_back``."""
-        self._jump(placed(self._cursor, self._trace, position))
+        self._jump(placed(self.cursor, self.trace, position))
 
     def scrub(self, position: int, stage: str = "") -> None:
         """Go to a position, of another stage if it is named, while a slider is dragged: not remembered."""
-        self._move(placed(self._cursor, self._trace, position, stage))
+        self._move(placed(self.cursor, self.trace, position, stage))
 
     def set_stage(self, stage: str, position: int | None = None) -> None:
         """Go to another stage, to its end unless a position is given."""
-        self._jump(placed(self._cursor, self._trace, position, stage))
+        self._jump(placed(self.cursor, self.trace, position, stage))
 
     def next_stage(self, direction: int) -> None:
         """Go to the start of the neighbouring stage."""
-        index = STAGES.index(self._cursor.stage) + direction
+        index = STAGES.index(self.cursor.stage) + direction
         if 0 <= index < len(STAGES):
             self.set_stage(STAGES[index], 0)
 
     def set_level(self, level: Level) -> None:
         """Choose how large a step is."""
-        self._move(replace(self._cursor, level=Level(level)))
+        self._move(replace(self.cursor, level=Level(level)))
 
     def go_back(self) -> None:
         """Undo the last jump exactly."""
@@ -318,53 +312,35 @@ class Session(QObject):
             self._restore(self._visited.redo())
 
     def _restore(self, cursor: Cursor) -> None:
-        self._move(placed(cursor, self._trace, cursor.position))
+        self._move(placed(cursor, self.trace, cursor.position))
 
     def _jump(self, cursor: Cursor) -> None:
-        if cursor != self._cursor:
+        if cursor != self.cursor:
             self._remember(cursor)
-            self._move(cursor)
-            self.history_changed.emit()
+            self._become(Change.CURSOR, cursor=cursor)
 
     def _remember(self, cursor: Cursor) -> None:
         """Have ``go_back`` lead from another cursor to the present one."""
-        if cursor != self._cursor:
-            if self._visited.present != self._cursor:
-                self._visited.put(self._cursor)
+        if cursor != self.cursor:
+            if self._visited.present != self.cursor:
+                self._visited.put(self.cursor)
             self._visited.put(cursor)
 
     def _move(self, cursor: Cursor) -> None:
-        if cursor != self._cursor:
-            self._cursor = cursor
-            self.cursor_changed.emit()
+        if cursor != self.cursor:
+            self._become(Change.CURSOR, cursor=cursor)
 
     # Pointing.
-
-    def place_of(self, pixel: Pixel) -> tuple[int, int]:
-        """Return column and row of a pixel in the buffers of the traced raster."""
-        first_column, first_row, _, _ = self._trace.source.raster.bounds
-        return pixel[0] - first_column, pixel[1] - first_row
-
-    def pixel_at(self, column: int, row: int) -> Pixel:
-        """Return the pixel that stands at a place in the buffers of the traced raster."""
-        first_column, first_row, _, _ = self._trace.source.raster.bounds
-        return column + first_column, row + first_row
-
-    @property
-    def pointed_places(self) -> tuple[tuple[int, int] | None, tuple[int, int] | None]:
-        """Where the pinned and the hovered pixel stand in the buffers."""
-        pin, hover = self._pin, self._hover
-        return None if pin is None else self.place_of(pin), None if hover is None else self.place_of(hover)
 
     @Slot(int, int)
     def pin_place(self, column: int, row: int) -> None:
         """Pin the pixel at a place in the buffers."""
-        self.set_pin(self.pixel_at(column, row))
+        self.set_pin(self._moment.pixel_at(column, row))
 
     @Slot(int, int)
     def hover_place(self, column: int, row: int) -> None:
         """Say that the pointer is at a place in the buffers."""
-        self.set_hover(self.pixel_at(column, row))
+        self.set_hover(self._moment.pixel_at(column, row))
 
     @Slot()
     def end_hover(self) -> None:
@@ -373,37 +349,38 @@ class Session(QObject):
 
     def set_pin(self, pixel: Pixel | None) -> None:
         """Pin a pixel, or none."""
-        if pixel != self._pin and (pixel is None or self.has_pixel(pixel)):
-            self._pin = pixel
-            self.pin_changed.emit()
+        if pixel != self.pin and (pixel is None or self._moment.has_pixel(pixel)):
+            self._become(Change.PIN, pin=pixel)
 
     def nudge_pin(self, columns: int, rows: int) -> None:
         """Move the pin; without one it appears in the middle."""
-        first_column, first_row, end_column, end_row = self._trace.source.raster.bounds
-        at = self._pin or ((first_column + end_column) // 2 - columns, (first_row + end_row) // 2 - rows)
+        first_column, first_row, end_column, end_row = self.trace.source.raster.bounds
+        at = self.pin or ((first_column + end_column) // 2 - columns, (first_row + end_row) // 2 - rows)
         self.set_pin((at[0] + columns, at[1] + rows))
 
     def set_hover(self, pixel: Pixel | None) -> None:
         """Say which pixel the pointer is on."""
-        if pixel != self._hover:
-            self._hover = pixel
-            self.hover_changed.emit()
+        if pixel != self.hover:
+            self._become(Change.HOVER, hover=pixel)
 
     @property
     def is_predicting(self) -> bool:
         """Whether results are hidden until they have been predicted."""
-        return self._is_predicting
+        return self._moment.is_predicting
 
     def set_predicting(self, is_predicting: bool) -> None:
         """Hide results, or show them again."""
-        if is_predicting != self._is_predicting:
-            self._is_predicting = is_predicting
-            self.predicting_changed.emit()
+        if is_predicting != self.is_predicting:
+            self._become(Change.PREDICTING, is_predicting=is_predicting)
+
+    def reveal(self) -> None:
+        """Say that what comes next, or a part of it, has been shown while predicting."""
+        self.changed.emit(Change.REVEALED)
 
     @property
     def is_asked_about(self) -> bool:
         """Whether an exercise asks about the open scene: no page may show it."""
-        return self._is_asked_about
+        return self._moment.is_asked_about
 
     @property
     def asked_scene(self) -> str:
@@ -412,11 +389,6 @@ class Session(QObject):
 
     def set_asked(self, scene: str, *, is_open: bool) -> None:
         """Keep a scene with this digest from being shown, and the open one if it ``is_open``; empty: none."""
-        if (scene, is_open) != (self._asked_scene, self._is_asked_about):
-            self._asked_scene, self._is_asked_about = scene, is_open
-            self.asked_changed.emit()
-
-    def has_pixel(self, pixel: Pixel) -> bool:
-        """Return whether the traced raster has this pixel."""
-        first_column, first_row, end_column, end_row = self._trace.source.raster.bounds
-        return first_column <= pixel[0] < end_column and first_row <= pixel[1] < end_row
+        if (scene, is_open) != (self._asked_scene, self.is_asked_about):
+            self._asked_scene = scene
+            self._become(Change.ASKED, is_asked_about=is_open)

@@ -4,7 +4,7 @@ import numpy as np
 from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QWidget
 
-from app.session.session import Session
+from app.session.moment import Moment
 from app.views.clip_diagram import cube_strokes
 from app.views.pointed_pixel import shown_triangle
 from app.views.stage_view import StageView, TextureView
@@ -34,18 +34,17 @@ class Companion(StageView):
     is_alike = False
     """Whether it is a picture like the main one: then both have titles, and may lie one above the other."""
 
-    def is_wanted(self) -> bool:
+    def is_wanted(self, moment: Moment) -> bool:
         """Return whether it has something to show at the stage of the cursor."""
         return True
 
-    def wanted_width(self) -> int:
+    def wanted_width(self, moment: Moment) -> int:
         """Return the width, in pixels, that it needs to be read as a whole; 0: any. A step does not change it."""
         return 0
 
     def made_from(self) -> object:
         """Return trace, the row of the step, and how many rows are done."""
-        steps, position = self.session.stage_trace.steps, self.session.cursor.position
-        return self.session.trace, steps.row_at(position)[0], steps.rows_done(position)
+        return self.moment.trace, self.moment.row, self.moment.rows_done
 
 
 class EnteredSpace(Companion):
@@ -59,21 +58,21 @@ class EnteredSpace(Companion):
         self._space.setAccessibleName("The space that vertices enter: normalized device coordinates")
         return self._space
 
-    def is_wanted(self) -> bool:
+    def is_wanted(self, moment: Moment) -> bool:
         """Return whether there are corners."""
-        return self.session.stage_trace.steps.row_count > 0
+        return moment.steps.row_count > 0
 
     def draw(self) -> None:
         """Draw the corners that have been divided by w, and the triangles of three such corners."""
-        self._space.show_diagram(entered_diagram(self.session))
+        self._space.show_diagram(entered_diagram(self.moment))
 
 
 class TextureBeside(TextureView, Companion):
     """The texture with what the pixel of the step reads of it."""
 
-    def is_wanted(self) -> bool:
+    def is_wanted(self, moment: Moment) -> bool:
         """Return whether the triangle of the step has a texture."""
-        return texture_of(self.session.trace.source, shown_triangle(self.session)) is not None
+        return texture_of(moment.trace.source, shown_triangle(moment)) is not None
 
 
 class FillingTable(Companion):
@@ -86,13 +85,13 @@ class FillingTable(Companion):
         self._width: tuple[StageTrace, QFont, int] | None = None
         return self._view
 
-    def is_wanted(self) -> bool:
+    def is_wanted(self, moment: Moment) -> bool:
         """Return whether some row of the stage stands in a table."""
-        return has_tables(self.session.stage_trace)
+        return has_tables(moment.stage_trace)
 
-    def wanted_width(self) -> int:
+    def wanted_width(self, moment: Moment) -> int:
         """Return the width of the first table of the stage, with a number in every cell."""
-        trace, font = self.session.stage_trace, self._view.cells.font()
+        trace, font = moment.stage_trace, self._view.cells.font()
         if self._width is None or self._width[0] is not trace or self._width[1] != font:
             table = step_table(trace, 0)
             self._width = trace, font, 0 if table is None else self._view.width_of(table)
@@ -100,11 +99,11 @@ class FillingTable(Companion):
 
     def made_from(self) -> object:
         """Return trace and cursor: a cell appears with its operation."""
-        return self.session.trace, self.session.cursor
+        return self.moment.trace, self.moment.cursor
 
     def draw(self) -> None:
         """Show the table with the cells filled so far."""
-        self._view.show_table(step_table(self.session.stage_trace, self.session.cursor.position))
+        self._view.show_table(step_table(self.moment.stage_trace, self.moment.cursor.position))
 
 
 class NewDepths(Companion):
@@ -125,13 +124,12 @@ class NewDepths(Companion):
 
     def draw(self) -> None:
         """Show what has been compared so far of the triangle of the step."""
-        stage, position = self.session.stage_trace, self.session.cursor.position
-        row, _ = stage.steps.row_at(position)
+        stage, row = self.moment.stage_trace, self.moment.row
         triangle = -1 if row < 0 else int(stage.triangle[row])
         of = "none yet" if row < 0 else f"triangle {triangle}"
-        self._title.setText(of_kind(f"New depths: {of}", self.session.trace.source.scene.corner_count))
-        self.grid.show_buffer(new_depths(self.session, stage, row))
-        origin = self.session.trace.source.raster.bounds[:2]
+        self._title.setText(of_kind(f"New depths: {of}", self.moment.trace.source.scene.corner_count))
+        self.grid.show_buffer(new_depths(self.moment, stage, row))
+        origin = self.moment.trace.source.raster.bounds[:2]
         has_pixel = row >= 0 and stage.pixel[row, 0] >= 0
         self.grid.show_step(StepMark(stage.pixel[[row]] - np.array(origin)) if has_pixel else StepMark())
 
@@ -145,9 +143,9 @@ COMPANIONS: dict[str, type[Companion]] = {
 """By stage."""
 
 
-def new_depths(session: Session, stage: StageTrace, row: int) -> GridBuffer:
+def new_depths(moment: Moment, stage: StageTrace, row: int) -> GridBuffer:
     """Return the depths that the triangle of a row has had compared up to it, in the range of the depth buffer."""
-    raster = session.trace.source.raster
+    raster = moment.trace.source.raster
     values, known = np.zeros(raster.shape), np.zeros(raster.shape, bool)
     if row >= 0:
         rows = np.flatnonzero(stage.triangle[: row + 1] == stage.triangle[row])
@@ -157,15 +155,15 @@ def new_depths(session: Session, stage: StageTrace, row: int) -> GridBuffer:
     return GridBuffer("new depth", values, range=track.value_range, origin=raster.bounds[:2], known=known)
 
 
-def entered_diagram(session: Session) -> Diagram:
+def entered_diagram(moment: Moment) -> Diagram:
     """Draw the cube of NDC with the corners that are in it after the step, the one of the step in the accent."""
-    trace, position = session.trace, session.cursor.position
-    geometry, stage = trace.source.geometry, session.stage_trace
+    trace, position = moment.trace, moment.cursor.position
+    geometry, stage = trace.source.geometry, moment.stage_trace
     assembled = geometry.assembled.triangle
     is_there = spaces_reached(trace, "transform", position) >= NDC
     corners = _placed(geometry.vertices.ndc[geometry.vertices.corners_of(assembled)])
     spots, strokes = [], list(cube_strokes())
-    row, _ = stage.steps.row_at(position)
+    row = moment.row
     current = -1 if row < 0 else int(np.flatnonzero(assembled == stage.triangle[row])[0])
     for number in np.flatnonzero(is_there.any(axis=1))[:MOST_TRIANGLES].tolist():
         there = is_there[number]

@@ -30,13 +30,12 @@ class FlowView(StageView):
 
     def made_from(self) -> object:
         """Return trace, stage, and whether numbers would tell an answer."""
-        return (self.session.trace, self.session.cursor.stage, self.session.is_predicting)
+        return (self.moment.trace, self.moment.cursor.stage, self.moment.is_predicting)
 
     def draw(self) -> None:
         """Count what goes through the four stages."""
-        session = self.session
-        trace, stage = session.trace, session.cursor.stage
-        chapters = chapters_of(trace, current=stage, is_predicting=session.is_predicting)
+        trace, stage = self.moment.trace, self.moment.cursor.stage
+        chapters = chapters_of(trace, current=stage, is_predicting=self.moment.is_predicting)
         by_stage = dict(zip(STAGES, chapters, strict=True))
         layout = trace.source.geometry.primitives.layout
         # A vertex in object space has its place there, not in the world.
@@ -65,14 +64,14 @@ class FlowView(StageView):
 
     def _ends(self) -> list[tuple[str, str]]:
         """Return how many of what go into each of the four stages and come out."""
-        trace = self.session.trace
+        trace = self.moment.trace
         geometry, size = trace.source.geometry, trace.source.scene.size
         given, kind = geometry.assembled, trace.source.scene.corner_count
         corners = geometry.vertices.all_corners[given.triangle]
 
         def said(count: int, noun: str, plural: str = "") -> str:
             hidden = f"? {plural or noun + 's'}"
-            return hidden if self.session.is_predicting else counted(count, noun, plural)
+            return hidden if self.moment.is_predicting else counted(count, noun, plural)
 
         vertices = said(len(np.unique(corners)), "vertex", "vertices")
         fragments = said(traced_counts(trace)["interpolate"][1], "fragment")

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.session.session import Pixel, Session
+from app.session.moment import Moment, Pixel
 from core.records.steps import Level
 from core.trace import TraceSource
 
@@ -25,36 +25,32 @@ class PointedPixel:
         return f"{kind} pixel ({self.column}, {self.row})"
 
 
-def pointed_pixels(session: Session) -> tuple[PointedPixel, ...]:
+def pointed_pixels(moment: Moment) -> tuple[PointedPixel, ...]:
     """Return the pinned and the hovered pixel; where there is neither, the one of the step just done."""
     found: list[PointedPixel] = []
     seen: set[Pixel] = set()
-    for role, pixel in (("pin", session.pin), ("hover", session.hover)):
-        if pixel is not None and pixel not in seen and session.has_pixel(pixel):
+    for role, pixel in (("pin", moment.pin), ("hover", moment.hover)):
+        if pixel is not None and pixel not in seen and moment.has_pixel(pixel):
             found.append(PointedPixel(*pixel, role))
             seen.add(pixel)
-    if not found and session.cursor.level >= Level.PIXEL:
-        row, _ = session.stage_trace.steps.row_at(session.cursor.position)
-        pixel = (-1, -1) if row < 0 else tuple(session.stage_trace.pixel[row].tolist())
-        if pixel[0] >= 0:
-            found.append(PointedPixel(*pixel, "step"))
+    if not found and moment.cursor.level >= Level.PIXEL and moment.pixel is not None:
+        found.append(PointedPixel(*moment.pixel, "step"))
     return tuple(found)
 
 
-def shown_triangle(session: Session) -> int:
+def shown_triangle(moment: Moment) -> int:
     """Return the triangle that a view of one triangle shows.
 
     That is the one in focus, else that of the step just done, else the one seen at the pinned pixel, else 0.
     """
-    document = session.document
+    document = moment.document
     if document.triangle is not None:
         return document.triangle
-    row, _ = session.stage_trace.steps.row_at(session.cursor.position)
-    if row >= 0 and session.stage_trace.triangle[row] >= 0:
-        return int(session.stage_trace.triangle[row])
-    if session.pin is not None:
-        column, line = session.place_of(session.pin)
-        seen = int(session.trace.source.picture.primitive[line, column])
+    if moment.triangle >= 0:
+        return moment.triangle
+    if moment.pin is not None:
+        column, line = moment.place_of(moment.pin)
+        seen = int(moment.trace.source.picture.primitive[line, column])
         return max(seen, 0)
     return 0
 

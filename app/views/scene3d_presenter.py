@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.session.document import Document
 from app.session.drag_gestures import DragGestures
+from app.session.moment import Moment
 from app.session.session import Session
 from app.views.frame_report import FrameReport
 from app.views.hidden_backs import HiddenBacks
@@ -60,7 +61,7 @@ class Scene3dPresenter(QObject):
 
     def __init__(self, session: Session, view: SceneView, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._session, self._view = session, view
+        self._session, self._moment, self._view = session, session.moment, view
         self._space: ViewSpace | None = None
         self._document: Document | None = None
         self._drawn: DrawnScene | None = None
@@ -91,9 +92,9 @@ class Scene3dPresenter(QObject):
         view.vertex_drag_taken_back.connect(self._drags.take_back)
         theme_notifier().theme_changed.connect(self._theme_changed)
 
-    def refresh(self) -> None:
-        """Show the session's document as it is now."""
-        document = self._session.document
+    def refresh(self, moment: Moment) -> None:
+        """Show the document and its step."""
+        self._moment, document = moment, moment.document
         if self._document is document and self._space is not None:
             self.refresh_marks()
             if self._state() != self._drawn_state:
@@ -101,7 +102,7 @@ class Scene3dPresenter(QObject):
             return
         before = self._document
         self._document = document
-        self._space = make_space(document.traced_scene, self._session.trace.source.geometry.vertices)
+        self._space = make_space(document.traced_scene, self._moment.trace.source.geometry.vertices)
         if before is None or _place_of(before) != _place_of(document):
             self._begin_anew()
         self._view.set_caption(self._caption())
@@ -111,9 +112,9 @@ class Scene3dPresenter(QObject):
 
     def _state(self) -> tuple[bool, bool, bytes]:
         """Return what of the run the picture depends on: if it is hidden, if shaded, which triangles are dropped."""
-        cursor = self._session.cursor
-        dropped = is_dropped(self._session.trace, cursor.stage, cursor.position)
-        return is_scene_asked(self._session), is_scene_lit(self._session), dropped.tobytes()
+        cursor = self._moment.cursor
+        dropped = is_dropped(self._moment.trace, cursor.stage, cursor.position)
+        return is_scene_asked(self._moment), is_scene_lit(self._moment), dropped.tobytes()
 
     def look_at_focus(self) -> None:
         """Magnify the triangle in focus, from the present direction."""
@@ -181,7 +182,7 @@ class Scene3dPresenter(QObject):
     @property
     def focus(self) -> int | None:
         """The triangle whose vertices can be dragged."""
-        document = self._session.document
+        document = self._moment.document
         return 0 if document.triangle is None and document.triangle_count == 1 else document.triangle
 
     # Drawing.
@@ -227,7 +228,7 @@ class Scene3dPresenter(QObject):
             self._space,
             scene,
             numbers,
-            self._session.document.settings,
+            self._moment.document.settings,
             self._view.orbit(),
             self._view.picture_size(),
             self.focus,
@@ -239,7 +240,7 @@ class Scene3dPresenter(QObject):
 
     def _scene_left(self) -> tuple[AnyScene, Integers | None]:
         """Return the scene without the triangles that are dropped by now, and the numbers of those left."""
-        cursor, trace = self._session.cursor, self._session.trace
+        cursor, trace = self._moment.cursor, self._moment.trace
         dropped = is_dropped(trace, cursor.stage, cursor.position)
         assert self._space is not None
         scene = self._space.scene
@@ -273,14 +274,14 @@ class Scene3dPresenter(QObject):
             for (x, y), (_, text) in zip(places.tolist(), words, strict=True)
             if 0 <= x <= 1 and 0 <= y <= 1
         )
-        found = step_marks(self._session, space)
+        found = step_marks(self._moment, space)
         points = fractions(matrix, np.concatenate([np.empty((0, 3)), *(mark.points for mark in found)]))
         ends = np.cumsum([len(mark.points) for mark in found])[:-1]
         marks = [
             SceneMark(of_mark, mark.ink, mark.label, mark.shape)
             for mark, of_mark in zip(found, np.split(points, ends), strict=False)
         ]
-        marks += pixel_marks(self._session.trace.source, space, matrix, pointed_pixels(self._session))
+        marks += pixel_marks(self._moment.trace.source, space, matrix, pointed_pixels(self._moment))
         picture = ScenePicture(
             drawn.pixels, tuple(handles), tuple(marks), labels, self._caption(), drawn.sight
         )
@@ -290,12 +291,12 @@ class Scene3dPresenter(QObject):
 
     def _offer_sizes(self) -> None:
         """Show the sizes that there are, and have the chosen one drawn."""
-        size = self._session.document.scene.size
+        size = self._moment.document.scene.size
         self._view.show_sizes(size_choices(size), self._size_name)
         self._view.fix_picture_size(fixed_size(self._size_name, size))
 
     def _caption(self) -> str:
-        document = self._session.document
+        document = self._moment.document
         count = document.triangle_count
         parts = [f"{counted(count, 'triangle')}."]
         if count > LARGEST_WITH_CAMERA:
@@ -353,9 +354,9 @@ class Scene3dPresenter(QObject):
     def _take_picked(self, triangle: int) -> None:
         if triangle < 0:
             said = "No triangle is here: a click on one chooses it, a drag turns the scene."
-            self.message_sent.emit(of_kind(said, self._session.document.scene.corner_count))
+            self.message_sent.emit(of_kind(said, self._moment.document.scene.corner_count))
             return
-        is_model = self._session.document.triangle_count > LARGEST_WITH_CAMERA
+        is_model = self._moment.document.triangle_count > LARGEST_WITH_CAMERA
         self._entered = triangle if is_model else None
         if triangle == self.focus:
             self._enter_picked()

@@ -1,7 +1,8 @@
-"""What each view beside the pixel grid shows of a session: clip space, (x, y, w), texture."""
+"""What each view beside the pixel grid shows of a moment: clip space, (x, y, w), texture."""
 
 from PySide6.QtWidgets import QWidget
 
+from app.session.moment import Moment
 from app.session.session import Session
 from app.views.clip_diagram import clip_diagram, clip_state
 from app.views.pointed_pixel import pointed_pixels, shown_triangle
@@ -22,7 +23,7 @@ class StageView:
     """What its tab says."""
 
     def __init__(self, session: Session) -> None:
-        self.session = session
+        self.session, self.moment = session, session.moment
         self.widget = self.make_widget()
         self._drawn: object = None
 
@@ -32,14 +33,15 @@ class StageView:
 
     def made_from(self) -> object:
         """Return what the drawing is made from: the same again is not drawn again."""
-        return (self.session.trace, shown_triangle(self.session), pointed_pixels(self.session))
+        return (self.moment.trace, shown_triangle(self.moment), pointed_pixels(self.moment))
 
     def draw(self) -> None:
-        """Draw the session."""
+        """Draw the moment."""
         raise NotImplementedError
 
-    def refresh(self) -> None:
-        """Draw the session where it is not what is drawn already."""
+    def refresh(self, moment: Moment) -> None:
+        """Draw the moment where it is not what is drawn already."""
+        self.moment = moment
         now = self.made_from()
         if self._drawn is None or self._drawn != now:
             self._drawn = now
@@ -49,14 +51,14 @@ class StageView:
 NOT_YET = "The vertices come to clip space here, at the end of Transform."
 
 
-def is_there(session: Session, space: int = CLIP) -> bool:
+def is_there(moment: Moment, space: int = CLIP) -> bool:
     """Return whether the triangle shown has come to a space: before that the views of it would show what comes."""
-    cursor, trace = session.cursor, session.trace
+    cursor, trace = moment.cursor, moment.trace
     if cursor.stage != STAGES[0]:
         return True
     assembled = trace.source.geometry.assembled.triangle
     reached = spaces_reached(trace, cursor.stage, cursor.position)
-    return bool((reached[assembled == shown_triangle(session)] >= space).all())
+    return bool((reached[assembled == shown_triangle(moment)] >= space).all())
 
 
 class ClipView(StageView):
@@ -74,22 +76,21 @@ class ClipView(StageView):
     def made_from(self) -> object:
         """Return trace, triangle and how much is clipped: the row of the step, and how many rows are done."""
         done: object = self._position()
-        if self.session.cursor.stage == "clip":
-            steps, position = self.session.stage_trace.steps, self.session.cursor.position
-            done = steps.row_at(position)[0], steps.rows_done(position)
-        return (self.session.trace, shown_triangle(self.session), done, is_there(self.session))
+        if self.moment.cursor.stage == "clip":
+            done = self.moment.row, self.moment.rows_done
+        return (self.moment.trace, shown_triangle(self.moment), done, is_there(self.moment))
 
     def draw(self) -> None:
         """Draw the triangle and what clipping leaves of it."""
-        if not is_there(self.session):
+        if not is_there(self.moment):
             self._space.show_diagram(None)
             return
-        state = clip_state(self.session.trace, shown_triangle(self.session), self._position())
+        state = clip_state(self.moment.trace, shown_triangle(self.moment), self._position())
         self._space.show_diagram(clip_diagram(state))
 
     def _position(self) -> int | None:
         """Return how much of the clipping is done at the cursor; None: all of it."""
-        cursor = self.session.cursor
+        cursor = self.moment.cursor
         if cursor.stage == "clip":
             return cursor.position
         return 0 if STAGES.index(cursor.stage) < STAGES.index("clip") else None
@@ -109,22 +110,22 @@ class PyramidView(StageView):
 
     def made_from(self) -> object:
         """Return trace, triangle and the first pixel that is pointed at."""
-        pixels = pointed_pixels(self.session)[:1]
-        return (self.session.trace, shown_triangle(self.session), pixels, self._is_there())
+        pixels = pointed_pixels(self.moment)[:1]
+        return (self.moment.trace, shown_triangle(self.moment), pixels, self._is_there())
 
     def draw(self) -> None:
         """Draw the triangle, and the ray of the pixel."""
         if not self._is_there():
             self._space.show_diagram(None)
             return
-        pixels = pointed_pixels(self.session)
+        pixels = pointed_pixels(self.moment)
         pixel = pixels[0] if pixels else None
-        triangle = shown_triangle(self.session)
-        self._space.show_diagram(pyramid_diagram(self.session.trace.source, triangle, pixel))
+        triangle = shown_triangle(self.moment)
+        self._space.show_diagram(pyramid_diagram(self.moment.trace.source, triangle, pixel))
 
     def _is_there(self) -> bool:
         """Return whether it may be drawn: it has the grid of the window, in which predicting asks for the places."""
-        return is_there(self.session, WINDOW if self.session.is_predicting else CLIP)
+        return is_there(self.moment, WINDOW if self.moment.is_predicting else CLIP)
 
 
 class TextureView(StageView):
@@ -139,4 +140,4 @@ class TextureView(StageView):
 
     def draw(self) -> None:
         """Draw the texture with the footprints of pixels."""
-        self._levels.show_pictures(*texture_pictures(self.session))
+        self._levels.show_pictures(*texture_pictures(self.moment))

@@ -2,9 +2,10 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QEvent, QObject, Signal, Slot
+from PySide6.QtCore import QEvent, QObject, Signal
 from PySide6.QtWidgets import QWidget
 
+from app.session.moment import Moment
 from app.session.session import Session
 from app.views.flow_view import FlowView
 from app.views.scene3d_presenter import Scene3dPresenter
@@ -34,6 +35,7 @@ class StageViews(QObject):
 
     def __init__(self, session: Session, parent: QObject | None = None) -> None:
         super().__init__(parent)
+        self._moment = session.moment
         self._scene = SceneView()
         self._others = {view.name: view for view in (make(session) for make in VIEWS)}
         self._views: dict[str, QWidget] = {
@@ -47,12 +49,6 @@ class StageViews(QObject):
         self._scene_presenter.message_sent.connect(self.message_sent)
         for widget in self._views.values():
             widget.installEventFilter(self)
-        session.document_changed.connect(self._refresh_visible)
-        session.cursor_changed.connect(self._refresh_visible)
-        session.pin_changed.connect(self._refresh_visible)
-        session.hover_changed.connect(self._refresh_visible)
-        session.predicting_changed.connect(self._refresh_visible)
-        session.asked_changed.connect(self._refresh_visible)
 
     @property
     def widgets(self) -> list[tuple[str, str, QWidget]]:
@@ -120,9 +116,9 @@ class StageViews(QObject):
                     self._refresh(name)
         return False
 
-    @Slot()
-    def _refresh_visible(self) -> None:
+    def refresh(self, moment: Moment) -> None:
         """Bring the visible views up to date, and remember that the others are not."""
+        self._moment = moment
         for name, widget in self._views.items():
             if widget.isVisible():
                 self._refresh(name)
@@ -132,6 +128,6 @@ class StageViews(QObject):
     def _refresh(self, name: str) -> None:
         self._stale.discard(name)
         if name in self._others:
-            self._others[name].refresh()
+            self._others[name].refresh(self._moment)
         else:
-            self._scene_presenter.refresh()
+            self._scene_presenter.refresh(self._moment)

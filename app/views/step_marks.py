@@ -4,7 +4,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from app.session.session import Session
+from app.session.moment import Moment
 from app.views.view_space import ViewSpace
 from core.explain.kinds import of_kind
 from core.geometry.culling import KEPT, REASONS
@@ -30,48 +30,47 @@ class SpaceMark:
     """As of ``widgets.space.scene_view.SceneMark``."""
 
 
-def step_marks(session: Session, space: ViewSpace) -> list[SpaceMark]:
+def step_marks(moment: Moment, space: ViewSpace) -> list[SpaceMark]:
     """Return the marks of the step just done, the present item last and in the accent."""
-    stage, position = session.cursor.stage, session.cursor.position
+    stage, position = moment.cursor.stage, moment.cursor.position
     if stage == "transform":
-        return _corner_marks(session, space, position)
-    marks = _point_marks(session, space)
+        return _corner_marks(moment, space, position)
+    marks = _point_marks(moment, space)
     if stage == "cull":
-        return marks + _facing_marks(session, space, position)
-    row, _ = session.stage_trace.steps.row_at(position)
-    if row < 0 or (stage not in GEOMETRY_STAGES and stage != "bin"):
+        return marks + _facing_marks(moment, space, position)
+    if moment.row < 0 or (stage not in GEOMETRY_STAGES and stage != "bin"):
         return marks
-    return marks + _outlines(space, int(session.stage_trace.triangle[row]))
+    return marks + _outlines(space, moment.triangle)
 
 
-def is_scene_lit(session: Session) -> bool:
+def is_scene_lit(moment: Moment) -> bool:
     """Return whether every fragment has its colour, so that the scene's lights are no longer future."""
-    stage = session.cursor.stage
+    stage = moment.cursor.stage
     if stage != "shade":
         return STAGES.index(stage) > STAGES.index("shade")
-    return session.cursor.position == session.stage_trace.steps.count
+    return moment.is_stage_done
 
 
-def is_scene_asked(session: Session) -> bool:
+def is_scene_asked(moment: Moment) -> bool:
     """Return whether an exercise asks for what the lights, the nearest surfaces or the blending make of the scene."""
-    return session.is_asked_about and STAGES.index(session.cursor.stage) >= STAGES.index("shade")
+    return moment.is_asked_about and STAGES.index(moment.cursor.stage) >= STAGES.index("shade")
 
 
-def _point_marks(session: Session, space: ViewSpace) -> list[SpaceMark]:
+def _point_marks(moment: Moment, space: ViewSpace) -> list[SpaceMark]:
     """Return a disc on every point that has not been dropped: the picture has a single pixel of it."""
-    assembled, cursor = session.trace.source.geometry.assembled.triangle, session.cursor
-    if session.document.scene.corner_count != 1 or len(assembled) > MOST_MARKS:
+    assembled, cursor = moment.trace.source.geometry.assembled.triangle, moment.cursor
+    if moment.document.scene.corner_count != 1 or len(assembled) > MOST_MARKS:
         return []
-    left = assembled[~is_dropped(session.trace, cursor.stage, cursor.position)]
+    left = assembled[~is_dropped(moment.trace, cursor.stage, cursor.position)]
     return [SpaceMark(space.corners(number)[:1], "text", shape="disc") for number in left.tolist()]
 
 
-def _corner_marks(session: Session, space: ViewSpace, position: int) -> list[SpaceMark]:
+def _corner_marks(moment: Moment, space: ViewSpace, position: int) -> list[SpaceMark]:
     """Return a dot on every corner that has left its first space, and a ring on the one of the step."""
-    source, trace = session.trace.source, session.stage_trace
+    source, trace = moment.trace.source, moment.stage_trace
     triangles = source.geometry.assembled.triangle
-    reached = spaces_reached(session.trace, "transform", position)
-    started = reached > spaces_reached(session.trace, "transform", 0)
+    reached = spaces_reached(moment.trace, "transform", position)
+    started = reached > spaces_reached(moment.trace, "transform", 0)
     marks = []
     numbers, corners = np.nonzero(started)
     vertices = source.geometry.vertices.corners_of((triangles[numbers], corners))
@@ -88,12 +87,12 @@ def _corner_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     return marks
 
 
-def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[SpaceMark]:
+def _facing_marks(moment: Moment, space: ViewSpace, position: int) -> list[SpaceMark]:
     """Return an arrow on every kept triangle, and outline and verdict of the one of the step.
 
     An arrow stands on the front of a triangle. Its end is a disc where the camera sees the front, else a cross.
     """
-    source, trace = session.trace.source, session.stage_trace
+    source, trace = moment.trace.source, moment.stage_trace
     culled, triangles = source.geometry.culled, source.geometry.assembled.triangle
     row, done = trace.steps.row_at(position)
     tested = int(np.searchsorted(trace.steps.triangle_ends, trace.steps.rows_done(position), "right"))
@@ -112,7 +111,7 @@ def _facing_marks(session: Session, space: ViewSpace, position: int) -> list[Spa
     operations = [operation.name for operation in trace.steps.operations.get(kind, ())]
     is_known = culled.sight is None or kind == "kept" or "product" in operations[: done + 1]
     side = f"front, {what}" if facing > 0 else f"back, {what}"
-    if is_dropped(session.trace, "cull", position)[current]:
+    if is_dropped(moment.trace, "cull", position)[current]:
         label = f"{name}: dropped, {REASONS[int(culled.verdict[current])].replace('-', ' ')}"
         marks.append(SpaceMark(space.corners(triangle).mean(axis=0)[None], "accent", label, "cross"))
     elif not is_known:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from app.session.session import Session
+from app.session.moment import Moment
 from app.views.pointed_pixel import PointedPixel, fragment_at, pointed_pixels, shown_triangle
 from core.explain.kinds import of_kind
 from core.fragments.interpolation import interpolate, plane_value
@@ -118,11 +118,11 @@ def tile_shift(center: Floats, wrap: str) -> Floats:
     return period * np.floor(center / period)
 
 
-def texture_pictures(session: Session) -> tuple[tuple[TexturePicture, ...], str]:
+def texture_pictures(moment: Moment) -> tuple[tuple[TexturePicture, ...], str]:
     """Return what the texture view shows, a picture for each level that is read, or why there is nothing."""
-    source = session.trace.source
-    triangle = shown_triangle(session)
-    pixels = pointed_pixels(session)
+    source = moment.trace.source
+    triangle = shown_triangle(moment)
+    pixels = pointed_pixels(moment)
     found: list[tuple[PointedPixel, int, PixelInTexture]] = []
     for pixel in pixels:
         fragment = fragment_at(source, pixel.column, pixel.row, triangle)
@@ -137,7 +137,7 @@ def texture_pictures(session: Session) -> tuple[tuple[TexturePicture, ...], str]
         triangle = int(source.geometry.primitives.triangle[found[0][1]])
     texture = texture_of(source, triangle)
     if texture is None:
-        return (), no_texture_reason(session, triangle)
+        return (), no_texture_reason(moment, triangle)
     wrap = source.settings.wrap
     shift = tile_shift(found[0][2].center, wrap) if found else np.zeros(2)
     corners = _corner_uv(source, triangle)
@@ -163,9 +163,9 @@ def texture_pictures(session: Session) -> tuple[tuple[TexturePicture, ...], str]
     return tuple(pictures), ""
 
 
-def no_texture_reason(session: Session, triangle: int) -> str:
+def no_texture_reason(moment: Moment, triangle: int) -> str:
     """Say why there is no texture to show."""
-    scene = session.document.scene
+    scene = moment.document.scene
     if isinstance(scene, ClipScene):
         text = "These triangles have colours at their corners and no texture."
         return of_kind(text, scene.corner_count)

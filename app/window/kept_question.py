@@ -4,6 +4,7 @@ from PySide6.QtCore import QObject, Slot
 
 from app.files.unfinished_answers import read_answers
 from app.pages.page_bar import Pages
+from app.session.moment import Change
 from app.session.session import Session
 from core.scene import AnyScene
 from lessons.exercises.scene_digest import scene_digest
@@ -23,16 +24,20 @@ class KeptQuestion(QObject):
         self._hidden = kept.hidden
         if kept.asked_scene:
             session.set_asked(kept.asked_scene, is_open=False)
-            session.document_changed.connect(self._look)
+            session.changed.connect(self._follow)
             self._look()
 
-    @Slot()
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        if Change.DOCUMENT in what:
+            self._look()
+
     def _look(self) -> None:
         """Have the question asked once its scene is open."""
         document = self._session.document
         scene = document.scene
         if self._pages.is_made("exercises"):
-            self._session.document_changed.disconnect(self._look)
+            self._session.changed.disconnect(self._follow)
         elif scene is not self._seen:
             self._seen = scene
             is_hidden = self._hidden == (document.title, document.path)

@@ -16,6 +16,7 @@ from app.pages.step.opening import StepOpening
 from app.pages.step.page import PANES, StepPage
 from app.session.document import Document
 from app.session.document_edits import DocumentEdits
+from app.session.moment import Change
 from app.session.session import Session
 from app.window.actions import window_handlers
 from app.window.appearance import Appearance, the_application
@@ -99,12 +100,7 @@ class MainWindow(QMainWindow):
 
     def _connect(self) -> None:
         session, page, menus, notices = self.session, self.page, self.menus, self.notices
-        session.document_changed.connect(self._show_document)
-        session.document_changed.connect(self.notices.settle_edit)
-        session.hover_changed.connect(self._show_pointed)
-        session.pin_changed.connect(self._show_pointed)
-        session.cursor_changed.connect(self._show_pointed)
-        session.predicting_changed.connect(self._show_predicting)
+        session.changed.connect(self._follow)
         self.pages.page_made.connect(self._take_page)
         self.pages.page_changed.connect(self._show_page)
         page.timeline.speed_changed.connect(self.memory.remember_speed)
@@ -162,7 +158,7 @@ class MainWindow(QMainWindow):
     def _refuse(self, error: Exception) -> None:
         """Say why an edit came to nothing, and show again what is there."""
         self.notices.refuse(f"{error}")
-        self.page.scene.refresh()
+        self.page.scene.refresh(self.session.moment)
         self._show_document()
 
     @Slot(str)
@@ -217,13 +213,19 @@ class MainWindow(QMainWindow):
 
     # Showing the state.
 
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        if Change.DOCUMENT in what:
+            self._show_document()
+            self.notices.settle_edit()
+        elif what & (Change.POINTING | Change.CURSOR):
+            self._show_pointed()
+        if Change.PREDICTING in what:
+            self.menus.show_checked("predict", self.session.is_predicting)
+
     @Slot()
     def _show_view(self) -> None:
         self.menus.show_checked("compare", self.page.current_view() == "compare")
-
-    @Slot()
-    def _show_predicting(self) -> None:
-        self.menus.show_checked("predict", self.session.is_predicting)
 
     @Slot()
     def _show_panes(self) -> None:

@@ -133,6 +133,6 @@ class Overlays(QObject):
         if len(parts) != 2 or not all(part.isdecimal() for part in parts):
             raise ValueError(f"Enter column and row, such as 12, 7; got “{text}”.")
         pixel = int(parts[0]), int(parts[1])
-        if not self._session.has_pixel(pixel):
+        if not self._session.moment.has_pixel(pixel):
             raise ValueError(f"Pixel ({pixel[0]}, {pixel[1]}) is not in the raster.")
         self._session.set_pin(pixel)

@@ -13,6 +13,7 @@ from app.pages.compare.figures import point_text, study_text, table_of
 from app.pages.compare.jobs import StudyJobs, StudyOrder, StudyResult, chosen_points, plan_candidates
 from app.pages.result_presenter import ResultPresenter, ResultWords
 from app.pages.words import work_sentence
+from app.session.moment import Change
 from app.session.session import Session
 from core.records.words import counted
 from core.settings import Settings
@@ -92,8 +93,13 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
         for chart in (*charts, legend):
             chart.series_hovered.connect(self._point_at)
             chart.series_left.connect(self._point_away)
-        session.plan_changed.connect(self.refresh)
+        session.changed.connect(self._follow)
         self.refresh()
+
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        if Change.PLAN in what:
+            self.refresh()
 
     # What is shown.
 

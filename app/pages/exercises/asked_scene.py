@@ -8,6 +8,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.files.unfinished_answers import UnfinishedFile
 from app.pages.exercises.question_presenter import QuestionPresenter
+from app.session.moment import Change
 from app.session.session import Session
 from core import STAGES
 from lessons.exercises.scene_digest import scene_digest
@@ -36,10 +37,7 @@ class AskedScene(QObject):
         """Whether it is hidden for the question's sake, and whether an edit has made another scene of it since."""
         self._asked = unfinished.answers.asked_scene
         """Digest of the scene for which something was hidden last."""
-        session.document_changed.connect(self._look)
-        session.predicting_changed.connect(self._follow_predicting)
-        session.cursor_changed.connect(self._follow_steps)
-        session.revealed.connect(self._follow_reveal)
+        session.changed.connect(self._follow)
         questions.state_changed.connect(self._look)
         questions.refused.connect(self._look)
 
@@ -73,22 +71,20 @@ class AskedScene(QObject):
         if is_open != is_predicting and (is_open or was_hidden):
             self.hiding_toggled.emit()
 
-    @Slot()
-    def _follow_predicting(self) -> None:
-        """Give the question up where the user ends predicting: then it can be seen."""
-        if not self._session.is_predicting:
-            self._end()
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        """Look at another scene; give the question up where the user can see the answer.
 
-    @Slot()
-    def _follow_steps(self) -> None:
-        """Give the question up where the user steps into what is asked."""
-        if self._is_hidden and self._here() > self._start():
-            self._end()
-
-    @Slot()
-    def _follow_reveal(self) -> None:
-        """Give the question up where Predict shows what comes next of it; earlier stages may be predicted."""
-        if self._is_hidden and self._here() == self._start():
+        That is where predicting ends, where the steps go into what is asked, and where Predict shows what comes next of
+        it; earlier stages may be predicted.
+        """
+        if Change.DOCUMENT in what:
+            self._look()
+        elif (
+            (Change.PREDICTING in what and not self._session.is_predicting)
+            or (Change.CURSOR in what and self._is_hidden and self._here() > self._start())
+            or (Change.REVEALED in what and self._is_hidden and self._here() == self._start())
+        ):
             self._end()
 
     def _end(self) -> None:

@@ -13,6 +13,7 @@ from app.files.drawn_pictures import read_drawn
 from app.files.file_names import DRAWN_ENDINGS
 from app.pages.page_bar import COVERED, StepRequest
 from app.session.document import Document
+from app.session.moment import Change
 from app.session.session import Session
 from core import STAGES
 from core.records.words import counted
@@ -71,7 +72,7 @@ class DiagnosisPresenter(QObject):
         self._job.failed.connect(self._refuse)
         view.open_requested.connect(self.ask_picture)
         view.run_requested.connect(self._show_run)
-        session.asked_changed.connect(self._hide_asked)
+        session.changed.connect(self._hide_asked)
 
     @property
     def is_working(self) -> bool:
@@ -178,11 +179,12 @@ class DiagnosisPresenter(QObject):
         title = f"with the mistake: {candidate.name.replace('-', ' ')}"
         return StepRequest(opening, document.title, candidate.settings, other_scene=other, other_title=title)
 
-    @Slot()
-    def _hide_asked(self) -> None:
+    @Slot(Change)
+    def _hide_asked(self, what: Change) -> None:
         """Forget a picture of the scene that an exercise asks about from now on."""
         if (
-            self._diagnosed is not None
+            Change.ASKED in what
+            and self._diagnosed is not None
             and scene_digest(self._diagnosed.document.scene) == self._session.asked_scene
         ):
             self._diagnosed = None

@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 
 from app.pages.step.grid_records import geometry_of
+from app.session.cursor import Cursor
 from app.session.document import STEPPED, Document, open_document
+from app.session.moment import Step
 from core.scene import AnyScene
 from core.settings import DEFAULTS
 from lessons.exercises.question import Draft
@@ -53,6 +55,5 @@ def _is_fragments(outline: GridGeometry) -> bool:
 
 def scene_outline(scene: AnyScene) -> GridGeometry:
     """Return the outlines of a scene as they are before culling: what is dropped may be what is asked for."""
-    document = open_document(scene, "")
-    outlines = geometry_of(document, document.make_trace(), stage="cull")
+    outlines = geometry_of(Step(open_document(scene, "").make_trace(), Cursor("cull")))
     return replace(outlines, draggable=False, snapped=None)

@@ -16,6 +16,7 @@ from app.pages.plan.words import (
     headline,
     rows_of,
 )
+from app.session.moment import Change
 from app.session.session import Session
 from core.settings import Settings
 from core.study import Plan, PlanReport, Tolerance, reference_settings
@@ -67,7 +68,7 @@ class PlanPresenter(BackgroundTask):
         controls.cancel_requested.connect(self.cancel)
         controls.applying_requested.connect(self.apply)
         summaries[0].undo_requested.connect(self.take_back)
-        session.document_changed.connect(self.refresh)
+        session.changed.connect(self._follow)
         self.refresh()
 
     @property
@@ -83,6 +84,11 @@ class PlanPresenter(BackgroundTask):
             not is_applied
             and reference_settings(document.scene, document.settings) != self.shown.plan.everything
         )
+
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        if Change.DOCUMENT in what:
+            self.refresh()
 
     # Analysing.
 

@@ -27,6 +27,7 @@ from app.pages.stability.records import (
     severity_chart,
     values_at,
 )
+from app.session.moment import Change
 from app.session.session import Session
 from core.explain.number_text import number_text
 from core.records.arrays import Floats
@@ -87,13 +88,14 @@ class StabilityPresenter(ResultPresenter[ExperimentChoice]):
         self._legend.series_hovered.connect(self._curves.show_pointed)
         for pane in curves:
             pane.series_left.connect(self._point_away)
-        session.document_changed.connect(self._take_document)
+        session.changed.connect(self._take_document)
         self.refresh()
 
-    @Slot()
-    def _take_document(self) -> None:
+    @Slot(Change)
+    def _take_document(self, what: Change) -> None:
         """Make the experiment on the open scene one on the scene that is open now, unless it has been run."""
-        if self._choices[OPEN_SCENE].result is None and self._running != OPEN_SCENE:
+        is_unused = self._choices[OPEN_SCENE].result is None
+        if Change.DOCUMENT in what and is_unused and self._running != OPEN_SCENE:
             self._choices[OPEN_SCENE] = open_scene_choice(self._session)
             if self._current == OPEN_SCENE:
                 self.refresh()

@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QAbstractButton, QCheckBox, QPushButton, QScrollAr
 
 from app.background.workers import Job, Progress
 from app.pages.page_bar import Handlers, Page
+from app.session.moment import Change
 from app.session.session import Session
 from core.fast_path.draw import draw_picture
 from core.scene import AnyScene, Scene
@@ -72,8 +73,7 @@ class StartPage(Page):
         row.addWidget(self._panes[0])
         row.addWidget(self._panes[1], 1)
         theme_notifier().theme_changed.connect(self._set_widths)
-        session.document_changed.connect(self._show_document)
-        session.asked_changed.connect(self._hide_asked)
+        session.changed.connect(self._follow)
         self._digests: dict[str, str] = {}
         """Of the scenes whose pictures are there, by name."""
         self._show_document()
@@ -134,7 +134,13 @@ class StartPage(Page):
         if not self._recent_rows.count():
             self._recent_rows.addWidget(text_label("No files yet.", self._recent, role="muted"))
 
-    @Slot()
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        if Change.DOCUMENT in what:
+            self._show_document()
+        if Change.ASKED in what:
+            self._hide_asked()
+
     def _show_document(self) -> None:
         title = self._session.document.title or "a scene"
         self.now_label.setText(f"Open now: {title}. Press Right for its next step, Left to go back.")
@@ -166,7 +172,6 @@ class StartPage(Page):
         self._hide_asked()
         self.cards.show_picture(name, display_image(pixels))
 
-    @Slot()
     def _hide_asked(self) -> None:
         """Hide the picture of a scene that an exercise asks about."""
         asked = self._session.asked_scene

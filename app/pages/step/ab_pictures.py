@@ -10,7 +10,7 @@ from app.pages.step.grid_records import buffers_of, geometry_of, mask_overlays
 from app.pages.step.step_mark import step_mark
 from app.pages.step.steps_ahead import sentence_at
 from app.session.cursor import Cursor
-from app.session.document import Document
+from app.session.moment import Step
 from core import STAGES, Trace
 from core.records.arrays import Flags
 from widgets.grid.buffer import GridBuffer, number_text
@@ -24,15 +24,13 @@ SHOWN_MARKS = ("rejected", "tie", "nan", "failed")
 """Marks of rows done that lie over the pictures."""
 
 
-@dataclass(frozen=True, eq=False)
-class Place:
-    """A run and where it is."""
+@dataclass(frozen=True, eq=False, kw_only=True)
+class Place(Step):
+    """Where one of two runs is that are stepped together."""
 
-    trace: Trace
-    cursor: Cursor
     done: int | None = None
     """Steps of the level that are done; ``None``: they are not counted."""
-    steps: int = 0
+    step_count: int = 0
     """Steps of the level that there are."""
     waits: bool = False
     """Whether only the other run has steps left."""
@@ -44,24 +42,20 @@ class Outlines:
     def __init__(self) -> None:
         self._known: dict[tuple[Trace, str, int], GridGeometry] = {}
 
-    def of(self, document: Document, place: Place) -> GridGeometry:
-        """Return those of a run of a document at its place."""
+    def of(self, place: Place) -> GridGeometry:
+        """Return those of a run at its place."""
         cursor = place.cursor if place.cursor.stage in OUTLINING else Cursor(STAGES[-1])
         key = place.trace, cursor.stage, cursor.position
         if key not in self._known:
             if len(self._known) > 2:
                 self._known.clear()
-            self._known[key] = geometry_of(
-                document, place.trace, stage=cursor.stage, position=cursor.position
-            )
+            self._known[key] = geometry_of(replace(place, cursor=cursor))
         return self._known[key]
 
 
 def buffers_at(place: Place) -> dict[str, GridBuffer]:
     """Return the buffers of a run by name."""
-    cursor = place.cursor
-    found = buffers_of(place.trace.stage(cursor.stage), place.trace, cursor.position)
-    return {buffer.name: buffer for buffer in found}
+    return {buffer.name: buffer for buffer in buffers_of(place)}
 
 
 def first_comparable(buffers: Sequence[dict[str, GridBuffer]]) -> str:
@@ -91,30 +85,27 @@ def side_of(
 
     With ``has_listing``, its listing comes along, with the line that has just run.
     """
-    cursor = place.cursor
-    stage = place.trace.stage(cursor.stage)
-    counted = "" if place.done is None else f"step {place.done:,} of {place.steps:,}"
+    counted = "" if place.done is None else f"step {place.done:,} of {place.step_count:,}"
     if place.waits:
         end = "all its steps are done" if place.done else "its first step comes later"
         counted = f"{name} waits: {end} ({counted})"
-    elif place.done == place.steps == 0:
+    elif place.done == place.step_count == 0:
         counted = "no steps in this stage"
     reason = "" if buffer is not None else f"{name} has no buffer “{wanted}” in this stage."
-    if buffer is not None and place.steps and place.done == place.steps and _is_empty(buffer):
+    if buffer is not None and place.step_count and place.done == place.step_count and _is_empty(buffer):
         counted += "; it gives no pixel a value"
-    explanation = stage.explain(cursor.position) if has_listing and cursor.position else None
+    explanation = place.explanation if has_listing else None
     listing = None if explanation is None else explanation.listing
-    overlays = mask_overlays(stage, place.trace.source.raster, cursor.position)
     return Side(
         name=name,
         title=f"{name}: {settings}",
         place=counted,
-        sentence=sentence_at(stage, cursor.position, cursor.level),
+        sentence=sentence_at(place),
         buffer=buffer,
         reason=reason,
-        overlays=tuple(overlay for overlay in overlays if overlay.key in SHOWN_MARKS),
+        overlays=tuple(overlay for overlay in mask_overlays(place) if overlay.key in SHOWN_MARKS),
         geometry=geometry,
-        step=step_mark(place.trace, cursor),
+        step=step_mark(place),
         listing=None if listing is None else ListingText(listing.function.__name__, listing.source),
         line=explanation.line if explanation is not None else 0,
     )

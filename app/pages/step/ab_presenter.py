@@ -13,6 +13,7 @@ from app.pages.step.ab_pictures import Outlines, Place, buffers_at, compare, fir
 from app.pages.step.ab_settings import first_difference, settings_difference
 from app.pages.step.lock_step import LockStep
 from app.pages.step.vertex_drags import VertexDrags
+from app.session.moment import Moment
 from app.session.session import Session
 from app.session.tracing import QUICK_SECONDS
 from core import Settings, Trace
@@ -61,11 +62,6 @@ class ComparePresenter(QObject):
             session, view.linked.grids, self._no_triangle, session.edit, "drag in A | B", self
         )
         self._drags.refused.connect(self.edit_refused)
-        session.document_changed.connect(self.refresh)
-        session.cursor_changed.connect(self._follow)
-        session.predicting_changed.connect(self.refresh)
-        session.pin_changed.connect(self.refresh_pointing)
-        session.hover_changed.connect(self.refresh_pointing)
         view.setting_chosen.connect(self._choose)
         view.buffer_chosen.connect(self.set_buffer)
         view.reset_requested.connect(self._reset)
@@ -106,7 +102,7 @@ class ComparePresenter(QObject):
     def set_active(self, is_active: bool) -> None:
         """Show both runs from now on, or stop computing the second one."""
         self._is_active = is_active
-        self.refresh()
+        self.refresh(self._session.moment)
         if is_active and self._b.differences:
             self._view.show_family(next(iter(self._b.differences)))
 
@@ -143,7 +139,7 @@ class ComparePresenter(QObject):
         mine = self._session.document.settings
         really = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
         self._b = BChoice(really, bool(differences) or run is not None, run, printed)
-        self.refresh()
+        self.refresh(self._session.moment)
         self.look_changed.emit()
 
     @Slot(str)
@@ -163,7 +159,7 @@ class ComparePresenter(QObject):
     @Slot()
     def _reset(self) -> None:
         self._b = BChoice(is_chosen=True)
-        self.refresh()
+        self.refresh(self._session.moment)
         self.look_changed.emit()
 
     @Slot()
@@ -194,28 +190,26 @@ class ComparePresenter(QObject):
 
     # The run of B.
 
-    @Slot()
-    def refresh(self) -> None:
+    def refresh(self, moment: Moment) -> None:
         """Trace B anew, and show both runs."""
         if not self._is_active:
             return
-        session = self._session
-        document, self._stage = session.document, session.cursor.stage
+        document, self._stage = moment.document, moment.cursor.stage
         self._job.cancel()
         self._search.cancel()
         self._steps = None
-        if session.is_predicting:
+        if moment.is_predicting:
             self._second, self._refusal = None, PREDICTING
             self._show()
             return
         if not self._b.is_chosen:
-            self._b = replace(self._b, differences=first_difference(document, session.trace, self._stage))
+            self._b = replace(self._b, differences=first_difference(document, moment.trace, self._stage))
         b, other = self._b, self._b.document(document)
         self._view.show_settings(b.shown_settings(document), frozenset(b.differences))
         if not b.is_chosen and b.differences:
             self._view.show_family(next(iter(b.differences)))
         self._view.set_pixel_center(document.settings.pixel_center)
-        earlier, stage = self._second or session.trace, self._stage
+        earlier, stage = self._second or moment.trace, self._stage
 
         def work() -> Trace:
             """Trace B up to the stage that is shown."""
@@ -276,10 +270,9 @@ class ComparePresenter(QObject):
             self._show()
         return is_alone
 
-    @Slot()
-    def _follow(self) -> None:
+    def follow_step(self, moment: Moment) -> None:
         """Take B along to where A has gone."""
-        cursor = self._session.cursor
+        cursor = moment.cursor
         if not self._is_active:
             return
         if cursor.stage == self._stage:
@@ -287,7 +280,7 @@ class ComparePresenter(QObject):
                 self._steps.follow(cursor.position, cursor.level)
             self._show()
         elif self._second is None or not self._b.is_chosen:
-            self.refresh()
+            self.refresh(moment)
         else:
             self._stage = cursor.stage
             self._take(self._second)
@@ -361,17 +354,19 @@ class ComparePresenter(QObject):
         """Show both runs where they are, and their difference."""
         if not self._is_active:
             return
-        session, cursor = self._session, self._session.cursor
-        if session.is_predicting:
+        moment, cursor = self._session.moment, self._session.cursor
+        if moment.is_predicting:
             blanks = Side("A", "A", reason=PREDICTING), Side("B", "B", reason=PREDICTING)
             self._view.show_comparison(Comparison(*blanks, None, PREDICTING))
             return
         steps, second = self._steps, self._second
-        mine, theirs = Place(session.trace, cursor), None
+        mine, theirs = Place(moment.trace, cursor), None
         if steps is not None and second is not None:
-            mine = replace(mine, done=steps.done(0), steps=steps.steps(0), waits=steps.waits(0))
             theirs = Place(second, replace(cursor, position=steps.second_position))
-            theirs = replace(theirs, done=steps.done(1), steps=steps.steps(1), waits=steps.waits(1))
+            mine, theirs = (
+                replace(place, done=steps.done(k), step_count=steps.steps(k), waits=steps.waits(k))
+                for k, place in enumerate((mine, theirs))
+            )
         buffers = [buffers_at(place) for place in (mine, theirs) if place is not None]
         names = {name: buffer.label for each in reversed(buffers) for name, buffer in each.items()}
         chosen = self._buffer if self._buffer in names else first_comparable(buffers)
@@ -379,23 +374,22 @@ class ComparePresenter(QObject):
 
         def side(name: str, title: str, place: Place) -> Side:
             buffer = buffers[name == "B"].get(chosen)
-            geometry = self._outlines.of(session.document, place)
+            geometry = self._outlines.of(place)
             return side_of(name, title, place, geometry, buffer, names[chosen], bool(self.printed))
 
-        first, title = side("A", "current settings", mine), self._b.title(session.document)
+        first, title = side("A", "current settings", mine), self._b.title(moment.document)
         if theirs is None:
             blank = Side("B", f"B: {title}", reason=self._refusal)
             comparison = Comparison(first, blank, None, self._refusal)
         else:
             comparison = compare(first, side("B", title, theirs))
         self._view.show_comparison(comparison)
-        self.refresh_pointing()
+        self.refresh_pointing(moment)
 
-    @Slot()
-    def refresh_pointing(self) -> None:
+    def refresh_pointing(self, moment: Moment) -> None:
         """Mark pin and hover."""
         if self._is_active:
-            self._view.show_pointing(*self._session.pointed_places)
+            self._view.show_pointing(*moment.pointed_places)
 
     @staticmethod
     def _no_triangle() -> int | None:

@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from app.session.moment import Step
 from core.geometry.line_clipping.records import polygon_window, rectangle_window
-from core.raster.pixel_runs import Raster
 from core.records.arrays import Floats
 from core.records.clip_region import region_in_window
 from core.stages.clipped_outlines import OutlineClip
-from core.trace import StageTrace, TraceSource
+from core.trace import StageTrace
 from widgets.grid.overlay import Overlay, SegmentOverlay
 
 TICK = 0.3
@@ -15,12 +15,12 @@ TICK = 0.3
 KEPT_KINDS = ("clip-kept", "outcodes-accept")
 
 
-def clip_overlays(stage: StageTrace, source: TraceSource, position: int) -> list[Overlay]:
-    """Return what is known of line clipping at a position, and the clip window of the scene if no lines are clipped."""
+def clip_overlays(step: Step) -> list[Overlay]:
+    """Return what is known of line clipping after a step, and the clip window of the scene if no lines are clipped."""
+    stage, source = step.stage_trace, step.trace.source
     clip: OutlineClip | None = stage.extra.get("outline_clip")
     vertices = source.geometry.vertices
-    first_column, first_row, _, _ = source.raster.bounds
-    origin = np.array([first_column, first_row], float)
+    origin = np.array(step.origin, float)
     if clip is not None:
         corners = clip.lines.window.corners
     elif vertices.clip_region is not None and vertices.rings is None and stage.stage == "raster":
@@ -34,7 +34,7 @@ def clip_overlays(stage: StageTrace, source: TraceSource, position: int) -> list
     )
     if clip is None:
         return [regions]
-    done = stage.steps.rows_done(position)
+    done = step.rows_done
     columns = stage.columns
     kinds = np.array([kind in KEPT_KINDS for kind in stage.steps.kinds])
     kept = np.flatnonzero(kinds[stage.steps.kind[:done]])
@@ -65,14 +65,13 @@ def cross_segments(points: Floats) -> Floats:
     return np.asarray(points[:, None, None] + arms).reshape(-1, 2, 2)
 
 
-def area_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Overlay]:
-    """Return the polygon of the step at a position, and the edge that cuts it; nothing where nothing is cut."""
-    row, operation = stage.steps.row_at(position)
+def area_overlays(step: Step) -> list[Overlay]:
+    """Return the polygon of a step, and the edge that cuts it; nothing where nothing is cut."""
+    stage, (row, operation) = step.stage_trace, step.row_and_operation
     if row < 0 or stage.kind_of(row) not in ("cut", "piece") or "polygon" not in stage.columns:
         return []
-    columns, (column, line) = stage.columns, stage.pixel[row]
-    first_column, first_row, _, _ = raster.bounds
-    center = np.array([column - first_column, line - first_row]) + raster.center
+    columns = stage.columns
+    center = stage.pixel[row] - np.array(step.origin) + step.trace.source.raster.center
     found: list[Overlay] = []
     is_cut = stage.kind_of(row) == "cut"
     if is_cut:

@@ -7,6 +7,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.session.document import TeachingRaster
+from app.session.moment import Moment
 from app.session.session import Session
 from core.assembly.depth_tables import table_scene
 from core.records.depth_table import DepthTable, depth_of_text, depths_of_text
@@ -26,7 +27,6 @@ class DepthTablePresenter(QObject):
         super().__init__(parent)
         self._session, self._editor = session, editor
         self._shown: DepthTable | None = None
-        session.document_changed.connect(self.refresh)
         editor.cell_edited.connect(self._set_cell)
         editor.patch_pasted.connect(self._paste)
         editor.patch_moved.connect(self._move)
@@ -34,10 +34,9 @@ class DepthTablePresenter(QObject):
         editor.patch_removed.connect(self._remove)
         editor.test_chosen.connect(self._choose_test)
         editor.size_chosen.connect(self._resize)
-        self.refresh()
+        self.refresh(session.moment)
 
-    @Slot()
-    def refresh(self) -> None:
+    def refresh(self, moment: Moment) -> None:
         """Show the table, or nothing where the scene is another one."""
         table = self._table()
         self._editor.setVisible(table is not None)

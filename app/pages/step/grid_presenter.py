@@ -7,19 +7,20 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.files.state_models import GridLook
 from app.pages.step.cut_overlays import area_overlays, clip_overlays
 from app.pages.step.grid_records import (
-    block_overlay,
+    block_overlays,
     buffers_of,
-    edge_overlay,
+    edge_overlays,
     geometry_of,
     mask_overlays,
     sample_dots,
-    span_overlay,
+    span_overlays,
 )
 from app.pages.step.guesses import Guesses
 from app.pages.step.main_area import MainArea
 from app.pages.step.polygon_overlays import polygon_overlays
 from app.pages.step.step_mark import step_mark
 from app.pages.step.vertex_drags import VertexDrags
+from app.session.moment import Moment
 from app.session.session import Session
 from core import STAGES
 from widgets.grid.buffer import GridBuffer
@@ -63,11 +64,6 @@ class GridPresenter(QObject):
         self._shown_overlays = dict(DEFAULT_OVERLAYS)
         self._drags = VertexDrags(session, (grid,), self._stepped_triangle, session.drag, "drag", self)
         self._drags.refused.connect(self.edit_refused)
-        session.document_changed.connect(self.refresh_run)
-        session.cursor_changed.connect(self.refresh_step)
-        session.pin_changed.connect(self.refresh_pointing)
-        session.hover_changed.connect(self.refresh_pointing)
-        session.predicting_changed.connect(self.refresh_step)
         for widget in (grid, strip):
             widget.pixel_hovered.connect(session.hover_place)
             widget.pixel_left.connect(session.end_hover)
@@ -75,7 +71,7 @@ class GridPresenter(QObject):
         grid.view_changed.connect(strip.set_view)
         strip.view_changed.connect(grid.set_view)
         strip.buffer_chosen.connect(self._choose_buffer)
-        strip.strip_shown.connect(self.refresh_step)
+        strip.strip_shown.connect(self._show_again)
         area.buffer_choice.buffer_chosen.connect(self._choose_buffer)
         legend.overlays_changed.connect(self._choose_overlays)
         area.ranges.range_changed.connect(self._choose_range)
@@ -83,40 +79,40 @@ class GridPresenter(QObject):
         area.ranges.fitting_changed.connect(self._keep_fitting)
         self._guesses: Guesses | None = None
         self._focus = 0
+        self._moment = session.moment
         self._stepped_to = session.cursor
         self._outlined_at = ("", 0)
-        self._geometry = geometry_of(session.document, session.trace, 0)
-        self.refresh_run()
+        self._geometry = geometry_of(session.moment, 0)
+        self.refresh_run(session.moment)
 
     # Showing.
 
-    @Slot()
-    def refresh_run(self) -> None:
+    def refresh_run(self, moment: Moment) -> None:
         """Show another run: outlines, rulers, buffers."""
-        session = self._session
-        self._guesses = None
-        self._grid.set_pixel_center(session.document.settings.pixel_center)
-        if self._focus < session.document.triangle_count:
+        self._moment, self._guesses = moment, None
+        self._grid.set_pixel_center(moment.document.settings.pixel_center)
+        if self._focus < moment.document.triangle_count:
             # Only a step moves the handles to its triangle: an edit leaves them where the pointer has them.
-            self._stepped_to = session.cursor
+            self._stepped_to = moment.cursor
         self._show_outlines()
-        self.refresh_step()
-        self.refresh_pointing()
+        self.refresh_step(moment)
+        self.refresh_pointing(moment)
 
     @Slot()
-    def refresh_step(self) -> None:
+    def _show_again(self) -> None:
+        """Show the same step otherwise."""
+        self.refresh_step(self._moment)
+
+    def refresh_step(self, moment: Moment) -> None:
         """Show the state after the step just done."""
-        session = self._session
-        row, _ = session.stage_trace.steps.row_at(session.cursor.position)
-        if session.cursor != self._stepped_to:
+        self._moment, stage = moment, moment.cursor.stage
+        if moment.cursor != self._stepped_to:
             self._guesses = None
-            if row >= 0:
-                self._focus_on(int(session.stage_trace.triangle[row]))
-        self._stepped_to = session.cursor
-        stage = session.cursor.stage
+            self._focus_on(moment.triangle)
+        self._stepped_to = moment.cursor
         if self._outlined_at != self._geometry_step():
             self._show_outlines()
-        buffers = buffers_of(session.stage_trace, session.trace, session.cursor.position)
+        buffers = buffers_of(moment)
         names = [buffer.name for buffer in buffers]
         guesses = self._guesses
         chosen = self._chosen.get(stage, names[0]) if guesses is None else "coverage"
@@ -126,15 +122,14 @@ class GridPresenter(QObject):
             self._strip.show_buffers([self._ranged(buffer) for buffer in buffers])
             self._strip.show_chosen(main.name)
         self._grid.show_hidden(None if guesses is None else guesses.hidden)
-        stage_trace, at = session.stage_trace, session.cursor.position
-        self._grid.show_samples(sample_dots(session.trace, stage_trace, at, session.is_predicting))
+        self._grid.show_samples(sample_dots(moment))
         overlays = self._overlays() if guesses is None else guesses.overlays()
         shown = self._shown_overlays.get(stage, frozenset({"nan"}))
         if guesses is not None:
             shown = frozenset(overlay.key for overlay in overlays)
         self._legend.show_overlays(overlays, shown)
         self._grid.show_overlays([overlay for overlay in overlays if overlay.key in shown])
-        mark = step_mark(session.trace, session.cursor)
+        mark = step_mark(moment)
         self._grid.show_step(mark)
         self._strip.show_step(mark)
 
@@ -165,12 +160,12 @@ class GridPresenter(QObject):
         view = GridView(*look.middle, look.zoom)
         self._grid.set_view(view)
         self._strip.set_view(view)
-        self.refresh_step()
+        self._show_again()
 
     def show_guesses(self, guesses: Guesses | None) -> None:
         """Show pixels that are held for covered, and cover up the others; ``None``: show the state of the step."""
         self._guesses = guesses
-        self.refresh_step()
+        self._show_again()
 
     def _stepped_triangle(self) -> int:
         return self._focus
@@ -179,7 +174,7 @@ class GridPresenter(QObject):
         """Give a triangle coloured edges and handles, where the document has none in focus."""
         if triangle >= 0 and triangle != self._focus:
             self._focus = triangle
-            if self._session.document.triangle is None:
+            if self._moment.document.triangle is None:
                 self._show_outlines()
 
     @property
@@ -189,50 +184,37 @@ class GridPresenter(QObject):
 
     def _geometry_step(self) -> tuple[str, int]:
         """Return the step that outlines depend on: none behind the stages that move corners and drop triangles."""
-        cursor = self._session.cursor
-        if cursor.stage not in OUTLINING:
-            return STAGES[-1], 0
-        return cursor.stage, self._session.stage_trace.steps.rows_done(cursor.position)
+        stage = self._moment.cursor.stage
+        return (stage, self._moment.rows_done) if stage in OUTLINING else (STAGES[-1], 0)
 
     def _show_outlines(self) -> None:
-        session, self._outlined_at = self._session, self._geometry_step()
-        step = session.cursor.stage, session.cursor.position
-        geometry = geometry_of(session.document, session.trace, self._focus, *step)
-        self._geometry = geometry
+        self._outlined_at = self._geometry_step()
+        self._geometry = geometry = geometry_of(self._moment, self._focus)
         self._grid.show_geometry(geometry)
         self._strip.show_geometry(geometry)
 
-    @Slot()
-    def refresh_pointing(self) -> None:
+    def refresh_pointing(self, moment: Moment) -> None:
         """Show pin and hover in all grids."""
-        pin, hover = self._session.pointed_places
+        pin, hover = moment.pointed_places
         for widget in (self._grid, self._strip):
             widget.show_pin(pin)
             widget.show_hover(hover)
 
     def _overlays(self) -> list[Overlay]:
-        session = self._session
-        trace, position = session.stage_trace, session.cursor.position
-        found: list[Overlay] = []
-        blocks = block_overlay(trace, session.trace, position)
-        # An accepted block tells which pixels are covered.
-        if blocks is not None and not (session.is_predicting and trace.stage == "raster"):
-            found.append(blocks)
-        found += mask_overlays(trace, session.trace.source.raster, position)
-        spans = span_overlay(trace, session.trace.source.raster, position)
-        if spans is not None:
-            found.append(spans)
-        found += area_overlays(trace, session.trace.source.raster, position)
-        found += clip_overlays(trace, session.trace.source, position)
-        found += polygon_overlays(trace, session.trace.source, position)
-        lines = edge_overlay(self._geometry, trace, position)
-        if lines is not None:
-            found.append(lines)
-        return found
+        moment = self._moment
+        return [
+            *block_overlays(moment),
+            *mask_overlays(moment),
+            *span_overlays(moment),
+            *area_overlays(moment),
+            *clip_overlays(moment),
+            *polygon_overlays(moment),
+            *edge_overlays(moment, self._geometry),
+        ]
 
     def _ranged(self, buffer: GridBuffer) -> GridBuffer:
         # The range of a whole run tells values that are still to be predicted.
-        is_fitted = self._ranges.keeps_fitting() or self._session.is_predicting
+        is_fitted = self._ranges.keeps_fitting() or self._moment.is_predicting
         if is_fitted and buffer.name not in self._own_ranges:
             return replace(buffer, range=None)
         chosen = self._own_ranges.get(buffer.name)
@@ -279,5 +261,5 @@ class GridPresenter(QObject):
         self._show_choice()
 
     def _show_choice(self) -> None:
-        self.refresh_step()
+        self._show_again()
         self.look_changed.emit()

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.session.document import Document
+from app.session.moment import Step
 from core import STAGES, Trace
 from core.explain.stage_texts import depth_text
 from core.framebuffer.display import to_display
 from core.raster.edges.snapping import SUBPIXELS
 from core.raster.number_formats.number_format import number_format
-from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT, Raster
+from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT
 from core.records.arrays import Integers
 from core.records.primitives import own_corners
 from core.resolved import resolve
@@ -52,10 +52,9 @@ STATES = {
 }
 
 
-def buffers_of(stage: StageTrace, trace: Trace, position: int) -> list[GridBuffer]:
-    """Return the buffers of a stage at a position: what is known by then, and nothing that comes later."""
-    done = stage.steps.rows_done(position)
-    source = trace.source
+def buffers_of(step: Step) -> list[GridBuffer]:
+    """Return the buffers of a stage after a step: what is known by then, and nothing that comes later."""
+    stage, done, source = step.stage_trace, step.rows_done, step.trace.source
     if stage.stage == "edges" and resolve(source.settings).sampling.count == 1 and known_edges(done)[1]:
         return half_planes(source, done)
     if not stage.buffers:
@@ -112,31 +111,24 @@ def grid_buffer(track: BufferTrack, rows_done: int, origin: tuple[int, int]) -> 
     )
 
 
-def geometry_of(
-    document: Document, trace: Trace, focus: int | None = None, stage: str = STAGES[-1], position: int = 0
-) -> GridGeometry:
+def geometry_of(step: Step, focus: int | None = None) -> GridGeometry:
     """Return the outlines of the traced triangles, in the columns and rows of the grid.
 
-    Parameters
-    ----------
-    focus : int, optional
-        The triangle with coloured edges and handles, where the document has none in focus.
-    stage, position : str, int
-        The step: corners that have not reached the window by then have no place, nor have triangles that are dropped.
+    Corners that have not reached the window by the step have no place, nor have triangles that are dropped.
+    ``focus``: the triangle with coloured edges and handles, where none is in focus.
     """
-    source = trace.source
-    geometry = source.geometry
-    wanted = document.triangle if document.triangle is not None else focus
+    trace, source = step.trace, step.trace.source
+    at, geometry = (step.cursor.stage, step.cursor.position), source.geometry
+    wanted = source.triangle if source.triangle is not None else focus
     triangles = outlined_triangles(trace, wanted)
     corner_count = source.scene.corner_count
     vertices = geometry.vertices
     corners = vertices.all_corners[triangles].ravel()
-    first_column, first_row, _, _ = source.raster.bounds
-    origin = np.array([first_column, first_row], float)
+    origin = np.array(step.origin, float)
     chosen = np.isin(geometry.assembled.triangle, triangles)
-    is_placed = spaces_reached(trace, stage, position)[chosen] == WINDOW
+    is_placed = spaces_reached(trace, *at)[chosen] == WINDOW
     # The triangle in focus keeps its handles: a drag may bring it back.
-    is_left = ~is_dropped(trace, stage, position)[chosen] | (triangles == wanted)
+    is_left = ~is_dropped(trace, *at)[chosen] | (triangles == wanted)
     is_placed &= is_left[:, None]
     clip = geometry.vertices.clip[corners]
     in_front = (clip[:, 3:] > 0) & is_placed.reshape(-1, 1)
@@ -150,7 +142,7 @@ def geometry_of(
         behind[~is_behind] = np.nan
     with np.errstate(invalid="ignore"):
         snapped = np.rint(window * SUBPIXELS) / SUBPIXELS
-    snaps = number_format(document.settings.coverage).corner_kind == "snapped"
+    snaps = number_format(source.settings.coverage).corner_kind == "snapped"
     place = np.flatnonzero(triangles == wanted)
     return GridGeometry(
         vertices=window - origin,
@@ -174,27 +166,30 @@ def outlined_triangles(trace: Trace, focus: int | None) -> Integers:
     return triangles if len(triangles) <= OUTLINE_LIMIT else triangles[triangles == focus][:1]
 
 
-def edge_overlay(geometry: GridGeometry, stage: StageTrace, position: int) -> SegmentOverlay | None:
+def edge_overlays(step: Step, geometry: GridGeometry) -> list[Overlay]:
     """Return the edges of the triangle in focus that are set up by now as whole lines."""
-    count = 0 if STAGES.index(stage.stage) < STAGES.index("edges") else 3
-    if stage.stage == "edges":
-        count = known_edges(stage.steps.rows_done(position))[1]
+    stage = step.cursor.stage
+    count = 0 if STAGES.index(stage) < STAGES.index("edges") else 3
+    if stage == "edges":
+        count = known_edges(step.rows_done)[1]
     if len(geometry.focus_vertices) != 3 or not count:
-        return None
+        return []
     a, b, c = geometry.triangles[geometry.focus].tolist()
     segments = geometry.edges(np.array([[b, c], [c, a], [a, b]]))[:count]
-    return SegmentOverlay("edge lines", segments, (0, 1, 2)[:count], extended=True, title="edge lines")
+    return [SegmentOverlay("edge lines", segments, (0, 1, 2)[:count], extended=True, title="edge lines")]
 
 
-def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverlay | None:
+def block_overlays(step: Step) -> list[Overlay]:
     """Return the boxes and blocks that binning has tested so far (all of them in later stages)."""
-    if stage.stage not in ("bin", "raster"):
-        return None
+    stage, trace = step.stage_trace, step.trace
+    if stage.stage != "bin" and (stage.stage != "raster" or step.is_predicting):
+        # An accepted block tells which pixels are covered.
+        return []
     bins = trace.stage("bin")
     if "sample" in bins.columns or "column" not in bins.columns:
         # Every sample has blocks of its own: over each other they would show nothing. Typed depths have none.
-        return None
-    done = bins.steps.rows_done(position) if stage.stage == "bin" else bins.steps.row_count
+        return []
+    done = step.rows_done if stage.stage == "bin" else bins.steps.row_count
     first_column, first_row, end_column, end_row = trace.source.raster.bounds
     columns = bins.columns
     left, bottom = np.maximum(columns["column"], first_column), np.maximum(columns["row"], first_row)
@@ -209,20 +204,22 @@ def block_overlay(stage: StageTrace, trace: Trace, position: int) -> BlockOverla
     if stage.stage == "raster":
         keep &= columns["node"][:done] >= 0
     if not keep.any():
-        return None
+        return []
     chosen = np.flatnonzero(keep)
-    return BlockOverlay(
-        "blocks",
-        boxes[chosen],
-        tuple(states[k] for k in chosen),
-        edges=tuple(int(k) for k in columns["rejected_by"][chosen]),
-        title="blocks",
-    )
+    return [
+        BlockOverlay(
+            "blocks",
+            boxes[chosen],
+            tuple(states[k] for k in chosen),
+            edges=tuple(int(k) for k in columns["rejected_by"][chosen]),
+            title="blocks",
+        )
+    ]
 
 
-def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Overlay]:
+def mask_overlays(step: Step) -> list[Overlay]:
     """Return the marks of the rows done so far, one mask for each kind."""
-    done = stage.steps.rows_done(position)
+    stage, raster, done = step.stage_trace, step.trace.source.raster, step.rows_done
     pixel = stage.pixel[:done]
     of_pixel = pixel[:, 0] >= 0
     if not len(stage.pixel) or (stage.pixel[:, 0] < 0).all():
@@ -256,16 +253,16 @@ def mask_overlays(stage: StageTrace, raster: Raster, position: int) -> list[Over
     return overlays
 
 
-def span_overlay(stage: StageTrace, raster: Raster, position: int) -> SpanOverlay | None:
+def span_overlays(step: Step) -> list[Overlay]:
     """Return the spans of a scanline fill that are known so far."""
+    stage, done = step.stage_trace, step.rows_done
     if stage.stage != "raster" or "sample" in stage.columns:
-        return None
-    done = stage.steps.rows_done(position)
+        return []
     kinds = np.array([kind in ("span", "lane-row", "line") for kind in stage.steps.kinds])
     rows = np.flatnonzero(kinds[stage.steps.kind[:done]])
     if not len(rows):
-        return None
-    first_column, first_row, _, _ = raster.bounds
+        return []
+    first_column, first_row = step.origin
     spans = np.stack(
         [
             stage.columns["row"][rows] - first_row,
@@ -274,7 +271,7 @@ def span_overlay(stage: StageTrace, raster: Raster, position: int) -> SpanOverla
         ],
         axis=1,
     )
-    return SpanOverlay("spans", spans)
+    return [SpanOverlay("spans", spans)]
 
 
 COVERED = ("interpolate", "shade")
@@ -283,19 +280,13 @@ SEEN = ("blend", "resolve")
 """Stages behind the depth test."""
 
 
-def sample_dots(trace: Trace, stage: StageTrace, position: int, is_hidden: bool) -> SampleDots | None:
-    """Return the samples after a step; ``None``: a pixel has one.
-
-    Parameters
-    ----------
-    is_hidden : bool
-        Whether the result is to be predicted: then no sample tells it.
-    """
-    source = trace.source
+def sample_dots(step: Step) -> SampleDots | None:
+    """Return the samples after a step; ``None``: a pixel has one. What is to be predicted, no sample tells."""
+    trace, stage, source = step.trace, step.stage_trace, step.trace.source
     count = resolve(source.settings).sampling.count
     if count == 1:
         return None
-    done = stage.steps.rows_done(position)
+    done = step.rows_done
     shown: Integers = np.full((count, *source.raster.shape), -1)
     if stage.stage == "raster":
         _mark_covered(shown, trace, stage, done)
@@ -306,7 +297,7 @@ def sample_dots(trace: Trace, stage: StageTrace, position: int, is_hidden: bool)
         tracks = {track.name: track for track in stage.buffers}
         for sample in range(count):
             shown[sample] = tracks[f"primitive {sample}" if sample else "primitive"].at(done)
-    elif stage.stage in SEEN and not is_hidden:
+    elif stage.stage in SEEN and not step.is_predicting:
         samples = source.picture.samples
         assert samples is not None
         shown[:] = samples.primitive

@@ -4,7 +4,7 @@ from PySide6.QtCore import Qt, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QTabWidget, QWidget
 
-from app.session.session import Session
+from app.session.moment import Moment
 from widgets.basics.controls import column_layout
 from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.theme import current_theme, theme_notifier
@@ -29,9 +29,8 @@ class InspectorColumn(QScrollArea):
     What it says changes its own parts only: the column keeps its width, and so the picture its place.
     """
 
-    def __init__(self, session: Session, parent: QWidget) -> None:
+    def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
-        self._session = session
         self._listing_lines = LISTING_LINES
         self.card, self.formula, self.listing = StageCardView(self), FormulaView(self), ListingView(self)
         self.variables, self.history = VariablesView(self), PixelHistory(self)
@@ -69,7 +68,6 @@ class InspectorColumn(QScrollArea):
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-        session.pin_changed.connect(self._show_history)
         self.listing.room_changed.connect(self.fit)
         theme_notifier().theme_changed.connect(self.fit)
         self.fit()
@@ -109,10 +107,9 @@ class InspectorColumn(QScrollArea):
         if self.listing.height() > max(code, seen):
             self.rows.setSizes([code, max(self.rows.height() - code - self.rows.handleWidth(), details)])
 
-    @Slot()
-    def _show_history(self) -> None:
+    def show_history(self, moment: Moment) -> None:
         """Bring the history of a pixel forward when one is pinned."""
-        if self._session.pin is not None and not self._session.is_predicting:
+        if moment.pin is not None and not moment.is_predicting:
             self.detail_tabs.setCurrentWidget(self.history)
 
     def show_prediction(self, is_shown: bool) -> None:

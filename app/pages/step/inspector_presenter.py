@@ -9,6 +9,7 @@ from app.pages.step.number_origins import variable_of, writer_of
 from app.pages.step.pixel_stories import story_of
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.pages.step.steps_ahead import StepsAhead, sentence_at
+from app.session.moment import Moment
 from app.session.session import Session
 from core import STAGES
 from core.explain import formula, stage_card, variables
@@ -44,46 +45,38 @@ class InspectorPresenter(QObject):
         self._told: tuple[object, ...] = ()
         """What the history shows: it is made anew only if this changes."""
         self._folded = set(STAGES)
-        self.ahead = StepsAhead(session, column.formula, self)
-        session.document_changed.connect(self.refresh_run)
-        session.cursor_changed.connect(self.refresh_step)
-        session.pin_changed.connect(self.refresh_history)
-        session.hover_changed.connect(self.refresh_history)
-        session.predicting_changed.connect(self.refresh_run)
+        self.ahead = StepsAhead(session.moment, column.formula, self)
         column.variables.origin_requested.connect(self._go_to_variable)
         column.formula.number_pointed.connect(self._tell_origin)
         column.formula.number_clicked.connect(self._go_to_number)
         column.listing.line_clicked.connect(self._run_to_line)
         column.listing.breakpoint_toggled.connect(self._toggle_breakpoint)
         column.history.row_activated.connect(self._go_to_event)
-        column.history.history_shown.connect(self.refresh_history)
+        column.history.history_shown.connect(self._show_history)
         column.card.card_folded.connect(self._fold)
-        self.refresh_run()
+        self.refresh_run(session.moment)
 
-    @Slot()
-    def refresh_run(self) -> None:
+    def refresh_run(self, moment: Moment) -> None:
         """Show another trace."""
         self._stage = ""
-        self.refresh_step()
-        self.refresh_history()
+        self.refresh_step(moment)
+        self.refresh_history(moment)
 
-    @Slot()
-    def refresh_step(self) -> None:
+    def refresh_step(self, moment: Moment) -> None:
         """Show the step just done."""
-        session = self._session
-        trace, cursor = session.stage_trace, session.cursor
+        trace, cursor = moment.stage_trace, moment.cursor
         if cursor.stage != self._stage:
             self._stage = cursor.stage
             self._card.show_card(stage_card(cursor.stage, trace.method, trace.corner_count))
             self._card.show_folded(cursor.stage in self._folded)
             self._listing.keep_room_for(listing.source for listing in trace.listings.values())
-        self._sentence.setText(self.sentence())
-        explanation = trace.explain(cursor.position)
+        self._sentence.setText(sentence_at(moment))
+        explanation = moment.explanation
         if explanation is None:
             self._formula.show_hint("The formula of each step appears here.")
             self._formula.show_formula(None)
             self._variables.show_variables([])
-            first = None if session.is_predicting else trace.explain(1)
+            first = None if moment.is_predicting else trace.explain(1)
             self._listing.show_hint(HINT if first is None else NO_LISTING)
             self._show_listing(first.listing if first else None)
             self._listing.show_line(None)
@@ -95,11 +88,6 @@ class InspectorPresenter(QObject):
         self._show_listing(explanation.listing)
         self._listing.show_line(explanation.line or None)
 
-    def sentence(self) -> str:
-        """Return the sentence of the step just done; a step larger than a row is summed up."""
-        cursor = self._session.cursor
-        return sentence_at(self._session.stage_trace, cursor.position, cursor.level)
-
     def _show_listing(self, listing: Listing | None) -> None:
         function = listing.function.__name__ if listing else ""
         if function == self._function:
@@ -110,23 +98,25 @@ class InspectorPresenter(QObject):
         self._listing.show_breakpoints(lines)
 
     @Slot()
-    def refresh_history(self) -> None:
+    def _show_history(self) -> None:
+        self.refresh_history(self._session.moment)
+
+    def refresh_history(self, moment: Moment) -> None:
         """Show the history of the pinned pixel, or of the one under the pointer, if the pane is in sight."""
         if not self._history.isVisible():
             return
-        session = self._session
-        pixel = session.pin or session.hover
-        if pixel is not None and (session.is_predicting or not session.has_pixel(pixel)):
+        pixel = moment.pin or moment.hover
+        if pixel is not None and (moment.is_predicting or not moment.has_pixel(pixel)):
             pixel = None
-        told = (pixel, session.trace if pixel else None, session.is_predicting)
+        told = (pixel, moment.trace if pixel else None, moment.is_predicting)
         if told == self._told:
             return
         self._told = told
         if pixel is None:
-            self._history.show_story(None, HIDDEN_HISTORY if session.is_predicting else NO_HISTORY)
+            self._history.show_story(None, HIDDEN_HISTORY if moment.is_predicting else NO_HISTORY)
             self._triangles = []
             return
-        story, self._triangles = story_of(session.trace.source, *pixel, session.document.triangle)
+        story, self._triangles = story_of(moment.trace.source, *pixel, moment.document.triangle)
         self._history.show_story(story)
 
     def folded(self) -> list[str]:
@@ -208,7 +198,7 @@ class InspectorPresenter(QObject):
         if session.pin is None:
             self._stepping.tell("Pin a pixel first: click it.")
             return
-        made = writer_of(session, buffer, session.pin)
+        made = writer_of(session.moment, buffer, session.pin)
         at = f"pixel ({session.pin[0]}, {session.pin[1]})"
         if made is None:
             self._stepping.tell(f"No step of this stage has written {label} at {at} yet.")

@@ -6,6 +6,7 @@ from PySide6.QtCore import QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QSizePolicy, QStackedWidget, QTabBar, QToolButton, QWidget
 
+from app.session.moment import Moment
 from app.session.session import Session
 from app.views.companions import COMPANIONS, Companion, NewDepths
 from app.views.stage_views import StageViews
@@ -43,7 +44,7 @@ class MainArea(QWidget):
 
     def __init__(self, session: Session, views: StageViews, parent: QWidget) -> None:
         super().__init__(parent)
-        self._session, self._views = session, views
+        self._views = views
         self.grid, self.strip = PixelGrid(self), BufferStrip(self)
         self.compare_view = CompareView(self)
         self.ranges, self.buffer_choice = RangeControl(self), BufferChoice(self)
@@ -59,7 +60,7 @@ class MainArea(QWidget):
             self._add_view(name, title, widget)
         self._add_view("compare", "A | B", self.compare_view)
         self.views_by_hand: dict[str, str] = {}
-        self._viewed_stage = session.cursor.stage
+        self._moment, self._viewed_stage = session.moment, session.cursor.stage
         self.companions = {stage: make(session) for stage, make in COMPANIONS.items()}
         """What stands beside a stage's own view, by stage."""
         self.beside = QStackedWidget(self)
@@ -71,10 +72,7 @@ class MainArea(QWidget):
         self._lay_out()
         self.view_bar.currentChanged.connect(self._show_view)
         self.view_bar.tabBarClicked.connect(self._choose_view)
-        session.cursor_changed.connect(self._follow_stage)
-        for change in (session.cursor_changed, session.document_changed, session.predicting_changed):
-            change.connect(self.refresh_beside)
-        theme_notifier().theme_changed.connect(self.refresh_beside)
+        theme_notifier().theme_changed.connect(self._show_beside)
         theme_notifier().theme_changed.connect(self._arrange_row)
         new_depths = self.companions["depth"]
         assert isinstance(new_depths, NewDepths)
@@ -145,7 +143,7 @@ class MainArea(QWidget):
         super().resizeEvent(event)
         self._arrange_row()
         self._place_ranges()
-        self.refresh_beside()
+        self._show_beside()
 
     @Slot()
     def _arrange_row(self) -> None:
@@ -187,30 +185,34 @@ class MainArea(QWidget):
 
     def _has_two_sides(self) -> bool:
         """Return whether the stage is shown in its own view, with another side, in an area wide enough for both."""
-        stage = self._session.cursor.stage
+        stage = self._moment.cursor.stage
         companion = self.companions.get(stage)
         is_own = self.current_view() == self._own_view(stage)
-        if companion is None or not is_own or not companion.is_wanted():
+        if companion is None or not is_own or not companion.is_wanted(self._moment):
             return False
         room = max(self.width(), self.height()) if self._are_stacked(companion) else self.width()
         return room >= LEAST_ROOM_OF_BOTH * current_theme().text_px
 
     def _are_stacked(self, companion: Companion) -> bool:
         """Return whether both sides are larger one above the other, or can only be read so."""
-        if companion.wanted_width() > self.rows.width() / 2:
+        if companion.wanted_width(self._moment) > self.rows.width() / 2:
             return True
-        raster = self._session.document.raster
+        raster = self._moment.document.raster
         width, height = self.rows.width() / raster.columns, self.rows.height() / raster.rows
         return companion.is_alike and min(width, height / 2) > STACKED_GAIN * min(width / 2, height)
 
-    @Slot()
-    def refresh_beside(self) -> None:
+    def refresh_beside(self, moment: Moment) -> None:
         """Show the other side of a stage beside its own view: the space entered, the texture, the new depths."""
+        self._moment = moment
+        self._show_beside()
+
+    @Slot()
+    def _show_beside(self) -> None:
         if not self._has_two_sides():
             self.beside.hide()
             self._main_title.hide()
             return
-        companion = self.companions[self._session.cursor.stage]
+        companion = self.companions[self._moment.cursor.stage]
         is_stacked = self._are_stacked(companion)
         self._sides.setDirection(
             QBoxLayout.Direction.TopToBottom if is_stacked else QBoxLayout.Direction.LeftToRight
@@ -219,11 +221,11 @@ class MainArea(QWidget):
             # A table below the picture scrolls: the picture is what the step is about.
             self._sides.setStretch(side, share)
         self._main_title.setVisible(companion.is_alike)
-        if self._session.is_predicting:
+        if self._moment.is_predicting:
             # It keeps its place, so that the main view keeps its own.
             self.beside.setCurrentWidget(self._veil)
         else:
-            companion.refresh()
+            companion.refresh(self._moment)
             self.beside.setCurrentWidget(companion.widget)
         self.beside.show()
 
@@ -254,12 +256,12 @@ class MainArea(QWidget):
 
     def show_own_view(self) -> None:
         """Show the stage at hand in the view that was chosen for it, or else in its own."""
-        stage = self._session.cursor.stage
+        stage = self._moment.cursor.stage
         self.show_view(self.views_by_hand.get(stage, self._own_view(stage)))
 
     def _own_view(self, stage: str) -> str:
         """Return the view that shows the work of a stage: polygons are clipped in the window, among pixels."""
-        if stage == "clip" and self._session.document.scene.corner_count > 3:
+        if stage == "clip" and self._moment.document.scene.corner_count > 3:
             return "pixels"
         return stage_of(stage).view
 
@@ -276,21 +278,20 @@ class MainArea(QWidget):
         if name in {view[0] for view in self._views.widgets}:
             self._views.show(name)
         announce(self.view_bar, f"View: {self.view_bar.tabText(index)}")
-        self.refresh_beside()
+        self._show_beside()
         self.view_changed.emit(name)
 
     @Slot(int)
     def _choose_view(self, index: int) -> None:
         """Show a main view, and again whenever the stage is entered: the user's wish."""
         if index >= 0:
-            self.views_by_hand[self._session.cursor.stage] = self.view_bar.tabData(index)
+            self.views_by_hand[self._moment.cursor.stage] = self.view_bar.tabData(index)
             self.view_bar.setCurrentIndex(index)
             self.view_chosen.emit()
 
-    @Slot()
-    def _follow_stage(self) -> None:
+    def follow_stage(self, moment: Moment) -> None:
         """Show a stage that is entered in the view that was chosen for it, or else in its own; A | B stays."""
-        stage = self._session.cursor.stage
+        self._moment, stage = moment, moment.cursor.stage
         if stage != self._viewed_stage:
             self._viewed_stage = stage
             if self.current_view() != "compare":

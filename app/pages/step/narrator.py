@@ -4,7 +4,8 @@ from PySide6.QtCore import QObject, QTimer, Slot
 from PySide6.QtGui import QAccessible
 
 from app.pages.step.inspector_column import InspectorColumn
-from app.session.session import Session
+from app.session.cursor import Cursor
+from app.session.moment import Moment
 from core.stages.declared import stage_of
 from widgets.basics.accessible import announce
 from widgets.grid.pixel_grid import PixelGrid
@@ -19,39 +20,32 @@ class StepNarrator(QObject):
 
     def __init__(
         self,
-        session: Session,
+        cursor: Cursor,
         column: InspectorColumn,
         grid: PixelGrid,
         timeline: Timeline,
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self._session, self._column, self._grid, self._timeline = session, column, grid, timeline
+        self._cursor, self._column, self._grid, self._timeline = cursor, column, grid, timeline
         self._said = ("", "", "", "", "")
         """Stage, level, step, value and question that were said last."""
         self._rest = QTimer(self)
         self._rest.setSingleShot(True)
         self._rest.setInterval(REST_MILLISECONDS)
         self._rest.timeout.connect(self._say)
-        for changed in (
-            session.document_changed,
-            session.cursor_changed,
-            session.pin_changed,
-            session.hover_changed,
-            session.predicting_changed,
-        ):
-            changed.connect(self._owe)
 
-    @Slot()
-    def _owe(self) -> None:
+    def owe(self, moment: Moment) -> None:
+        """Say what is shown as soon as nothing moves any more."""
+        self._cursor = moment.cursor
         if QAccessible.isActive():
             self._rest.start()
 
     @Slot()
     def _say(self) -> None:
         """Say what differs from what was said last."""
-        level = self._timeline.level_buttons[self._session.cursor.level].accessibleName()
-        stage = f"Stage {stage_of(self._session.cursor.stage).short_title}"
+        level = self._timeline.level_buttons[self._cursor.level].accessibleName()
+        stage = f"Stage {stage_of(self._cursor.stage).short_title}"
         column, question = self._column, self._column.prediction.question
         texts = (column.sentence.text(), column.listing.accessibleDescription(), column.formula.spoken())
         step = ". ".join(text.rstrip(".") for text in texts if text)

@@ -12,6 +12,7 @@ from PySide6.QtGui import QImage, QPolygonF
 
 from app.session.document import Document
 from app.session.latest_call import LatestCall
+from app.session.moment import Moment
 from app.session.session import Session
 from app.views.scene_worker import SceneWorker
 from core import STAGES
@@ -51,6 +52,7 @@ class NavigatorPresenter(QObject):
     ) -> None:
         super().__init__(parent)
         self._session, self._navigator, self._grid = session, navigator, grid
+        self._moment = session.moment
         self._is_wanted = True
         self._gestures = 0
         self._drawn: tuple[AnyScene, Settings] | None = None
@@ -67,15 +69,12 @@ class NavigatorPresenter(QObject):
         navigator.drag_ended.connect(self._end_move)
         navigator.hide()
         grid.installEventFilter(self)
-        grid.view_changed.connect(self.refresh)
-        session.document_changed.connect(self.refresh)
-        session.predicting_changed.connect(self.refresh)
-        session.cursor_changed.connect(self._follow_step)
+        grid.view_changed.connect(self._show)
 
     def set_wanted(self, is_wanted: bool) -> None:
         """Show it where there is something to navigate, or never."""
         self._is_wanted = is_wanted
-        self.refresh()
+        self._show()
 
     @property
     def is_wanted(self) -> bool:
@@ -95,21 +94,25 @@ class NavigatorPresenter(QObject):
     def eventFilter(self, watched: object, event: QEvent) -> bool:
         """Keep to the corner of the grid."""
         if watched is self._grid and event.type() in (QEvent.Type.Resize, QEvent.Type.Show):
-            self.refresh()
+            self._show()
         return False
 
-    @Slot()
-    def refresh(self) -> None:
+    def refresh(self, moment: Moment) -> None:
         """Show what the grid shows of the picture; nothing of it where that is all, or is to be predicted."""
+        self._moment = moment
+        self._show()
+
+    @Slot()
+    def _show(self) -> None:
         region = self._seen()
         is_whole = region.width() > 0.999 and region.height() > 0.999
-        is_shown = self._is_wanted and not is_whole and not self._session.is_predicting
+        is_shown = self._is_wanted and not is_whole and not self._moment.is_predicting
         if self._navigator.hasFocus() and not is_shown:
             self._grid.setFocus()
         self._navigator.setVisible(is_shown)
         if not is_shown:
             return
-        document = self._session.document
+        document = self._moment.document
         width, height = document.scene.size
         most = round(PART_OF_GRID * min(self._grid.width(), self._grid.height()))
         self._navigator.show_shape(width / height, most)
@@ -121,7 +124,7 @@ class NavigatorPresenter(QObject):
 
     def _seen(self) -> QRectF:
         """Return the part of the picture that the grid shows."""
-        document, view = self._session.document, self._grid.view()
+        document, view = self._moment.document, self._grid.view()
         placement = self._grid.placement()
         column0, row0, column1, row1 = placement.visible_cells()
         left, bottom, columns, rows = _region_of(document)
@@ -143,10 +146,10 @@ class NavigatorPresenter(QObject):
 
     def _focus_corners(self) -> Floats | None:
         """Return the corners (C, 2) of the triangle in focus as parts of the picture, if it has a place there."""
-        document = self._session.document
+        document = self._moment.document
         if document.triangle is None:
             return None
-        vertices = self._session.trace.source.geometry.vertices
+        vertices = self._moment.trace.source.geometry.vertices
         corners = vertices.corners_of(document.triangle)
         window: Floats = vertices.window[corners, :2] / document.traced_scene.size
         is_seen = (vertices.clip[corners, 3] > 0).all() and np.abs(window).max() < 100
@@ -159,7 +162,7 @@ class NavigatorPresenter(QObject):
         box = navigator.rect()
         triangle, corners = QPolygonF(), self._focus_corners()
         if corners is not None:
-            own = corners * self._session.document.traced_scene.size - np.array(placement.origin)
+            own = corners * self._moment.document.traced_scene.size - np.array(placement.origin)
             triangle = QPolygonF([placement.to_widget(*corner) for corner in own.tolist()])
         raster = placement.seen_raster
         places = [
@@ -188,23 +191,21 @@ class NavigatorPresenter(QObject):
 
     def _step_cell(self) -> QRectF:
         """Return the cell of the step just done in the grid; an empty one where it has none."""
-        trace, source = self._session.stage_trace, self._session.trace.source
-        row, _ = trace.steps.row_at(self._session.cursor.position)
-        if row < 0 or trace.pixel[row, 0] < 0:
+        moment = self._moment
+        if moment.pixel is None:
             return QRectF()
-        column, line = (trace.pixel[row] - source.raster.bounds[:2]).tolist()
-        return self._grid.placement().cells_rect(column, line)
+        return self._grid.placement().cells_rect(*moment.place_of(moment.pixel))
 
-    @Slot()
-    def _follow_step(self) -> None:
+    def follow_step(self, moment: Moment) -> None:
         """Show no more than is done, and go to another corner where the step just done would be hidden."""
+        self._moment = moment
         self._show_picture()
         if self._navigator.isVisible() and self._step_cell().intersects(QRectF(self._navigator.geometry())):
             self._place()
 
     @Slot()
     def _draw(self) -> None:
-        document = self._session.document
+        document = self._moment.document
         scale = LONGER_SIDE / max(document.scene.size)
         width, height = (max(round(side * min(scale, 1.0)), 1) for side in document.scene.size)
         self._drawn = document.scene, document.settings
@@ -220,10 +221,9 @@ class NavigatorPresenter(QObject):
 
     def _show_picture(self) -> None:
         """Show the finished picture at the end of the run, and before that the outline."""
-        cursor, pictures = self._session.cursor, self._pictures
+        moment, pictures = self._moment, self._pictures
         if pictures is not None and self._navigator.isVisible():
-            is_done = cursor.stage == STAGES[-1]
-            is_done = is_done and cursor.position == self._session.stage_trace.steps.count
+            is_done = moment.cursor.stage == STAGES[-1] and moment.is_stage_done
             self._navigator.show_picture(pictures[is_done])
 
     # Acting.

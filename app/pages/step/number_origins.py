@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from app.session.session import Session
+from app.session.moment import Moment
 from core.explain import variables
 from core.explain.number_text import parse_number
 from core.trace import Explanation
@@ -62,16 +62,15 @@ def _bare(name: str) -> str:
     return re.sub(r"\(.*\)|[\s_{}]", "", name).lower()
 
 
-def writer_of(session: Session, buffer: str, pixel: tuple[int, int]) -> Origin | None:
+def writer_of(moment: Moment, buffer: str, pixel: tuple[int, int]) -> Origin | None:
     """Return the step that wrote what a buffer of the present stage holds at a pixel; ``None``: none has yet."""
-    stage = session.stage_trace
+    stage = moment.stage_trace
     track = next((track for track in stage.buffers if track.name == buffer), None)
     if track is None:
         return None
-    done = stage.steps.rows_done(session.cursor.position)
-    column, row = session.place_of(pixel)
+    column, row = moment.place_of(pixel)
     place = row * track.initial.shape[1] + column
-    writers = track.rows[(track.places == place) & (track.rows < done)]
+    writers = track.rows[(track.places == place) & (track.rows < moment.rows_done)]
     if not len(writers):
         return None
     return Origin(stage.stage, stage.steps.position_after(int(writers[-1])), track.name)

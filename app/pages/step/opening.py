@@ -62,7 +62,7 @@ class StepOpening(QObject):
         self._session.open(ready.document, ready.trace)
         self._page.stepping.set_places()
         self._session.set_stage(opening.stage, ready.request.position or 0)
-        pixel = opening.pixel if opening.pixel and self._session.has_pixel(opening.pixel) else None
+        pixel = opening.pixel if opening.pixel and self._session.moment.has_pixel(opening.pixel) else None
         if pixel is not None:
             self._session.set_pin(pixel)
         if other is None:

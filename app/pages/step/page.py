@@ -1,6 +1,6 @@
 """The stepping page: side panes, main view, inspector and the run at the bottom, around one session."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import cached_property, partial
 
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, QThread, Signal, Slot
@@ -24,6 +24,7 @@ from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
 from app.pages.step.step_columns import StepColumns
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.pages.step.view_keys import view_handlers
+from app.session.moment import Change, Moment
 from app.session.session import Session
 from app.views.stage_views import StageViews
 from widgets.basics.accessible import announce
@@ -66,7 +67,7 @@ class StepPage(Page):
         self.main_area = MainArea(session, self.views, self)
         self.grid, self.strip = self.main_area.grid, self.main_area.strip
         self.compare_view, self.ranges = self.main_area.compare_view, self.main_area.ranges
-        self.column = column = InspectorColumn(session, self)
+        self.column = column = InspectorColumn(self)
         self.card, self.sentence, self.formula = column.card, column.sentence, column.formula
         self.listing, self.variables, self.history = column.listing, column.variables, column.history
         self.prediction, self.detail_tabs = column.prediction, column.detail_tabs
@@ -79,7 +80,7 @@ class StepPage(Page):
         self.table_editing = DepthTablePresenter(session, self.depth_tables, self)
         self.comparing = ComparePresenter(session, self.compare_view, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self.grids, self)
-        self.narrator = StepNarrator(session, column, self.grid, self.timeline, self)
+        self.narrator = StepNarrator(session.cursor, column, self.grid, self.timeline, self)
         self.navigator = Navigator(self.grid)
         self.navigation = NavigatorPresenter(session, self.navigator, self.grid, self)
         self.navigation.message_sent.connect(self.message_sent)
@@ -111,9 +112,48 @@ class StepPage(Page):
             refusal.connect(self.edit_refused)
         self._lay_out()
         self.show_panes(PANES_AT_FIRST)
-        # At last: every presenter has said what it shows.
-        session.cursor_changed.connect(self._settle_layouts)
-        session.document_changed.connect(self._settle_layouts)
+        self._order = self._order_of_parts()
+        """What shows a moment after which change, one after the other."""
+        session.changed.connect(self._follow)
+
+    def _order_of_parts(self) -> tuple[tuple[Change, Callable[[Moment], object]], ...]:
+        document, step, pin, pointing = Change.DOCUMENT, Change.STEP, Change.PIN, Change.POINTING
+        cursor, run = Change.CURSOR, Change.DOCUMENT | Change.PREDICTING
+        return (
+            (step | run | pointing | Change.ASKED, self.views.refresh),
+            (step, self.main_area.follow_stage),
+            (step | run, self.main_area.refresh_beside),
+            (run, self.stepping.refresh_run),
+            (cursor, self.stepping.refresh_cursor),
+            (pin, self.stepping.refresh_marks),
+            (step | pin, self.stepping.end_message),
+            (run, self.inspector.refresh_run),
+            (cursor, self.inspector.refresh_step),
+            (pointing, self.inspector.refresh_history),
+            (pin, self.column.show_history),
+            (step, self.inspector.ahead.begin),
+            (document, self.grids.refresh_run),
+            (cursor | Change.PREDICTING, self.grids.refresh_step),
+            (pointing, self.grids.refresh_pointing),
+            (document, self.scene.refresh),
+            (document, self.table_editing.refresh),
+            (run, self.comparing.refresh),
+            (cursor, self.comparing.follow_step),
+            (pointing, self.comparing.refresh_pointing),
+            (step, self.predicting.refresh),
+            (step | run | pointing, self.narrator.owe),
+            (run, self.navigation.refresh),
+            (cursor, self.navigation.follow_step),
+            (step, self._settle_layouts),
+        )
+
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        """Bring all parts up to date, each once: who shows another document shows its step and its pin, too."""
+        for change, show in self._order:
+            if change & what:
+                # A part may have gone on to another step: the others show that one.
+                show(self.session.moment)
 
     # Layout.
 
@@ -136,8 +176,7 @@ class StepPage(Page):
         page.addLayout(row, 1)
         page.addWidget(self.timeline)
 
-    @Slot()
-    def _settle_layouts(self) -> None:
+    def _settle_layouts(self, moment: Moment) -> None:
         """Lay out now what has another size: each layout asks the one around it, and in between all is painted."""
         for _ in range(NESTED_LAYOUTS):
             QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
@@ -251,10 +290,10 @@ class StepPage(Page):
 
     def pointed_text(self, pixel: tuple[int, int]) -> str:
         """Return the value of the main grid at a pixel of the traced picture."""
-        buffer = self.grid.buffer()
-        if buffer is None or not self.session.has_pixel(pixel) or self.session.is_predicting:
+        buffer, moment = self.grid.buffer(), self.session.moment
+        if buffer is None or not moment.has_pixel(pixel) or moment.is_predicting:
             return ""
-        return f"{buffer.label}: {self.grid.value_text(self.session.place_of(pixel))}"
+        return f"{buffer.label}: {self.grid.value_text(moment.place_of(pixel))}"
 
     def toggle_compare(self) -> None:
         """Show A | B | difference, or the pixels again."""
@@ -279,7 +318,7 @@ class StepPage(Page):
             if self.formula.is_complete():
                 break
             QThread.msleep(10)
-        self._settle_layouts()
+        self._settle_layouts(self.session.moment)
         while self.views.is_drawing or self.navigation.is_drawing:
             QCoreApplication.processEvents()
             QThread.msleep(5)

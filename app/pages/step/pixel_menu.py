@@ -33,7 +33,7 @@ class PixelMenu(QObject):
 
     def fill(self, column: int, row: int) -> None:
         """Make the entries for a pixel of the grid."""
-        self._pixel = self._session.pixel_at(column, row)
+        self._pixel = self._session.moment.pixel_at(column, row)
         self.menu.clear()
         heading = self.menu.addAction(f"Pixel ({self._pixel[0]}, {self._pixel[1]})")
         heading.setEnabled(False)

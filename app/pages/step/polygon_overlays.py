@@ -3,29 +3,30 @@
 import numpy as np
 
 from app.pages.step.cut_overlays import cross_segments
+from app.session.moment import Step
 from core import STAGES
 from core.records.arrays import Floats
 from core.records.rings import Rings, join_rings
 from core.stages.clipped_polygons import region_in_pixels
-from core.trace import StageTrace, TraceSource
+from core.trace import StageTrace
 from widgets.grid.overlay import Overlay, SegmentOverlay
 
 
-def polygon_overlays(stage: StageTrace, source: TraceSource, position: int) -> list[Overlay]:
-    """Return what is known of polygon clipping at a position; nothing where there are no polygons."""
-    geometry = source.geometry
+def polygon_overlays(step: Step) -> list[Overlay]:
+    """Return what is known of polygon clipping after a step; nothing where there are no polygons."""
+    stage, source, geometry = step.stage_trace, step.trace.source, step.trace.source.geometry
     vertices, place = geometry.vertices, STAGES.index(stage.stage)
     if vertices.rings is None or place < STAGES.index("clip"):
         return []
     clip = geometry.polygon_clip
-    origin = np.array(source.raster.bounds[:2], float)
+    origin = np.array(step.origin, float)
     found: list[Overlay] = []
     if place <= STAGES.index("raster") and (clip is not None or vertices.clip_region is not None):
         lines = ring_sides(join_rings([region_in_pixels(vertices, source.raster.center)])) - origin
         found.append(SegmentOverlay("clip window", lines, title="clip window", label="window"))
     if clip is None:
         return found
-    lines = clipped_lines(stage, position) if stage.stage == "clip" else ring_sides(clip.rings)
+    lines = clipped_lines(stage, step.rows_done) if stage.stage == "clip" else ring_sides(clip.rings)
     if len(lines):
         found.append(SegmentOverlay("clipped polygon", lines - origin, title="clipped polygon"))
     return found
@@ -36,9 +37,8 @@ def ring_sides(rings: Rings) -> Floats:
     return np.stack([rings.corners, rings.corners[rings.following]], axis=1)
 
 
-def clipped_lines(stage: StageTrace, position: int) -> Floats:
-    """Return (L, 2, 2): what the method has kept by now, and crosses where edges cross."""
-    done = stage.steps.rows_done(position)
+def clipped_lines(stage: StageTrace, done: int) -> Floats:
+    """Return (L, 2, 2): what the method has kept after ``done`` rows, and crosses where edges cross."""
     columns = stage.columns
     if not done:
         return np.empty((0, 2, 2))

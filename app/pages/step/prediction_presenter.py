@@ -6,6 +6,7 @@ from PySide6.QtCore import QObject, Slot
 
 from app.pages.step.grid_presenter import GridPresenter
 from app.pages.step.guesses import Guesses
+from app.session.moment import Moment
 from app.session.session import Session
 from core.explain.records import Verdict
 from core.records.steps import Level
@@ -39,8 +40,6 @@ class PredictionPresenter(QObject):
         view.reveal_requested.connect(self._reveal)
         view.next_requested.connect(self._next)
         grid.pixel_clicked.connect(self._click)
-        session.cursor_changed.connect(self._cursor_moved)
-        session.document_changed.connect(self._cursor_moved)
 
     def set_active(self, is_active: bool) -> None:
         """Start asking, or stop and show everything."""
@@ -88,7 +87,7 @@ class PredictionPresenter(QObject):
                 self._session.go_to(self._session.stage_trace.steps.count)
             self._show(asked)
             self._view.show_verdict(verdict)
-            self._session.revealed.emit()
+            self._session.reveal()
 
     @Slot()
     def _next(self) -> None:
@@ -108,9 +107,9 @@ class PredictionPresenter(QObject):
         self._right += bool(verdict.is_right)
         self._view.show_verdict(verdict)
         self._view.show_count(self._right, self._count)
-        self._session.revealed.emit()
+        self._session.reveal()
 
-    @Slot()
-    def _cursor_moved(self) -> None:
-        if self._session.is_predicting:
+    def refresh(self, moment: Moment) -> None:
+        """Ask for what comes next, while the user predicts."""
+        if moment.is_predicting:
             self._ask()

@@ -7,6 +7,7 @@ from PySide6.QtCore import QEvent, QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.session.document import Document, focus_on
+from app.session.moment import Moment
 from app.session.scene_edits import outline, set_values
 from app.session.session import Session
 from core.explain.kinds import of_kind
@@ -41,15 +42,13 @@ class SceneOutlinePresenter(QObject):
         """What each pane shows: while it is folded away, not the newest."""
         for pane in (scene_outline, panel):
             pane.installEventFilter(self)
-        session.document_changed.connect(self.refresh)
         scene_outline.value_edited.connect(self._edit_value)
         scene_outline.values_edited.connect(self._edit_values)
         scene_outline.row_selected.connect(scene_outline.show_selection)
         panel.setting_chosen.connect(self._choose)
-        self.refresh()
+        self.refresh(session.moment)
 
-    @Slot()
-    def refresh(self) -> None:
+    def refresh(self, moment: Moment) -> None:
         """Show the document in the panes that are in sight, also where it is the same and something else was typed."""
         self._shown.clear()
         for pane in (self._outline, self._panel):
@@ -91,7 +90,7 @@ class SceneOutlinePresenter(QObject):
             self._session.edit(document)
         except ValueError as error:
             self.edit_refused.emit(str(error))
-            self.refresh()
+            self.refresh(self._session.moment)
 
     @staticmethod
     def _focus(document: Document, value: float) -> Document:
@@ -106,7 +105,7 @@ class SceneOutlinePresenter(QObject):
             self._session.set_setting(family, int(value) if family in WHOLE_NUMBERS else value)
         except ValueError as error:
             self.edit_refused.emit(str(error))
-            self.refresh()
+            self.refresh(self._session.moment)
 
 
 def _document_group(document: Document) -> OutlineGroup:

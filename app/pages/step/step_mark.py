@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from app.session.cursor import Cursor
+from app.session.moment import Step
 from core.records.arrays import Floats, Integers
 from core.records.steps import Level
 from core.trace import StageTrace, Trace
@@ -17,15 +17,13 @@ TRAIL = 8
 """Pixels looked at last that the trail goes through."""
 
 
-def step_mark(run: Trace, cursor: Cursor) -> StepMark:
-    """Return the mark of the step just done at a place of a run, in the grid's columns and rows."""
-    trace = run.stage(cursor.stage)
-    row, operation = trace.steps.row_at(cursor.position)
+def step_mark(step: Step) -> StepMark:
+    """Return the mark of the step just done, in the grid's columns and rows."""
+    run, trace, cursor, triangle = step.trace, step.stage_trace, step.cursor, step.triangle
+    row, operation = step.row_and_operation
     if row < 0:
         return StepMark()
-    bounds = run.source.raster.bounds
-    origin = np.array(bounds[:2])
-    triangle = int(trace.triangle[row])
+    origin = np.array(step.origin)
     if cursor.level <= Level.TRIANGLE and triangle >= 0:
         return StepMark(lines=_edges(run, triangle) - origin)
     first = trace.steps.rows_done(trace.steps.back(cursor.position, cursor.level))

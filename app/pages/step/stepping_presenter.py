@@ -10,6 +10,7 @@ from app.files.state_models import Bookmark, Breakpoints
 from app.pages.step.bookmarks import Bookmarks
 from app.pages.step.breaks import Breaks, line_positions
 from app.pages.step.chapters import chapters_of
+from app.session.moment import Moment
 from app.session.session import Session
 from core import STAGES
 from core.explain.kinds import of_kind
@@ -77,13 +78,6 @@ class SteppingPresenter(QObject):
         self.bookmarks.message_sent.connect(self.tell)
         self.bookmarks.bookmarks_changed.connect(self._show_places)
         self._told = ""
-        session.document_changed.connect(self.refresh_run)
-        session.cursor_changed.connect(self.refresh_cursor)
-        session.pin_changed.connect(self.refresh_marks)
-        session.predicting_changed.connect(self.refresh_run)
-        session.document_changed.connect(self._end_message)
-        session.cursor_changed.connect(self._end_message)
-        session.pin_changed.connect(self._end_message)
         timeline.position_requested.connect(session.scrub)
         timeline.step_requested.connect(self.step)
         timeline.ends_requested.connect(self.go_to_end)
@@ -92,7 +86,7 @@ class SteppingPresenter(QObject):
         timeline.chapters.chapter_chosen.connect(self.choose_stage)
         timeline.chapters.run_scrubbed.connect(self.scrub_run)
         self._stage = ""
-        self.refresh_run()
+        self.refresh_run(session.moment)
 
     @Slot(str)
     def tell(self, text: str) -> None:
@@ -100,61 +94,45 @@ class SteppingPresenter(QObject):
         self._told = text
         self.message_sent.emit(text)
 
-    @Slot()
-    def _end_message(self) -> None:
+    def end_message(self, moment: Moment) -> None:
+        """Take the last message back: the cursor or the pin has moved."""
         if self._told:
             text, self._told = self._told, ""
             self.message_ended.emit(text)
 
     # Showing.
 
-    @Slot()
-    def refresh_run(self) -> None:
+    def refresh_run(self, moment: Moment) -> None:
         """Show another trace."""
         self._stage = ""
-        self.refresh_cursor()
+        self.refresh_cursor(moment)
 
-    @Slot()
-    def refresh_cursor(self) -> None:
+    def refresh_cursor(self, moment: Moment) -> None:
         """Show where the cursor is."""
-        cursor = self._session.cursor
+        cursor = moment.cursor
         if cursor.stage != self._stage:
             self._stage = cursor.stage
-            self._timeline.show_level_names(self._level_names(cursor.stage))
-            self.refresh_marks()
-            self.show_chapters()
-        elif self._session.is_predicting:
-            self.refresh_marks()
+            self._timeline.show_level_names(_level_names(moment))
+            self.refresh_marks(moment)
+            self.show_chapters(moment)
+        elif moment.is_predicting:
+            self.refresh_marks(moment)
         self._timeline.show_level(cursor.level)
         self._timeline.show_position(cursor.position)
 
-    def _level_names(self, stage: str) -> dict[Level, str]:
-        """Return what a step of each level is in a stage."""
-        declared, settings = stage_of(stage), self._session.document.settings
-        corner_count = self._session.document.scene.corner_count
-        names = {Level.TRIANGLE: of_kind("Triangle", corner_count)} if corner_count != 3 else {}
-        if stage == "raster":
-            is_wireframe = corner_count < 3 or table.get("polygon_mode", settings.polygon_mode).function()
-            fill = effective_fill(settings.fill, settings.coverage)
-            label = "Line" if is_wireframe else fill_traits(fill).group_label
-            return names | {Level.GROUP: label if corner_count <= 3 else declared.group_label}
-        names[Level.GROUP] = "Ring" if stage == "clip" and corner_count > 3 else declared.group_label
-        return names | ({Level.PIXEL: declared.row_label} if declared.row_label else {})
-
-    @Slot()
-    def refresh_marks(self) -> None:
+    def refresh_marks(self, moment: Moment) -> None:
         """Show the marks of the run, those of the pinned pixel, breakpoints and bookmarks."""
-        trace = self._session.stage_trace
+        trace = moment.stage_trace
         starts = trace.steps.starts
         marks = {MARKS[name]: starts[1:][flags] - 1 for name, flags in trace.marks.items()}
-        if self._session.pin is not None:
-            marks[Mark.PINNED] = starts[1:][trace.rows_at_pixel(*self._session.pin)] - 1
+        if moment.pin is not None:
+            marks[Mark.PINNED] = starts[1:][trace.rows_at_pixel(*moment.pin)] - 1
         marks[Mark.BREAKPOINT] = self.breaks.positions(trace) - 1
         here = [mark.position - 1 for mark in self.bookmarks.marks if mark.stage == trace.stage]
         marks[Mark.BOOKMARK] = np.array(sorted(set(here)), np.int64)
         place, last = STAGES.index(trace.stage), len(STAGES) - 1
-        count, position = trace.steps.count, self._session.cursor.position
-        has_more = self._session.is_predicting and position < count
+        count, position = trace.steps.count, moment.cursor.position
+        has_more = moment.is_predicting and position < count
         if has_more:
             # What lies ahead would tell the answer, also by how much it is.
             count = position
@@ -162,11 +140,10 @@ class SteppingPresenter(QObject):
         self._timeline.show_run(TimelineRun(count, marks, place > 0, place < last or has_more, has_more))
         self._timeline.show_position(position)
 
-    def show_chapters(self) -> None:
+    def show_chapters(self, moment: Moment) -> None:
         """Show what every stage took in, gave out, and which part of the time it took."""
-        session = self._session
         self._timeline.chapters.show_chapters(
-            chapters_of(session.trace, current=session.cursor.stage, is_predicting=session.is_predicting)
+            chapters_of(moment.trace, current=moment.cursor.stage, is_predicting=moment.is_predicting)
         )
 
     # Moving.
@@ -320,10 +297,24 @@ class SteppingPresenter(QObject):
     @Slot()
     def _show_places(self) -> None:
         """Show bookmarks and breakpoints that have changed."""
-        self.refresh_marks()
+        self.refresh_marks(self._session.moment)
         self.places_changed.emit()
 
     def set_places(self, bookmarks: Iterable[Bookmark] = (), breakpoints: Breakpoints | None = None) -> None:
         """Have these bookmarks and breakpoints, those of another scene, and no others."""
         self.breaks = Breaks(breakpoints)
         self.bookmarks.set_marks(bookmarks)
+
+
+def _level_names(moment: Moment) -> dict[Level, str]:
+    """Return what a step of each level is in the stage at hand."""
+    stage, settings = moment.cursor.stage, moment.document.settings
+    declared, corner_count = stage_of(stage), moment.document.scene.corner_count
+    names = {Level.TRIANGLE: of_kind("Triangle", corner_count)} if corner_count != 3 else {}
+    if stage == "raster":
+        is_wireframe = corner_count < 3 or table.get("polygon_mode", settings.polygon_mode).function()
+        fill = effective_fill(settings.fill, settings.coverage)
+        label = "Line" if is_wireframe else fill_traits(fill).group_label
+        return names | {Level.GROUP: label if corner_count <= 3 else declared.group_label}
+    names[Level.GROUP] = "Ring" if stage == "clip" and corner_count > 3 else declared.group_label
+    return names | ({Level.PIXEL: declared.row_label} if declared.row_label else {})

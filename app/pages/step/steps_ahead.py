@@ -1,15 +1,15 @@
 """What the next steps say, made before they are shown, while the user looks at this one."""
 
+from dataclasses import replace
 from functools import cache
 from threading import Thread
 
 from PySide6.QtCore import QObject, QTimer, Slot
 
-from app.session.session import Session
+from app.session.moment import Moment, Step
 from core.explain import formula, initial_sentence, sentence, summary_sentence, variables
 from core.explain.steps import load_subjects
 from core.records.steps import Level
-from core.trace import StageTrace
 from core.trace.tracers import load_tracers
 from widgets.inspector.formula_view import Formula, FormulaView
 
@@ -20,20 +20,18 @@ FIRST_MS = 300
 STEPS_AHEAD = 3
 
 
-def sentence_at(trace: StageTrace, position: int, level: Level) -> str:
-    """Return the sentence of the step of a level just done at a position; one larger than a row is summed up."""
-    row, _ = trace.steps.row_at(position)
+def sentence_at(step: Step) -> str:
+    """Return the sentence of the step just done; one larger than a row is summed up."""
+    trace, row, level = step.stage_trace, step.row, step.cursor.level
     if row < 0:
         return initial_sentence(trace.stage, trace.corner_count)
-    triangle = int(trace.triangle[row])
-    first = trace.steps.rows_done(trace.steps.back(position, level))
+    first = trace.steps.rows_done(trace.steps.back(step.cursor.position, level))
     if level <= Level.GROUP and row > first:
         counts = trace.summary(first, row + 1)
-        return summary_sentence(trace.stage, level, counts, triangle, trace.corner_count)
-    explanation = trace.explain(position)
+        return summary_sentence(trace.stage, level, counts, step.triangle, trace.corner_count)
+    explanation = step.explanation
     assert explanation is not None
-    pixel = (int(trace.pixel[row, 0]), int(trace.pixel[row, 1]))
-    return sentence(explanation, triangle, pixel if pixel[0] >= 0 else None)
+    return sentence(explanation, step.triangle, step.pixel)
 
 
 @cache
@@ -50,19 +48,17 @@ def _load() -> None:
 
 
 class StepsAhead(QObject):
-    """Explains the steps around the session's cursor and typesets their formulas, a cell when nothing else is due."""
+    """Explains the steps around the cursor and typesets their formulas, a cell when nothing else is due."""
 
-    def __init__(self, session: Session, view: FormulaView, parent: QObject | None = None) -> None:
+    def __init__(self, moment: Moment, view: FormulaView, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._session, self._view = session, view
+        self._moment, self._view = moment, view
         self._positions = [1]
         """What is still to be prepared, the nearest first: when the window opens, the first step."""
         self._formula: Formula | None = None
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._prepare)
-        session.cursor_changed.connect(self.begin)
-        session.document_changed.connect(self.begin)
         self._timer.start(FIRST_MS)
 
     @property
@@ -70,10 +66,9 @@ class StepsAhead(QObject):
         """Whether something is left to be prepared."""
         return self._timer.isActive()
 
-    @Slot()
-    def begin(self) -> None:
+    def begin(self, moment: Moment) -> None:
         """Look ahead from where the cursor is now, as soon as the user pauses."""
-        steps, cursor = self._session.stage_trace.steps, self._session.cursor
+        self._moment, steps, cursor = moment, moment.steps, moment.cursor
         ahead = [cursor.position]
         for _ in range(STEPS_AHEAD):
             ahead.append(steps.forward(ahead[-1], cursor.level))
@@ -90,9 +85,10 @@ class StepsAhead(QObject):
         if self._formula is None:
             if not self._positions:
                 return
-            trace, position = self._session.stage_trace, self._positions.pop(0)
-            sentence_at(trace, position, self._session.cursor.level)
-            explanation = trace.explain(position)
+            moment = self._moment
+            step = Step(moment.trace, replace(moment.cursor, position=self._positions.pop(0)))
+            sentence_at(step)
+            explanation = step.explanation
             if explanation is not None:
                 variables(explanation)
                 self._formula = formula(explanation)

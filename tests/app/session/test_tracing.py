@@ -30,7 +30,7 @@ def test_a_long_trace_is_taken_over_when_it_is_done(qtbot: QtBot) -> None:
     slow = replace(before, settings=Settings(fill="brute-force"))
     session.edit(slow)
     assert session.document is before
-    with qtbot.waitSignal(session.document_changed, timeout=20000):
+    with qtbot.waitSignal(session.changed, timeout=20000):
         pass
     assert session.document is slow
     session.undo()
@@ -94,7 +94,7 @@ def test_what_of_a_drag_is_traced_after_its_end_is_undone_with_it(window: MainWi
 def test_an_edit_that_is_being_traced_is_undone_alone(qtbot: QtBot) -> None:
     session = Session(open_document(make_scene(SPHERE), "Sphere"))
     assert not session.can_undo
-    with qtbot.waitSignal(session.history_changed):
+    with qtbot.waitSignal(session.tracing.busy_changed):
         session.set_setting("fill", "brute-force")
     assert session.can_undo
     session.undo()

@@ -76,7 +76,7 @@ def test_corners_enter_the_cube_as_they_are_divided(qapp: object) -> None:
     for position in np.linspace(0, session.stage_trace.steps.count, 8).astype(int).tolist():
         session.go_to(position)
         there = spaces_reached(session.trace, "transform", position) >= SPACES.index("NDC")
-        outlines = [stroke for stroke in entered_diagram(session).strokes if stroke.ink == "text"]
+        outlines = [stroke for stroke in entered_diagram(session.moment).strokes if stroke.ink == "text"]
         assert len(outlines) == there.all(axis=1).sum()
         counts.append(len(outlines))
     assert counts == sorted(counts)
@@ -87,7 +87,7 @@ def test_new_depths_are_those_that_the_triangle_has_compared_by_now(qapp: object
     session = Session(open_document(make_scene("intersecting"), "intersecting"))
     stage = session.trace.stage("depth")
     row = len(stage.triangle) - 5
-    buffer = new_depths(session, stage, row)
+    buffer = new_depths(session.moment, stage, row)
     rows = np.flatnonzero(stage.triangle[: row + 1] == stage.triangle[row])
     column, line = stage.pixel[rows].T
     assert buffer.known is not None

@@ -10,6 +10,7 @@ from app.session.session import Session
 from app.views.stage_views import StageViews
 from core.stages.declared import PHASES, STAGES
 from lessons.scenes import make_scene
+from tests.app.views.following import Following
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import LIGHT, PRESENTER, for_screen
 from widgets.timeline.phases import Phases
@@ -18,6 +19,7 @@ from widgets.timeline.phases import Phases
 def shown(qtbot: QtBot, scene: str) -> tuple[Session, Phases, StageViews]:
     session = Session(open_document(make_scene(scene), scene))
     views = StageViews(session)
+    Following(session, views)
     for _, _, widget in views.widgets:
         qtbot.addWidget(widget)
     views.show("flow")

@@ -21,6 +21,7 @@ from core import Settings, render
 from core.fast_path.workers import BandWorkers
 from core.geometry.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
+from tests.app.views.following import Following
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT
 
@@ -37,6 +38,7 @@ def show(qtbot):
             document = focus_on(document, triangle)
         session = Session(document)
         views = StageViews(session)
+        Following(session, views)
         made.append(views)
         for _, _, widget in views.widgets:
             qtbot.addWidget(widget)
@@ -232,7 +234,7 @@ def test_views_follow_the_session(show):
 def test_what_does_not_apply_says_why(show):
     session, views, widget = show("texture", "single-triangle")
     assert widget.pictures() == ()
-    assert widget.accessibleDescription() == no_texture_reason(session, shown_triangle(session))
+    assert widget.accessibleDescription() == no_texture_reason(session.moment, shown_triangle(session.moment))
     with pytest.raises(ValueError, match="view must be one of"):
         views.show("nothing")
 
@@ -395,7 +397,7 @@ def test_a_mark_of_culling_tells_nothing_before_its_step(show):
         session.go_to(position)
         row, done = steps.row_at(position)
         kind = session.stage_trace.kind_of(row)
-        labels = [mark.label for mark in step_marks(session, space) if "N · V" in mark.label]
+        labels = [mark.label for mark in step_marks(session.moment, space) if "N · V" in mark.label]
         told.append((kind, done, bool(labels)))
     assert {(kind, done) for kind, done, is_told in told if is_told and kind == "back-normal"} == {
         ("back-normal", 2),
@@ -410,10 +412,10 @@ def test_points_stay_in_sight_until_they_are_dropped(show):
     counts = []
     for stage, position in (("cull", 0), ("cull", None), ("raster", 0)):
         session.set_stage(stage, position)
-        counts.append(sum(mark.shape == "disc" for mark in step_marks(session, space)))
+        counts.append(sum(mark.shape == "disc" for mark in step_marks(session.moment, space)))
     assert counts == [5, 4, 4]
     session.set_stage("cull", 1)
-    assert [mark.shape for mark in step_marks(session, space) if mark.ink == "accent"][-1] == "ring"
+    assert [mark.shape for mark in step_marks(session.moment, space) if mark.ink == "accent"][-1] == "ring"
 
 
 def test_the_places_in_the_window_are_hidden_while_they_are_predicted(qapp):
@@ -428,7 +430,7 @@ def test_the_places_in_the_window_are_hidden_while_they_are_predicted(qapp):
     ):
         session.set_stage("transform", position)
         session.set_predicting(is_predicting)
-        view.refresh()
+        view.refresh(session.moment)
         shown.append(view.widget.diagram() is not None)
     assert shown == [True, False, True]
 

@@ -48,7 +48,7 @@ def test_texels_and_shares_are_those_of_the_trace(qapp):
     shade = session.trace.stage("shade")
     row = 400
     session.set_pin(tuple(int(value) for value in shade.pixel[row]))
-    (picture,), _ = texture_pictures(session)
+    (picture,), _ = texture_pictures(session.moment)
     footprint = picture.footprints[0]
     assert np.array_equal(footprint.texels, shade.columns["texels"][row])
     assert np.array_equal(footprint.shares, shade.columns["shares"][row])
@@ -66,7 +66,7 @@ def test_of_two_mipmap_levels_both_are_shown_with_their_texels(qapp):
     fractions = shade.columns["level_fraction"]
     row = int(np.flatnonzero((fractions > 0.2) & (fractions < 0.8))[0])
     session.set_pin(tuple(int(value) for value in shade.pixel[row]))
-    pictures, _ = texture_pictures(session)
+    pictures, _ = texture_pictures(session.moment)
     sizes = shade.columns["level_sizes"][row].tolist()
     assert [*pictures[0].size, *pictures[1].size] == sizes
     for name, picture, share in zip(
@@ -89,7 +89,7 @@ def test_a_pixel_that_reads_another_level_has_an_outline_and_no_texels(qapp):
     first, second = (int(np.flatnonzero(levels == level)[0]) for level in np.unique(levels)[:2])
     session.set_pin(tuple(int(value) for value in shade.pixel[first]))
     session.set_hover(tuple(int(value) for value in shade.pixel[second]))
-    (picture,), _ = texture_pictures(session)
+    (picture,), _ = texture_pictures(session.moment)
     pinned, hovered = picture.footprints
     assert len(pinned.texels) == 4
     assert len(hovered.texels) == 0
@@ -101,7 +101,7 @@ def test_footprints_of_every_interpolation(qapp, interpolation):
     session = floor_session(texture_filter="trilinear", interpolation=interpolation)
     shade = session.trace.stage("shade")
     session.set_pin(tuple(int(value) for value in shade.pixel[300]))
-    pictures, _ = texture_pictures(session)
+    pictures, _ = texture_pictures(session.moment)
     assert np.array_equal(pictures[0].footprints[0].texels, shade.columns["near_texels"][300])
 
 
@@ -111,7 +111,7 @@ def test_the_pinned_and_the_hovered_pixel_are_shown(qapp):
     first, second = ((int(fragments.column[k]), int(fragments.row[k])) for k in (200, 600))
     session.set_pin(first)
     session.set_hover(second)
-    (picture,), _ = texture_pictures(session)
+    (picture,), _ = texture_pictures(session.moment)
     assert [footprint.is_pinned for footprint in picture.footprints] == [True, False]
     assert f"pinned pixel {first}" in picture.caption
 
@@ -119,7 +119,7 @@ def test_the_pinned_and_the_hovered_pixel_are_shown(qapp):
 def test_a_pixel_without_a_fragment_says_so(qapp):
     session = floor_session()
     session.set_pin((0, session.trace.source.raster.shape[0] - 1))
-    (picture,), _ = texture_pictures(session)
+    (picture,), _ = texture_pictures(session.moment)
     assert picture.footprints == ()
     assert "no textured fragment" in picture.caption
 
@@ -160,12 +160,12 @@ def test_over_the_horizon_there_is_no_quad(qapp):
 
 def test_scenes_without_a_texture_say_why(qapp):
     typed = Session(open_document(make_scene("single-triangle"), "typed"))
-    assert texture_pictures(typed)[0] == ()
-    assert "no texture" in texture_pictures(typed)[1]
+    assert texture_pictures(typed.moment)[0] == ()
+    assert "no texture" in texture_pictures(typed.moment)[1]
     cube = Session(open_document(make_scene("cube"), "cube"))
-    assert texture_pictures(cube) == ((), "No mesh of this scene has a texture.")
+    assert texture_pictures(cube.moment) == ((), "No mesh of this scene has a texture.")
     scene = make_scene("textured-floor")
     plain = replace(scene.meshes[0], texture=None)
     mixed = Session(focus_on(open_document(replace(scene, meshes=(scene.meshes[0], plain)), "mixed"), 2))
     assert no_texture_reason(mixed, 2) == "The mesh of triangle 2 has no texture."
-    assert texture_pictures(mixed)[0] == ()
+    assert texture_pictures(mixed.moment)[0] == ()

@@ -7,6 +7,8 @@ import pytest
 
 from app.cli.trace_tables import arrays, csv_parts, row_record
 from app.pages.step.grid_records import buffers_of
+from app.session.cursor import Cursor
+from app.session.moment import Step
 from core import Settings
 from core.explain import variables
 from core.methods import table
@@ -90,7 +92,7 @@ def test_old_names_still_work(old: str, new: str) -> None:
 
 def test_the_buffer_of_decisions_has_the_symbol_as_title() -> None:
     traced = line_trace(Settings(polygon_mode="wireframe", line="bresenham"))
-    found = traced.stage("raster")
-    titles = [buffer.label for buffer in buffers_of(found, traced, found.steps.count)]
+    end = Cursor("raster", traced.stage("raster").steps.count)
+    titles = [buffer.label for buffer in buffers_of(Step(traced, end))]
     assert "D" in titles
     assert "decision" not in titles

@@ -4,7 +4,9 @@ import numpy as np
 import pytest
 
 from app.pages.step.grid_records import geometry_of
+from app.session.cursor import Cursor
 from app.session.document import open_document
+from app.session.moment import Step
 from lessons.scenes import make_scene
 from widgets.grid.edge_ends import FAR, edge_segments
 from widgets.grid.line_clip import clip_segments
@@ -32,7 +34,7 @@ def test_an_edge_goes_on_to_a_vertex_behind_the_eye(
 def test_drawn_edges_bound_the_pixels_of_a_triangle_that_crosses_the_near_plane() -> None:
     document = open_document(make_scene("near-plane"), "near-plane")
     trace = document.make_trace(document.settings)
-    geometry = geometry_of(document, trace, stage="raster")
+    geometry = geometry_of(Step(trace, Cursor("raster")))
     stage = trace.stage("raster")
     covered = np.unique(stage.pixel[stage.columns["covered"] == 1], axis=0)
     a, b, c = geometry.triangles[0].tolist()

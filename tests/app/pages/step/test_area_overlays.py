@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from app.pages.step.cut_overlays import area_overlays
+from app.session.cursor import Cursor
+from app.session.moment import Step
 from core import ClipScene, Settings, trace
 
 CLIP = [[[-1, -1, 0, 1], [0.5, -1, 0, 1], [-1, 0.75, 0, 1]]]
@@ -11,8 +13,7 @@ CLIP = [[[-1, -1, 0, 1], [0.5, -1, 0, 1], [-1, 0.75, 0, 1]]]
 
 def shown(settings: Settings, region: tuple[int, int, int, int], position: int) -> dict[str, np.ndarray]:
     traced = trace(ClipScene(CLIP, size=(4, 4)), settings, region=region)
-    stage = traced.stage("resolve")
-    return {o.key: o.segments for o in area_overlays(stage, traced.source.raster, position)}
+    return {o.key: o.segments for o in area_overlays(Step(traced, Cursor("resolve", position)))}
 
 
 @pytest.mark.parametrize("pixel_center", ["half", "integer"])
@@ -53,5 +54,5 @@ def test_the_edge_runs_where_its_function_is_zero() -> None:
 
 def test_other_stages_and_methods_have_none() -> None:
     traced = trace(ClipScene(CLIP, size=(4, 4)), Settings(antialiasing="msaa-4"))
-    assert area_overlays(traced.stage("resolve"), traced.source.raster, 3) == []
-    assert area_overlays(traced.stage("raster"), traced.source.raster, 3) == []
+    assert area_overlays(Step(traced, Cursor("resolve", 3))) == []
+    assert area_overlays(Step(traced, Cursor("raster", 3))) == []

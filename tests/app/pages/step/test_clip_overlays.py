@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from app.pages.step.cut_overlays import clip_overlays, cross_segments
+from app.session.cursor import Cursor
+from app.session.moment import Step
 from app.views.clip_diagram import clip_state, is_in_ndc
 from core import ClipScene, Settings, trace
 from core.records.steps import Level
@@ -20,7 +22,7 @@ def overlays(clipper: str, position: int | None = None, region=None):
     traced = trace(SCENE, settings, region=region)
     stage = traced.stage("raster")
     place = stage.steps.count if position is None else position
-    return stage, clip_overlays(stage, traced.source, place)
+    return stage, clip_overlays(Step(traced, Cursor("raster", place)))
 
 
 def test_there_are_none_where_no_lines_are_clipped() -> None:
@@ -29,7 +31,7 @@ def test_there_are_none_where_no_lines_are_clipped() -> None:
 
 def test_the_window_of_a_scene_is_shown_before_a_clipper_is_chosen() -> None:
     traced = trace(make_scene("clipped-segment"), Settings())
-    (window,) = clip_overlays(traced.stage("raster"), traced.source, 0)
+    (window,) = clip_overlays(Step(traced, Cursor("raster")))
     assert not window.extended
     assert sorted(map(tuple, window.segments[:, 0].tolist())) == [(4, 3), (4, 9), (12, 3), (12, 9)]
 

@@ -8,6 +8,7 @@ from pytestqt.qtbot import QtBot
 
 from app.pages.step.grid_records import OUTLINE_LIMIT, buffers_of, mask_overlays
 from app.session.document import open_document
+from app.session.moment import Change
 from app.window.main_window import MainWindow
 from core import STAGES, ClipScene
 from lessons.scenes import make_scene
@@ -62,9 +63,7 @@ def test_overlays_stack(window: MainWindow) -> None:
 def test_masks_are_the_marks_of_the_rows_done(window: MainWindow) -> None:
     session = window.session
     trace, raster = session.stage_trace, session.trace.source.raster
-    masks = {
-        o.key: o for o in mask_overlays(trace, raster, session.cursor.position) if isinstance(o, MaskOverlay)
-    }
+    masks = {o.key: o for o in mask_overlays(session.moment) if isinstance(o, MaskOverlay)}
     done = trace.steps.rows_done(session.cursor.position)
     pixels = trace.pixel[:done][trace.marks["covered"][:done]]
     expected = np.zeros(raster.shape, bool)
@@ -112,7 +111,7 @@ def test_a_drag_leaves_the_handles_where_they_are(window: MainWindow) -> None:
 def test_an_edit_is_shown_once(window: MainWindow, qtbot: QtBot) -> None:
     session = window.session
     session.go_to(session.stage_trace.steps.count)
-    with qtbot.assertNotEmitted(session.cursor_changed), qtbot.waitSignal(session.document_changed):
+    with qtbot.waitSignal(session.changed, check_params_cb=lambda what: what == Change.DOCUMENT):
         window.page.grid.vertex_dragged.emit(0, 7.0, 30.0)
     count = session.stage_trace.steps.count
     assert session.cursor.position == count
@@ -124,7 +123,7 @@ def test_a_region_of_a_large_picture_counts_its_own_pixels(window: MainWindow) -
     first_column, first_row, _, _ = window.session.trace.source.raster.bounds
     window.page.grid.pixel_clicked.emit(2, 3)
     assert window.session.pin == (first_column + 2, first_row + 3)
-    for buffer in buffers_of(window.session.stage_trace, window.session.trace, 0):
+    for buffer in buffers_of(window.session.moment):
         assert buffer.origin == (first_column, first_row)
 
 

@@ -92,9 +92,9 @@ def test_clipping_is_marked_step_by_step(window: MainWindow) -> None:
     lengths = []
     for _ in range(6):
         session.step(1, Level.PIXEL)
-        mark = step_mark(session.trace, session.cursor)
+        mark = step_mark(session.moment)
         assert len(mark.lines) or len(mark.points)
-        overlays = polygon_overlays(session.stage_trace, session.trace.source, session.cursor.position)
+        overlays = polygon_overlays(session.moment)
         lengths.append(sum(len(overlay.segments) for overlay in overlays))
     assert lengths == sorted(lengths)
     assert lengths[-1] > lengths[0]

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from app.pages.step.grid_records import sample_dots
+from app.session.cursor import Cursor
+from app.session.moment import Step
 from core import Settings, render, trace
 from lessons.scenes import make_scene
 
@@ -24,23 +26,23 @@ def test_samples_fill_from_the_first_row_of_the_raster_to_the_last_of_depth(sett
     wanted = samples.primitive[:, 2:11, 3:17]
     for stage, hidden in (("depth", False), ("blend", False), ("resolve", False)):
         of_stage = traced.stage(stage)
-        dots = sample_dots(traced, of_stage, of_stage.steps.count, hidden)
+        dots = sample_dots(Step(traced, Cursor(stage, of_stage.steps.count), hidden))
         assert dots is not None
         assert np.array_equal(dots.shown, wanted)
         assert np.array_equal(dots.position, samples.position)
     for stage in ("transform", "edges", "bin", "raster", "depth"):
-        start = sample_dots(traced, traced.stage(stage), 0, False)
+        start = sample_dots(Step(traced, Cursor(stage)))
         assert start is not None
         assert (start.shown == -1).all()
     raster = traced.stage("raster")
     counts = []
     for position in range(0, raster.steps.count + 1, max(raster.steps.count // 40, 1)):
-        dots = sample_dots(traced, raster, position, False)
+        dots = sample_dots(Step(traced, Cursor("raster", position)))
         assert dots is not None
         counts.append(int((dots.shown >= 0).sum()))
     assert (np.diff(counts) >= 0).all()
     end, shaded = (
-        sample_dots(traced, traced.stage(name), traced.stage(name).steps.count, False)
+        sample_dots(Step(traced, Cursor(name, traced.stage(name).steps.count)))
         for name in ("raster", "shade")
     )
     assert end is not None
@@ -53,9 +55,10 @@ def test_one_sample_has_no_dots_and_a_prediction_tells_nothing() -> None:
     scene = make_scene("intersecting")
     for antialiasing in ("none", "area"):
         traced = trace(scene, Settings(antialiasing=antialiasing), region=REGION)
-        assert sample_dots(traced, traced.stage("raster"), 5, False) is None
+        assert sample_dots(Step(traced, Cursor("raster", 5))) is None
     traced = trace(scene, Settings(antialiasing="msaa-4"), region=REGION)
-    resolve = traced.stage("resolve")
-    dots = sample_dots(traced, resolve, resolve.steps.count, True)
+    dots = sample_dots(
+        Step(traced, Cursor("resolve", traced.stage("resolve").steps.count), is_predicting=True)
+    )
     assert dots is not None
     assert (dots.shown == -1).all()

@@ -86,7 +86,7 @@ def test_nothing_on_screen_speaks_of_triangles(window: MainWindow, name: str) ->
         for level in Level:
             session.set_level(level)
             session.step(1)
-            texts.append(page.inspector.sentence())
+            texts.append(page.sentence.text())
     texts += [button.text() for button in page.timeline.level_buttons.values()]
     source = session.trace.source
     for pixel in np.ndindex(source.raster.shape):

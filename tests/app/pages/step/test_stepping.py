@@ -248,7 +248,7 @@ def test_buffers_hold_nothing_that_comes_later(window: MainWindow) -> None:
     for stage in STAGES:
         session.set_stage(stage, 0)
         trace = session.stage_trace
-        shown = buffers_of(trace, session.trace, 0)
+        shown = buffers_of(session.moment)
         if trace.buffers:
             assert [buffer.name for buffer in shown] == [track.name for track in trace.buffers]
             for buffer, track in zip(shown, trace.buffers, strict=True):
@@ -266,7 +266,7 @@ def test_half_planes_are_the_values_that_pixels_are_tested_with(window: MainWind
     column, row = raster.pixel[tested].T
     for count in (4, 5, 7):
         session.go_to(int(session.stage_trace.steps.starts[count]))
-        shown = buffers_of(session.stage_trace, session.trace, session.cursor.position)
+        shown = buffers_of(session.moment)
         assert len(shown) == max(count - 4, 1)
         for buffer in shown if count > 4 else ():
             edge = int(buffer.name[-1])

@@ -16,9 +16,10 @@ def test_a_step_finds_its_formula_typeset(qtbot: QtBot) -> None:
     session = Session(open_document(built_in_scene("shared-edge").make(), ""))
     view = FormulaView(typesetter=Typesetter())
     qtbot.addWidget(view)
-    ahead = StepsAhead(session, view)
+    ahead = StepsAhead(session.moment, view)
     session.set_stage("edges", 0)
     session.set_level(Level.OPERATION)
+    ahead.begin(session.moment)
     qtbot.waitUntil(lambda: not ahead.is_working, timeout=10000)
     for _ in range(STEPS_AHEAD):
         session.step(1)
