@@ -14,6 +14,7 @@ LARGEST = 10**300
 _DECIMAL = r"(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]{1,3})?"
 _FACTOR = rf"(?:{_DECIMAL}|sqrt\({_DECIMAL}(?:/{_DECIMAL})?\)|inf)"
 _NUMBER = re.compile(rf"([+-]?)({_FACTOR})((?:[*/]{_FACTOR})*)")
+_COMMA = re.compile(r"\s*([+\-−]?[0-9]*),([0-9]+)\s*")
 _NEXT = re.compile(rf"([*/])({_FACTOR})")
 
 
@@ -32,6 +33,8 @@ def read_number(text: str) -> Number:
     """
     plain = text.strip().replace("−", "-").replace(" ", "")
     found = _NUMBER.fullmatch(plain) if len(plain) <= LENGTH_LIMIT else None
+    if _COMMA.fullmatch(plain):
+        raise ValueError(f"expected a decimal point, as in {with_point(plain)}, got {plain[:20]!a}")
     if found is None:
         shown = f"{plain[:20]}..." if len(plain) > 20 else plain
         raise ValueError(f"expected a number such as 5, 1/3, sqrt(2), -inf or 1e-3, got {shown!a}")
@@ -42,6 +45,11 @@ def read_number(text: str) -> Number:
     if plain not in ("inf", "+inf", "-inf") and not -LARGEST <= value <= LARGEST:
         raise ValueError(f"expected a number up to 1e300, got {plain}; infinity is written inf")
     return -value if sign == "-" else value
+
+
+def with_point(text: str) -> str:
+    """Return a number written with a decimal comma with a point instead; any other text unchanged."""
+    return _COMMA.sub(r"\1.\2", text) if _COMMA.fullmatch(text) else text
 
 
 def is_infinite(value: Number) -> bool:

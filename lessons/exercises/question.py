@@ -1,7 +1,7 @@
 """A question: drawn from a template by a seed, answered, checked, and the mistake behind a wrong answer named."""
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import combinations
 
 from core import Settings
@@ -93,14 +93,15 @@ class Judgement:
     """No twin gives it, and it differs from the right answer in the smallest way."""
     refutation: Refutation | None = None
     """Of the belief behind the answer, where there is one."""
+    reason: str = ""
+    """Why it is wrong: what is said of a slip, or of a wrong option."""
 
     @property
     def sentences(self) -> list[str]:
-        """The mistakes in words; of several that give one answer, all; and what refutes a belief."""
-        if self.is_slip:
-            return ["A slip: all but one is right."]
-        refuting = [] if self.refutation is None else [self.refutation.sentence]
-        return [*(MISTAKES[name].sentence for name in self.mistakes), *refuting]
+        """The mistakes in words; of several that give one answer, all; what refutes a belief; the reason."""
+        refuting = "" if self.refutation is None else self.refutation.sentence
+        named = (MISTAKES[name].sentence for name in self.mistakes)
+        return [*filter(None, (*named, refuting, self.reason))]
 
 
 def ask(template: Template, seed: int) -> Question:
@@ -154,12 +155,19 @@ def judge(question: Question, response: Response) -> Judgement:
     """Check an answer that was read; an exact twin wins over a slip."""
     draft = question.draft
     verdict = draft.answer.check(response)
-    points = question.template.points * verdict.score
+    most = question.template.points
     if draft.answer.is_same(response, draft.answer.reference):
-        return Judgement(verdict, points, (), False)
+        return Judgement(verdict, most * verdict.score, (), False)
     names = tuple(name for name, wrong in draft.mistakes.items() if draft.answer.is_same(response, wrong))
+    if names:
+        verdict = replace(verdict, score=min(verdict.score, draft.answer.named_limit))
     refutation = draft.refutations.get(response) if draft.refutations else None
-    return Judgement(verdict, points, names, not names and draft.answer.is_slip(response), refutation)
+    is_slip = not names and draft.answer.is_slip(response)
+    reason = draft.answer.slip if is_slip else draft.answer.reason(response)
+    if not (names or refutation or reason) and draft.answer.kind == "choice" and verdict.score == 0:
+        # The last hint is the rule with the question's numbers, and never holds the answer.
+        reason = draft.hints[-1] if draft.hints else ""
+    return Judgement(verdict, most * verdict.score, names, is_slip, refutation, reason)
 
 
 def hints_after(draft: Draft, response: Response | None = None) -> tuple[str, ...]:

@@ -108,7 +108,7 @@ ACROSS = segment((-1, -2), (9, 7))
 TWINS = (
     Twin(
         "parallel-kept",
-        "A segment parallel to an edge was kept although it lies outside: where p = 0, q < 0 rejects it.",
+        "The edge that the segment is parallel to was ignored: where p = 0, q < 0 rejects the segment.",
         segment((2, 8), (6, 8)),
         ACROSS,
         change_settings=with_clipper(partial(walked, parallel_kept)),

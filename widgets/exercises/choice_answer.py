@@ -54,7 +54,7 @@ class ChoiceAnswerView(AnswerView):
         """Mark the options that are chosen rightly or wrongly, and those that are missing."""
         assert marks is None or isinstance(marks, ItemMarks)
         for place, (label, button) in enumerate(zip(self._marks, self.buttons, strict=True)):
-            words = {"right": "right", "wrong": "wrong", "missing": "missing: it is right too"}
+            words = {"right": "right", "wrong": "wrong", "missing": "missing: it is right"}
             kinds = [name for name in words if marks is not None and place in getattr(marks, name)]
             show_mark(label, {"right": True, "wrong": False}.get(kinds[0]) if kinds else None)
             if kinds == ["missing"]:

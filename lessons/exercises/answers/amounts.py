@@ -2,9 +2,10 @@
 
 from dataclasses import dataclass
 from fractions import Fraction
+from math import prod
 from typing import ClassVar
 
-from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
+from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict, placed
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import (
     Number,
@@ -13,13 +14,19 @@ from lessons.exercises.numbers import (
     is_one_digit_off,
     number_text,
     read_number,
+    with_point,
 )
 
 Numbers = tuple[Number, ...]
 
 
-def read_entry(given: object) -> Number:
-    """Return one number of a file or form; NotCheckedError where it is none."""
+def read_entry(given: object, *, takes_comma: bool = False) -> Number:
+    """Return one number of a file or form; NotCheckedError where it is none.
+
+    ``takes_comma``: it stands alone, so that a comma in it can only be a decimal point.
+    """
+    if takes_comma and isinstance(given, str):
+        given = with_point(given)
     if isinstance(given, bool) or not isinstance(given, str | int):
         raise NotCheckedError(f"expected a number, got {type(given).__name__}")
     if isinstance(given, str) and not given.strip():
@@ -32,9 +39,9 @@ def read_entry(given: object) -> Number:
 
 @dataclass(frozen=True)
 class NearMiss:
-    """A wrong answer that earns something."""
+    """Wrong answers that earn something."""
 
-    numbers: Numbers
+    answers: tuple[Numbers, ...]
     share: Fraction
     """Of all points."""
     sentence: str
@@ -56,6 +63,7 @@ class NumberAnswer(Answer):
     near: tuple[NearMiss, ...] = ()
 
     kind: ClassVar[str] = "numbers"
+    slip: ClassVar[str] = "A slip: a digit or the sign of one number is wrong."
 
     @property
     def offered(self) -> str:
@@ -74,24 +82,35 @@ class NumberAnswer(Answer):
         """Read a number, or lists of them."""
         if given in ("", [], None):
             raise NotCheckedError("the answer is empty")
+        if not self.shape:
+            return (read_entry(given, takes_comma=True),)
         return tuple(self._read(given, self.shape))
 
-    def _read(self, given: object, shape: tuple[int, ...]) -> list[Number]:
+    def _read(self, given: object, shape: tuple[int, ...], first: int = 0) -> list[Number]:
         if not shape:
-            return [read_entry(given)]
+            with placed(self._place(first)):
+                return [read_entry(given)]
         if not isinstance(given, list) or len(given) != shape[0]:
             got = f"{len(given)}" if isinstance(given, list) else type(given).__name__
             noun = "numbers" if len(shape) == 1 else "rows"
             raise NotCheckedError(f"expected a list of {shape[0]} {noun}, got {got}")
-        return [number for entry in given for number in self._read(entry, shape[1:])]
+        step = prod(shape[1:])
+        return [
+            number
+            for k, entry in enumerate(given)
+            for number in self._read(entry, shape[1:], first + k * step)
+        ]
 
     def check(self, response: Numbers) -> Verdict:
         """Score numbers, all or nothing."""
         right = [self._close(mine, its) for mine, its in zip(response, self.reference, strict=True)]
         count = f"{sum(right)} of {len(right)} numbers right"
-        shares = [float(miss.share) for miss in self.near if self.is_same(response, miss.numbers)]
+        shares = [float(miss.share) for miss in self.near if self._is_near(miss, response)]
         wrong = [k for k, is_right in enumerate(right) if not is_right]
         return Verdict(1.0 if all(right) else max(shares, default=0.0), count, {"wrong": wrong})
+
+    def _is_near(self, miss: NearMiss, response: Numbers) -> bool:
+        return any(self.is_same(response, numbers) for numbers in miss.answers)
 
     def _close(self, one: Number, other: Number) -> bool:
         return are_close(one, other, self.tolerance)
@@ -108,6 +127,11 @@ class NumberAnswer(Answer):
             if not self._close(mine, its)
         ]
         return len(off) == 1 and is_one_digit_off(*off[0])
+
+    def reason(self, response: Numbers) -> str:
+        """Return what earns a near miss its share."""
+        near = (miss.sentence for miss in self.near if self._is_near(miss, response))
+        return next(near, "")
 
     def text(self, response: Numbers) -> str:
         """Return the numbers, one on a line where they have names."""

@@ -1,7 +1,8 @@
 """What all types of answers share."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -24,6 +25,15 @@ class NotCheckedError(ValueError):
     """An answer is empty or malformed: it is not checked yet and costs nothing. The message is one sentence."""
 
 
+@contextmanager
+def placed(name: str) -> Iterator[None]:
+    """Put the name of a cell before the sentence of a NotCheckedError."""
+    try:
+        yield
+    except NotCheckedError as problem:
+        raise NotCheckedError(f"{name}: {problem}") from None
+
+
 @dataclass(frozen=True)
 class Verdict:
     """What an answer earns, and why."""
@@ -41,6 +51,10 @@ class Answer(ABC):
 
     kind: ClassVar[str]
     """The name of files, as ``pixels``."""
+    named_limit: ClassVar[float] = 1.0
+    """Largest score of an answer that is exactly what a known mistake gives."""
+    slip: ClassVar[str] = "A slip: all but one is right."
+    """What is said of a slip."""
     reference: Response
     """The right answer."""
 
@@ -86,6 +100,10 @@ class Answer(ABC):
 
     def first_wrong(self, response: Response) -> str:
         """Return a sentence that says where a wrong answer goes wrong first, without what is right; may be empty."""
+        return ""
+
+    def reason(self, response: Response) -> str:
+        """Return a sentence that says why a wrong answer is wrong, without what is right; may be empty."""
         return ""
 
     @abstractmethod

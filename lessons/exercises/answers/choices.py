@@ -49,6 +49,7 @@ class OrderAnswer(Answer):
     """In the order in which the question lists them."""
 
     kind: ClassVar[str] = "order"
+    slip: ClassVar[str] = "A slip: two neighbours are exchanged."
 
     def __post_init__(self) -> None:
         if not 3 <= len(self.options) <= ORDER_LIMIT or len(set(self.options)) != len(self.options):
@@ -72,7 +73,10 @@ class OrderAnswer(Answer):
     @property
     def credit(self) -> str:
         """How points are given."""
-        return "The longest run of right neighbours earns points, less what chance gives."
+        return (
+            "The longest run of neighbours in the right order earns points. "
+            "A run no longer than that of a random order earns nothing."
+        )
 
     @property
     def chance(self) -> float:
@@ -137,6 +141,8 @@ class ChoiceAnswer(Answer):
     options: tuple[str, ...]
     reference: frozenset[int]
     is_several: bool = False
+    notes: tuple[str, ...] = ()
+    """What is true of each option, a sentence that tells why it is right or wrong; empty: none is known."""
 
     kind: ClassVar[str] = "choice"
 
@@ -184,11 +190,14 @@ class ChoiceAnswer(Answer):
     def check(self, response: frozenset[int]) -> Verdict:
         """Score a choice."""
         hits, extra = response & self.reference, response - self.reference
+        if not self.is_several:
+            # The right option stays unmarked: hints still lead to it.
+            is_right = response == self.reference
+            marks = {"right": hits, "missing": frozenset[int](), "extra": extra}
+            return Verdict(float(is_right), "right" if is_right else "wrong", marks)
         missing = self.reference - response
         count = len(self.reference)
         score = marked_score(len(hits), count, len(extra), len(self.options) - count)
-        if not self.is_several:
-            score = float(response == self.reference)
         counts = f"{len(hits)} right, {len(missing)} missing, {len(extra)} wrong"
         return Verdict(score, counts, {"right": hits, "missing": missing, "extra": extra})
 
@@ -199,6 +208,11 @@ class ChoiceAnswer(Answer):
     def is_slip(self, response: frozenset[int]) -> bool:
         """No choice is a slip: a belief stands behind each."""
         return False
+
+    def reason(self, response: frozenset[int]) -> str:
+        """Return the note of the first option that is chosen wrongly."""
+        wrong = sorted(response - self.reference)
+        return self.notes[wrong[0]] if wrong and self.notes else ""
 
     def text(self, response: frozenset[int]) -> str:
         """Return the options chosen."""

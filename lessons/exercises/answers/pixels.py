@@ -39,6 +39,7 @@ class PixelAnswer(Answer):
     """From the start to the end of the line that they make, in pixels; ``None``: they make none."""
 
     kind: ClassVar[str] = "pixels"
+    named_limit: ClassVar[float] = 0.5
 
     def __post_init__(self) -> None:
         if not self.reference or not self._must_not_count:
@@ -54,10 +55,9 @@ class PixelAnswer(Answer):
     @property
     def credit(self) -> str:
         """How points are given."""
-        smaller = min(len(self.reference), self._must_not_count)
         return (
-            f"Marked {self.noun} earn their share of all that must be marked; "
-            f"each wrong one costs as much as one of {smaller}."
+            f"Marked {self.noun} earn their share of all that must be marked; each wrong one costs at least as much. "
+            "An answer that is exactly what a known mistake gives earns at most half of the points."
         )
 
     def read(self, given: object) -> Pixels:

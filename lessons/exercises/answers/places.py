@@ -39,6 +39,7 @@ class PlaceAnswer(Answer):
     """What is drawn with the points, to be shown while they move; ``None``: the points alone."""
 
     kind: ClassVar[str] = "places"
+    slip: ClassVar[str] = "A slip: one point is off by one step."
 
     def __post_init__(self) -> None:
         if not self.names or any(len(places) != len(self.names) for places in (self.reference, *self.also)):

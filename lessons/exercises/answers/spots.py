@@ -35,6 +35,7 @@ class SpotAnswer(Answer):
     """The option that made the picture."""
 
     kind: ClassVar[str] = "spot"
+    slip: ClassVar[str] = "A slip: all but one of the pixels differ from the right picture."
 
     def __post_init__(self) -> None:
         PixelAnswer(self.size, self.wrong)

@@ -46,7 +46,7 @@ class Step:
                 raise NotCheckedError(f"expected one of {', '.join(self.options)}, got {len(chosen)}")
             return chosen[0]
         if self.kind == "number":
-            return read_entry(given)
+            return read_entry(given, takes_comma=True)
         pair = given.strip("() ").split(",") if isinstance(given, str) else given
         if not isinstance(pair, list) or len(pair) != 2:
             raise NotCheckedError(f"expected two numbers for {self.prompt}, got {given!r:.60}")
@@ -90,6 +90,7 @@ class StepsAnswer(Answer):
     """Columns and rows of the raster, for pixels and places."""
 
     kind: ClassVar[str] = "steps"
+    slip: ClassVar[str] = "A slip: all steps but one were right at once."
 
     def __post_init__(self) -> None:
         if not self.steps:

@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import ClassVar, Literal
 
 from lessons.exercises.answers.amounts import random_number, read_entry
-from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
+from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict, placed
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import Number, are_close, is_one_digit_off, number_text
 
@@ -87,6 +87,7 @@ class TableAnswer(Answer):
     """Largest difference of each number, absolute."""
 
     kind: ClassVar[str] = "table"
+    slip: ClassVar[str] = "A slip: a digit or the sign of one cell is wrong, and the rest follows from it."
 
     @property
     def offered(self) -> str:
@@ -112,12 +113,17 @@ class TableAnswer(Answer):
             if not isinstance(row, list) or len(row) != len(self.columns):
                 got = f"{len(row)}" if isinstance(row, list) else type(row).__name__
                 raise NotCheckedError(f"{wanted}, got {got} in row {number}")
-        cells = tuple(
-            tuple(column.read(cell) for column, cell in zip(self.columns, row, strict=True)) for row in rows
-        )
+        cells = tuple(self._read_row(label, row) for label, row in zip(self.labels, rows, strict=True))
         if not any(cell for row in cells for cell in row):
             raise NotCheckedError("the table is empty")
         return cells
+
+    def _read_row(self, label: str, row: list[object]) -> Row:
+        cells: list[Cell] = []
+        for column, cell in zip(self.columns, row, strict=True):
+            with placed(f"{column.name}, {label}"):
+                cells.append(column.read(cell))
+        return tuple(cells)
 
     def expected(self, response: Rows) -> Rows:
         """Return the right cells, each from the learner's own before it; an empty one counts as right there."""

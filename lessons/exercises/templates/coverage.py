@@ -142,7 +142,7 @@ def culled(settings: Settings, scene: ClipScene) -> frozenset[int]:
 
 
 TEMPLATES = (
-    Template("triangle-coverage", 1, "Pixels of a triangle", "raster", 4, draw_triangle),
-    Template("shared-edge", 1, "Centres on a shared edge", "raster", 4, draw_shared_edge),
+    Template("triangle-coverage", 2, "Pixels of a triangle", "raster", 4, draw_triangle),
+    Template("shared-edge", 2, "Centres on a shared edge", "raster", 4, draw_shared_edge),
     Template("facing", 1, "Facing by the determinant", "cull", 2, draw_facing),
 )

@@ -332,7 +332,7 @@ TEMPLATES = (
     Template("snapped-vertex", 1, "A vertex in 256ths", "edges", 1, draw_snapped),
     Template("area-in-bits", 1, "An area in 64 bits", "edges", 2, draw_bits),
     Template("binning-case", 1, "The three cases of binning", "bin", 1, draw_case),
-    Template("blocks-discarded", 1, "Blocks that are discarded", "bin", 4, draw_blocks),
+    Template("blocks-discarded", 2, "Blocks that are discarded", "bin", 4, draw_blocks),
     Template("deciding-corner", 1, "The corner that decides", "bin", 1, draw_corner),
     Template("pixels-tested", 1, "Pixels that are tested", "bin", 2, draw_tests),
 )

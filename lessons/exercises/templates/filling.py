@@ -237,10 +237,10 @@ def draw_fan(draws: Draws) -> Draft | None:
 
 
 TEMPLATES = (
-    Template("flat-side", 1, "A triangle with a level side", "raster", 4, draw_flat),
-    Template("thin-triangle", 2, "A thin triangle", "raster", 4, draw_thin),
-    Template("right-border", 2, "Beyond the right border", "raster", 3, draw_border),
-    Template("point-pixels", 1, "Pixels of points", "raster", 3, draw_points),
+    Template("flat-side", 2, "A triangle with a level side", "raster", 4, draw_flat),
+    Template("thin-triangle", 3, "A thin triangle", "raster", 4, draw_thin),
+    Template("right-border", 3, "Beyond the right border", "raster", 3, draw_border),
+    Template("point-pixels", 2, "Pixels of points", "raster", 3, draw_points),
     Template("row-ends", 1, "First and last pixel of a row", "raster", 2, draw_ends),
     Template("row-crossings", 1, "Where edges cross rows", "raster", 4, draw_rows),
     Template("fourth-vertex", 1, "The vertex that splits a triangle", "raster", 2, draw_fourth),

@@ -51,10 +51,9 @@ def draw_weights(draws: Draws) -> Draft | None:
         "The three weights sum to 1.",
         f"The area of the whole triangle is half of {facing_text(corners)}.",
     )
+    turns = ((weights[2], *weights[:2]), (*weights[1:], weights[0]))
     turned = NearMiss(
-        (weights[2], *weights[:2]),
-        Fraction(1, 3),
-        "The right weights, each moved on by one vertex, earn a third.",
+        turns, Fraction(1, 3), "The right weights, moved on by one vertex in either direction, earn a third."
     )
     answer = NumberAnswer(weights, (3,), NAMES, TOLERANCE, (turned,))
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"
@@ -197,8 +196,9 @@ def draw_blend(draws: Draws) -> Draft:
 
 
 def draw_stages(draws: Draws) -> Draft:
-    """Stages in order."""
-    mixed = draws.shuffled(tuple(stage for stage in STAGES if stage != "edges"))[:6]
+    """Stages in an order that all pipelines share: others clip before they cull, or test depth before they shade."""
+    left_out = {"edges", draws.item(("cull", "clip")), *draws.item((("depth",), ("interpolate", "shade")))}
+    mixed = draws.shuffled([stage for stage in STAGES if stage not in left_out])[:6]
     options = tuple(stage for stage in STAGES if stage in mixed)
     shown = draws.shuffled(options)
     hints = (
@@ -211,7 +211,7 @@ def draw_stages(draws: Draws) -> Draft:
 
 
 TEMPLATES = (
-    Template("barycentric-weights", 1, "Barycentric weights", "interpolate", 3, draw_weights),
+    Template("barycentric-weights", 2, "Barycentric weights", "interpolate", 3, draw_weights),
     Template(
         "perspective-u",
         1,
@@ -223,5 +223,5 @@ TEMPLATES = (
     ),
     Template("z-buffer-table", 1, "Z-buffer, fragment by fragment", "depth", 4, draw_depths),
     Template("blend-over", 1, "Layers blended in order", "blend", 3, draw_blend),
-    Template("stage-order", 1, "Order of the stages", "transform", 2, draw_stages),
+    Template("stage-order", 2, "Order of the stages", "transform", 2, draw_stages),
 )

@@ -245,8 +245,8 @@ def draw_value(draws: Draws) -> Draft:
 
 
 TEMPLATES = (
-    Template("line-octants", 1, "Lines in other octants", "raster", 4, draw_octants),
-    Template("line-from-right", 1, "A line given from the right", "raster", 3, draw_direction),
+    Template("line-octants", 2, "Lines in other octants", "raster", 4, draw_octants),
+    Template("line-from-right", 2, "A line given from the right", "raster", 3, draw_direction),
     Template("dda-table", 1, "y and rows of a DDA", "raster", 4, draw_dda),
     Template("error-table", 1, "The error of Bresenham's line", "raster", 3, draw_error),
     Template("printed-line", 2, "A listing with a slip", "raster", 4, draw_printed),

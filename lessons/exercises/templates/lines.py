@@ -101,6 +101,6 @@ def draw_table(draws: Draws) -> Draft:
 
 
 TEMPLATES = (
-    Template("bresenham-pixels", 1, "Pixels of Bresenham's line", "raster", 4, draw_pixels),
+    Template("bresenham-pixels", 2, "Pixels of Bresenham's line", "raster", 4, draw_pixels),
     Template("bresenham-table", 1, "Bresenham's D", "raster", 4, draw_table),
 )

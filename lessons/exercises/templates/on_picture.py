@@ -69,6 +69,9 @@ def draw_vertices(draws: Draws) -> Draft | None:
         return frozenset((floor(x), floor(y)) for x, y in in_window(of)[0].tolist())
 
     wrong = {name: pixels(SHELF[name].change_scene(scene)) for name in ("y-down", "window-one-less")}
+    exchanged = frozenset((j, i) for i, j in pixels(scene))
+    if max(row for _, row in exchanged) < SIZE[1] and exchanged != pixels(scene):
+        wrong["rows-and-columns"] = exchanged
     text = "In which pixels do these vertices lie? Pixel (i, j) reaches from i to i + 1 and from j to j + 1."
     hints = (
         "NDC run from -1 to 1 over the window.",
@@ -336,14 +339,14 @@ def draw_mixed(draws: Draws) -> Draft | None:
 
 
 TEMPLATES = (
-    Template("vertex-pixels", 1, "Pixels of the vertices", "transform", 2, draw_vertices),
-    Template("front-pixels", 1, "Pixels of front faces", "cull", 3, draw_culled),
-    Template("pixels-beyond-near", 2, "Pixels beyond the near plane", "clip", 3, draw_clipped),
-    Template("inner-side", 1, "The inner side of an edge", "edges", 3, draw_side),
-    Template("box-pixels", 2, "Pixels in the bounding box", "bin", 3, draw_box),
-    Template("below-half", 2, "Where u is below 1/2", "interpolate", 4, draw_below_half),
-    Template("texel-pixels", 1, "Pixels of dark texels", "shade", 3, draw_texels),
-    Template("nearer-pixels", 1, "Pixels of the nearer triangle", "depth", 4, draw_nearer),
-    Template("blended-twice", 1, "Pixels that are blended twice", "blend", 3, draw_overlap),
+    Template("vertex-pixels", 2, "Pixels of the vertices", "transform", 2, draw_vertices),
+    Template("front-pixels", 2, "Pixels of front faces", "cull", 3, draw_culled),
+    Template("pixels-beyond-near", 3, "Pixels beyond the near plane", "clip", 3, draw_clipped),
+    Template("inner-side", 2, "The inner side of an edge", "edges", 3, draw_side),
+    Template("box-pixels", 3, "Pixels in the bounding box", "bin", 3, draw_box),
+    Template("below-half", 3, "Where u is below 1/2", "interpolate", 4, draw_below_half),
+    Template("texel-pixels", 2, "Pixels of dark texels", "shade", 3, draw_texels),
+    Template("nearer-pixels", 2, "Pixels of the nearer triangle", "depth", 4, draw_nearer),
+    Template("blended-twice", 2, "Pixels that are blended twice", "blend", 3, draw_overlap),
     Template("grey-pixels", 1, "Pixels between black and white", "resolve", 4, draw_mixed),
 )

@@ -97,7 +97,10 @@ def draw_ndc(draws: Draws) -> Draft | None:
         return None
     columns, rows = SIZE
     right = tuple(((x + 1) / 2 * columns, (y + 1) / 2 * rows) for x, y in points)
-    down = tuple((x, rows - y) for x, y in right)
+    wrong = {
+        "y-down": tuple((x, rows - y) for x, y in right),
+        "window-one-less": tuple(((x + 1) / 2 * (columns - 1), (y + 1) / 2 * (rows - 1)) for x, y in points),
+    }
     text = "Place these points of NDC in the window."
     given = f"{window_text(SIZE)} " + ", ".join(
         f"{name}: {corner_text([point])}" for name, point in zip("ABC", points, strict=True)
@@ -108,7 +111,7 @@ def draw_ndc(draws: Draws) -> Draft | None:
         f"A: x = ({factor_text(points[0][0])} + 1)/2 * {columns}, y = ({factor_text(points[0][1])} + 1)/2 * {rows}.",
     )
     answer = PlaceAnswer(SIZE, tuple("ABC"), right, step=Fraction(1, 4), tolerance=TOLERANCE)
-    return Draft(text, given, answer, hints, {"y-down": down})
+    return Draft(text, given, answer, hints, wrong)
 
 
 def draw_weights(draws: Draws) -> Draft | None:
@@ -175,7 +178,7 @@ def draw_new_corners(draws: Draws) -> Draft | None:
 TEMPLATES = (
     Template("new-corners", 1, "New corners at a border", "clip", 3, draw_new_corners),
     Template("clip-ends", 2, "Ends of a clipped segment", "raster", 4, draw_ends),
-    Template("place-ndc", 1, "Points of NDC in the window", "transform", 2, draw_ndc),
+    Template("place-ndc", 2, "Points of NDC in the window", "transform", 2, draw_ndc),
     Template("place-weights", 1, "The point behind the weights", "interpolate", 2, draw_weights),
     Template("corner-from-pixels", 1, "The corner behind the pixels", "raster", 3, draw_corner),
 )

@@ -149,7 +149,7 @@ def draw_float(draws: Draws) -> Draft | None:
 TEMPLATES = (
     Template("crossing-count", 1, "Crossings at vertices", "raster", 2, draw_crossings),
     Template("active-edges", 1, "Active edges of a row", "raster", 2, draw_active),
-    Template("level-sides", 1, "Level sides with their pixels", "raster", 3, draw_level),
-    Template("star-polygon", 2, "A polygon that crosses itself", "raster", 4, draw_star),
+    Template("level-sides", 2, "Level sides with their pixels", "raster", 3, draw_level),
+    Template("star-polygon", 3, "A polygon that crosses itself", "raster", 4, draw_star),
     Template("float-weights", 1, "Weights on a shared edge", "raster", 2, draw_float),
 )

@@ -118,22 +118,24 @@ def around(draws: Draws) -> tuple[int, int]:
     return draws.whole(-6, 14), draws.whole(-5, 11)
 
 
-def draw_verdict(draws: Draws) -> Draft | None:
-    """What Cyrus-Beck does with a segment; each verdict is asked for equally often."""
-    wanted = draws.whole(0, 3)
-    start, end = around(draws), around(draws)
-    if wanted == 3:
-        end = (end[0], start[1])
+def verdict_on(start: tuple[int, int], end: tuple[int, int]) -> int:
+    """Return the number of Cyrus-Beck's verdict on a segment."""
     outside = [not 0 <= c <= s for c, s in zip(start, SIZE, strict=True)]
     along = [b - a for a, b in zip(start, end, strict=True)]
-    if start == end:
-        return None
-    is_parallel_outside = any(d == 0 and o for d, o in zip(along, outside, strict=True))
+    if any(d == 0 and o for d, o in zip(along, outside, strict=True)):
+        return 3
     clipped = clip_lines([(start, end)], (0, 0, *SIZE))
-    is_cut = bool((clipped.cut_by >= 0).any())
-    verdict = 3 if is_parallel_outside else 2 if not clipped.is_kept[0] else 1 if is_cut else 0
-    if verdict != wanted:
-        return None
+    return 2 if not clipped.is_kept[0] else 1 if (clipped.cut_by >= 0).any() else 0
+
+
+def draw_verdict(draws: Draws) -> Draft:
+    """What Cyrus-Beck does with a segment; each verdict is asked for equally often."""
+    verdict = 3 - draws.whole(0, 3)
+    start = end = (0, 0)
+    while start == end or verdict_on(start, end) != verdict:
+        start, end = around(draws), around(draws)
+        if verdict == 3:
+            end = (end[0], start[1])
     text = (
         "What does Cyrus-Beck do with this segment? t_E is the largest t of the entries and 0, t_L the smallest t of "
         "the exits and 1; a segment parallel to an edge and outside of it is rejected."
@@ -141,8 +143,8 @@ def draw_verdict(draws: Draws) -> Draft | None:
     scene, settings = segment_scene([(start, end)], SIZE), Settings(line_clipping="liang-barsky")
     kept = clipped_ends(scene, SHELF["parallel-kept"].change_settings(settings))
     wrong = {}
-    if verdict == 3 and kept:
-        wrong["parallel-kept"] = 0 if np.array_equal(kept[0], [start, end]) else 1
+    if verdict == 3:
+        wrong["parallel-kept"] = 2 if not kept else 0 if np.array_equal(kept[0], [start, end]) else 1
     given = f"{WINDOW}, segment from {start} to {end}."
     (x0, y0), (x1, y1) = ((factor_text(Fraction(c)) for c in place) for place in (start, end))
     hints = (
@@ -185,6 +187,6 @@ TEMPLATES = (
     Template("near-crossing", 1, "A new vertex at the near plane", "clip", 2, draw_near),
     Template("triangles-after-clipping", 1, "Triangles after clipping", "clip", 1, draw_count),
     Template("clipped-area", 1, "What a window leaves of a triangle", "clip", 4, draw_area),
-    Template("cyrus-beck-verdict", 1, "Cyrus-Beck's verdicts", "raster", 2, draw_verdict),
+    Template("cyrus-beck-verdict", 2, "Cyrus-Beck's verdicts", "raster", 2, draw_verdict),
     Template("rejected-at-once", 2, "Segments rejected at once", "raster", 3, draw_rejected),
 )

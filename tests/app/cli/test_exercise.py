@@ -21,7 +21,7 @@ def test_exercises_are_listed_shown_and_checked(tmp_path: Path) -> None:
     assert [line.split()[0] for line in listed.stdout.splitlines()] == list(TEMPLATES)
     shown = run_program("exercise", "show", "triangle-coverage", "--seed", "7", "--hints")
     draft = ask(TEMPLATES["triangle-coverage"], 7).draft
-    assert shown.stdout.startswith("Pixels of a triangle (triangle-coverage 1, seed 7)\n\n")
+    assert shown.stdout.startswith("Pixels of a triangle (triangle-coverage 2, seed 7)\n\n")
     assert all(text in shown.stdout for text in (draft.given, draft.answer.credit, "Hint 3 of 3: "))
 
     answers = run_program("exercise", "show", "triangle-coverage", "--seed", "7", "--answers").stdout

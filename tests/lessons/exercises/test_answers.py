@@ -154,7 +154,7 @@ def test_numbers_are_right_together_but_for_near_misses() -> None:
     assert VECTOR.check(VECTOR.read(["0.33", "inf"])).score == 1
     assert VECTOR.check(VECTOR.read(["0.33", "-inf"])).score == 0
     priced = NumberAnswer(
-        (Fraction(5),), near=(NearMiss((Fraction(-5),), Fraction(1, 2), "The sign costs half."),)
+        (Fraction(5),), near=(NearMiss(((Fraction(-5),),), Fraction(1, 2), "The sign costs half."),)
     )
     assert [priced.check(priced.read(text)).score for text in ("5", "-5", "4")] == [1, 0.5, 0]
     assert priced.credit == "The number earns all points. The sign costs half."

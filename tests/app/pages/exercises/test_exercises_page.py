@@ -70,7 +70,7 @@ def test_work_survives_leaving_and_the_program(page: Page, qtbot: QtBot) -> None
     qtbot.addWidget(other)
     other.settle()
     assert other.question is not None
-    assert other.question.mark == "shared-edge 1, seed 11"
+    assert other.question.mark == "shared-edge 2, seed 11"
     assert other.grid.marked() == {(2, 2), (3, 2)}
     assert other.question_view.hints.text().startswith("Hint 1")
     other.stop()

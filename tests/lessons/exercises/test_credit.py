@@ -1,0 +1,108 @@
+"""Laws of credit and feedback over all templates: named mistakes, slips, reasons, and what no question gives away."""
+
+import pytest
+
+from lessons.exercises.answers.amounts import NumberAnswer
+from lessons.exercises.answers.answer import NotCheckedError
+from lessons.exercises.answers.tables import Column, TableAnswer, number_rows
+from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.question import ask, judge
+from tests.lessons.exercises.first_questions import first_question
+
+FIRST = {name: first_question(name) for name in TEMPLATES}
+
+
+def test_a_known_mistake_earns_at_most_half_of_a_pixel_question() -> None:
+    asked = [question for question in FIRST.values() if question.draft.answer.kind == "pixels"]
+    assert len(asked) > 20
+    for question in asked:
+        assert "a known mistake gives earns at most half" in question.draft.answer.credit
+        for name, wrong in question.draft.mistakes.items():
+            judgement = judge(question, wrong)
+            assert name in judgement.mistakes
+            assert judgement.points <= question.template.points / 2, question.mark
+    # Other wrong answers keep their share.
+    coverage = FIRST["triangle-coverage"]
+    right = coverage.draft.answer.reference
+    slip = judge(coverage, right | {(11, 0)})
+    assert slip.verdict.score > 0.9
+    assert slip.is_slip
+
+
+def test_what_credit_says_never_depends_on_the_answer() -> None:
+    for name, template in TEMPLATES.items():
+        if FIRST[name].draft.answer.kind in ("pixels", "choice", "spot"):
+            assert len({ask(template, seed).draft.answer.credit for seed in range(3)}) == 1, name
+            assert not any(letter.isdigit() for letter in FIRST[name].draft.answer.credit), name
+
+
+def test_a_wrong_choice_of_one_is_given_a_reason_and_the_right_one_is_not_marked() -> None:
+    for name, question in FIRST.items():
+        answer = question.draft.answer
+        if answer.kind != "choice" or answer.is_several:
+            continue
+        assert judge(question, answer.reference).sentences == []
+        for k in range(len(answer.options)):
+            chosen = frozenset({k})
+            if chosen != answer.reference:
+                judgement = judge(question, chosen)
+                assert judgement.sentences, (name, answer.options[k])
+                assert judgement.verdict.counts == "wrong"
+                assert not judgement.verdict.marks["missing"]
+
+
+def test_a_slip_is_said_in_the_words_of_its_answer() -> None:
+    """`All but one is right` beside `0 of 1 right` contradicts itself."""
+    for question in FIRST.values():
+        answer = question.draft.answer
+        if isinstance(answer, NumberAnswer) and len(answer.reference) == 1:
+            minus = judge(question, (-answer.reference[0],))
+            assert not minus.is_slip or minus.sentences == [
+                "A slip: a digit or the sign of one number is wrong."
+            ]
+
+
+@pytest.mark.parametrize("turn", [1, 2])
+def test_weights_moved_on_by_one_vertex_earn_a_third_in_both_directions(turn: int) -> None:
+    question = FIRST["barycentric-weights"]
+    right = question.draft.answer.reference
+    judgement = judge(question, (*right[turn:], *right[:turn]))
+    assert judgement.points == question.template.points / 3
+    assert judgement.sentences[-1] in question.draft.answer.credit
+
+
+def test_stages_whose_order_pipelines_do_not_share_are_not_asked_together() -> None:
+    for seed in range(60):
+        options = set(ask(TEMPLATES["stage-order"], seed).draft.answer.options)
+        for pair in ({"cull", "clip"}, {"shade", "depth"}, {"interpolate", "depth"}):
+            assert not pair <= options
+
+
+def test_each_mistake_that_a_template_knows_is_recognised_at_some_seed() -> None:
+    """Also those that only some draws show."""
+    wanted = {
+        "place-ndc": {"y-down", "window-one-less"},
+        "vertex-pixels": {"y-down", "window-one-less", "rows-and-columns"},
+        "cyrus-beck-verdict": {"parallel-kept"},
+    }
+    for name, mistakes in wanted.items():
+        found = set()
+        for seed in range(12):
+            question = ask(TEMPLATES[name], seed)
+            for wrong in question.draft.mistakes.values():
+                found.update(judge(question, wrong).mistakes)
+        assert found == mistakes
+
+
+def test_a_decimal_comma_is_taken_alone_and_told_with_its_cell_elsewhere() -> None:
+    one = NumberAnswer((0.5,), tolerance=0.01)
+    assert one.read("0,5") == one.read("0.5")
+    vector = NumberAnswer((0.5, 1), (2,), ("alpha", "beta"))
+    with pytest.raises(NotCheckedError, match=r"^beta: expected a decimal point, as in 0\.5, got '0,5'$"):
+        vector.read(["1", "0,5"])
+    matrix = NumberAnswer((1, 2, 3, 4), (2, 2))
+    with pytest.raises(NotCheckedError, match=r"^row 2, column 1: expected a decimal point"):
+        matrix.read([["1", "2"], ["0,5", "1"]])
+    table = TableAnswer((Column("D"),), ("at x = 1", "at x = 2"), number_rows([[1], [2]]))
+    with pytest.raises(NotCheckedError, match=r"^D, at x = 2: expected a decimal point, as in -2\.5"):
+        table.read(["1", "-2,5"])
