@@ -114,6 +114,15 @@ def first_tries(attempts: Sequence[Attempt]) -> list[Attempt]:
     return firsts
 
 
+def is_correction(attempts: Iterable[Attempt], attempt: Attempt) -> bool:
+    """Return whether an attempt corrects one of earlier ``attempts``, so that `first_tries` leaves it out."""
+    question = (attempt.template, attempt.version, attempt.seed)
+    return any(
+        (each.template, each.version, each.seed) == question and attempt.at - each.at < CORRECTION
+        for each in attempts
+    )
+
+
 def recall(attempts: Sequence[Attempt], now: datetime) -> dict[str, tuple[float, datetime]]:
     """Return by template how likely it is still known, 0 to 1, and when it is due, from first tries.
 

@@ -30,6 +30,7 @@ class SketchView(QWidget):
         super().__init__(parent)
         self._sketch = Sketch()
         self._answer: Place | None = None
+        self._name = ""
         self.setSizePolicy(QSizePolicy.Policy.Maximum, QSizePolicy.Policy.Fixed)
         theme_notifier().theme_changed.connect(self._follow_theme)
 
@@ -39,9 +40,9 @@ class SketchView(QWidget):
         self._sketch = sketch or Sketch()
         self.show_answer(None)
 
-    def show_answer(self, place: Place | None) -> None:
-        """Show the point that is typed as an answer; ``None``: there is none."""
-        self._answer = place
+    def show_answer(self, place: Place | None, name: str = "") -> None:
+        """Show the point that is an answer, with its name; ``None``: there is none."""
+        self._answer, self._name = place, name
         self.setAccessibleName(f"Sketch: {self.shown.text}")
         self.updateGeometry()
         self.update()
@@ -49,7 +50,7 @@ class SketchView(QWidget):
     @property
     def shown(self) -> Sketch:
         """The sketch with the point of the answer."""
-        return self._sketch if self._answer is None else self._sketch.with_point("your answer", self._answer)
+        return self._sketch if self._answer is None else self._sketch.with_point(self._name, self._answer)
 
     def sizeHint(self) -> QSize:
         """Return the size that the theme's text asks for."""

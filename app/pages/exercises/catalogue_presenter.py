@@ -70,6 +70,8 @@ class CataloguePresenter(QObject):
         self.attempts: Attempts = ()
         """Of the learner, in the order of time."""
         self._choice: Choice | None = None
+        self._wants_next = False
+        """Whether what suits the learner is to be opened as soon as it is chosen."""
         self._current = ""
         self._shown: list[str] = []
         """Names of all exercises in the order of the catalogue."""
@@ -123,6 +125,8 @@ class CataloguePresenter(QObject):
     def take_attempt(self, attempt: Attempt) -> None:
         """Take one more attempt, which is kept already."""
         self.attempts = (*self.attempts, attempt)
+        if self._reading.is_running:
+            self.begin()  # What is being read may lack it.
         self._choose()
 
     def _choose(self) -> None:
@@ -142,22 +146,25 @@ class CataloguePresenter(QObject):
     def _take_choice(self, choice: Choice | None) -> None:
         self._choice = choice
         self.refresh()
+        if self._wants_next:
+            self.open_next()
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
+        self._wants_next = False
         self.refused.emit(f"{error}.")
 
     # What is chosen.
 
     @Slot(str)
     def _open(self, name: str) -> None:
-        if name != self._current:
-            self.question_chosen.emit(self.templates[name], None)
+        self.question_chosen.emit(self.templates[name], None)
 
     @Slot()
     def open_next(self) -> None:
-        """Open what suits the learner now."""
-        if self._choice is not None:
+        """Open what suits the learner now: what was chosen before the last answer does so no longer."""
+        self._wants_next = self.is_working
+        if self._choice is not None and not self._wants_next:
             question = self._choice.question
             self.question_chosen.emit(question.template, question.seed)
 
@@ -228,7 +235,7 @@ class CataloguePresenter(QObject):
     @Slot(object)
     def show_question(self, question: Question) -> None:
         """Show which exercise is asked."""
-        self._current = question.template.name
+        self._current, self._wants_next = question.template.name, False
         self.refresh()
 
     # What is shown.

@@ -89,8 +89,9 @@ class Evidence(QObject):
             for text in shown:
                 menu.addAction(text)
             chosen = menu.exec(self._view.twin_button.mapToGlobal(self._view.twin_button.rect().bottomLeft()))
-            if chosen is not None:
-                shown[chosen.text()]()
+            act = None if chosen is None else self._shown().get(chosen.text())
+            if act is not None:  # Else another question has come below the menu.
+                act()
 
     def _step(self, make: Callable[[], StepRequest | None]) -> None:
         try:

@@ -1,5 +1,6 @@
 """The Exercises page: the catalogue, a question with its picture, the check, and the runs behind an answer."""
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
@@ -49,8 +50,10 @@ class ExercisesPage(Page):
         self.grid = MarkGrid(self)
         self.catalogue, self.question_view = Catalogue(self), QuestionView(self.grid, self)
         self.unfinished = UnfinishedFile(self)
-        self.questions = QuestionPresenter(self.question_view, self.grid, self.unfinished, self)
         self.exercises = CataloguePresenter(self.catalogue, self.unfinished, self)
+        self.questions = QuestionPresenter(
+            self.question_view, self.grid, self.unfinished, lambda: self.exercises.attempts, self
+        )
         self.progress_view = ProgressView(self)
         self.progress = ProgressPresenter(self.progress_view, self)
         self.panes = PaneSplitter(Qt.Orientation.Horizontal, self)
@@ -73,7 +76,7 @@ class ExercisesPage(Page):
         theme_notifier().theme_changed.connect(self._make_room)
         self.exercises.question_chosen.connect(self._open)
         self.questions.asked.connect(self.exercises.show_question)
-        self.questions.asked.connect(self._focus_answer)
+        self.questions.asked.connect(self._focus_asked)
         self.questions.checked.connect(self.exercises.take_attempt)
         self.questions.message_sent.connect(self.message_sent)
         self.questions.evidence.step_requested.connect(self.step_requested)
@@ -131,13 +134,18 @@ class ExercisesPage(Page):
         """Ask the question that was open when the program ended, and hide its scene."""
         template = self.exercises.last()
         if template is not None:
-            self.questions.open(template, at_once=True)
+            self.questions.open_at_once(template)
 
     def open_line(self, line: str) -> None:
         """Ask the question of a line that was handed out."""
         self.exercises.open_line(line)
 
     @Slot()
+    def _focus_asked(self) -> None:
+        """Let the next key answer, unless something else covers the question."""
+        if self.stack.currentWidget() is self.panes:
+            self._focus_answer()
+
     def _focus_answer(self) -> None:
         """Let the next key answer: on the picture, or in the first field."""
         answer = self.question_view.answer
@@ -206,13 +214,17 @@ class ExercisesPage(Page):
 
     @Slot(str)
     def _set_user(self, user: str) -> None:
+        """Let somebody else answer, once the attempt of the one before has its verdict."""
+        self.questions.after_check(partial(self._begin_user, user))
+
+    def _begin_user(self, user: str) -> None:
         self.unfinished.keep_user(user)
         self.questions.user = user
         self.exercises.set_user(user)
         if self.question is not None:
             template = self.question.template
             has_begun = template.name in self.unfinished.answers.answers
-            self.questions.open(template, None if has_begun else self.question.seed)
+            self.questions.open_at_once(template, None if has_begun else self.question.seed)
 
     def dismiss(self) -> bool:
         """Show the question again in place of the progress or of a picture."""

@@ -1,10 +1,12 @@
 """Asks one question: takes the answer, checks it, shows hints, marks, the mistake, and the runs behind them."""
 
+from collections.abc import Callable, Sequence
+from functools import partial
 from random import SystemRandom
 from time import monotonic
 from typing import Any
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication
 
 from app.background.workers import JobGroup
@@ -14,16 +16,17 @@ from app.pages.exercises.answer_kind import Live
 from app.pages.exercises.answer_kinds import KINDS
 from app.pages.exercises.evidence import Evidence
 from app.pages.exercises.feedback import feedback_of
-from app.pages.exercises.work import Asked, Checked, Work, asking, asking_apart, checking, drawing, drawn
+from app.pages.exercises.work import Asked, Checked, asking, asking_apart, checking, drawing, drawn
 from core.records.words import counted
-from lessons.attempts.practice import TRY_LIMIT
+from lessons.attempts.practice import TRY_LIMIT, is_correction
+from lessons.attempts.record import Attempt
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.question import Question, Template, ask, hints_after
 from lessons.exercises.scene_digest import scene_digest
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
-from widgets.exercises.records import Feedback, QuestionRecord
+from widgets.exercises.records import QuestionRecord
 
 VARIANTS = 10_000
 """Seeds that new variants are drawn from: short ones, to be read out."""
@@ -48,12 +51,20 @@ class QuestionPresenter(QObject):
     refused = Signal(str)
 
     def __init__(
-        self, view: QuestionView, grid: MarkGrid, unfinished: UnfinishedFile, parent: QObject | None = None
+        self,
+        view: QuestionView,
+        grid: MarkGrid,
+        unfinished: UnfinishedFile,
+        attempts: Callable[[], Sequence[Attempt]],
+        parent: QObject | None = None,
     ) -> None:
+        """Begin without a question; ``attempts`` returns those of the learner so far."""
         super().__init__(parent)
-        self._view, self._grid, self._unfinished = view, grid, unfinished
+        self._view, self._grid, self._unfinished, self._attempts = view, grid, unfinished, attempts
         self.user = ""
         self.question: Question | None = None
+        self._asked: Asked | None = None
+        """The question with its outline, as it was drawn."""
         self._checked: Checked | None = None
         """What the last check found; ``None``: nothing was checked since the question was asked."""
         self._hints = 0
@@ -64,8 +75,12 @@ class QuestionPresenter(QObject):
         self.evidence = Evidence(view, grid, self)
         self._jobs = JobGroup(self)
         self._asking, self._checking, self._drawing = (self._jobs.add_job() for _ in range(3))
+        self._waiting: list[Callable[[], None]] = []
+        """What ends this question, and was wanted while its answer was being checked."""
         self._asking.succeeded.connect(self._show)
         self._asking.failed.connect(self._refuse)
+        # Queued: the verdict is shown first.
+        self._checking.ended.connect(self._go_on, Qt.ConnectionType.QueuedConnection)
         self._checking.succeeded.connect(self._show_checked)
         self._checking.failed.connect(self._refuse)
         self._drawing.succeeded.connect(self._show_live)
@@ -80,11 +95,24 @@ class QuestionPresenter(QObject):
     @property
     def is_working(self) -> bool:
         """Whether a question or an answer is being drawn, or an answer is being checked."""
-        return any(job.is_running for job in (self._asking, self._checking, self._drawing))
+        return bool(self._waiting) or any(
+            job.is_running for job in (self._asking, self._checking, self._drawing)
+        )
 
     def stop(self) -> None:
         """End all work."""
+        self._waiting.clear()
         self._jobs.shut_down()
+
+    def after_check(self, act: Callable[[], None]) -> None:
+        """Do now what ends the question, or once its answer, if it is being checked, has its verdict."""
+        self._waiting.append(act)
+        self._go_on()
+
+    @Slot()
+    def _go_on(self) -> None:
+        while self._waiting and not self._checking.is_running:
+            self._waiting.pop(0)()
 
     @property
     def is_asked(self) -> bool:
@@ -98,51 +126,62 @@ class QuestionPresenter(QObject):
 
     # Asking.
 
-    def open(self, template: Template, seed: int | None = None, *, at_once: bool = False) -> None:
+    def open(self, template: Template, seed: int | None = None) -> None:
         """Ask a question of a template: of a seed, afresh if it was checked; or the last one; or else a new one."""
-        kept = self._unfinished.answers.answers.get(template.name)
-        if seed is not None and kept is not None and kept.is_checked:
-            self._unfinished.keep(template, Unfinished(version=template.version, seed=seed))
-        if seed is None:
-            is_kept = kept is not None and kept.version == template.version
-            seed = kept.seed if kept is not None and is_kept else new_seed()
-        if not at_once:
-            self._draw(asking(template, seed))
-            return
+        self.after_check(partial(self._open, template, seed))
+
+    def _open(self, template: Template, seed: int | None) -> None:
+        if seed is None and self.question is not None and self.question.template is template:
+            self._asking.cancel()  # It is shown: what was chosen since is not wanted any more.
+        else:
+            self._asking.start(asking(template, self._seed(template, seed), is_afresh=seed is not None))
+
+    def open_at_once(self, template: Template, seed: int | None = None) -> None:
+        """Ask a question as `open` does, and return when it is shown."""
         self._asking.cancel()
         try:
-            self._show(drawn(ask(template, seed)))
+            self._show(drawn(ask(template, self._seed(template, seed)), is_afresh=seed is not None))
         except (ValueError, MemoryError) as error:
             self._refuse(error)
 
-    def _draw(self, work: Work) -> None:
-        """Draw another question; what is done about this one ends."""
-        self._checking.cancel()
-        self._drawing.cancel()
-        self._asking.start(work)
+    def _seed(self, template: Template, seed: int | None) -> int:
+        """Return the seed that is wanted, or that of the last question, or a new one."""
+        if seed is not None:
+            return seed
+        kept = self._unfinished.answers.answers.get(template.name)
+        return kept.seed if kept is not None and kept.version == template.version else new_seed()
 
     @Slot()
     def ask_variant(self) -> None:
         """Ask the same with other numbers; if several mistakes fit the answer, with such as tell them apart."""
+        self.after_check(self._ask_variant)
+
+    def _ask_variant(self) -> None:
         if self.question is not None:
             mistakes = () if self._checked is None else self._checked.judgement.mistakes
             seeds = [new_seed() for _ in range(TRY_LIMIT)]
-            self._draw(asking_apart(self.question.template, mistakes, seeds))
+            self._asking.start(asking_apart(self.question.template, mistakes, seeds))
 
     @Slot()
     def ask_again(self) -> None:
         """Ask the same question with an empty answer."""
-        if self.question is not None:
+        self.after_check(self._ask_again)
+
+    def _ask_again(self) -> None:
+        if self._asked is not None:
             self._keep(given=None, is_checked=False)
-            self.open(self.question.template, self.question.seed)
+            self._show(self._asked)
 
     @Slot(object)
     def _show(self, asked: Asked) -> None:
         """Show a question, with what was answered before."""
-        self.question = question = asked.question
-        template, draft = question.template, question.draft
+        for job in (self._asking, self._drawing):
+            job.cancel()  # They are about another one.
+        self._asked, self.question = asked, asked.question
+        question, template, draft = asked.question, asked.question.template, asked.question.draft
         kept = self._unfinished.answers.answers.get(template.name)
-        if kept is None or (kept.version, kept.seed) != (template.version, question.seed):
+        is_other = kept is None or (kept.version, kept.seed) != (template.version, question.seed)
+        if kept is None or is_other or (asked.is_afresh and kept.is_checked):
             kept = Unfinished(version=template.version, seed=question.seed)
         self._checked, self._is_sure = None, False
         self._has_answer = kept.given is not None
@@ -206,24 +245,20 @@ class QuestionPresenter(QObject):
             self._follow_answer()
 
     def _follow_answer(self) -> None:
-        """Keep the answer at once; what was found of an earlier one holds no longer."""
+        """Keep the answer at once; what was found of another one does not hold for it."""
         self._has_answer = True
         self.evidence.end_picture()
-        self._checking.cancel()  # It is about an earlier answer.
-        if self._checked is not None:
-            assert self._view.answer is not None
-            self._view.answer.show_marks(None)
-            self._view.show_feedback(self._feedback(), is_stale=True)
+        self._show_verdict()
         self._draw_live()
         self._keep()
 
-    def _draw_live(self) -> None:
-        """Draw what is shown of an answer while it is given."""
+    def _draw_live(self, name: str = "your answer") -> None:
+        """Draw what is shown of an answer while it is given; ``name`` stands at a point of the plane."""
         if self.question is not None and self._view.answer is not None:
             draft, given = self.question.draft, self._view.answer.given()
             if draft.sketch is not None:
-                self._view.sketch.show_answer(KINDS[draft.answer.kind].place(draft.answer, given))
-            work = drawing(self.question, self._view.answer.given())
+                self._view.sketch.show_answer(KINDS[draft.answer.kind].place(draft.answer, given), name)
+            work = drawing(self.question, given)
             if work is not None:
                 self._drawing.start(work)
 
@@ -260,39 +295,45 @@ class QuestionPresenter(QObject):
         question, view = self.question, self._view.answer
         if question is None or view is None or self._checking.is_running:
             return
-        answer = question.draft.answer
+        if self._asking.is_running or self._waiting:
+            self.message_sent.emit("Not checked: you have chosen another question.")
+            return
+        answer, given = question.draft.answer, view.given()
         try:
             if unread := view.unread():
                 raise NotCheckedError(unread)
-            response = answer.read(KINDS[answer.kind].read(answer, view.given()))
+            response = answer.read(KINDS[answer.kind].read(answer, given))
         except NotCheckedError as problem:
             self._view.show_note(f"Not checked yet: {problem}.")
             return
         self._view.show_note("")
         seconds = monotonic() - self._begun
-        self._checking.start(checking(question, response, self.user, seconds, is_kept=not self._is_shown))
+        self._checking.start(
+            checking(question, given, response, self.user, seconds, is_kept=not self._is_shown)
+        )
 
     @Slot(object)
     def _show_checked(self, checked: Checked) -> None:
         """Show marks, points and the mistake."""
-        assert self._view.answer is not None
-        self._is_corrected = self._checked is not None
+        attempt = checked.attempt
+        self._is_corrected = attempt is not None and is_correction(self._attempts(), attempt)
         self._checked, self._is_checked = checked, True
-        self._view.answer.show_marks(checked.marks)
-        self._view.show_feedback(self._feedback())
+        self._show_verdict()
         self._show_state()
         self._keep()
         if checked.trouble:
             self.refused.emit(checked.trouble)
-        if checked.attempt is not None:
-            self.checked.emit(checked.attempt)
+        if attempt is not None:
+            self.checked.emit(attempt)
 
-    def _feedback(self) -> Feedback:
-        assert self.question is not None
-        assert self._checked is not None
-        return feedback_of(
-            self.question, self._checked, is_shown=self._is_shown, is_corrected=self._is_corrected
-        )
+    def _show_verdict(self) -> None:
+        """Show what the last check found; of an answer that was changed since, the points alone."""
+        if self._checked is None or self.question is None or self._view.answer is None:
+            return
+        is_stale = self._view.answer.given() != self._checked.given
+        self._view.answer.show_marks(None if is_stale else self._checked.marks)
+        feedback = feedback_of(self.question, self._checked, is_corrected=self._is_corrected)
+        self._view.show_feedback(feedback, is_stale=is_stale)
 
     # Help.
 
@@ -318,6 +359,9 @@ class QuestionPresenter(QObject):
 
     def give_up(self) -> None:
         """Take the question back: the Step page has shown what it asks for."""
+        self.after_check(self._give_up)
+
+    def _give_up(self) -> None:
         if self.is_asked:
             self._is_shown = True
             self._show_state()
@@ -329,6 +373,9 @@ class QuestionPresenter(QObject):
     @Slot()
     def show_model(self) -> None:
         """Show the right answer, after asking once more while it would end the question; then step the right run."""
+        self.after_check(self._show_model)
+
+    def _show_model(self) -> None:
         question, view = self.question, self._view.answer
         if question is None or view is None:
             return
@@ -340,9 +387,11 @@ class QuestionPresenter(QObject):
             self._view.show_note(SURE)
         else:
             self._is_shown = True
+            self.evidence.end_picture()
             view.show_marks(None)
             view.show_given(KINDS[answer.kind].given(answer, answer.reference))
             view.set_open(False)
+            self._draw_live("model answer")
             self._view.show_note(
                 "This is the model answer. Start again empties it; a new variant earns points."
             )

@@ -25,12 +25,16 @@ class Asked:
 
     question: Question
     outline: GridGeometry | None
+    is_afresh: bool = False
+    """Whether it is asked anew where its answer was checked before."""
 
 
 @dataclass(frozen=True, eq=False)
 class Checked:
     """An answer that is checked."""
 
+    given: object
+    """What was in the form."""
     response: Response
     judgement: Judgement
     marks: AnswerMarks
@@ -40,18 +44,18 @@ class Checked:
     """What to tell of keeping it, in sentences; empty: all is well."""
 
 
-def asking(template: Template, seed: int) -> Work:
+def asking(template: Template, seed: int, *, is_afresh: bool) -> Work:
     """Return the work that draws a question; it raises ValueError where none can be drawn."""
 
     def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Asked:
-        return drawn(ask(template, seed))
+        return drawn(ask(template, seed), is_afresh=is_afresh)
 
     return work
 
 
-def drawn(question: Question) -> Asked:
+def drawn(question: Question, *, is_afresh: bool = False) -> Asked:
     """Return a question with its outline."""
-    return Asked(question, outline_of(question.draft, question.template.stage))
+    return Asked(question, outline_of(question.draft, question.template.stage), is_afresh)
 
 
 def asking_apart(template: Template, mistakes: Sequence[str], seeds: Sequence[int]) -> Work:
@@ -83,7 +87,7 @@ def drawing(
 
 
 def checking(
-    question: Question, response: Response, user: str, seconds: float, *, is_kept: bool
+    question: Question, given: object, response: Response, user: str, seconds: float, *, is_kept: bool
 ) -> Callable[[Progress, Callable[[], bool]], Checked]:
     """Return the work that checks an answer that was read, and keeps the attempt before anybody sees the verdict."""
 
@@ -91,12 +95,12 @@ def checking(
         judgement = judge(question, response)
         marks = KINDS[question.draft.answer.kind].marks(question, response, judgement.verdict)
         if not is_kept:
-            return Checked(response, judgement, marks, None, "")
+            return Checked(given, response, judgement, marks, None, "")
         attempt = attempt_of(user, question, response, judgement, seconds, datetime.now(UTC))
         try:
             trouble = attempt_file().add(attempt)
         except OSError as problem:
             trouble = f"The attempt is not saved: {problem}."
-        return Checked(response, judgement, marks, attempt, trouble)
+        return Checked(given, response, judgement, marks, attempt, trouble)
 
     return work

@@ -223,12 +223,12 @@ def test_only_a_pixel_that_another_triangle_covers_is_double(tmp_path: Path) -> 
         response = question.draft.answer.reference | more
         judgement = judge(question, response)
         marks = KINDS["pixels"].marks(question, response, judgement.verdict)
-        return Checked(response, judgement, marks, None, "")
+        return Checked(None, response, judgement, marks, None, "")
 
     question = ask(read_exercise(path), 0)
     found = checked(question, {(0, 5), (1, 4)})
     assert found.marks == PixelMarks(question.draft.answer.reference, double=frozenset({(0, 5), (1, 4)}))
-    said = feedback_of(question, found, is_shown=False, is_corrected=False)
+    said = feedback_of(question, found, is_corrected=False)
     assert said.counts.endswith("2 extra, 2 of these double")
     question = ask(TEMPLATES["below-half"], 7)
     assert question.draft.scene is not None
