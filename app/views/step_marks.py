@@ -73,7 +73,7 @@ def _corner_marks(moment: Moment, space: ViewSpace, position: int) -> list[Space
     started = reached > spaces_reached(moment.trace, "transform", 0)
     marks = []
     numbers, corners = np.nonzero(started)
-    vertices = source.geometry.vertices.corners_of((triangles[numbers], corners))
+    vertices = source.geometry.vertices.corners_of(triangles[numbers])[np.arange(len(numbers)), corners]
     _, once = np.unique(vertices, return_index=True)
     for place in once.tolist() if len(once) <= MOST_MARKS else []:
         point = space.corners(int(triangles[numbers[place]]))[corners[place]]

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from core.geometry.matrices import projection, transform, viewport, world_to_camera
 from core.records.arrays import Flags, Floats, Integers, Scalar, read_only
 from core.records.cached import cached_property
+from core.records.depth_table import DepthTable
 from core.records.primitives import own_corners
 from core.records.rings import Rings
 from core.scene import ClipScene, Mesh, Scene
@@ -83,6 +84,11 @@ class VertexStage:
     """
     draws_last: Flags | None = None
     """(T,) bool, the pixel of a segment's second end is drawn, see ``ClipScene``; ``None`` of triangles."""
+    first_fragment: Integers | None = None
+    """(P,) int64, of each patch of a table of depths, 0 of an empty one; ``None``: a scene of other primitives.
+
+    Fragments go by the number of their patch: what is looked up by number has a row for each patch.
+    """
     clip_region: Floats | None = None
     """(4,) or (M, 2) float64, NDC, what is clipped to, see ``ClipScene``; ``None``: the raster."""
     rings: Integers | None = None
@@ -93,12 +99,16 @@ class VertexStage:
     @property
     def all_corners(self) -> Integers:
         """(T, corner_count) int64, the vertices of every primitive: all corners of a polygon."""
+        if self.first_fragment is not None:
+            return np.empty((len(self.first_fragment), 0), np.int64)
         if self.rings is None:
             return self.corners[:, : self.corner_count]
         return np.arange(len(self.corners) * self.corner_count).reshape(-1, self.corner_count)
 
     def corners_of(self, primitive: Any) -> Integers:
         """Return the vertices (..., 3) of primitives, as ``corners`` has them; all (..., C) of polygons."""
+        if self.first_fragment is not None:
+            primitive = self.first_fragment[primitive]
         found: Integers = (self.corners if self.rings is None else self.all_corners)[primitive]
         return found
 
@@ -222,6 +232,7 @@ def transform_vertices(scene: Scene | ClipScene) -> VertexStage:
             size=scene.size,
             corner_count=scene.corner_count,
             draws_last=_ends_alone(scene) if scene.corner_count < 3 else None,
+            first_fragment=None if scene.table is None else _first_fragments(scene.numbers, scene.table),
             clip_region=scene.clip_region,
             rings=scene.rings,
             region_rings=scene.region_rings,
@@ -264,8 +275,16 @@ def corners_of_planes(window: Floats) -> Integers:
     return np.stack([first, np.where(is_turned, third, second), np.where(is_turned, second, third)])
 
 
+def _first_fragments(patch: Integers, table: DepthTable) -> Integers:
+    """Return (P,): the first of the fragments whose patches (F,) are in order; 0 of a patch that has none."""
+    first = np.searchsorted(patch, np.arange(len(table.depths)))
+    return np.where(np.isin(np.arange(len(first)), patch), first, 0)
+
+
 def _ends_alone(scene: ClipScene) -> Flags:
-    """Return (T,) bool: no other segment begins where a segment ends; so it is with all points."""
+    """Return (T,) bool: no other segment begins where a segment ends; so it is with all points and patches."""
+    if scene.table is not None:
+        return np.ones(len(scene.table.depths), bool)
     if scene.shared is None or scene.corner_count < 2:
         return np.ones(len(scene.clip), bool)
     return ~np.isin(scene.shared[:, 1], scene.shared[:, 0])

@@ -12,8 +12,8 @@ from core.pixel_history.events import list_events
 from core.pixel_history.records import Link, PixelEvent, PixelHistory, PixelState
 from core.pixel_history.verdict import pixel_verdict, triangle_verdict
 from core.resolved import resolve
-from core.scene import ClipScene
 from core.settings import Settings
+from core.trace import scene_triangle_count
 from core.trace.source import TraceSource
 
 
@@ -51,7 +51,7 @@ def why(
     scene, settings = source.scene, source.settings
     check_pixel(scene, column, row)
     geometry = whole_geometry(source)
-    count = len(geometry.assembled)
+    count = scene_triangle_count(scene)
     if triangle is not None and not 0 <= triangle < count:
         raise ValueError(f"triangle must be 0 to {count - 1}, got {triangle}")
     if sample is None:
@@ -60,11 +60,6 @@ def why(
         _check_sample(sample, settings)
         candidates = candidates_at(source, column, row, triangle, sample)
     events, counts, cover_count = list_events(candidates, resolve(settings).depth_format)
-    if isinstance(scene, ClipScene) and scene.table is not None:
-        # A patch without a fragment here is no near miss, and its other fragments are no triangles.
-        events = tuple(event for event in events if event.kind != "missed" or event.triangle == triangle)
-        others = len(scene.table.depths) - len({event.triangle for event in events} - {-1})
-        counts = {"no-fragment": others} if others else {}
     if triangle is None:
         verdict = pixel_verdict(events, counts, resolve(settings).blend_name)
     else:

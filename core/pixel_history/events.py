@@ -38,7 +38,8 @@ def list_events(
     fragments = run_fragments(candidates, depth_format)
     passages = fold(fragments, cleared, candidates)
     drawn = _fragment_events(candidates, fragments, passages)
-    missed = _missed_events(candidates, fragments.triangle)
+    is_table = candidates.scene.corner_count == 0  # A patch has nothing but its fragments.
+    missed = [] if is_table else _missed_events(candidates, fragments.triangle)
     culled = [_culled_event(candidates, int(triangle)) for triangle in candidates.culled]
     clipped = [_clipped_event(candidates, int(triangle)) for triangle in candidates.clipped_away]
     ranked = sorted([*drawn, *missed, *culled, *clipped], key=_Rank(candidates))
@@ -47,7 +48,8 @@ def list_events(
         PixelEvent("clear", (Link("blend", "clear", {}),), out=cleared, after=cleared),
     )
     events = (*first, *ranked)
-    return events, _counts(candidates, events), int(np.count_nonzero(fragments.keeps))
+    counts = _absent_patches(candidates, events) if is_table else _counts(candidates, events)
+    return events, counts, int(np.count_nonzero(fragments.keeps))
 
 
 class _Rank:
@@ -107,7 +109,9 @@ def _fragment_events(
 
 
 def _upper_chain(candidates: PixelCandidates, which: int) -> list[Link]:
-    """Return the links of candidate ``which`` before binning."""
+    """Return the links of candidate ``which`` before binning; a fragment of a table enters the pipeline later."""
+    if candidates.scene.corner_count == 0:
+        return []
     triangle = int(candidates.triangle[which])
     first = int(np.flatnonzero(candidates.geometry.primitives.triangle == triangle)[0])
     piece = int(candidates.primitive[which]) - first
@@ -148,6 +152,12 @@ def _clipped_event(candidates: PixelCandidates, triangle: int) -> PixelEvent:
     link = Link(link.stage, link.key, {**link.values, **undrawn_values(candidates, triangle)})
     chain = (vertex_link(candidates, triangle), cull_link(candidates, triangle), link)
     return PixelEvent("clipped", chain, triangle, is_rejected=True)
+
+
+def _absent_patches(candidates: PixelCandidates, events: tuple[PixelEvent, ...]) -> dict[str, int]:
+    """Count the patches of a table of depths that have no fragment here."""
+    count = len(candidates.geometry.vertices.all_corners) - len({event.triangle for event in events} - {-1})
+    return {"no-fragment": count} if count else {}
 
 
 def _counts(candidates: PixelCandidates, events: tuple[PixelEvent, ...]) -> dict[str, int]:

@@ -59,15 +59,16 @@ def triangle_verdict(events: Sequence[PixelEvent], triangle: int) -> Link:
     own = [event for event in events if event.triangle == triangle]
     fragments = [event for event in own if event.kind == "fragment"]
     passed = [event for event in fragments if not event.is_rejected]
-    event = (passed or fragments or own)[-1]
+    listed = passed or fragments or own
+    reason = listed[-1].reason if listed else Link("raster", "empty-cell", {})
     drawn = [e.triangle for e in events if e.kind == "fragment" and not e.is_rejected]
     seen = drawn[-1] if drawn else -1
-    values: dict[str, Any] = {"triangle": triangle, "reason": event.reason, "seen": seen}
+    values: dict[str, Any] = {"triangle": triangle, "reason": reason, "seen": seen}
     if not fragments:
         key = "triangle-absent"
     elif not passed:
         key = "triangle-rejected"
-    elif event.reason.key == "overwritten":
+    elif reason.key == "overwritten":
         key = "triangle-overwritten"
     else:
         key = "triangle-seen" if seen == triangle else "triangle-blended"

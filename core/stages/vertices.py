@@ -106,7 +106,7 @@ def _process(
             if vertices.rings is None
             else cull_polygons(vertices, assembled, settings)
         )
-        drawing = drawing_order(vertices, settings)
+        drawing = drawing_order(scene, vertices, settings)
         wanted = culled.kept
         if raster is not None and vertices.rings is None:
             wanted = wanted & ~is_beside(window, assembled.corner, raster)
@@ -265,14 +265,19 @@ def is_beside(window: WindowVertices, corner: Integers, raster: Raster) -> Flags
     return beside
 
 
-def drawing_order(vertices: VertexStage, settings: Settings) -> DrawingOrder:
-    """Return the triangles (T,) of the scene from the first drawn to the last."""
-    return resolve(settings).drawing_order(CornerPositionsOnDemand(vertices))
+def drawing_order(scene: AnyScene, vertices: VertexStage, settings: Settings) -> DrawingOrder:
+    """Return the triangles (T,) of the scene from the first drawn to the last; fragments patch by patch."""
+    if scene.corner_count > 0 or not isinstance(scene, ClipScene):
+        return resolve(settings).drawing_order(CornerPositionsOnDemand(vertices))
+    _, patch, counts = np.unique(scene.numbers, return_inverse=True, return_counts=True)
+    means = np.stack([np.bincount(patch, row) / counts for row in vertices.clip_rows], axis=1)
+    drawing = resolve(settings).drawing_order(np.repeat(means[:, None], 3, axis=1))
+    return replace(drawing, order=np.argsort(np.argsort(drawing.order)[patch], kind="stable"))
 
 
 def in_drawing_order(index: Integers, assembled: IndexedPrimitives, drawing: DrawingOrder) -> Integers:
     """Return ``index`` (P,) of assembled triangles from the first drawn to the last."""
-    number = assembled.triangle.take(index)
+    number = assembled.source.take(index)  # Fragments of one patch go by the same ``triangle``.
     if drawing.is_as_given:
         return index if (number[1:] >= number[:-1]).all() else index[np.argsort(number, kind="stable")]
     place = np.full(len(drawing.order), -1)

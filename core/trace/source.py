@@ -59,7 +59,7 @@ class TraceSource:
     @cached_property
     def order(self) -> Integers:
         """(T,) int64, all triangles of the scene in drawing order."""
-        return drawing_order(transform_vertices(self.scene), self.settings).order
+        return drawing_order(self.scene, transform_vertices(self.scene), self.settings).order
 
     @cached_property
     def geometry(self) -> Geometry:

@@ -292,6 +292,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("clip", "inside"): "not clipped: inside all planes",
     ("clip", "clipped"): _clipped,
     ("clip", "clipped-away"): lambda v: f"{_outside(v)}; wholly clipped away",
+    ("raster", "empty-cell"): "its cell is empty",
     ("bin", "no-area"): "it has no area on the 1/256-pixel grid",
     ("bin", "in-box"): "in its bounding box",
     ("bin", "whole-image"): "no bounding box: not all of its corners can be projected",

@@ -7,6 +7,7 @@ import pytest
 
 from core import Settings, render, trace
 from core.assembly.depth_tables import table_scene
+from core.explain.history.sentences import verdict_sentence
 from core.fast_path.draw import draw_picture
 from core.framebuffer.display import to_display
 from core.pixel_history import why
@@ -20,6 +21,7 @@ from core.records.depth_table import (
     text_of_depths,
 )
 from core.scene import ClipScene
+from core.stages.declared import STAGES
 from core.trace import TraceSource
 from lessons.depth_tables import LEVEL, SLOPING, depth_table, two_triangles, two_triangles_turned
 
@@ -67,6 +69,33 @@ def test_picture_trace_and_history_are_those_of_the_plain_loop(test, seed):
         assert explanation.listing.function(new, old) == (after[row], bool(found.columns["passes"][row]))
     history = why(TraceSource(scene, Settings()), 0, 0)
     assert (history.final.depth, history.final.triangle) == (buffer[0, 0], seen[0, 0])
+
+
+@pytest.mark.parametrize("cells", ["- 4", "4 -", "4- -- --", "-- -- -3"])
+def test_a_patch_without_a_fragment_is_drawn_stepped_and_explained(cells):
+    scene = table_scene(depth_table(*("\t".join(patch) for patch in cells.split())))
+    buffer, seen = drawn_by_hand(scene.table)
+    assert np.array_equal(render(scene).depth, buffer)
+    for patch in (None, *range(len(scene.table.depths))):
+        traced = trace(scene, triangle=patch)
+        for stage in STAGES:
+            traced.stage(stage)
+        for column in range(scene.size[0]):
+            history = why(traced.source, column, 0, patch)
+            assert verdict_sentence(history)
+            assert history.final.triangle == seen[0, column]
+
+
+def test_the_painters_algorithm_draws_whole_patches_by_their_mean_depth():
+    table = depth_table("1 5 5", "4 2 2", "9 9 -")
+    scene, settings = table_scene(table), Settings(visibility="painters")
+    assert render(scene, settings).primitive.tolist() == [[1, 1, 1]], (
+        "means 11/3, 8/3 and 9: the second is last"
+    )
+    for column in range(3):
+        assert why(TraceSource(scene, settings), column, 0).final.triangle == 1
+    found = trace(scene, settings, triangle=0).stage("depth")
+    assert found.state(0)["primitive"].tolist() == [[2, 2, -1]]
 
 
 def test_one_patch_is_stepped_over_what_the_earlier_ones_left():

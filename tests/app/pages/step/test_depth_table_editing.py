@@ -15,6 +15,7 @@ from app.files.state_files import EXTENSION, State, StateFileError, load_state, 
 from app.pages.step.pixel_stories import story_of
 from app.session.document import open_document
 from app.window.main_window import MainWindow
+from core.assembly.depth_tables import table_scene
 from core.records.depth_table import DepthTable
 from core.scene import ClipScene
 from lessons.depth_tables import two_triangles
@@ -228,3 +229,21 @@ def test_the_raster_of_a_table_is_its_cells_whatever_is_asked(editing: MainWindo
         assert (session.document.raster.columns, session.document.raster.rows) == (8, 8), action
         assert session.document.raster.origin is None
         assert table_of(editing) is before
+
+
+def test_a_table_with_fewer_fragments_than_patches_is_saved_opened_and_shown(
+    window: MainWindow, tmp_path: Path
+) -> None:
+    table = DepthTable([[[np.nan]], [[4]]], np.ones((2, 4)))
+    path = tmp_path / f"one{EXTENSION}"
+    save_state(path, State(open_document(table_scene(table), "One fragment")))
+    window.files.show_opened(open_any(str(path)))
+    session = window.session
+    for view in window.page.main_area.view_names():
+        window.page.show_view(view)
+        for stage in ("transform", "clip", "depth"):
+            session.set_stage(stage, 1)
+        QApplication.processEvents()
+    session.edit(replace(session.document, triangle=0))
+    story, _ = story_of(session.trace.source, 0, 0, 0)
+    assert story.verdict == "Patch 0 has no fragment here: its cell is empty."
