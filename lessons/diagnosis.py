@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cache, partial
 
 import numpy as np
 
@@ -15,9 +15,8 @@ from core.records.frame import Frame
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.settings import FAMILIES, no_effect, settings_from_texts
-from lessons.mistakes.coverage import transposed, upside_down
 from lessons.mistakes.shelf import SHELF
-from lessons.mistakes.twin import Twin
+from lessons.mistakes.twin import Twin, same_scene
 
 PIXEL_LIMIT = 1 << 18
 """Most pixels of a picture: it is compared with one of each mistake and method."""
@@ -29,6 +28,10 @@ GREYS: dict[tuple[float, ...], str] = {
 }
 """How programs make bytes of colours grey, by the weights of red, green and blue."""
 Report = Callable[[float, str], None]
+UNEXPLAINED = 0.25
+"""What part of the pixels that differ from the right picture, and from an empty one, a named nearest may leave."""
+LOSSY_STEPS = 24
+"""How far apart equal colours may be in a lossy picture, in bytes: coders round, and spread colours, differently."""
 SLOW = ("fill=brute-force", "antialiasing=area")
 """Methods that take minutes for a mesh of more triangles than ``SLOW_LIMIT``: they are left out there."""
 SLOW_LIMIT = 2000
@@ -46,6 +49,10 @@ class Drawn:
     """(H, W) bool."""
     grey: tuple[float, ...] = ()
     """Weights by which the colours are taken to be made grey; empty: they are not."""
+    background: tuple[tuple[int, ...], tuple[int, ...]] | None = None
+    """The scene's background, and what stands for it in the picture; ``None``: the picture has the same."""
+    loses: Callable[[Bytes], Bytes] | None = None
+    """What is left of colours (H, W, 3) in a file as lossy as that of the picture; ``None``: all of them."""
 
     @property
     def size(self) -> tuple[int, int]:
@@ -64,6 +71,8 @@ class Candidate:
     draw: Callable[[], Frame]
     settings: Settings
     is_mistake: bool
+    change_scene: Callable[[ClipScene], ClipScene] | None = same_scene
+    """What it draws instead of the scene; ``None``: it changes the picture, and no run makes that."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,20 +83,39 @@ class Diagnosis:
     found: tuple[Candidate, ...]
     """All that make exactly this picture, mistakes before methods; empty where it is right or unknown."""
     nearest: Candidate
-    """That with the fewest other pixels."""
+    """That with the fewest other pixels where it explains most of what differs, else the right run."""
     differing: Flags
     """(H, W), where the nearest differs."""
     from_right: Flags
     """(H, W), where the right picture differs."""
+    drawn: Drawn
+    """The picture as it was compared: its colours, its triangles, or only what it covers."""
+
+
+def compared_text(drawn: Drawn) -> str:
+    """Return what of a picture was compared, and what was not, in sentences."""
+    if drawn.primitive is not None:
+        return "Compared: which triangle is seen at each pixel. Not compared: colours and depths."
+    if drawn.covered is not None:
+        return "Compared: which pixels are covered. Not compared: colours, depths and numbers of triangles."
+    kind = f"grey values ({GREYS[drawn.grey]})" if drawn.grey else "colours"
+    said = [f"Compared: the {kind} of all pixels. Not compared: depths and numbers of triangles."]
+    if drawn.background is not None:
+        said.append(f"The colour {drawn.background[1]} counts as the background.")
+    if drawn.loses is not None:
+        said.append(
+            "The format of the file is lossy. What the picture is compared with was saved in the same way, "
+            f"and colours up to {LOSSY_STEPS} of 255 apart are equal: only a PNG shows small differences."
+        )
+    return " ".join(said)
 
 
 def candidates(scene: AnyScene, settings: Settings) -> Iterator[Candidate]:
     """Yield the right run, the mistakes, and every other method of the families that matter, one change at a time."""
-    yield Candidate(RIGHT, "", lambda: render(scene, settings), settings, False)
+    right = cache(partial(render, scene, settings))
+    yield Candidate(RIGHT, "", right, settings, False)
     for twin in SHELF.values():
-        changed = twin.change_settings(settings)
-        for draw in _faulty(twin, scene, settings):
-            yield Candidate(twin.name, twin.sentence, draw, changed, True)
+        yield from _faulty(twin, scene, settings, right)
     for family in FAMILIES:
         if no_effect(settings, family, scene):
             continue
@@ -108,18 +136,21 @@ def primitive_count(scene: AnyScene) -> int:
     )
 
 
-def _faulty(twin: Twin, scene: AnyScene, settings: Settings) -> Iterator[Callable[[], Frame]]:
-    """Yield what draws a scene with a mistake; of a mesh, which has no corners in the window to be changed, some."""
+def _faulty(
+    twin: Twin, scene: AnyScene, settings: Settings, right: Callable[[], Frame]
+) -> Iterator[Candidate]:
+    """Yield the runs and pictures of a mistake; a mesh has no corners in the window that could be changed."""
+    changed = twin.change_settings(settings)
+    make = partial(Candidate, twin.name, twin.sentence, settings=changed, is_mistake=True)
     if isinstance(scene, ClipScene):
-        yield partial(twin.draw, scene, settings)
+        for change in (twin.change_scene, *twin.other_scenes):
+            one = replace(twin, change_scene=change)
+            yield make(partial(one.draw, scene, settings), change_scene=change if twin.is_run else None)
     elif twin.takes_any_scene:
-        yield partial(render, scene, twin.change_settings(settings))
-    elif twin.name == "rows-and-columns":
-        yield lambda: transposed(render(scene, settings), scene)
-    if twin.name == "y-down":  # Drawn the right way up, and saved from the wrong end.
-        yield lambda: upside_down(render(scene, settings), scene)
-    if twin.name == "weights-permuted" and isinstance(scene, ClipScene):  # The other way round.
-        yield lambda: twin.draw(twin.change_scene(scene), settings)
+        yield make(partial(render, scene, changed))
+    if twin.change_picture is not None and not (isinstance(scene, ClipScene) and not twin.is_run):
+        change_picture = twin.change_picture
+        yield make(lambda: change_picture(right(), scene), change_scene=None)
 
 
 def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report | None = None) -> Diagnosis:
@@ -144,6 +175,7 @@ def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report |
     Colours that are a byte apart are equal, and any colour may stand for the background. A picture in two colours that
     fits as no picture in colours is taken for covered pixels. One in a single colour shows nothing, also where ink has
     the colour of the background, unless every pixel is to be covered. Of a grey picture the scene is made grey, too.
+    What a lossy picture is compared with loses the same; then colours up to ``LOSSY_STEPS`` apart are equal.
     """
     check_size(drawn.size, scene.size)
     seen = _compared(_with_corners(scene, settings, drawn), settings, drawn, report)
@@ -152,7 +184,7 @@ def diagnose(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report |
         return seen
     others = [diagnose(scene, settings, each, report) for each in _as_coverage(drawn)]
     if others:
-        nearest = min(others, key=lambda one: int(one.differing.sum()))
+        nearest = min(others, key=lambda one: (int(one.differing.sum()), not one.is_right))
         return _of_another_color(nearest, seen, scene, settings, drawn)
     if drawn.colors is None or (drawn.colors[..., :3] != drawn.colors[..., :1]).any():
         return seen
@@ -172,7 +204,7 @@ def _of_another_color(
         return covering
     mine, its = (tuple(colors[0, 0].tolist()) for colors in (drawn.colors, right))
     sentence = f"Every pixel has the colour {mine} instead of {its}."
-    other = Candidate("another-colour", sentence, lambda: frame, settings, True)
+    other = Candidate("another-colour", sentence, lambda: frame, settings, True, change_scene=None)
     return replace(seen, found=(other, *covering.found))
 
 
@@ -187,7 +219,7 @@ def _of_grey(
     if compared.differing.sum() >= seen.differing.sum():
         return seen
     sentence = f"The colours are made grey: {GREYS[nearest.grey]}."
-    grey = Candidate("grey", sentence, compared.nearest.draw, settings, True)
+    grey = Candidate("grey", sentence, compared.nearest.draw, settings, True, change_scene=None)
     is_known = compared.is_right or compared.found
     name = f"{compared.nearest.name} in grey"
     return Diagnosis(
@@ -196,6 +228,7 @@ def _of_grey(
         grey if is_known else replace(grey, name=name),
         compared.differing,
         seen.from_right,
+        compared.drawn,
     )
 
 
@@ -219,34 +252,38 @@ def _with_corners(scene: AnyScene, settings: Settings, drawn: Drawn) -> AnyScene
 
 def _compared(scene: AnyScene, settings: Settings, drawn: Drawn, report: Report | None) -> Diagnosis:
     """Compare a picture in one way."""
-    fits: list[Candidate] = []
-    nearest: tuple[Candidate, Flags] | None = None
-    from_right: Flags | None = None
-    runs = list(candidates(scene, settings))
-    for number, candidate in enumerate(runs):
+    right, *others = candidates(scene, settings)
+    frame = right.draw()
+    drawn = _with_background(drawn, frame, settings)
+    from_right = _differing(frame, settings, drawn)
+    # A run that draws almost nothing is near to any small picture, but not nearer than nothing.
+    nothing = replace(
+        frame,
+        color=np.full_like(frame.color, scene.background),
+        primitive=np.full_like(frame.primitive, -1),
+    )
+    unexplained = min(from_right.sum(), _differing(nothing, settings, drawn).sum())
+    fits: dict[str, Candidate] = {}
+    nearest, fewest = right, from_right
+    for number, candidate in enumerate(others if from_right.any() else ()):
         if report is not None:
-            report(number / len(runs), "comparing")
+            report(number / len(others), "comparing")
         try:
             with np.errstate(all="ignore"):
                 frame = candidate.draw()
         except ValueError:
-            if from_right is None:
-                raise
             continue  # The scene lacks what this method needs.
-        if from_right is None:
-            drawn = _with_background(drawn, frame, settings)
         differing = _differing(frame, candidate.settings, drawn)
-        if from_right is None:
-            from_right = differing
-        if nearest is None or differing.sum() < nearest[1].sum():
-            nearest = candidate, differing
-        if not differing.any() and candidate.name not in [each.name for each in fits]:
-            fits.append(candidate)
-    assert nearest is not None
-    assert from_right is not None
-    is_right = not from_right.any()
-    found = () if is_right else tuple(sorted(fits, key=lambda each: not each.is_mistake))
-    return Diagnosis(is_right, found, *nearest, from_right)
+        if (
+            differing.sum() < fewest.sum() and (frame.primitive >= 0).any()
+        ):  # Nothing is near to any small picture.
+            nearest, fewest = candidate, differing
+        if not differing.any():
+            fits.setdefault(candidate.name, candidate)
+    if fewest.sum() > UNEXPLAINED * unexplained:
+        nearest, fewest = right, from_right
+    found = sorted(fits.values(), key=lambda each: not each.is_mistake)
+    return Diagnosis(not from_right.any(), tuple(found), nearest, fewest, from_right, drawn)
 
 
 def check_size(size: tuple[int, int], wanted: tuple[int, int]) -> None:
@@ -263,8 +300,26 @@ def _differing(frame: Frame, settings: Settings, drawn: Drawn) -> Flags:
     if drawn.covered is not None:
         return np.asarray((frame.primitive >= 0) != drawn.covered)
     assert drawn.colors is not None
-    shown = _shown(frame, settings, drawn).astype(int)
-    return np.asarray((np.abs(shown - drawn.colors) > 1).any(axis=2))
+    shown = _shown(frame, settings, drawn)
+    pictures = [shown]
+    if drawn.background is not None:
+        is_background = (shown == np.uint8(drawn.background[0])).all(axis=2, keepdims=True)
+        pictures.append(np.where(is_background, np.uint8(drawn.background[1]), shown))
+    if drawn.loses is not None:
+        pictures = [drawn.loses(each) for each in pictures]
+    return ~np.logical_or.reduce([_is_equal(drawn, each) for each in pictures])
+
+
+def _is_equal(drawn: Drawn, colors: Bytes) -> Flags:
+    """Return where a picture has such colours, (H, W, 3 or 4) or one for all of it."""
+    assert drawn.colors is not None
+    return _is_close(drawn, drawn.colors, colors)
+
+
+def _is_close(drawn: Drawn, some: Bytes, others: Bytes) -> Flags:
+    """Return where colours (..., 3 or 4) are equal in a picture of this kind."""
+    steps = 1 if drawn.loses is None else LOSSY_STEPS
+    return np.asarray((np.abs(some.astype(int) - others) <= steps).all(axis=-1))
 
 
 def _shown(frame: Frame, settings: Settings, drawn: Drawn) -> Bytes:
@@ -274,38 +329,43 @@ def _shown(frame: Frame, settings: Settings, drawn: Drawn) -> Bytes:
         shown = picture_bytes(frame.color, resolve(settings).blend_name)
     else:
         shown = to_display(frame.color).pixels[..., :3]
-    if not drawn.grey:
-        return shown
-    grey = np.rint(sum(weight * shown[..., k] for k, weight in enumerate(drawn.grey)))
-    return np.dstack([grey, grey, grey, shown[..., 3:]]).astype(np.uint8)
+    if drawn.grey:
+        grey = np.rint(sum(weight * shown[..., k] for k, weight in enumerate(drawn.grey)))
+        shown = np.dstack([grey, grey, grey, shown[..., 3:]]).astype(np.uint8)
+    return shown
 
 
 def _with_background(drawn: Drawn, right: Frame, settings: Settings) -> Drawn:
-    """Put the scene's background in place of another one: the most frequent colour where nothing should be drawn."""
+    """Let another colour stand for the scene's background: the most frequent one where nothing should be drawn."""
     empty = right.primitive < 0
     if drawn.colors is None or not empty.any():
         return drawn
-    shown = _shown(right, settings, drawn)
+    ours = _shown(right, settings, drawn)[empty][0]
     colors, counts = np.unique(drawn.colors[empty], axis=0, return_counts=True)
-    theirs, ours = colors[np.argmax(counts)].astype(int), shown[empty][0]
-    is_background = (np.abs(drawn.colors - theirs) <= 1).all(axis=2)
-    is_ours = (np.abs(drawn.colors - ours.astype(int)) <= 1).all(axis=2)
-    if (is_background | is_ours).all():
+    theirs = colors[np.argmax(counts)]
+    if (_is_equal(drawn, theirs) | _is_equal(drawn, ours)).all() or _is_close(drawn, ours, theirs).all():
         return drawn  # Ink in the colour of the scene's background would vanish.
-    return replace(drawn, colors=np.where(is_background[..., None], ours, drawn.colors))
+    return replace(drawn, background=(tuple(ours.tolist()), tuple(theirs.tolist())))
 
 
 def _is_blank(drawn: Drawn) -> bool:
     """Return whether a picture is in a single colour."""
-    return drawn.colors is not None and bool((drawn.colors == drawn.colors[0, 0]).all())
+    return drawn.colors is not None and bool(_is_equal(drawn, drawn.colors[0, 0]).all())
 
 
 def _as_coverage(drawn: Drawn) -> list[Drawn]:
     """Return what a picture in two colours may cover: the pixels of the one, or those of the other; in one, nothing."""
     if drawn.colors is None:
         return []
-    first = (drawn.colors == drawn.colors[0, 0]).all(axis=2)
-    others = drawn.colors[~first]
-    if not len(others):
-        return [Drawn(covered=~first)]
-    return [] if (others != others[0]).any() else [Drawn(covered=~first), Drawn(covered=first)]
+    if _is_blank(drawn):
+        return [Drawn(covered=np.zeros(drawn.colors.shape[:2], bool))]
+    first = _is_equal(drawn, drawn.colors[0, 0])
+    if drawn.loses is not None:  # No pixel keeps its colour: each has about the one brightness or the other.
+        brightness = drawn.colors[..., :3] @ np.array(next(iter(GREYS)))
+        low, high = brightness.min(), brightness.max()
+        if (np.minimum(brightness - low, high - brightness) > (high - low) / 4).any():
+            return []
+        first = (brightness > (low + high) / 2) == (brightness[0, 0] > (low + high) / 2)
+    elif (drawn.colors[~first] != drawn.colors[~first][0]).any():
+        return []
+    return [Drawn(covered=~first), Drawn(covered=first)]

@@ -16,12 +16,14 @@ from app.cli.arguments import (
 )
 from app.files.drawn_pictures import read_drawn
 from core.records.arrays import Flags
-from lessons.diagnosis import RIGHT, Diagnosis, check_size, diagnose
+from core.scene import AnyScene
+from lessons.diagnosis import RIGHT, Diagnosis, Drawn, check_size, compared_text, diagnose
 
 DESCRIPTION = """Say which mistake, or which other method, makes a picture of a scene that another program drew; or how
 near the nearest is. For homework in any language."""
 EXAMPLES = """PICTURE is one of
-  .png  colours; the top row of the picture is the last row of the scene
+  .png  colours; the top row of the picture is the last row of the scene. .ppm, .pgm, .bmp, .tga: the same
+  .jpg  lossy: what it is compared with is saved in the same way first. Small differences are lost, so better send .png
   .npz  color (H, W, 3 or 4), primitive (H, W) numbers of triangles, -1 for none, or pixels (N, 2); row 0 at the bottom
   .csv  a pixel a line: column,row or column,row,triangle or column,row,red,green,blue; row 0 at the bottom
 Colours a byte apart are equal. The background may have any colour. A picture in two colours shows what is covered.
@@ -38,7 +40,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
     add_file(parser)
     parser.add_argument(
-        "picture", metavar="PICTURE", help="what another program drew of it: .png, .npz or .csv"
+        "picture",
+        metavar="PICTURE",
+        help="what another program drew of it: .png, .ppm, .bmp, .tga, .jpg, .npz or .csv",
     )
     add_size(parser, "pixels")
     add_settings(parser)
@@ -54,13 +58,19 @@ def run(options: argparse.Namespace) -> int:
     with progress_line() as progress:
         diagnosis = diagnose(scene, settings, drawn, progress)
     print("\n".join(report(diagnosis)))
+    print(f"scene: {scene_text(opened.document.title, scene)}. {compared_text(diagnosis.drawn)}")
     return 0
+
+
+def scene_text(title: str, scene: AnyScene) -> str:
+    """Return which scene a picture is compared with."""
+    return f"{title or 'the open scene'}, {scene.size[0]} x {scene.size[1]} pixels"
 
 
 def report(diagnosis: Diagnosis) -> list[str]:
     """Return what was found, as lines of text."""
     if diagnosis.is_right:
-        return ["right: every pixel is as this scene and its settings draw it"]
+        return [f"right: {right_text(diagnosis.drawn)}"]
     lines = []
     for each in diagnosis.found:
         kind = "mistake" if each.is_mistake else "method"
@@ -73,6 +83,15 @@ def report(diagnosis: Diagnosis) -> list[str]:
         f"nearest: {pixels_text(diagnosis.differing, nearest.name)}",
         *([nearest.sentence] if nearest.sentence else []),
     ]
+
+
+def right_text(drawn: Drawn) -> str:
+    """Return what is right of a picture in which nothing differs: no more than was compared."""
+    if drawn.covered is not None:
+        return "exactly the pixels that this scene and its settings cover"
+    if drawn.primitive is not None:
+        return "every pixel shows the triangle that this scene and its settings draw there"
+    return "every pixel has the colour that this scene and its settings draw there"
 
 
 def pixels_text(differing: Flags, name: str) -> str:

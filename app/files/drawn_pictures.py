@@ -1,20 +1,25 @@
-"""Pictures that other programs drew, to be compared with a scene: PNG, npz, CSV."""
+"""Pictures that other programs drew, to be compared with a scene: images, npz, CSV."""
 
 import csv
 import io
 import warnings
 import zipfile
 import zlib
+from collections.abc import Callable
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
-from app.files.file_names import DRAWN_ENDINGS
+from app.files.file_names import DRAWN_ENDINGS, IMAGE_FORMATS
 from app.files.input_files import read_input
 from app.files.mesh_formats.images import display_bytes
-from core.framebuffer.display import to_display
+from core.framebuffer.display import Bytes, to_display
 from lessons.diagnosis import PIXEL_LIMIT, Drawn, check_size
+
+if TYPE_CHECKING:
+    from PIL import Image
 
 FILE_LIMIT = 1 << 26
 """Most bytes of a file, and of an array in it."""
@@ -29,7 +34,7 @@ def read_drawn(path: Path, size: Size) -> Drawn:
     Parameters
     ----------
     path : Path
-        PNG, its top row first; npz with one of the arrays ``color``, ``primitive`` and ``pixels``, or CSV with a pixel
+        An image (PNG, PPM, BMP, TGA, or lossy JPEG), its top row first; npz with one of the arrays ``color``, ``primitive`` and ``pixels``, or CSV with a pixel
         a line (column, row and then nothing, the number of its triangle, or red, green, blue), row 0 at the bottom.
     size : (columns, rows)
         What the picture must have.
@@ -41,37 +46,60 @@ def read_drawn(path: Path, size: Size) -> Drawn:
     OSError
         If the file cannot be read.
     """
-    readers = dict(zip(DRAWN_ENDINGS, (_png, _npz, _csv), strict=True))
-    if path.suffix.lower() not in readers:
+    ending = path.suffix.lower()
+    if ending not in DRAWN_ENDINGS:
         raise ValueError(f"{path}: expected a picture as {', '.join(DRAWN_ENDINGS)}")
     content = read_input(path, FILE_LIMIT)
     try:
-        return readers[path.suffix.lower()](content, size)
+        if ending in IMAGE_FORMATS:
+            return _image(content, size, IMAGE_FORMATS[ending])
+        return (_npz if ending == ".npz" else _csv)(content, size)
     except ValueError as problem:
         raise ValueError(f"{path}: {problem}") from None
 
 
-def _png(content: bytes, size: Size) -> Drawn:
-    from PIL import Image, UnidentifiedImageError  # Pillow takes a moment: not before there is an image.
+def _image(content: bytes, size: Size, kind: str) -> Drawn:
+    from PIL import Image  # Pillow takes a moment: not before there is an image.
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
+        # The size first, from the header: Pillow opens no picture that is too large to be decoded.
+        if kind == "PNG" and content.startswith(PNG):
+            check_size((int.from_bytes(content[16:20]), int.from_bytes(content[20:24])), size)
         try:
-            # The size first, from the header: Pillow opens no picture that is too large to be decoded.
-            if content.startswith(PNG):
-                check_size((int.from_bytes(content[16:20]), int.from_bytes(content[20:24])), size)
-            image = Image.open(io.BytesIO(content), formats=("PNG",))
-        except UnidentifiedImageError:
-            raise ValueError("expected a PNG picture") from None
+            image = Image.open(io.BytesIO(content), formats=(kind,))
+        except Exception:  # Whatever a decoder says of another file, or of one that is far too large.
+            raise ValueError(f"expected a {kind} picture") from None
+        check_size(image.size, size)
         channels = 4 if image.has_transparency_data else 3
+        loses = None if kind != "JPEG" else _jpeg_again(image)
         try:
             colors = display_bytes(image, channels)[::-1]
         except Exception as problem:  # Whatever a decoder says of a broken file.
             raise ValueError(
-                f"expected a whole PNG picture: {' '.join(str(problem).split())[:200]}"
+                f"expected a whole {kind} picture: {' '.join(str(problem).split())[:200]}"
             ) from None
     is_opaque = channels == 3 or bool((colors[..., 3] == 255).all())
-    return Drawn(colors=colors[..., :3] if is_opaque else colors)
+    return Drawn(colors=colors[..., :3] if is_opaque else colors, loses=loses)
+
+
+def _jpeg_again(image: "Image.Image") -> Callable[[Bytes], Bytes]:
+    """Return what saves colours (H, W, 3) as an opened JPEG picture was saved, and reads them again."""
+    from PIL import Image, JpegImagePlugin
+
+    mode = "L" if image.mode == "L" else "RGB"
+    # As many tables as there are: Pillow's own would stand for the others.
+    tables = {number: list(table) for number, table in vars(image)["quantization"].items()}
+    sampling = JpegImagePlugin.get_sampling(image) if mode == "RGB" else -1
+
+    def loses(colors: Bytes) -> Bytes:
+        file = io.BytesIO()
+        picture = Image.fromarray(np.ascontiguousarray(colors[::-1])).convert(mode)
+        picture.save(file, "JPEG", qtables=tables, subsampling=sampling)
+        with Image.open(file, formats=("JPEG",)) as saved:
+            return np.asarray(saved.convert("RGB"))[::-1]
+
+    return loses
 
 
 def _npz(content: bytes, size: Size) -> Drawn:

@@ -4,7 +4,17 @@ import re
 
 VIEW_ENDINGS = (".png", ".svg", ".pdf")
 """Of pictures of a view."""
-DRAWN_ENDINGS = (".png", ".npz", ".csv")
+IMAGE_FORMATS = {
+    ".png": "PNG",
+    ".ppm": "PPM",
+    ".pgm": "PPM",
+    ".bmp": "BMP",
+    ".tga": "TGA",
+    ".jpg": "JPEG",
+    ".jpeg": "JPEG",
+}
+"""Pillow's names of the images that other programs drew, by ending."""
+DRAWN_ENDINGS = (*IMAGE_FORMATS, ".npz", ".csv")
 """Of pictures that other programs drew."""
 
 

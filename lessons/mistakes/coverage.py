@@ -1,11 +1,12 @@
 """Mistakes of coverage, of the window and of culling."""
 
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 
 from core import Settings
-from core.raster.edges.snapping import window_position
+from core.raster.edges.snapping import snap, window_position
 from core.records.arrays import Flags, Floats
 from core.records.frame import Frame
 from core.scene import AnyScene, ClipScene
@@ -37,15 +38,32 @@ def with_places(scene: ClipScene, places: Floats) -> ClipScene:
     return replace(scene, clip=clip)
 
 
+def snapped(scene: ClipScene) -> Floats:
+    """Return the corners as `in_window`, on the 1/256-pixel grid: 6.5 where the divide has left 6.499999999999998."""
+    return snap(in_window(scene), np.inf)[0]
+
+
 def rounded(scene: ClipScene) -> ClipScene:
     """Round all corners to whole pixels, half up."""
-    return with_places(scene, np.floor(in_window(scene) + 0.5))
+    return with_places(scene, np.floor(snapped(scene) + 0.5))
+
+
+def rounded_to_even(scene: ClipScene) -> ClipScene:
+    """Round all corners to whole pixels, half to even."""
+    return with_places(scene, np.rint(snapped(scene)))
 
 
 def rounded_rows(scene: ClipScene) -> ClipScene:
     """Round the y of all corners, half up."""
     places = in_window(scene)
-    places[..., 1] = np.floor(places[..., 1] + 0.5)
+    places[..., 1] = np.floor(snapped(scene)[..., 1] + 0.5)
+    return with_places(scene, places)
+
+
+def rounded_rows_to_even(scene: ClipScene) -> ClipScene:
+    """Round the y of all corners, half to even."""
+    places = in_window(scene)
+    places[..., 1] = np.rint(snapped(scene)[..., 1])
     return with_places(scene, places)
 
 
@@ -84,10 +102,34 @@ def upside_down(frame: Frame, scene: AnyScene) -> Frame:
     return replace(frame, **{name: getattr(frame, name)[::-1] for name in CLEARED})
 
 
+def moved_scene(shift: tuple[int, int], scene: ClipScene) -> ClipScene:
+    """Move all corners by whole pixels in the window."""
+    clip = scene.clip.copy()
+    clip[..., :2] += 2 * np.array(shift) / scene.size * clip[..., 3:]
+    return replace(scene, clip=clip)
+
+
+def moved_picture(shift: tuple[int, int], frame: Frame, scene: AnyScene) -> Frame:
+    """Store every pixel some columns to the right and rows up; what is missing is cleared."""
+    buffers = {}
+    (into_columns, from_columns), (into_rows, from_rows) = (
+        (slice(max(step, 0), size + min(step, 0)), slice(max(-step, 0), size - max(step, 0)))
+        for step, size in zip(shift, scene.size, strict=True)
+    )
+    for name, cleared in CLEARED.items():
+        buffer = getattr(frame, name)
+        moved = np.full_like(buffer, cleared)
+        if name == "color":
+            moved[:] = scene.background
+        moved[into_rows, into_columns] = buffer[from_rows, from_columns]
+        buffers[name] = moved
+    return replace(frame, **buffers)
+
+
 def short_box(frame: Frame, scene: ClipScene) -> Frame:
     """Leave out what lies in the column and the row of the truncated right and upper end of a triangle's box."""
     is_lost = np.zeros(frame.primitive.shape, bool)
-    for triangle, (column, row) in enumerate(in_window(scene).max(axis=1).astype(int)):
+    for triangle, (column, row) in enumerate(snapped(scene).max(axis=1).astype(int)):
         is_kept = np.zeros(is_lost.shape, bool)
         is_kept[: max(row, 0), : max(column, 0)] = True
         is_lost |= (frame.primitive == triangle) & ~is_kept
@@ -119,6 +161,29 @@ def facing_exchanged(settings: Settings) -> Settings:
     """Drop front faces where back faces should go, and the other way round."""
     return replace(settings, cull={"back": "front", "front": "back"}.get(settings.cull, settings.cull))
 
+
+DIRECTIONS = {
+    "right": (1, 0),
+    "left": (-1, 0),
+    "up": (0, 1),
+    "down": (0, -1),
+    "up-and-right": (1, 1),
+    "down-and-right": (1, -1),
+    "up-and-left": (-1, 1),
+    "down-and-left": (-1, -1),
+}
+SHIFTED = tuple(
+    Twin(
+        f"one-pixel-{name}",
+        f"The picture lies one pixel too far {name.replace('-', ' ')}. Columns and rows are counted from 0.",
+        Case(FREE),
+        Case(EVERYWHERE),
+        change_scene=partial(moved_scene, shift),
+        change_picture=partial(moved_picture, shift),
+    )
+    for name, shift in DIRECTIONS.items()
+)
+"""Columns and rows that are counted from 1, or from the other side."""
 
 TWINS = (
     Twin(
@@ -162,6 +227,7 @@ TWINS = (
         Case(THIN),
         Case(WHOLE),
         change_scene=rounded,
+        other_scenes=(rounded_to_even,),
     ),
     Twin(
         "rows-rounded",
@@ -169,6 +235,7 @@ TWINS = (
         Case(LOW),
         Case(WHOLE),
         change_scene=rounded_rows,
+        other_scenes=(rounded_rows_to_even,),
     ),
     Twin(
         "box-truncated",
@@ -190,6 +257,7 @@ TWINS = (
         Case(FREE),
         Case(triangle_scene([[(1.1, 3), (5.3, 1.3), (5.3, 4.7)]], (6, 6))),
         change_scene=y_down,
+        change_picture=upside_down,
     ),
     Twin(
         "window-one-less",
@@ -204,6 +272,7 @@ TWINS = (
         Case(FREE),
         Case(triangle_scene([[(1.1, 1.1), (5.3, 1.3), (1.3, 5.3)]], (6, 6))),
         change_frame=transposed,
+        change_picture=transposed,
     ),
     Twin(
         "facing-exchanged",
@@ -212,4 +281,5 @@ TWINS = (
         Case(FREE),
         change_settings=facing_exchanged,
     ),
+    *SHIFTED,
 )

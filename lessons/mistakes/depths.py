@@ -40,6 +40,14 @@ def drawn_last_on_ties(scene: ClipScene) -> ClipScene:
     return replace(scene, clip=clip)
 
 
+def first_is_nearest(scene: ClipScene) -> ClipScene:
+    """Give each triangle a depth behind all before it, so that the first one drawn is kept."""
+    clip = scene.clip.copy()
+    depths = (np.arange(len(clip)) + 0.5) / len(clip)
+    clip[..., 2] = (2 * depths - 1)[:, None] * clip[..., 3]
+    return replace(scene, clip=clip)
+
+
 def squared_alpha(source: Floats, destination: Singles) -> Singles:
     """Weigh the source's alpha by itself: a a + (1 - a) times what is there."""
     mixed = over(source, destination)
@@ -151,6 +159,20 @@ TWINS = (
         Case(LEVEL, reading=frame_colors),
         Case(NEAR_AND_FAR, reading=frame_colors),
         change_scene=drawn_last_on_ties,
+    ),
+    Twin(
+        "first-drawn-wins",
+        "Depths were not compared, and a pixel that was drawn stayed: the first one drawn won.",
+        Case(cards([0.75] * 3, [0.25] * 3), reading=frame_colors),
+        Case(NEAR_AND_FAR, reading=frame_colors),
+        change_scene=first_is_nearest,
+    ),
+    Twin(
+        "inclusive-without-depth",
+        "Every centre on an edge was counted (E >= 0), and depths were not compared: the last one drawn won.",
+        Case(NEAR_AND_FAR),
+        Case(cards([0.75] * 3, [0.25] * 3)),
+        change_settings=lambda settings: replace(settings, fill_rule="inclusive", visibility="last-drawn"),
     ),
     Twin(
         "painted-by-mean",

@@ -12,7 +12,7 @@ from core.framebuffer.display import linear_light, srgb
 from core.methods import table
 from core.records.arrays import Floats, Singles
 from core.records.frame import Frame
-from core.scene import ClipScene
+from core.scene import AnyScene, ClipScene
 from lessons.mistakes.twin import Case, Twin, frame_colors
 from lessons.small_scenes import triangle_scene
 
@@ -51,6 +51,11 @@ def turned_attributes(scene: ClipScene) -> ClipScene:
     """Give each corner the attributes of the next one."""
     assert scene.attributes is not None
     return replace(scene, attributes=np.roll(scene.attributes, 1, axis=1))
+
+
+def turned_back(scene: ClipScene) -> ClipScene:
+    """Give each corner the attributes of the one before."""
+    return turned_attributes(turned_attributes(scene))
 
 
 def not_divided(scene: ClipScene) -> ClipScene:
@@ -93,6 +98,12 @@ def farther_wins(settings: Settings) -> Settings:
     right: DepthFormat = table.get("depth", settings.depth).function()
     wrong = replace(right, cleared=1.0 - right.cleared, larger_is_nearer=not right.larger_is_nearer)
     return settings.replaced(depth=lambda: wrong)
+
+
+def red_and_blue_exchanged(frame: Frame, scene: AnyScene) -> Frame:
+    """Store blue, green, red; the background keeps its colour."""
+    is_background = (frame.color == scene.background.astype(np.float32)).all(axis=2, keepdims=True)
+    return replace(frame, color=np.where(is_background, frame.color, frame.color[..., [2, 1, 0, 3]]))
 
 
 def reversed_order(scene: ClipScene) -> ClipScene:
@@ -196,6 +207,7 @@ TWINS = (
         Case(UPRIGHT),
         Case(GREY),
         change_scene=turned_attributes,
+        other_scenes=(turned_back,),
     ),
     Twin(
         "farther-wins",
@@ -210,6 +222,14 @@ TWINS = (
         Case(NEAR_FIRST),
         Case(FAR_FIRST),
         change_settings=lambda settings: replace(settings, visibility="last-drawn"),
+    ),
+    Twin(
+        "red-and-blue-exchanged",
+        "Red and blue are exchanged. The bytes of a pixel are red, green, blue; some formats store blue first.",
+        Case(UPRIGHT),
+        Case(GREY),
+        change_frame=red_and_blue_exchanged,
+        change_picture=red_and_blue_exchanged,
     ),
     Twin(
         "order-reversed",

@@ -10,7 +10,7 @@ from core import Settings, clip_lines, draw_lines, render
 from core.raster.edges.snapping import window_position
 from core.records.arrays import Floats
 from core.records.frame import Frame
-from core.scene import ClipScene
+from core.scene import AnyScene, ClipScene
 from core.settings import DEFAULTS
 
 Reading = Callable[[ClipScene, Settings], object]
@@ -21,11 +21,12 @@ def _same_settings(settings: Settings) -> Settings:
     return settings
 
 
-def _same_scene(scene: ClipScene) -> ClipScene:
+def same_scene(scene: ClipScene) -> ClipScene:
+    """Return the scene itself: the mistake is not in it."""
     return scene
 
 
-def _same_frame(frame: Frame, scene: ClipScene) -> Frame:
+def _same_frame(frame: Frame, scene: AnyScene) -> Frame:
     return frame
 
 
@@ -51,9 +52,13 @@ class Twin:
     hides: Case
     change_settings: Callable[[Settings], Settings] = _same_settings
     """Chooses another method, or replaces its function."""
-    change_scene: Callable[[ClipScene], ClipScene] = _same_scene
+    change_scene: Callable[[ClipScene], ClipScene] = same_scene
     change_frame: Callable[[Frame, ClipScene], Frame] = _same_frame
     """Changes what was drawn, of the scene as it was given: this can be shown, not stepped."""
+    other_scenes: tuple[Callable[[ClipScene], ClipScene], ...] = ()
+    """Other ways to make the same mistake, which a picture is compared with, too."""
+    change_picture: Callable[[Frame, AnyScene], Frame] | None = None
+    """What makes it in the picture of any scene, also of a mesh; ``None``: it needs the corners of a scene."""
 
     @property
     def is_run(self) -> bool:
@@ -63,7 +68,7 @@ class Twin:
     @property
     def takes_any_scene(self) -> bool:
         """Whether it changes settings only: a mesh has no corners in the window that could be changed."""
-        return self.change_scene is _same_scene and self.change_frame is _same_frame
+        return self.change_scene is same_scene and self.change_frame is _same_frame
 
     def draw(self, scene: ClipScene, settings: Settings) -> Frame:
         """Draw a scene with this mistake."""

@@ -35,7 +35,7 @@ class DiagnosisView(QWidget):
         self.close_button = button_with_tip("Back to the question", "Close the picture (Escape)", self)
         self.close_button.clicked.connect(self.closed)
         self.open_button = button_with_tip(
-            "Another picture…", "Open another picture of the same scene: PNG, npz or CSV", self
+            "Another picture…", "Open another picture of the same scene: an image, npz or CSV", self
         )
         self.open_button.clicked.connect(self.open_requested)
         self._found = QWidget(self)
@@ -98,7 +98,9 @@ class DiagnosisView(QWidget):
             layout.addWidget(text_label(each.sentence, row, wraps=True, is_selectable=True))
             if each.has_run:
                 button = button_with_tip(
-                    "Show that run", "Step the right run beside this one, from their first difference on", row
+                    "Show that run",
+                    "Step the right run beside this one, from the first pixel that differs on",
+                    row,
                 )
                 button.setAccessibleDescription(each.sentence)
                 button.setProperty("number", number)

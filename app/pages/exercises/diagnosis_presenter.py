@@ -8,7 +8,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QFileDialog
 
 from app.background.workers import Job, Progress
-from app.cli.diagnose import pixels_text
+from app.cli.diagnose import pixels_text, right_text, scene_text
 from app.files.drawn_pictures import read_drawn
 from app.files.file_names import DRAWN_ENDINGS
 from app.pages.page_bar import COVERED, StepRequest
@@ -21,9 +21,9 @@ from core.scene import AnyScene, ClipScene
 from core.settings import FAMILIES
 from core.study.accuracy.record import Opening
 from core.study.planner.phrases import capitalized
-from lessons.diagnosis import RIGHT, Candidate, Diagnosis, Drawn, diagnose
+from lessons.diagnosis import RIGHT, Candidate, Diagnosis, Drawn, compared_text, diagnose
 from lessons.exercises.scene_digest import scene_digest
-from lessons.mistakes.shelf import SHELF
+from lessons.mistakes.twin import same_scene
 from lessons.os_errors import os_error_reason
 from widgets.basics.message_bar import Progress as Done
 from widgets.exercises.diagnosis_view import DiagnosisView
@@ -138,11 +138,10 @@ class DiagnosisPresenter(QObject):
         ]
         if len(runs) > MOST_FOUND:
             found.append(FoundRun(f"{len(runs) - MOST_FOUND} more make the same picture.", has_run=False))
-        columns, rows = scene.size
-        title = diagnosed.document.title or "the open scene"
+        about = f"{diagnosed.name}, compared with {scene_text(diagnosed.document.title, scene)}"
         self._view.show_diagnosis(
             DiagnosisRecord(
-                f"{diagnosed.name}, compared with {title}, {columns} x {rows} pixels",
+                f"{about}. {compared_text(diagnosis.drawn)}",
                 _verdict(diagnosis),
                 diagnosis.is_right,
                 tuple(found),
@@ -164,18 +163,19 @@ class DiagnosisPresenter(QObject):
         """Return what steps the right run beside that of a candidate; ``None``: it has only a picture."""
         assert self._diagnosed is not None
         document, scene = self._diagnosed.document, self._diagnosed.scene
+        change = candidate.change_scene
+        if change is None or (change is not same_scene and not isinstance(scene, ClipScene)):
+            return None
         changed = document.settings.differences(candidate.settings)
         stages = [STAGES.index(FAMILIES[family].stage) for family in changed if family in FAMILIES]
-        stage = STAGES[min(stages)] if stages else "raster"
+        # The first pixel, not an edge's rule: no pixel is drawn before the raster.
+        stage = STAGES[max(min(stages, default=0), STAGES.index("raster"))]
         differing = self._diagnosed.diagnosis.from_right.nonzero()
         pixel = int(differing[1][0]), int(differing[0][0])
         opening = Opening(scene, document.settings, stage, pixel)
         if not candidate.is_mistake:
             return StepRequest(opening, document.title, candidate.settings)
-        twin = SHELF.get(candidate.name)
-        if twin is None or not (twin.is_run if isinstance(scene, ClipScene) else twin.takes_any_scene):
-            return None
-        other = twin.change_scene(scene) if isinstance(scene, ClipScene) else scene
+        other = change(scene) if isinstance(scene, ClipScene) else scene
         title = f"with the mistake: {candidate.name.replace('-', ' ')}"
         return StepRequest(opening, document.title, candidate.settings, other_scene=other, other_title=title)
 
@@ -205,7 +205,7 @@ def _read(path: Path, document: Document) -> tuple[AnyScene, Drawn]:
 
 def _verdict(diagnosis: Diagnosis) -> str:
     if diagnosis.is_right:
-        return "Right: every pixel is as this scene and its settings draw it."
+        return f"Right: {right_text(diagnosis.drawn)}."
     if diagnosis.found:
         count = counted(len(diagnosis.found), "run")
         verb = "makes" if len(diagnosis.found) == 1 else "make"

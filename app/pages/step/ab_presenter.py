@@ -286,16 +286,20 @@ class ComparePresenter(QObject):
             self._take(self._second)
 
     def _go_to_mistake(self, second: Trace) -> None:
-        """Put both runs where they differ first: of other corners, in the stage at hand, since all differ before."""
-        from core.study.accuracy.divergence import stage_divergence
+        """Put both runs where they differ first from the stage at hand on, or else in any stage."""
+        from core.study.accuracy.divergence import diverge, stage_divergence
 
-        run, found = self._b.run_beside(self._session.document), None
-        if run is not None and run.scene is not run.of:
-            found = stage_divergence(self._session.stage_trace, second.stage(self._stage), by_outcome=True)
-        if found is None:
-            self.go_to_divergence()
-        else:
+        found = stage_divergence(self._session.stage_trace, second.stage(self._stage), by_outcome=True)
+        if found is not None:
             self._land(found)
+        else:
+            first, stage = self._session.trace, self._stage
+            self._search.call(
+                lambda: (
+                    diverge(first, second, by_outcome=True, since=stage)
+                    or diverge(first, second, by_outcome=True)
+                )
+            )
 
     @Slot()
     def go_to_divergence(self) -> None:

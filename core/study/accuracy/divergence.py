@@ -61,9 +61,11 @@ def first_divergence(
     )
 
 
-def diverge(first: Trace, second: Trace, by_outcome: bool = False) -> Divergence | None:
-    """Find the first place at which two traces of one scene differ; ``by_outcome``: as `stage_divergence`."""
-    for stage in STAGES:
+def diverge(
+    first: Trace, second: Trace, by_outcome: bool = False, since: str = STAGES[0]
+) -> Divergence | None:
+    """Find the first place at which two traces differ from a stage on; ``by_outcome``: as `stage_divergence`."""
+    for stage in STAGES[STAGES.index(since) :]:
         found = stage_divergence(first.stage(stage), second.stage(stage), by_outcome)
         if found is not None:
             return found

@@ -54,7 +54,9 @@ def test_the_mistake_of_a_picture_is_named_marked_and_stepped(
     page = dropped(small, path)
     view = page.diagnosis_view
     assert page.main_view() is view
-    assert view.about.text().startswith("homework.png, compared with Mine, 16 x 12")
+    assert view.about.text().startswith(
+        "homework.png, compared with Mine, 16 x 12 pixels. Compared: the colours"
+    )
     said = view.spoken_text()
     assert "make exactly this picture" in said
     assert "All edges inclusive. Every centre on an edge was counted" in said
@@ -65,7 +67,9 @@ def test_the_mistake_of_a_picture_is_named_marked_and_stepped(
     comparing = small.page.comparing
     qtbot.waitUntil(lambda: not comparing._search.is_running)
     assert small.page.current_view() == "compare"
-    assert small.session.pin is not None
+    differing = (right.primitive != wrong.primitive).nonzero()
+    assert small.session.cursor.stage == "raster", "the pixel, not the rule of an edge"
+    assert small.session.pin in list(zip(differing[1], differing[0], strict=True))
     small.run_action("page_exercises")
     small.run_action("unpin")
     assert page.main_view() is page.panes
