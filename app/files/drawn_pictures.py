@@ -34,8 +34,9 @@ def read_drawn(path: Path, size: Size) -> Drawn:
     Parameters
     ----------
     path : Path
-        An image (PNG, PPM, BMP, TGA, or lossy JPEG), its top row first; npz with one of the arrays ``color``, ``primitive`` and ``pixels``, or CSV with a pixel
-        a line (column, row and then nothing, the number of its triangle, or red, green, blue), row 0 at the bottom.
+        An image (PNG, PPM, BMP, TGA, or lossy JPEG), its top row first; npz with one of the arrays ``color``,
+        ``primitive`` and ``pixels``, or CSV with a pixel a line (column, row and then nothing, the number of its
+        triangle, or red, green, blue), row 0 at the bottom.
     size : (columns, rows)
         What the picture must have.
 

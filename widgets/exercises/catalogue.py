@@ -46,7 +46,7 @@ class Catalogue(QWidget):
         self.progress_button.clicked.connect(self.progress_requested)
         self.picture_button = button_with_tip(
             "Which mistake makes a picture?",
-            "Compare a picture that your own program drew of the open scene: PNG, npz or CSV",
+            "Compare a picture that your own program drew of the open scene: an image, npz or CSV",
             self,
         )
         self.picture_button.clicked.connect(self.picture_requested)
