@@ -303,11 +303,11 @@ def _differing(frame: Frame, settings: Settings, drawn: Drawn) -> Flags:
     shown = _shown(frame, settings, drawn)
     pictures = [shown]
     if drawn.background is not None:
-        is_background = (shown == np.uint8(drawn.background[0])).all(axis=2, keepdims=True)
-        pictures.append(np.where(is_background, np.uint8(drawn.background[1]), shown))
+        ours, theirs = np.array(drawn.background, np.uint8)
+        pictures.append(np.where((shown == ours).all(axis=2, keepdims=True), theirs, shown))
     if drawn.loses is not None:
         pictures = [drawn.loses(each) for each in pictures]
-    return ~np.logical_or.reduce([_is_equal(drawn, each) for each in pictures])
+    return np.asarray(np.all([~_is_equal(drawn, each) for each in pictures], axis=0))
 
 
 def _is_equal(drawn: Drawn, colors: Bytes) -> Flags:
