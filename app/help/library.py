@@ -7,7 +7,8 @@ from html import escape
 from app.help.markup import HelpPage, bullets, link, linked
 from app.help.places import occurrences
 from app.help.reference import family_page, method_page, methods_page
-from app.window.keys import ACTIONS, key_text
+from app.window.actions import ACTIONS
+from app.window.keys import key_text
 from core.methods import table
 from core.settings import FAMILIES
 from lessons.glossary import Term, find_terms, glossary

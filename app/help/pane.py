@@ -9,21 +9,22 @@ from PySide6.QtWidgets import QApplication, QComboBox, QDockWidget, QWidget
 
 from app.help.markup import linked
 from app.help.term_menu import term_menu, terms_of
-from app.window.keys import ACTIONS
+from app.window.parts import WindowParts
 from core.methods import table
 from core.settings import FIELDS
 from core.stages.declared import STAGES
 
 if TYPE_CHECKING:
-    from app.window.main_window import MainWindow
     from widgets.help.help_view import HelpView
 
 
 class HelpPane(QObject):
     """Shows the pane, and runs its links in the window."""
 
-    def __init__(self, window: "MainWindow") -> None:
+    def __init__(self, window: WindowParts, body: Callable[[str], tuple[str, str]]) -> None:
+        """``body`` returns title and HTML of the page at an address."""
         super().__init__(window)
+        self._body = body
         self.dock: QDockWidget | None = None
         self._is_aside = False
         """Whether the pane comes back when presenting ends."""
@@ -36,7 +37,7 @@ class HelpPane(QObject):
         page.settings_panel.reference_requested.connect(self._explain_setting)
 
     @property
-    def window(self) -> "MainWindow":
+    def window(self) -> WindowParts:
         """The window; not an attribute, since a window in a cycle would not be deleted when it is released."""
         return self.parent()  # type: ignore[return-value]
 
@@ -110,16 +111,9 @@ class HelpPane(QObject):
 
     def _made(self) -> QDockWidget:
         if self.dock is None:
-            from app.help.library import (
-                page,
-            )  # All methods and studies come along: not before Help is wanted.
             from widgets.help.help_view import HelpView
 
-            def body(address: str) -> tuple[str, str]:
-                made = page(address)
-                return made.title, made.html
-
-            view = HelpView(body)
+            view = HelpView(self._body)
             view.link_chosen.connect(self.follow)
             view.closed.connect(self.close)
             self.dock = QDockWidget("Help", self.window)
@@ -172,7 +166,7 @@ class HelpPane(QObject):
 
     def _act(self, name: str) -> None:
         """Run an action of the keys, on its page."""
-        entry = next(entry for entry in ACTIONS if entry.name == name)
+        entry = next(entry for entry in self.window.overlays.keys.actions if entry.name == name)
         if entry.page:
             self.window.pages.show_page(entry.page)
         self.window.run_action(name)

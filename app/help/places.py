@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from functools import cache
 
 from app.views.stage_views import VIEWS
-from app.window.keys import ACTIONS
+from app.window.actions import ACTIONS
 from core.explain.steps import load_subjects
 from core.explain.variable_text import VARIABLES
 from core.methods import table

@@ -1,6 +1,6 @@
 """The pages of the window and the bar that chooses among them; a page is made when it is first shown."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -29,8 +29,6 @@ COVERED = (
     "Hidden while an exercise asks about this scene. P on the Step page, or Model answer, ends the question."
 )
 """What stands for a page that would show what is asked about."""
-Handlers = Mapping[str, Callable[[], object]]
-"""What to call for actions of ``app.window.keys.ACTIONS``, by name."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,11 +87,23 @@ class Page(QWidget):
     """Name and value of a field of ``app.window.preferences.Preferences`` that the user has changed."""
 
     action_requested = Signal(str)
-    """Name of an action of ``app.window.keys.ACTIONS`` that is another page's, or shows another page."""
+    """Name of an action of ``app.window.actions.ACTIONS`` that is another page's, or shows another page."""
 
-    def handlers(self) -> Handlers:
-        """Return what the actions of this page do."""
-        return {}
+    def undo(self) -> bool:
+        """Take an edit of the page itself back; return whether it has a history of its own."""
+        return False
+
+    def redo(self) -> bool:
+        """Do it again; return whether the page has a history of its own."""
+        return False
+
+    def export_view(self) -> bool:
+        """Ask where to export what the page draws; return whether it does so itself."""
+        return False
+
+    def copy_view(self) -> bool:
+        """Copy what the page draws; return whether it does so itself."""
+        return False
 
     def dismiss(self) -> bool:
         """Close what is on top or stop what runs (Escape); return whether there was anything."""

@@ -211,6 +211,16 @@ class ResultPage(WorkPage):
         """The result that is shown; ``None``: there is none, or it is not finished."""
         return None if self.results.is_partial else self.results.choice.result
 
+    def export_view(self) -> bool:
+        """Ask where to export the result."""
+        self.ask_export()
+        return True
+
+    def copy_view(self) -> bool:
+        """Copy what is shown of the result."""
+        self.copy()
+        return True
+
     @Slot()
     def ask_export(self) -> None:
         """Ask for a file and write the result to it."""

@@ -1,23 +1,21 @@
 """The way of the keyboard through the window: Tab from stop to stop, F6 from pane to pane, Escape to the main view."""
 
-from typing import TYPE_CHECKING
-
 from PySide6.QtCore import QObject, Qt, Slot
 from PySide6.QtWidgets import QApplication, QWidget
 
+from app.help.pane import HelpPane
 from app.window.appearance import the_application
+from app.window.parts import WindowParts
 from widgets.basics.focus_order import give_focus, next_stop, tab_stops
 from widgets.basics.key_claim import GIVEN_BACK
-
-if TYPE_CHECKING:
-    from app.window.main_window import MainWindow
 
 
 class FocusWalk(QObject):
     """Gives the keyboard to what comes next; nothing that is covered or folded away gets it."""
 
-    def __init__(self, window: "MainWindow") -> None:
+    def __init__(self, window: WindowParts, help_pane: HelpPane) -> None:
         super().__init__(window)
+        self._help = help_pane
         self._last: dict[QWidget, QWidget] = {}
         """The stop that had the keyboard last in each pane."""
         self.is_by_mouse = False
@@ -25,7 +23,7 @@ class FocusWalk(QObject):
         the_application().focusChanged.connect(self._focus_moved)
 
     @property
-    def window(self) -> "MainWindow":
+    def window(self) -> WindowParts:
         """The window; not an attribute, since a window in a cycle would not be deleted when it is released."""
         return self.parent()  # type: ignore[return-value]
 
@@ -42,7 +40,7 @@ class FocusWalk(QObject):
                 return [whole]
         panes = [window.pages.current.first_pane(), *window.pages.current.focus_panes()]
         panes = [window.overlays.ask_bar, window.messages, *panes]
-        return [*panes, window.help.dock] if window.help.dock is not None else panes
+        return panes if self._help.dock is None else [*panes, self._help.dock]
 
     def go(self, *, is_forward: bool) -> bool:
         """Go to the next stop, or back to the one before; return whether there is one."""

@@ -1,11 +1,11 @@
 """Which keys the user has: those of the table, but for what is changed or turned off."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from PySide6.QtGui import QKeySequence
 
-from app.window.keys import ACTIONS, KeyAction
+from app.window.keys import KeyAction
 
 
 @dataclass(frozen=True)
@@ -25,13 +25,15 @@ class KeyChoices:
         """Return actions with the keys that they have now."""
         return [replace(action, keys=self.keys_of(action)) for action in actions]
 
-    def with_keys(self, action: KeyAction, keys: tuple[str, ...]) -> "KeyChoices":
-        """Return the choices with other keys for an action.
+    def with_keys(
+        self, action: KeyAction, keys: tuple[str, ...], actions: Iterable[KeyAction]
+    ) -> "KeyChoices":
+        """Return the choices with other keys for one of the actions.
 
         Raises ValueError if one of them is the key of another action on the same page; the message is a sentence.
         """
         wanted = {portable(key): key for key in keys}
-        for other in ACTIONS:
+        for other in actions:
             meets = other.name != action.name and (
                 other.page == action.page or not (other.page and action.page)
             )
@@ -54,15 +56,17 @@ def is_character(key: str) -> bool:
     return len(key.removeprefix("Shift+")) == 1
 
 
-def choices_from(changed: Mapping[str, Iterable[str]], has_characters: bool) -> KeyChoices:
+def choices_from(
+    changed: Mapping[str, Iterable[str]], has_characters: bool, actions: Sequence[KeyAction]
+) -> KeyChoices:
     """Return the choices that were saved, less actions that there are no more, and keys that are taken."""
     wanted = {
-        action: tuple(filter(portable, changed[action.name])) for action in ACTIONS if action.name in changed
+        action: tuple(filter(portable, changed[action.name])) for action in actions if action.name in changed
     }
     choices = KeyChoices({action.name: () for action in wanted}, has_characters)
     for action, keys in wanted.items():
         try:
-            choices = choices.with_keys(action, keys)
+            choices = choices.with_keys(action, keys, actions)
         except ValueError:
             kept = {name: value for name, value in choices.changed.items() if name != action.name}
             choices = replace(choices, changed=kept)

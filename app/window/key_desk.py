@@ -1,12 +1,13 @@
 """Changing keys: takes the user's wishes, refuses what is taken, and tells who shows keys."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.window.key_choices import KeyChoices
-from app.window.keys import ACTIONS, key_text
+from app.window.keys import KeyAction, key_text
 from widgets.basics.key_editor import KeyEditor
 from widgets.basics.key_help import KeyEntry
 
@@ -17,8 +18,9 @@ class KeyDesk(QObject):
     keys_changed = Signal(object)
     """The `KeyChoices` that hold now."""
 
-    def __init__(self, window: QWidget) -> None:
+    def __init__(self, window: QWidget, actions: Sequence[KeyAction]) -> None:
         super().__init__(window)
+        self.actions = actions
         self.choices = KeyChoices()
         self.editor = KeyEditor(window)
         self.editor.hide()
@@ -37,7 +39,7 @@ class KeyDesk(QObject):
     def show_table(self) -> None:
         """Show the present keys on the page, if it is open."""
         if self.editor.isVisible():
-            table = self.choices.table(ACTIONS)
+            table = self.choices.table(self.actions)
             entries = [
                 KeyEntry(f"{a.page.capitalize()}: {a.group}" if a.page else a.group, key_text(a), a.title)
                 for a in table
@@ -50,12 +52,12 @@ class KeyDesk(QObject):
 
     @Slot(int)
     def _restore(self, place: int) -> None:
-        self._change(place, ACTIONS[place].keys)
+        self._change(place, self.actions[place].keys)
 
     def _change(self, place: int, keys: tuple[str, ...]) -> None:
-        action = ACTIONS[place]
+        action = self.actions[place]
         try:
-            self.set_choices(self.choices.with_keys(action, keys))
+            self.set_choices(self.choices.with_keys(action, keys, self.actions))
         except ValueError as error:
             self.editor.show_note(f"{error}", is_problem=True)
         else:

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QEvent, Slot
 from PySide6.QtGui import QCloseEvent, QContextMenuEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QLabel, QMainWindow, QStatusBar
+from PySide6.QtWidgets import QLabel, QStatusBar
 
 from app.background.workers import ending_within
 from app.files.export_desk import ExportActions
@@ -13,12 +13,12 @@ from app.help.pane import HelpPane
 from app.pages.page_bar import COVERED, Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
 from app.pages.step.opening import StepOpening
-from app.pages.step.page import PANES, StepPage
+from app.pages.step.page import StepPage
 from app.session.document import Document
 from app.session.document_edits import DocumentEdits
 from app.session.moment import Change
 from app.session.session import Session
-from app.window.actions import window_handlers
+from app.window.actions import ACTIONS, ACTIONS_BY_NAME, ActionWindow
 from app.window.appearance import Appearance, the_application
 from app.window.focus_walk import FocusWalk
 from app.window.key_choices import KeyChoices
@@ -30,7 +30,6 @@ from app.window.overlays import Overlays
 from app.window.preferences import Preferences
 from app.window.presenter import Presenter
 from app.window.remembering import Remembering
-from core.scene import ClipScene
 from widgets.basics.accessible import install_roles
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
@@ -46,7 +45,7 @@ CLOSE_UNSAVED = "Close without saving"
 """The button that closes a window although what is open could not be saved."""
 
 
-class MainWindow(QMainWindow):
+class MainWindow(ActionWindow):
     """One session and the pages around it."""
 
     def __init__(self, document: Document, preferences: Preferences | None = None) -> None:
@@ -64,24 +63,23 @@ class MainWindow(QMainWindow):
         """Path of the state that the message bar offers to open."""
         self._lay_out()
         self.notices = Notices(self._hints, self.messages, self)
-        self.menus = Menus(self)
+        self.menus = Menus(self, ACTIONS)
         self.appearance = Appearance(self)
         self.presenter = Presenter(self)
         self.edits = DocumentEdits(self.session, self)
-        self.overlays = Overlays(self.page, self.pages, self)
-        self.help = HelpPane(self)
+        self.overlays = Overlays(self.page, self.pages, self, ACTIONS)
+        self.help = HelpPane(self, _help_body)
         self.files = FileActions(self.page, self.pages, self.messages, self.appearance, self)
         self.exports = ExportActions(self.pages, self)
         self.memory = Remembering(self, preferences or Preferences())
         self.menus.show_recent(self.memory.preferences.recent_files)
         self.opening = StepOpening(self.session, self.page, self)
-        self.focus_walk = FocusWalk(self)
+        self.focus_walk = FocusWalk(self, self.help)
         self.setAcceptDrops(True)
         self.setMinimumSize(*SMALLEST)
         self._connect()
         self._take_page(self.page)
         self._show_page("step")
-        self._show_panes()
         self._show_document()
 
     # Layout.
@@ -106,16 +104,17 @@ class MainWindow(QMainWindow):
         page.timeline.speed_changed.connect(self.memory.remember_speed)
         page.stepping.message_ended.connect(notices.end_hint)
         page.stepping.bookmarks.bookmarks_changed.connect(self._show_bookmarks)
-        page.panes_changed.connect(self._show_panes)
+        page.panes_changed.connect(self._show_checks)
         page.views.triangle_picked.connect(self.edits.focus_triangle)
-        page.main_area.view_changed.connect(self._show_view)
+        page.main_area.view_changed.connect(self._show_checks)
         menus.action_chosen.connect(self.run_action)
         menus.scene_chosen.connect(self.open_path)
         menus.recent_chosen.connect(self.open_path)
         menus.printed_chosen.connect(self.show_printed)
         menus.raster_chosen.connect(self.edits.choose_raster)
         menus.theme_chosen.connect(self.appearance.set_theme)
-        self.presenter.presenting_changed.connect(self._show_presenting)
+        self.presenter.presenting_changed.connect(self.help.put_aside)
+        self.presenter.presenting_changed.connect(self._show_checks)
         self.appearance.theme_changed.connect(self.memory.remember_theme)
         self.appearance.theme_changed.connect(self.menus.show_theme)
         menus.text_size_chosen.connect(self.appearance.set_text_size)
@@ -125,7 +124,7 @@ class MainWindow(QMainWindow):
         self.opening.opened.connect(self._show_step)
         self.edits.edit_refused.connect(self._refuse)
         self.overlays.keys.keys_changed.connect(self._take_keys)
-        self.overlays.keys.set_choices(self.memory.key_choices())
+        self.overlays.keys.set_choices(self.memory.key_choices(ACTIONS))
         self.overlays.triangle_requested.connect(self.edits.focus_triangle)
         self.edits.edit_pointless.connect(self._tell_pointless)
         self.files.path_chosen.connect(self.open_path)
@@ -144,15 +143,20 @@ class MainWindow(QMainWindow):
     @Slot(str)
     def run_action(self, name: str) -> None:
         """Do what the key of this name does."""
-        if name.startswith("page_"):
-            self.pages.show_page(name.removeprefix("page_"))
-            self.menus.show_page(self.pages.current_name)
-            return
-        own = self.pages.current.handlers()
-        if self.pages.is_covered and (name in own or name in OF_VIEW):
+        action = ACTIONS_BY_NAME[name]
+        is_of_page = action.page == self.pages.current_name or name in OF_VIEW
+        if self.pages.is_covered and is_of_page:
             self.notices.tell(COVERED)
         else:
-            (own if name in own else window_handlers(self))[name]()
+            action.do(self)
+        self._show_checks()
+
+    @Slot()
+    def _show_checks(self) -> None:
+        """Show in the menus what is on."""
+        for action in ACTIONS:
+            if action.is_on is not None:
+                self.menus.show_checked(action.name, action.is_on(self))
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
@@ -193,6 +197,7 @@ class MainWindow(QMainWindow):
     def _show_page(self, name: str) -> None:
         """Let the keys and menus be those of the page that is shown now."""
         self.menus.show_page(name)
+        self._show_checks()
         self.overlays.show_page(name)
         self.pages.current.show_preferences(self.memory.preferences)
         self._show_pointed()
@@ -220,32 +225,14 @@ class MainWindow(QMainWindow):
             self.notices.settle_edit()
         elif what & (Change.POINTING | Change.CURSOR):
             self._show_pointed()
-        if Change.PREDICTING in what:
-            self.menus.show_checked("predict", self.session.is_predicting)
-
-    @Slot()
-    def _show_view(self) -> None:
-        self.menus.show_checked("compare", self.page.current_view() == "compare")
-
-    @Slot()
-    def _show_panes(self) -> None:
-        shown = self.page.shown_panes()
-        for name in PANES:
-            self.menus.show_checked(f"pane_{name}", name in shown)
-
-    @Slot(bool)
-    def _show_presenting(self, is_presenting: bool) -> None:
-        self.menus.show_checked("presenter", is_presenting)
-        self.help.put_aside(is_presenting)
+        if what & (Change.DOCUMENT | Change.PREDICTING):
+            self._show_checks()
 
     @Slot()
     def _show_document(self) -> None:
         document = self.session.document
         self.setWindowTitle(f"{document.title} – Rasterscope" if document.title else "Rasterscope")
-        shared = isinstance(document.scene, ClipScene) and document.scene.shared is not None
         self.menus.show_kind(document.scene.corner_count)
-        self.menus.show_checked("toggle_shared", shared or not isinstance(document.scene, ClipScene))
-        self.menus.show_checked("toggle_cleared", document.before == "cleared")
         self._show_pointed()
 
     @Slot()
@@ -379,3 +366,11 @@ class MainWindow(QMainWindow):
             if self.pages.current_name == "start":
                 self.pages.show_page("step")
             self.files.open_path(path, allows_outside)
+
+
+def _help_body(address: str) -> tuple[str, str]:
+    """Return title and HTML of a page of Help."""
+    from app.help.library import page  # All methods and studies come along: not before Help is wanted.
+
+    made = page(address)
+    return made.title, made.html

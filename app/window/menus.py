@@ -14,7 +14,7 @@ from app.files.window_files import earlier_windows
 from app.session.document import TEACHING_SIZES
 from app.window.appearance import DESK_THEMES, TEXT_SIZES
 from app.window.key_choices import KeyChoices
-from app.window.keys import ACTIONS, KeyAction, key_text
+from app.window.keys import KeyAction, key_text
 from core.explain.kinds import of_kind
 from lessons.scenes import CATALOGUE, BuiltInScene
 from lessons.slides.scenes import LECTURE_SCENES
@@ -33,28 +33,13 @@ MENUS = (
     "View",
     "Help",
 )
-BEFORE_SEPARATORS = (
-    "save_state",
-    "export_caption",
-    "redo",
-    "visited_forward",
-    "compare",
-    "pane_run",
-    "ask_value",
-    "page_exercises",
-    "previous_pane",
-    "previous_family",
-    "fit_charts",
-    "previous_experiment",
-)
-"""Actions that a separator follows."""
 
 
 class Menus(QObject):
     """Fills the menu bar of a window, holds its actions, and reports what was chosen."""
 
     action_chosen = Signal(str)
-    """Name of an action of ``app.window.keys.ACTIONS``, by key or menu."""
+    """Name of an action of ``app.window.actions.ACTIONS``, by key or menu."""
     scene_chosen = Signal(str)
     """Name of a built-in scene."""
     recent_chosen = Signal(str)
@@ -69,8 +54,9 @@ class Menus(QObject):
     scale_chosen = Signal(int)
     """Pixels of an exported picture to one of the screen's."""
 
-    def __init__(self, window: QMainWindow) -> None:
+    def __init__(self, window: QMainWindow, table: Sequence[KeyAction]) -> None:
         super().__init__(window)
+        self._table = table
         self.actions_by_name: dict[str, QAction] = {}
         self.recent_menu = QMenu("Open &recent", window)
         self.earlier_menu = QMenu("Earlier &windows", window)
@@ -82,7 +68,7 @@ class Menus(QObject):
         self.theme_group, self.text_size_group = QActionGroup(self), QActionGroup(self)
         menus = {title: window.menuBar().addMenu(f"&{title}") for title in MENUS}
         self._menus = menus
-        for entry in ACTIONS:
+        for entry in self._table:
             made = self._make_action(entry, window)
             # Its key works while the menu bar is out of sight, too.
             window.addAction(made)
@@ -97,7 +83,7 @@ class Menus(QObject):
                 self._add_scales(menus["File"])
             if entry.name == "note_bookmark":
                 menus["Step"].addMenu(self.bookmark_menu)
-            if entry.name in BEFORE_SEPARATORS:
+            if entry.ends_group:
                 menus[entry.menu].addSeparator()
         self._fill_scenes()
         self._add_rasters(menus["Raster"])
@@ -201,24 +187,22 @@ class Menus(QObject):
 
     def show_kind(self, corner_count: int) -> None:
         """Name triangles, segments or points: primitives of so many corners."""
-        for entry in ACTIONS:
+        for entry in self._table:
             if "triangle" in entry.title.lower():
                 self.actions_by_name[entry.name].setText(of_kind(entry.title, corner_count))
 
     def show_keys(self, choices: KeyChoices) -> None:
         """Let the actions have other keys."""
-        for entry in choices.table(ACTIONS):
+        for entry in choices.table(self._table):
             _give_keys(self.actions_by_name[entry.name], entry)
 
     def show_page(self, name: str) -> None:
         """Offer the actions of a page and those of all pages; the others' keys are free for what is on the page."""
-        for entry in ACTIONS:
+        for entry in self._table:
             if entry.page:
                 self.show_enabled(entry.name, entry.page == name)
-            if entry.name.startswith("page_"):
-                self.show_checked(entry.name, entry.name == f"page_{name}")
         for title, menu in self._menus.items():
-            pages = {entry.page for entry in ACTIONS if entry.menu == title}
+            pages = {entry.page for entry in self._table if entry.menu == title}
             menu.menuAction().setVisible(bool(pages & {"", name}))
 
     @Slot(object)

@@ -1,11 +1,13 @@
 """What lies over the page: the page of all keys, and the bar that asks for a pixel or a condition."""
 
+from collections.abc import Sequence
+
 from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.pages.step.page import StepPage
 from app.window.key_desk import KeyDesk
-from app.window.keys import ACTIONS, LOCAL_KEYS, key_text
+from app.window.keys import LOCAL_KEYS, KeyAction, key_text
 from core.explain.kinds import of_kind
 from core.trace.conditions import variable_names
 from widgets.basics.ask_bar import AskBar
@@ -18,7 +20,7 @@ class Overlays(QObject):
     triangle_requested = Signal(int)
     """The user wants this triangle in focus."""
 
-    def __init__(self, page: StepPage, below: QWidget, window: QWidget) -> None:
+    def __init__(self, page: StepPage, below: QWidget, window: QWidget, actions: Sequence[KeyAction]) -> None:
         """Lie in ``window``, inside of its part ``below``."""
         super().__init__(window)
         self._page, self._session, self._below = page, page.session, below
@@ -26,7 +28,7 @@ class Overlays(QObject):
         self.key_help.hide()
         self.key_help.closed.connect(self.key_help.hide)
         self.key_help.change_wanted.connect(self.change_keys)
-        self.keys = KeyDesk(window)
+        self.keys = KeyDesk(window, actions)
         self.ask_bar = AskBar(window)
         self.ask_bar.text_entered.connect(self._take_answer)
 
@@ -37,7 +39,7 @@ class Overlays(QObject):
 
     def show_keys(self, name: str) -> None:
         """Show the keys as they are now on the page of keys."""
-        table = self.keys.choices.table((*ACTIONS, *LOCAL_KEYS))
+        table = self.keys.choices.table((*self.keys.actions, *LOCAL_KEYS))
         actions = [action for action in table if action.keys and action.page in ("", name)]
         self.key_help.show_keys([KeyEntry(a.group, key_text(a), a.title) for a in actions])
 

@@ -1,17 +1,14 @@
 """Presenting: the whole screen for the picture and the step, large type, and the keys of a clicker."""
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLabel, QLineEdit, QWidget
 
 from app.window.appearance import the_application
+from app.window.parts import WindowParts
 from widgets.basics.theme import current_theme
-
-if TYPE_CHECKING:
-    from app.window.main_window import MainWindow
 
 CLICKER = {
     Qt.Key.Key_PageDown: "step_forward",
@@ -42,7 +39,7 @@ class Presenter(QObject):
 
     presenting_changed = Signal(bool)
 
-    def __init__(self, window: "MainWindow") -> None:
+    def __init__(self, window: WindowParts) -> None:
         super().__init__(window)
         self._desk: _Desk | None = None
         self._is_comparing = False
@@ -59,9 +56,9 @@ class Presenter(QObject):
         window.page.main_area.view_changed.connect(self._follow_view)
 
     @property
-    def _window(self) -> "MainWindow":
+    def _window(self) -> WindowParts:
         # Not an attribute: a window in a cycle would not be deleted when it is released.
-        window: MainWindow = self.parent()  # type: ignore[assignment]
+        window: WindowParts = self.parent()  # type: ignore[assignment]
         return window
 
     @property

@@ -1,7 +1,7 @@
 """What a window remembers from one start to the next: its place, panes and choices, and what is open."""
 
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Sequence
 
 from PySide6.QtCore import QByteArray, QObject, Signal, Slot
 
@@ -10,11 +10,10 @@ from app.files.state_files import StateFileError
 from app.pages.page_bar import Page
 from app.window.appearance import DESK_THEMES
 from app.window.key_choices import KeyChoices, choices_from
+from app.window.keys import KeyAction
+from app.window.parts import WindowParts
 from app.window.preferences import Preferences, save_preferences, with_recent_file
 from core.records.steps import Level
-
-if TYPE_CHECKING:
-    from app.window.main_window import MainWindow
 
 
 class Remembering(QObject):
@@ -23,14 +22,14 @@ class Remembering(QObject):
     recent_changed = Signal(object)
     """The files that were open last: a list of paths."""
 
-    def __init__(self, window: "MainWindow", preferences: Preferences) -> None:
+    def __init__(self, window: WindowParts, preferences: Preferences) -> None:
         super().__init__(window)
         self.preferences = preferences
         edits = window.page.look_changed, window.page.panes_changed, window.page.stepping.places_changed
         self.autosave = Autosave(window.session, window.files.state, edits, self)
         self._keeps_results = False
 
-    def restore(self, window: "MainWindow") -> None:
+    def restore(self, window: WindowParts) -> None:
         """Put window and panes where they were left, and keep results from this start to the next."""
         self._keeps_results = True
         window.restoreGeometry(QByteArray.fromBase64(self.preferences.geometry.encode()))
@@ -61,9 +60,9 @@ class Remembering(QObject):
         """Keep a preference by its name."""
         self.preferences = self.preferences.model_copy(update={name: value})
 
-    def key_choices(self) -> KeyChoices:
+    def key_choices(self, actions: Sequence[KeyAction]) -> KeyChoices:
         """Return the keys that were chosen in earlier windows."""
-        return choices_from(self.preferences.keys, self.preferences.has_character_keys)
+        return choices_from(self.preferences.keys, self.preferences.has_character_keys, actions)
 
     def remember_keys(self, choices: KeyChoices) -> None:
         """Keep which keys do what."""
@@ -111,7 +110,7 @@ class Remembering(QObject):
             return reason
         return ""
 
-    def save_preferences(self, window: "MainWindow") -> None:
+    def save_preferences(self, window: WindowParts) -> None:
         """Save how the window looks; a failure is one line on stderr."""
         layout = dict(self.preferences.layout)
         for page in window.pages.made:

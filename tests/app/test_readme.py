@@ -4,7 +4,8 @@ import re
 from pathlib import Path
 
 from app.cli.commands import COMMANDS
-from app.window.keys import ACTIONS, LOCAL_KEYS, KeyAction, key_text
+from app.window.actions import ACTIONS
+from app.window.keys import LOCAL_KEYS, KeyAction, key_text
 
 README = (Path(__file__).resolve().parents[2] / "README.md").read_text(encoding="utf-8")
 BY_MOUSE = {"click", "wheel", "right drag"}

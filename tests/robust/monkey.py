@@ -12,7 +12,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QDialog, QWidget
 from shiboken6 import isValid
 
-from app.window.keys import ACTIONS
+from app.window.actions import ACTIONS
 from app.window.main_window import MainWindow
 from lessons.scenes import scene_names
 

@@ -8,7 +8,6 @@ from app.files.study_files import EXTENSION, load_study
 from app.pages.compare.jobs import StudyJobs, StudyResult
 from app.pages.compare.pictures_presenter import StudyPicturesPresenter
 from app.pages.compare.presenter import StudyPresenter
-from app.pages.page_bar import Handlers
 from app.pages.result_page import FileWords, ResultPage, splitter
 from app.session.session import Session
 from widgets.basics.controls import row_layout
@@ -73,25 +72,6 @@ class ComparePage(ResultPage):
         return self.tabs
 
     # As a page of the window.
-
-    def handlers(self) -> Handlers:
-        """Return what the keys of this page do."""
-        return {
-            "measure": self.results.start,
-            "measure_scene": self.results.measure_scene,
-            "cancel_measuring": self.results.cancel,
-            "next_family": lambda: self.results.show_neighbour(1),
-            "previous_family": lambda: self.results.show_neighbour(-1),
-            "next_error": self.results.show_next_measure,
-            "next_cost": self.results.show_next_cost,
-            "show_numbers": self.toggle_numbers,
-            "fit_charts": self.fit_charts,
-            "step_run": self.opened.step,
-            "step_divergence": self.opened.step_to_divergence,
-            "copy_pictures": self.opened.copy,
-            "export_view": self.ask_export,
-            "copy_view": self.copy,
-        }
 
     def main_view(self) -> QWidget:
         """Return what is copied: the charts."""

@@ -14,7 +14,7 @@ from app.pages.exercises.catalogue_presenter import FIRST_COURSE, CataloguePrese
 from app.pages.exercises.diagnosis_presenter import DiagnosisPresenter
 from app.pages.exercises.progress_presenter import ProgressPresenter
 from app.pages.exercises.question_presenter import QuestionPresenter
-from app.pages.page_bar import Caption, Handlers, Page
+from app.pages.page_bar import Caption, Page
 from app.pages.side_columns import SideColumns
 from app.session.session import Session
 from lessons.exercises.question import Template
@@ -268,28 +268,18 @@ class ExercisesPage(Page):
 
     # As a page of the window.
 
-    def handlers(self) -> Handlers:
-        """Return what the keys of this page do."""
-        return {
-            "check_answer": self.questions.check,
-            "next_hint": self.questions.show_hint,
-            "new_variant": self.questions.ask_variant,
-            "start_again": self.questions.ask_again,
-            "undo": lambda: self.questions.go_back(-1),
-            "redo": lambda: self.questions.go_back(1),
-            "step_mistake": self.questions.evidence.show_mistake,
-            "model_answer": self.questions.show_model,
-            "step_question": self.questions.evidence.step_hidden,
-            "answer_rows": self._toggle_rows,
-            "next_exercise": lambda: self.exercises.open_neighbour(1),
-            "previous_exercise": lambda: self.exercises.open_neighbour(-1),
-            "try_next": self.exercises.open_next,
-            "show_progress": self.toggle_progress,
-            "add_exercises": self.ask_folder,
-            "diagnose_picture": self.diagnosis.ask_picture,
-        }
+    def undo(self) -> bool:
+        """Take back what was answered last."""
+        self.questions.go_back(-1)
+        return True
 
-    def _toggle_rows(self) -> None:
+    def redo(self) -> bool:
+        """Answer it again."""
+        self.questions.go_back(1)
+        return True
+
+    def toggle_rows(self) -> None:
+        """Answer row by row, or on the picture."""
         answer = self.question_view.answer
         if isinstance(answer, PixelAnswerView | SpotAnswerView):
             answer.toggle_rows()

@@ -3,7 +3,6 @@
 from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QSplitter, QWidget
 
-from app.pages.page_bar import Handlers
 from app.pages.plan.jobs import PlanJobs
 from app.pages.plan.pictures_presenter import PlanPicturesPresenter
 from app.pages.plan.presenter import PlanPresenter
@@ -36,17 +35,6 @@ class PlanPage(WorkPage):
         self.controls.chart_requested.connect(self.show_on_chart)
 
     # As a page of the window.
-
-    def handlers(self) -> Handlers:
-        """Return what the keys of this page do."""
-        return {
-            "analyse": self.plans.analyse,
-            "cancel_analysis": self.plans.cancel,
-            "apply_plan": self.plans.apply,
-            "plan_difference": self.opened.open_all,
-            "plan_chart": self.show_on_chart,
-            "plan_findings": self.findings.toggle_findings,
-        }
 
     def main_view(self) -> QWidget:
         """Return what is exported and copied: the choices with what they come to."""

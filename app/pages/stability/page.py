@@ -9,7 +9,6 @@ from app.export.atlas import atlas_content
 from app.files.atlas_files import EXTENSION, load_atlas
 from app.files.shrunk_files import save_shrunk, shrunk_name
 from app.files.state_files import EXTENSION as STATE_EXTENSION
-from app.pages.page_bar import Handlers
 from app.pages.result_page import FileWords, ResultPage, splitter
 from app.pages.stability.case_presenter import StabilityCasePresenter
 from app.pages.stability.choices import AtlasResult
@@ -69,20 +68,6 @@ class StabilityPage(ResultPage):
         return foot
 
     # As a page of the window.
-
-    def handlers(self) -> Handlers:
-        """Return what the keys of this page do."""
-        return {
-            "run_experiment": self.results.start,
-            "cancel_experiment": self.results.cancel,
-            "next_experiment": lambda: self.results.show_neighbour(1),
-            "previous_experiment": lambda: self.results.show_neighbour(-1),
-            "step_cell": self.opened.step,
-            "shrink_cell": self.opened.shrink,
-            "save_case": self.ask_save_case,
-            "export_view": self.ask_export,
-            "copy_view": self.copy,
-        }
 
     def main_view(self) -> QWidget:
         """Return what is copied: the maps, and the curves where there are some."""

@@ -12,7 +12,7 @@ from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QAbstractButton, QCheckBox, QPushButton, QScrollArea, QWidget
 
 from app.background.workers import Job, Progress
-from app.pages.page_bar import Handlers, Page
+from app.pages.page_bar import Page
 from app.session.moment import Change
 from app.session.session import Session
 from core.fast_path.draw import draw_picture
@@ -179,11 +179,8 @@ class StartPage(Page):
 
     # What is done.
 
-    def handlers(self) -> Handlers:
-        """Return what the keys of this page do."""
-        return {"begin_stepping": self._step_on}
-
-    def _step_on(self) -> None:
+    def step_on(self) -> None:
+        """Go to the Step page, one step on."""
         self.action_requested.emit("page_step")
         self.action_requested.emit("step_forward")
 

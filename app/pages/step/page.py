@@ -1,14 +1,13 @@
 """The stepping page: side panes, main view, inspector and the run at the bottom, around one session."""
 
 from collections.abc import Callable, Iterable
-from functools import cached_property, partial
+from functools import partial
 
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, QThread, Signal, Slot
 from PySide6.QtWidgets import QScrollArea, QSplitter, QStackedWidget, QWidget
 
-from app.pages.page_bar import Caption, Handlers, Page
+from app.pages.page_bar import Caption, Page
 from app.pages.step.ab_presenter import ComparePresenter
-from app.pages.step.actions import step_handlers
 from app.pages.step.ask_this import AskThis
 from app.pages.step.depth_table_presenter import DepthTablePresenter
 from app.pages.step.event_choice import EventChoice
@@ -23,7 +22,6 @@ from app.pages.step.prediction_presenter import PredictionPresenter
 from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
 from app.pages.step.step_columns import StepColumns
 from app.pages.step.stepping_presenter import SteppingPresenter
-from app.pages.step.view_keys import view_handlers
 from app.session.moment import Change, Moment
 from app.session.session import Session
 from app.views.stage_views import StageViews
@@ -339,35 +337,15 @@ class StepPage(Page):
 
     # As a page of the window.
 
-    def handlers(self) -> Handlers:
-        """Return what the keys of this page do."""
-        return self._handlers
-
-    @cached_property
-    def _handlers(self) -> Handlers:
-        return {
-            "ask_step": self.asking.ask_step,
-            "ask_value": self.ask_value,
-            **step_handlers(self.session, self.stepping, self.timeline),
-            **view_handlers(self),
-            "fit_view": self._fit,
-            "next_view": self.main_area.next_view,
-            "value_origin_pixel": self.go_to_writer,
-            **{f"pane_{name}": partial(self.toggle_pane, name) for name in PANES},
-            "compare": self.toggle_compare,
-            "flip": self._flip,
-            "divergence": self.comparing.go_to_divergence,
-        }
-
     def caption(self) -> Caption:
         """Return the sentence and the formula of the step just done."""
         return Caption(self.sentence.text(), self.formula.formula())
 
-    def _fit(self) -> None:
+    def fit(self) -> None:
         """Show all pixels in the main view."""
         (self.compare_view.grids[0] if self.current_view() == "compare" else self.grid).fit()
 
-    def _flip(self) -> None:
+    def flip(self) -> None:
         """Swap the pictures of A and B until the key is released."""
         if self.current_view() == "compare":
             self.compare_view.flip_while_held()

@@ -155,18 +155,35 @@ class SteppingPresenter(QObject):
         level = before.level if level is None else level
         if self.stepped_alone(direction, level):
             return
-        self.attempt(
+        self._attempt(
             partial(self._session.step, direction, level), LAST_STEP if direction > 0 else FIRST_STEP
         )
         if self._session.cursor == before:
             self._timeline.show_playing(False)
 
-    def attempt(self, action: Callable[[], object], otherwise: str) -> None:
+    def _attempt(self, action: Callable[[], object], otherwise: str) -> None:
         """Do something that moves the cursor or the pin, or say why it moves neither."""
         before = self._session.cursor, self._session.pin
         action()
         if (self._session.cursor, self._session.pin) == before:
             self.tell(otherwise)
+
+    def go_back(self) -> None:
+        """Undo the last jump."""
+        self._attempt(self._session.go_back, "No jump to go back from.")
+
+    def go_forward(self) -> None:
+        """Do it again."""
+        self._attempt(self._session.go_forward, "No jump was gone back from.")
+
+    def go_to_stage(self, direction: int) -> None:
+        """Go to the start of the next stage (1) or the one before (-1)."""
+        end = "This is the last stage." if direction > 0 else "This is the first stage."
+        self._attempt(partial(self._session.next_stage, direction), end)
+
+    def move_pin(self, columns: int, rows: int) -> None:
+        """Pin a neighbouring pixel."""
+        self._attempt(partial(self._session.nudge_pin, columns, rows), "The stepped pixels end here.")
 
     @Slot(int)
     def go_to_end(self, direction: int) -> None:

@@ -10,7 +10,7 @@ from app.help.places import occurrences, places
 from app.help.reference import listings_of
 from app.session.printed_run import runnable
 from app.views.stage_views import VIEWS
-from app.window.keys import ACTIONS
+from app.window.actions import ACTIONS
 from core.methods import table
 from core.settings import FAMILIES
 from core.stages.declared import STAGES

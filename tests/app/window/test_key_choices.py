@@ -6,8 +6,8 @@ from PySide6.QtGui import QKeySequence
 from PySide6.QtTest import QTest
 
 from app.session.document import open_document
+from app.window.actions import ACTIONS
 from app.window.key_choices import KeyChoices, choices_from, is_character
-from app.window.keys import ACTIONS
 from app.window.main_window import MainWindow
 from lessons.scenes import built_in_scene
 
@@ -23,17 +23,17 @@ def shown_keys(window: MainWindow, title: str) -> str:
 def test_a_key_that_is_taken_is_refused_with_a_sentence() -> None:
     """On another page, or after the other action was changed, the key is free."""
     with pytest.raises(ValueError, match="“Next step at the pinned pixel”"):
-        KeyChoices().with_keys(BY_NAME["next_event"], ("J",))
-    freed = KeyChoices().with_keys(BY_NAME["next_at_pin"], ("Ctrl+Alt+Y",))
-    assert freed.with_keys(BY_NAME["next_event"], ("J",)).keys_of(BY_NAME["next_event"]) == ("J",)
-    assert KeyChoices().with_keys(BY_NAME["next_error"], ("J",)).changed == {"next_error": ("J",)}
-    assert KeyChoices().with_keys(BY_NAME["next_error"], BY_NAME["next_error"].keys) == KeyChoices()
+        KeyChoices().with_keys(BY_NAME["next_event"], ("J",), ACTIONS)
+    freed = KeyChoices().with_keys(BY_NAME["next_at_pin"], ("Ctrl+Alt+Y",), ACTIONS)
+    assert freed.with_keys(BY_NAME["next_event"], ("J",), ACTIONS).keys_of(BY_NAME["next_event"]) == ("J",)
+    assert KeyChoices().with_keys(BY_NAME["next_error"], ("J",), ACTIONS).changed == {"next_error": ("J",)}
+    assert KeyChoices().with_keys(BY_NAME["next_error"], BY_NAME["next_error"].keys, ACTIONS) == KeyChoices()
 
 
 def test_no_first_key_is_taken_twice() -> None:
     """Every action can have its own keys again."""
     for action in ACTIONS:
-        assert KeyChoices().with_keys(action, action.keys) == KeyChoices()
+        assert KeyChoices().with_keys(action, action.keys, ACTIONS) == KeyChoices()
 
 
 def test_characters_can_be_turned_off() -> None:
@@ -47,9 +47,9 @@ def test_characters_can_be_turned_off() -> None:
 def test_what_was_saved_may_be_of_another_version() -> None:
     """Unknown actions, keys that are none and keys that are taken are left out."""
     saved = {"no_such": ["Q"], "next_event": ["J"], "faster": ["", "Ctrl+Alt+F"]}
-    assert choices_from(saved, has_characters=True) == KeyChoices({"faster": ("Ctrl+Alt+F",)})
+    assert choices_from(saved, True, ACTIONS) == KeyChoices({"faster": ("Ctrl+Alt+F",)})
     swapped = {"next_event": ("J",), "next_at_pin": ("N",)}
-    assert choices_from(swapped, has_characters=False) == KeyChoices(swapped, has_characters=False)
+    assert choices_from(swapped, False, ACTIONS) == KeyChoices(swapped, has_characters=False)
 
 
 def test_a_changed_key_works_is_shown_and_remembered(window: MainWindow) -> None:

@@ -7,7 +7,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QMenu, QPushButton, QTabBar
 from pytestqt.qtbot import QtBot
 
-from app.window.keys import ACTIONS, has_use_for, key_text
+from app.window.actions import ACTIONS
+from app.window.keys import has_use_for, key_text
 from app.window.main_window import MainWindow
 from app.window.menus import MENUS
 from core import STAGES

@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from app.files.save_dialog import SaveDialog
 from app.session.document import Document
-from app.window.keys import ACTIONS
+from app.window.actions import ACTIONS
 from app.window.main_window import MainWindow
 from core.records.steps import Level
 from widgets.basics.theme import current_theme

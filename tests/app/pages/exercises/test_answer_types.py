@@ -148,7 +148,7 @@ def check_that_nonsense_in_a_row_or_a_step_is_said_and_not_passed_over(page: Pag
         view = shown.question_view
         shown.questions.ask_again()
         shown.settle()
-        shown.handlers()["answer_rows"]()
+        shown.toggle_rows()
         answer = view.answer.pixels if isinstance(view.answer, SpotAnswerView) else view.answer
         assert isinstance(answer, PixelAnswerView)
         last = len(answer.rows.texts()) - 1

@@ -65,7 +65,7 @@ class Student(QObject):
             lambda: QTest.mouseClick(page.catalogue.next_button, LEFT): 2,
             lambda: page.catalogue.exercise_chosen.emit(self.random.choice(NAMES)): 4,
             lambda: page.open_line(self.random.choice(LINES)): 2,
-            lambda: page.handlers()["next_exercise"](): 1,
+            lambda: page.exercises.open_neighbour(1): 1,
             lambda: page.questions.go_back(self.random.choice((-1, 1))): 3,
             lambda: page.progress.user_changed.emit(self.random.choice(("me", "Ada"))): 1,
             lambda: page.unfinished.finish(): 1,
