@@ -182,7 +182,8 @@ def entered_diagram(moment: Moment) -> Diagram:
     if row >= 0:
         k = int(stage.columns["corner"][row])
         space = SPACES[int(spaces_reached(trace, "transform", position)[current, k])]
-        said = f"Vertex {stage.columns['vertex'][row]} is in {space} space."
+        named = of_kind(f"Vertex {k} of triangle {stage.triangle[row]}", is_there.shape[1])
+        said = f"{named} is in {space} space."
         if is_there[current, k]:
             spots.append(Spot(corners[current, k], "accent", "ring", 7.0))
     return Diagram(

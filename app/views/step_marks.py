@@ -82,7 +82,7 @@ def _corner_marks(moment: Moment, space: ViewSpace, position: int) -> list[Space
     if row >= 0:
         triangle, corner = int(trace.triangle[row]), int(trace.columns["corner"][row])
         number = int(np.flatnonzero(triangles == triangle)[0])
-        label = f"vertex {trace.columns['vertex'][row]}: {SPACES[reached[number, corner]]} space"
+        label = f"vertex {corner}: {SPACES[reached[number, corner]]} space"
         marks.append(SpaceMark(space.corners(triangle)[corner][None], "accent", label, "ring"))
     return marks
 

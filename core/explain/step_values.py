@@ -46,6 +46,11 @@ class StepValues:
         return f"Pixel ({column}, {row})"
 
     @property
+    def fragment_name(self) -> str:
+        """The pixel and the triangle that covers it, at the beginning of a sentence."""
+        return f"{self.pixel_name} of triangle {self.triangle}"
+
+    @property
     def the_pixel(self) -> str:
         """The same inside a sentence."""
         return self.pixel_name[0].lower() + self.pixel_name[1:]

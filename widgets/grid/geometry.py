@@ -54,6 +54,8 @@ class GridGeometry:
     """Whether the vertices of the triangle in focus can be dragged."""
     names: tuple[str, ...] = ()
     """A name per triangle, for who writes them; empty: none."""
+    owner: str = ""
+    """What the names of edges end in, where they are not those of the step's triangle: ``of triangle 1``."""
     behind: NDArray[np.float64] | None = field(default=None, repr=False)
     """(V, 3) float64 homogeneous window coordinates (x w, y w, w) of the vertices at w <= 0, else NaN; None: none."""
 
@@ -321,7 +323,8 @@ def _edge_names(
 ) -> list[NameBox]:
     """Return the name of each edge function beside its edge, outside of the triangle."""
     names = []
-    width, height = metrics.horizontalAdvance("E0") + 6, metrics.height()
+    owner = f" {geometry.owner}" if geometry.owner else ""
+    width, height = metrics.horizontalAdvance(f"E0{owner}") + 6, metrics.height()
     viewport = QRectF(placement.viewport)
     for line, edge in edges:
         inside = viewport.intersected(QRectF(line.p1(), line.p2()).normalized().adjusted(-1, -1, 1, 1))
@@ -335,7 +338,7 @@ def _edge_names(
             away = -away
         box = QRectF(0, 0, width, height)
         box.moveCenter(middle + away * (RIM + abs(away.x()) * width / 2 + abs(away.y()) * height / 2))
-        names.append((moved_inside(box, viewport), f"E{edge}", theme.vertex_text[edge]))
+        names.append((moved_inside(box, viewport), f"E{edge}{owner}", theme.vertex_text[edge]))
     return names
 
 

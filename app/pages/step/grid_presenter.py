@@ -81,7 +81,7 @@ class GridPresenter(QObject):
         self._focus = 0
         self._moment = session.moment
         self._stepped_to = session.cursor
-        self._outlined_at = ("", 0)
+        self._outlined_at = ("", 0, True)
         self._geometry = geometry_of(session.moment, 0)
         self.refresh_run(session.moment)
 
@@ -182,10 +182,11 @@ class GridPresenter(QObject):
         """The outlines that are shown, in the columns and rows of the grid."""
         return self._geometry
 
-    def _geometry_step(self) -> tuple[str, int]:
-        """Return the step that outlines depend on: none behind the stages that move corners and drop triangles."""
-        stage = self._moment.cursor.stage
-        return (stage, self._moment.rows_done) if stage in OUTLINING else (STAGES[-1], 0)
+    def _geometry_step(self) -> tuple[str, int, bool]:
+        """Return what outlines depend on: the stages that move corners and drop triangles, and whose step it is."""
+        moment, stage = self._moment, self._moment.cursor.stage
+        at = (stage, moment.rows_done) if stage in OUTLINING else (STAGES[-1], 0)
+        return *at, moment.triangle in (-1, self._focus)
 
     def _show_outlines(self) -> None:
         self._outlined_at = self._geometry_step()

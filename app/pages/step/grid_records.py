@@ -155,6 +155,7 @@ def geometry_of(step: Step, focus: int | None = None) -> GridGeometry:
         snapped=(snapped - origin) if snaps else None,
         behind=behind,
         rings=(0,) if vertices.rings is None else tuple(vertices.rings.tolist()),
+        owner="" if step.triangle in (-1, wanted) else f"of triangle {wanted}",
     )
 
 

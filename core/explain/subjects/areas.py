@@ -43,7 +43,7 @@ def cut(step: StepValues) -> Said:
     """The rest of the polygon; where the first side that goes out crosses the edge."""
     count = step.whole("corner_count")
     left = SHAPES[count] if count else "nothing of it that has an area"
-    text = f"{step.pixel_name}: edge {step.whole('edge')} leaves {left}."
+    text = f"{step.pixel_name}: edge {step.whole('edge')} of triangle {step.triangle} leaves {left}."
     distance = step.vector("corner_distance")[: len(_corners(step, "before"))]
     for here, there in zip(distance, [*distance[1:], *distance[:1]], strict=True):
         if here > 0 > there:

@@ -39,7 +39,8 @@ def system(step: StepValues) -> Said:
     """Two equations with two unknowns: the pixel as seen from corner 0 along two sides."""
     rows = step.rows("system")
     text = (
-        f"{step.pixel_name}: its centre is corner 0, plus λ1 of the side to corner 1, plus λ2 of the side to corner 2: "
+        f"{step.fragment_name}: its centre is corner 0, plus λ1 of the side to corner 1, plus λ2 of the "
+        "side to corner 2: "
         "one equation for x and one for y."
     )
     names = [(f"{axis}_1 - {axis}_0", f"{axis}_2 - {axis}_0", f"{axis} - {axis}_0") for axis in "xy"]
@@ -53,7 +54,7 @@ def pivot(step: StepValues) -> Said:
     chosen, other = step.vector("chosen"), step.vector("other")
     first, second = ("y", "x") if step.flag("is_swapped") else ("x", "y")
     text = (
-        f"{step.pixel_name}: the equation for {first} comes first, as its factor of λ1 is not the smaller one: "
+        f"{step.fragment_name}: the equation for {first} comes first, as its factor of λ1 is not the smaller one: "
         f"{spoken(abs(chosen[0]))} against {spoken(abs(other[0]))} for {second}."
     )
     return text, equation(*beside(_row(("p_1", "p_2", "p"), chosen), _row(("q_1", "q_2", "q"), other)))
@@ -69,7 +70,7 @@ def eliminate(step: StepValues) -> Said:
         step.vector("reduced"),
     )
     text = (
-        f"{step.pixel_name}: with {spoken(f)} times the first equation subtracted from the second, λ1 disappears "
+        f"{step.fragment_name}: with {spoken(f)} times the first equation subtracted from the second, λ1 disappears "
         f"and {spoken(e2)} λ2 = {spoken(e)} is left."
     )
     made: list[list[Part]] = [[("f", f), "=", fraction(("q_1", q[0]), ("p_1", p[0]))]]
@@ -84,7 +85,7 @@ def last_unknown(step: StepValues) -> Said:
     """The weight of corner 2."""
     e2, e = step.vector("reduced")
     value = step.number("weight_2")
-    text = f"{step.pixel_name}: corner 2 has weight {spoken(value)}."
+    text = f"{step.fragment_name}: corner 2 has weight {spoken(value)}."
     return text, equation((r"\lambda_2", value), "=", fraction(("e", e), ("e_2", e2), 2))
 
 
@@ -92,7 +93,7 @@ def last_unknown(step: StepValues) -> Said:
 def first_unknown(step: StepValues) -> Said:
     """The weight of corner 1, from the first equation."""
     p, second, value = step.vector("chosen"), step.number("weight_2"), step.number("weight_1")
-    text = f"{step.pixel_name}: with λ2 in the first equation, corner 1 has weight {spoken(value)}."
+    text = f"{step.fragment_name}: with λ2 in the first equation, corner 1 has weight {spoken(value)}."
     above = rf"{number_latex(p[2])} - {signed_latex(p[1])} \cdot {signed_latex(second)}"
     quotient = fraction((r"p - p_2 \cdot \lambda_2", above), ("p_1", p[0]), 1)
     return text, equation((r"\lambda_1", value), "=", quotient)
@@ -103,7 +104,7 @@ def rest_of_one(step: StepValues) -> Said:
     """The weight of corner 0 is what is left of 1."""
     weights = step.vector("weights")
     text = (
-        f"{step.pixel_name}: corner 0 has the rest of 1, so corners 0, 1 and 2 have weights "
+        f"{step.fragment_name}: corner 0 has the rest of 1, so corners 0, 1 and 2 have weights "
         f"{_listed(weights)}{_negative(weights)}."
     )
     made: list[Part] = [(r"\lambda_0", weights[0]), "=", "1"]
@@ -141,7 +142,7 @@ def whole_area(step: StepValues) -> Said:
     """The area of the triangle, doubled and signed."""
     value = step.number("whole_area")
     turn = "counter-clockwise" if value > 0 else "clockwise"
-    text = f"{step.pixel_name}: twice the area of the triangle is {spoken(value)}; its corners run {turn}."
+    text = f"{step.fragment_name}: twice the area of the triangle is {spoken(value)}; its corners run {turn}."
     return text, equation(*_doubled_area("2A", value, _named_corners(step)))
 
 
@@ -151,7 +152,8 @@ def part_areas(step: StepValues) -> Said:
     areas, corners = step.vector("areas"), _named_corners(step)
     centre = (("x", step.number("x")), ("y", step.number("y")))
     text = (
-        f"{step.pixel_name}: its centre cuts the triangle into three; twice the areas opposite to corners 0, 1 and 2 "
+        f"{step.fragment_name}: its centre cuts the triangle into three; twice the areas opposite to "
+        "corners 0, 1 and 2 "
         f"are {_listed(areas)}"
     )
     text += "; an area below 0 lies outside" if min(areas) < 0 else ""
@@ -176,7 +178,8 @@ def shares_of_area(step: StepValues) -> Said:
     """The weight of a corner is the part of the area opposite to it."""
     weights = step.vector("weights")
     text = (
-        f"{step.pixel_name}: corners 0, 1 and 2 have weights {_listed(weights)}, the parts of the area opposite to them"
+        f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(weights)}, the parts of the area "
+        "opposite to them"
         f"{_negative(weights)}."
     )
     symbols = [(f"2A_{k}", "2A") for k in range(3)]
@@ -211,7 +214,7 @@ def line_functions(step: StepValues) -> Said:
     a, b, c = (step.vector(f"line_{name}") for name in "abc")
     corners = _named_corners(step)
     text = (
-        f"{step.pixel_name}: each edge has a function a x + b y + c that is 0 on its line; opposite to "
+        f"{step.fragment_name}: each edge has a function a x + b y + c that is 0 on its line; opposite to "
         f"corner 0 it has a = {spoken(a[0])}, b = {spoken(b[0])}, c = {spoken(c[0])}."
     )
     (x1, y1), (x2, y2) = corners[1:]
@@ -231,7 +234,7 @@ def at_the_pixel(step: StepValues) -> Said:
     """The three functions at the pixel: distances, each in a unit of its own."""
     values, x, y = step.vector("at_pixel"), step.number("x"), step.number("y")
     text = (
-        f"{step.pixel_name}: the functions of the edges opposite to corners 0, 1 and 2 are {_listed(values)} here, "
+        f"{step.fragment_name}: the functions of the edges opposite to corners 0, 1 and 2 are {_listed(values)} here, "
         "the distances from the edges times their lengths."
     )
     return text, _values_of_lines(step, values, ["x, y"] * 3, [(("x", x), ("y", y))] * 3)
@@ -241,7 +244,7 @@ def at_the_pixel(step: StepValues) -> Said:
 def at_the_corner(step: StepValues) -> Said:
     """The same functions at the corner opposite to each edge."""
     values = step.vector("at_corner")
-    text = f"{step.pixel_name}: at the corner opposite to each edge the functions are {_listed(values)}."
+    text = f"{step.fragment_name}: at the corner opposite to each edge the functions are {_listed(values)}."
     return text, _values_of_lines(step, values, [f"x_{k}, y_{k}" for k in range(3)], _named_corners(step))
 
 
@@ -250,7 +253,7 @@ def shares_of_distance(step: StepValues) -> Said:
     """The weight of a corner is the pixel's distance from the opposite edge, over the corner's own."""
     weights = step.vector("weights")
     text = (
-        f"{step.pixel_name}: corners 0, 1 and 2 have weights {_listed(weights)}: how far the pixel is from the "
+        f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(weights)}: how far the pixel is from the "
         f"opposite edge, as a part of how far the corner is{_negative(weights)}."
     )
     symbols = [(_line_name(k), _line_name(k, f"x_{k}, y_{k}")) for k in range(3)]
@@ -261,7 +264,7 @@ def shares_of_distance(step: StepValues) -> Said:
 def every_third(step: StepValues) -> Said:
     """Corners on one line have no barycentric coordinates."""
     return (
-        f"{step.pixel_name}: before snapping the corners lie on one line, so the division would be by 0 "
+        f"{step.fragment_name}: before snapping the corners lie on one line, so the division would be by 0 "
         "and each corner counts a third."
     )
 

@@ -118,7 +118,7 @@ def _bounds(step: StepValues, name: str) -> str:
 def block_high(step: StepValues) -> Said:
     """The greatest values of the edge functions in a block."""
     text, edge = (
-        f"In the {_block(step)} the greatest values are {_bounds(step, 'high')}",
+        f"In the {_block(step)} the greatest values of triangle {step.triangle} are {_bounds(step, 'high')}",
         step.whole("rejected_by"),
     )
     rejected = f", so all of it is outside edge {edge}" if edge >= 0 else ""
@@ -128,7 +128,10 @@ def block_high(step: StepValues) -> Said:
 @explains("bin.block.low")
 def block_low(step: StepValues) -> Said:
     """The least values of the edge functions in a block."""
-    return f"In the {_block(step)} the least values are {_bounds(step, 'low')}.", _bound(step, "low", r"\min")
+    return (
+        f"In the {_block(step)} the least values of triangle {step.triangle} are {_bounds(step, 'low')}.",
+        _bound(step, "low", r"\min"),
+    )
 
 
 def _bound(step: StepValues, name: str, extreme: str) -> Formula:
@@ -164,11 +167,16 @@ def block_verdict(step: StepValues) -> Said:
     low = step.vector("low")
     if found == "outside":
         high = step.vector("high")[edge]
-        text = f"The {name} is rejected by edge {edge}: even its greatest E{edge} there, {spoken(high)}, is outside."
+        text = (
+            f"The {name} is rejected by edge {edge} of triangle {step.triangle}: even its greatest E{edge} "
+            f"there, {spoken(high)}, is outside."
+        )
         compared = comparison(rf"E_{edge}^{{\max}}", "<", high)
         return text, equation(*compared, *conclusion("outside", "outside"))
     crossing = [k for k in range(3) if not low[k] > 0]
-    edges = f"{numbered('edge', crossing)} may cross it" if crossing else "unclear"
+    edges = (
+        f"{numbered('edge', crossing)} of triangle {step.triangle} may cross it" if crossing else "unclear"
+    )
     text, verdict = {
         "inside": (
             f"The {name} is accepted as a whole: even the least value of every edge function is inside.",

@@ -160,7 +160,8 @@ def mirrored(step: StepValues) -> Said:
     """A corner behind the eye that now looks like one in front of it."""
     w = step.vector("clip")[3]
     text = (
-        f"Corner {step.whole('number')} is behind the eye (w = {spoken(w)}), so the division has mirrored it: its NDC "
+        f"Triangle {step.triangle}, corner {step.whole('number')} is behind the eye (w = {spoken(w)}), so "
+        "the division has mirrored it: its NDC "
         "position no longer shows this, and the edges to it run the wrong way around."
     )
     return text, equation(*comparison("w", ">", w), *conclusion("in front", "mirrored"))
@@ -170,7 +171,10 @@ def mirrored(step: StepValues) -> Said:
 def undefined(step: StepValues) -> Said:
     """A triangle that cannot be divided."""
     w = step.vector("clip")[3]
-    text = f"Corner {step.whole('number')} has w = {spoken(w)}: it cannot be divided by w, and the triangle is dropped."
+    text = (
+        f"Triangle {step.triangle}, corner {step.whole('number')} has w = {spoken(w)}: it cannot be "
+        "divided by w, and the triangle is dropped."
+    )
     return text, equation(*comparison("w", r"\ne", w), *conclusion("divide", "drop the triangle"))
 
 

@@ -199,7 +199,8 @@ def left_out(step: StepValues) -> Said:
     k, c = step.whole("edge"), step.number("c")
     i, j = (k + 1) % 3, (k + 2) % 3
     text = (
-        f"Edge {k} is left out, since on the grid corner {i} or corner {j} is not inside the opposite edge: "
+        f"Edge {k} of triangle {step.triangle} is left out, since on the grid corner {i} or corner {j} is "
+        "not inside the opposite edge: "
         f"E{k} is {spoken(c)} everywhere."
     )
     return text, equation(*beside(*([(f"{name}_{k}", step.number(name))] for name in "abc")))
@@ -211,9 +212,8 @@ def _sign(value: float) -> float:
 
 def _coefficient_text(step: StepValues) -> str:
     k, value = step.whole("edge"), step.number(step.operation)
-    name = (
-        f"Edge {k} (from corner {(k + 1) % 3} to corner {(k + 2) % 3}): {step.operation} is {spoken(value)}"
-    )
+    corners = f"from corner {(k + 1) % 3} to corner {(k + 2) % 3}"
+    name = f"Edge {k} of triangle {step.triangle} ({corners}): {step.operation} is {spoken(value)}"
     if step.operation == "c":
         return f"{name}, the value of E{k} at the window's origin."
     way = "pixel to the right" if step.operation == "a" else "pixel upwards"

@@ -54,7 +54,7 @@ def _on_edge(step: StepValues, k: int) -> str:
     """Say that a centre lies on an edge, and who owns it."""
     owns = step.flags("owns_tie")[k]
     reason = tie_reason(step.vector("a")[k], step.vector("b")[k], owns, step.fill_rule(k))
-    return f"exactly on edge {k}, which this triangle {'owns' if owns else 'does not own'} because {reason}"
+    return f"exactly on edge {k}, which the triangle {'owns' if owns else 'does not own'} because {reason}"
 
 
 @explains("raster.test.edge")
@@ -62,7 +62,7 @@ def edge_value(step: StepValues) -> Said:
     """One edge function at a pixel's centre."""
     k, x, y = step.edge, step.number("x"), step.number("y")
     value, away = step.number(f"value_{k}"), _away(step, k)
-    text = f"{step.pixel_name}: E{k} is {spoken(value)} at its centre {vector_text([x, y])}"
+    text = f"{step.pixel_name}: E{k} of triangle {step.triangle} is {spoken(value)} at its centre {vector_text([x, y])}"
     if math.isnan(value):
         text += f", which is not a number, so it is outside edge {k}."
     elif value == 0:
@@ -87,7 +87,8 @@ def added_value(step: StepValues) -> Said:
     slope, where, neighbour = ("a", "to the left", "left") if is_right else ("b", "below", "below")
     added = step.vector(slope)[k]
     text = (
-        f"{step.pixel_name}: E{k} is {spoken(value)}, from {spoken(before)} at the pixel {where} and "
+        f"{step.pixel_name}: E{k} of triangle {step.triangle} is {spoken(value)}, from {spoken(before)} at "
+        f"the pixel {where} and "
         f"{slope}{k} = {spoken(added)}"
     )
     if math.isnan(value):
@@ -130,12 +131,12 @@ def _disagreeing(values: list[float], weights: list[float], distance: list[float
 def _why_covered(step: StepValues, values: list[float]) -> str:
     ties = [k for k in range(3) if values[k] == 0]
     if ties:
-        return f"covered: its centre lies {joined([_on_edge(step, k) for k in ties])}"
+        return f"covered by triangle {step.triangle}: its centre lies {joined([_on_edge(step, k) for k in ties])}"
     distances = step.vector("distance")
     nearest = min(range(3), key=lambda k: distances[k] if math.isfinite(distances[k]) else math.inf)
     away = f"{_away(step, nearest)} away, " if _away(step, nearest) else ""
     return (
-        f"covered: it is inside all three edges, the nearest is edge {nearest} "
+        f"covered by triangle {step.triangle}: it is inside all three edges, the nearest is edge {nearest} "
         f"({away}E{nearest} = {spoken(values[nearest])})"
     )
 
@@ -151,8 +152,8 @@ def _why_outside(step: StepValues, values: list[float], owns: list[bool]) -> str
             reasons.append(f"E{k} is {value}, not a number")
     unowned = [_on_edge(step, k) for k in range(3) if values[k] == 0 and not owns[k]]
     if not reasons:
-        return f"not covered: its centre lies {joined(unowned)}"
-    return f"outside: {joined(reasons + [f'it lies {text}' for text in unowned])}"
+        return f"not covered by triangle {step.triangle}: its centre lies {joined(unowned)}"
+    return f"outside triangle {step.triangle}: {joined(reasons + [f'it lies {text}' for text in unowned])}"
 
 
 @explains("raster.accept.accept")
@@ -162,7 +163,7 @@ def accepted(step: StepValues) -> Said:
     what = "its whole block is inside" if is_block else f"it is in the span of row {step.whole('row')}"
     values, owns = step.vector("values"), step.flags("owns_tie")
     outside = np.flatnonzero(~is_inside(np.array(values), np.array(owns))).tolist()
-    text = f"{step.pixel_name} is covered without a test of its own: {what}"
+    text = f"{step.pixel_name} is covered by triangle {step.triangle} without a test of its own: {what}"
     if outside:
         listed = joined([f"E{k} = {spoken(values[k])}" for k in outside])
         text += f"; its own test would reject it ({listed})"
@@ -178,13 +179,17 @@ def span_edge(step: StepValues) -> Said:
         value = b * y + c
         is_row_inside = is_inside(np.array(value), np.array(step.flags("owns_tie")[k]))
         text = (
-            f"Row {row} runs along edge {k}, and all of it is {'inside' if is_row_inside else 'outside'} "
+            f"Row {row} of triangle {step.triangle} runs along edge {k}, and all of it is "
+            f"{'inside' if is_row_inside else 'outside'} "
             f"(E{k} = {spoken(value)})."
         )
         return text, linear(f"E_{k}", value, [(f"b_{k}", b), (f"c_{k}", c)], ("y", y))
     verb, limit = ("enters", "begins") if a > 0 else ("leaves", "ends")
     crossing = step.number(f"crossing_{k}")
-    text = f"Row {row} {verb} through edge {k} at x = {spoken(crossing)}: the span {limit} there, or farther inside."
+    text = (
+        f"Row {row} of triangle {step.triangle} {verb} through edge {k} at x = {spoken(crossing)}: the "
+        f"span {limit} there, or farther inside."
+    )
     symbols = rf"-\frac{{b_{k} \cdot y + c_{k}}}{{a_{k}}}"
     numbers = rf"\frac{{{number_latex(b)} \cdot {signed_latex(y)} + {signed_latex(c)}}}{{{number_latex(a)}}}"
     return text, equation(("x", crossing), "=", (symbols, f"-{numbers}"))

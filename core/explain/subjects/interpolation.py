@@ -41,7 +41,7 @@ def numerators(step: StepValues) -> Said:
     if is_affine:
         what = "each multiplied by the w of its corner to leave perspective out"
     text = (
-        f"{step.pixel_name}: the edge functions of the unsnapped corners are {_listed(values)}"
+        f"{step.fragment_name}: the edge functions of the unsnapped corners are {_listed(values)}"
         f"{',' if is_affine else ''} {what}."
     )
     x, y = step.number("x"), step.number("y")
@@ -72,7 +72,7 @@ def total(step: StepValues) -> Said:
     what = f"the determinant times 1/w, and 1/w is {inverse_w} here"
     if step.kind == "affine":
         what = f"the sum that the three weights are parts of (1/w is {inverse_w} here)"
-    text = f"{step.pixel_name}: together they are {spoken(whole)}, {what}."
+    text = f"{step.fragment_name}: together they are {spoken(whole)}, {what}."
     return text, linear("n", whole, [(f"n_{k}", values[k]) for k in range(3)])
 
 
@@ -88,7 +88,7 @@ def first_weight(step: StepValues) -> Asked | None:
 def weights(step: StepValues) -> Said:
     """The weights of the corners, parts of the sum."""
     values, whole = step.vector("weights"), step.number("total")
-    text = f"{step.pixel_name}: corners 0, 1 and 2 have weights {_listed(values)}, their parts of the sum"
+    text = f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(values)}, their parts of the sum"
     below = [str(k) for k in range(3) if values[k] < 0]
     if below:
         text += f"; weight {joined(below)} is below 0, as coverage uses snapped corners and weights use unsnapped ones"
@@ -107,7 +107,7 @@ def flat_weights(step: StepValues) -> Said:
     values = step.vector("weights")
     corner = values.index(max(values))
     others = "the other has" if len(values) == 2 else "the others have"
-    text = f"{step.pixel_name}: only corner {corner} counts, {others} weight 0."
+    text = f"{step.fragment_name}: only corner {corner} counts, {others} weight 0."
     return text, equation(*beside(*([(rf"\lambda_{k}", weight)] for k, weight in enumerate(values))))
 
 
@@ -117,7 +117,7 @@ def _value(step: StepValues, how: str) -> str:
     values = step.vector(name)
     shown = spoken(values[0]) if len(values) == 1 else vector_text(values)
     title = ATTRIBUTE_NAMES.get(name, name.replace("_", " "))
-    return f"{step.pixel_name}: its {title} {'are' if name == 'uv' else 'is'} {shown}, {how}."
+    return f"{step.fragment_name}: its {title} {'are' if name == 'uv' else 'is'} {shown}, {how}."
 
 
 def _component(step: StepValues, corners: list[list[float]]) -> tuple[str, float, list[float]]:
@@ -168,11 +168,11 @@ def row(step: StepValues) -> Said:
     """Where the triangle begins and ends in the pixel's row: the nearest crossings of its left and right edges."""
     ends, y, determinant = step.vector("row_ends"), step.number("y"), step.number("determinant")
     text = (
-        f"{step.pixel_name}: in this row the unsnapped triangle reaches from x = {spoken(ends[0])} "
+        f"{step.fragment_name}: in this row the unsnapped triangle reaches from x = {spoken(ends[0])} "
         f"to x = {spoken(ends[1])}."
     )
     if any(map(math.isinf, ends)):
-        text = f"{step.pixel_name}: the triangle is edge-on, so its row has no ends."
+        text = f"{step.fragment_name}: the triangle is edge-on, so its row has no ends."
     a, b, c = (step.vector(name) for name in "abc")
     sides: list[list[Part]] = []
     for name, end, sign in zip(("left", "right"), ends, (1, -1), strict=True):
@@ -195,11 +195,11 @@ def anchors(step: StepValues) -> Said:
     columns = f"the multiples of {n} beside it are at x = {spoken(grid[0])} and {spoken(grid[1])}"
     if left == right:
         text = (
-            f"{step.pixel_name}: {columns}, but the centre is not between the ends of the triangle's row, "
+            f"{step.fragment_name}: {columns}, but the centre is not between the ends of the triangle's row, "
             f"so it is its own anchor, x = {spoken(x)}."
         )
         return text, equation(("l", left), "=", ("r", right), "=", ("x", x))
-    text = f"{step.pixel_name}: {columns}, so its anchors are x = {spoken(left)} and x = {spoken(right)}"
+    text = f"{step.fragment_name}: {columns}, so its anchors are x = {spoken(left)} and x = {spoken(right)}"
     moved = [
         name for name, at, of_grid in (("left", left, grid[0]), ("right", right, grid[1])) if at != of_grid
     ]
@@ -215,9 +215,11 @@ def anchors(step: StepValues) -> Said:
 def position(step: StepValues) -> Said:
     """Where the pixel is between its anchors."""
     t, (left, right), x = step.number("fraction"), step.vector("anchor_x"), step.number("x")
-    text = f"{step.pixel_name}: its centre is t = {spoken(t)} of the way from the left to the right anchor."
+    text = (
+        f"{step.fragment_name}: its centre is t = {spoken(t)} of the way from the left to the right anchor."
+    )
     if t == 0:
-        text = f"{step.pixel_name}: its centre is at the left anchor, t = 0."
+        text = f"{step.fragment_name}: its centre is at the left anchor, t = 0."
     if left == right:
         return text, equation(("t", 0.0))
     quotient = fraction(difference(("x", x), ("l", left)), difference(("r", right), ("l", left)))
@@ -229,7 +231,7 @@ def corrected(step: StepValues) -> Said:
     """The perspective-correct weights at the anchors."""
     left, right = step.rows("anchor_weights")
     text = (
-        f"{step.pixel_name}: with the division by 1/w the weights are {vector_text(left)} at the left anchor and "
+        f"{step.fragment_name}: with the division by 1/w the weights are {vector_text(left)} at the left anchor and "
         f"{vector_text(right)} at the right one."
     )
     shown: list[list[Part]] = [
@@ -248,7 +250,7 @@ def corrected_weights(step: StepValues) -> Said:
         "; NaN means that 1/w is 0 at an anchor" if any(map(math.isnan, values)) else ", without a division"
     )
     text = (
-        f"{step.pixel_name}: {spoken(1 - t)} of the left and {spoken(t)} of the right anchor's weights give "
+        f"{step.fragment_name}: {spoken(1 - t)} of the left and {spoken(t)} of the right anchor's weights give "
         f"corners 0, 1 and 2 the weights {_listed(values)}{rest}."
     )
     sums: list[list[Part]] = [

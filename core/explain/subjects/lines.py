@@ -274,7 +274,7 @@ def parts(step: StepValues) -> Said:
     """Both ends' parts of 1/w."""
     t, w, (start, end) = step.number("t"), step.vector("end_w"), step.vector("parts")
     text = (
-        f"{step.pixel_name}: at t = {spoken(t)} between ends with w = {spoken(w[0])} and w = {spoken(w[1])}, "
+        f"{step.fragment_name}: at t = {spoken(t)} between ends with w = {spoken(w[0])} and w = {spoken(w[1])}, "
         f"the first end gives {spoken(start)} of 1/w and the second {spoken(end)}."
     )
     first = fraction(("1 - t", f"1 - {number_latex(t)}"), (step.of_end("w", 0), w[0]))
@@ -286,7 +286,7 @@ def parts(step: StepValues) -> Said:
 def total(step: StepValues) -> Said:
     """1/w along the line."""
     (start, end), whole = step.vector("parts"), step.number("total")
-    text = f"{step.pixel_name}: both parts add up to 1/w = {spoken(whole)}."
+    text = f"{step.fragment_name}: both parts add up to 1/w = {spoken(whole)}."
     return text, linear(r"\frac{1}{w}", whole, [("p_0", start), ("p_1", end)])
 
 
@@ -301,9 +301,7 @@ def weight(step: StepValues) -> Said:
     """The weights of the ends."""
     s, is_affine = step.number("s"), step.kind == "line-affine"
     how = "its place along the line in the window" if is_affine else "the second part over 1/w"
-    text = (
-        f"{step.pixel_name}: the second end has weight {spoken(s)}, {how}, and the first end {spoken(1 - s)}."
-    )
+    text = f"{step.fragment_name}: the second end has weight {spoken(s)}, {how}, and the first end {spoken(1 - s)}."
     if is_affine:
         return text, equation(("s", s), "=", ("t", step.number("t")))
     return text, equation(

@@ -98,7 +98,10 @@ def inverse_coefficient(step: StepValues) -> Said:
         "b": f"so E{k} changes by that per pixel upwards",
         "c": f"the value of E{k} at the window's origin",
     }[name]
-    text = f"Edge {k} is column {k} of the inverse: {name}, in row {row}, is {spoken(value)}, {meaning}."
+    text = (
+        f"Edge {k} of triangle {step.triangle} is column {k} of the inverse: {name}, in row {row}, is "
+        f"{spoken(value)}, {meaning}."
+    )
     return text, equation((f"{name}_{k}", value), "=", (rf"(M^{{-1}})_{{{row},{k}}}", number_latex(value)))
 
 

@@ -68,7 +68,7 @@ def rounded(step: StepValues) -> Said:
     """Depth that is rounded at the pixel."""
     depth = step.number("depth")
     text = (
-        f"{step.pixel_name}: this triangle has no integer plane, so z = {spoken(depth)} is rounded here, "
+        f"{step.pixel_name}: triangle {step.triangle} has no integer plane, so z = {spoken(depth)} is rounded here, "
         f"to {_whole(step, 'stored')} of 2³⁸."
     )
     numbers = rf"\mathrm{{round}}(2^{{38}} \cdot {number_latex(depth)})"

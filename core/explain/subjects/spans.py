@@ -60,7 +60,8 @@ def row_edge(step: StepValues) -> Said:
         return text, equation(*comparison(f"dy_{k}", "=", 0.0), *conclusion("level", "level"))
     numerator, quotient = step.number(f"numerator_{k}"), step.number(f"quotient_{k}")
     text = (
-        f"Row {row} (level {step.whole('level')}) crosses edge {k}, on the {'left' if dy < 0 else 'right'}, at column "
+        f"Row {row} (level {step.whole('level')}) crosses edge {k} of triangle {step.triangle}, on the "
+        f"{'left' if dy < 0 else 'right'}, at column "
         f"{spoken(quotient)}: the fraction {spoken(numerator)} / {spoken(dy)}, of which only the division is rounded."
     )
     first = numerator - level * dx

@@ -22,7 +22,10 @@ BEYOND = {("x", -1): "left", ("x", 1): "right", ("y", -1): "bottom", ("y", 1): "
 
 
 def _vertex(step: StepValues) -> str:
-    return f"Vertex {step.whole('vertex')} of triangle {step.triangle}"
+    """Return the number of a vertex in its triangle, as the views label it, and that in the scene where it differs."""
+    corner, number = step.whole("corner"), step.whole("vertex")
+    of_scene = f" (number {number} in the scene)" if number != corner else ""
+    return f"Vertex {corner} of triangle {step.triangle}{of_scene}"
 
 
 def _symbol(step: StepValues, axis: str, space: str) -> str:
@@ -39,7 +42,7 @@ def position(step: StepValues) -> Asked | None:
     """Ask for x after the step."""
     after = step.vector("after")
     done = step.kind.replace("-", " ")
-    text = f"What is x of vertex {step.whole('vertex')} after the step “{done}”?"
+    text = f"What is x of v{_vertex(step)[1:]} after the step “{done}”?"
     return number(text, after[0], f"({', '.join(map(spoken, after))}).")
 
 
@@ -112,8 +115,8 @@ def _label(step: StepValues, axis: str) -> str:
 shows(
     "transform",
     {
-        "vertex": given("vertex", "Number of the vertex in the scene."),
-        "corner": given("corner", "Number of the corner in the triangle."),
+        "corner": given("vertex", "Number of the vertex in its triangle."),
+        "vertex": given("number in the scene", "Number of the vertex in the scene."),
         "before": given("position before", "x, y, z, w in the space before the step."),
         **{
             f"after_{axis}": VariableText(partial(_label, axis=axis), f"{axis} in the space after the step.")

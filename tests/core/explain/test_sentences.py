@@ -10,7 +10,7 @@ from core.explain.number_text import exact_text, pair_text, position_text
 from core.records.steps import Level
 from core.records.words import counted, joined
 from core.trace import Explanation
-from tests.core.explain.explained_steps import all_said, rare_trace, said, steps_of
+from tests.core.explain.explained_steps import all_said, explained, rare_trace, said, steps_of
 
 NUMBERS = {
     "transform.object-to-world.x": "after_x",
@@ -46,6 +46,15 @@ def test_every_step_has_a_finished_sentence() -> None:
         assert not re.search(r"[{}\[\]]|\bnan\b|\binf\b|None|array|\s\s|\.\.|(?<!fixed)-\d", text), text
         assert ". " not in text, f"more than one sentence: {text}"
         assert len(text) < 330, text
+
+
+def test_what_has_a_number_in_its_triangle_names_the_triangle() -> None:
+    """A view may label the edges of another one: that of the pixel pinned."""
+    for group in ("scenes", "rare"):
+        for (explanation, triangle, _), (_, text, *_) in zip(explained(group), said(group), strict=True):
+            if explanation.corner_count == 3 and not explanation.key.endswith(".plot"):
+                is_numbered = re.search(r"\b(?:edge|corner|vertex|E|λ)s? ?\d|(?i:this triangle)", text)
+                assert not is_numbered or f"riangle {triangle}" in text, text
 
 
 def test_nothing_is_undefined_in_the_built_in_scenes() -> None:

@@ -8,6 +8,7 @@ import pytest
 from core import ClipScene, Settings, trace
 from core.explain import sentence
 from core.trace import Explanation, pixel_cuts
+from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import rare_trace
 
 # The triangle with window corners (1, 1), (7, 1), (1, 7) on 8 x 8 pixels, by hand:
@@ -41,27 +42,28 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.test.decide",
             BRUTE_FORCE,
-            "Pixel (0, 3) is outside: it lies 0.5 px beyond edge 1 (E1 = −3).",
+            "Pixel (0, 3) is outside triangle 0: it lies 0.5 px beyond edge 1 (E1 = −3).",
         ),
         (
             "raster",
             "raster.test.decide",
             BRUTE_FORCE,
-            "Pixel (0, 0) is outside: it lies 0.5 px beyond edge 1 (E1 = −3) and it lies 0.5 px beyond "
+            "Pixel (0, 0) is outside triangle 0: it lies 0.5 px beyond edge 1 (E1 = −3) and it lies 0.5 px beyond "
             "edge 2 (E2 = −3).",
         ),
         (
             "raster",
             "raster.test.decide",
             BRUTE_FORCE,
-            "Pixel (1, 2) is covered: it is inside all three edges, the nearest is edge 1 (0.5 px away, E1 "
+            "Pixel (1, 2) is covered by triangle 0: it is inside all three edges, the nearest is edge 1 "
+            "(0.5 px away, E1 "
             "= 3).",
         ),
         (
             "raster",
             "raster.test.decide",
             BRUTE_FORCE,
-            "Pixel (3, 4) is not covered: its centre lies exactly on edge 0, which this triangle does not "
+            "Pixel (3, 4) is not covered by triangle 0: its centre lies exactly on edge 0, which the triangle does not "
             "own "
             "because it is a right edge.",
         ),
@@ -69,7 +71,7 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.test.decide",
             CORNER_CENTRES,
-            "Pixel (1, 3) is covered: its centre lies exactly on edge 1, which this triangle owns because "
+            "Pixel (1, 3) is covered by triangle 0: its centre lies exactly on edge 1, which the triangle owns because "
             "it is "
             "a left edge.",
         ),
@@ -77,7 +79,7 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.test.decide",
             CORNER_CENTRES,
-            "Pixel (3, 1) is covered: its centre lies exactly on edge 2, which this triangle owns because "
+            "Pixel (3, 1) is covered by triangle 0: its centre lies exactly on edge 2, which the triangle owns because "
             "it is "
             "a level bottom edge.",
         ),
@@ -85,7 +87,7 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.test.decide",
             Settings(fill="brute-force", fill_rule="inclusive"),
-            "Pixel (3, 4) is covered: its centre lies exactly on edge 0, which this triangle owns because "
+            "Pixel (3, 4) is covered by triangle 0: its centre lies exactly on edge 0, which the triangle owns because "
             "the "
             "inclusive rule counts every edge as inside.",
         ),
@@ -93,7 +95,7 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.test.decide",
             Settings(fill="brute-force", pixel_center="integer", fill_rule="exclusive"),
-            "Pixel (1, 3) is not covered: its centre lies exactly on edge 1, which this triangle does not "
+            "Pixel (1, 3) is not covered by triangle 0: its centre lies exactly on edge 1, which the triangle does not "
             "own "
             "because the exclusive rule counts no edge as inside.",
         ),
@@ -101,13 +103,13 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.test.edge-1",
             BRUTE_FORCE,
-            "Pixel (0, 3): E1 is −3 at its centre (0.5, 3.5), so it is outside edge 1 (−0.5 px).",
+            "Pixel (0, 3): E1 of triangle 0 is −3 at its centre (0.5, 3.5), so it is outside edge 1 (−0.5 px).",
         ),
         (
             "raster",
             "raster.test.edge-0",
             BRUTE_FORCE,
-            "Pixel (3, 4): E0 is 0 at its centre (3.5, 4.5): it lies exactly on edge 0, which this "
+            "Pixel (3, 4): E0 of triangle 0 is 0 at its centre (3.5, 4.5): it lies exactly on edge 0, which the "
             "triangle does "
             "not own because it is a right edge.",
         ),
@@ -115,13 +117,13 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.span.edge-0",
             Settings(fill="scanline"),
-            "Row 2 leaves through edge 0 at x = 5.5: the span ends there, or farther inside.",
+            "Row 2 of triangle 0 leaves through edge 0 at x = 5.5: the span ends there, or farther inside.",
         ),
         (
             "raster",
             "raster.span.edge-2",
             Settings(fill="scanline"),
-            "Row 2 runs along edge 2, and all of it is inside (E2 = 9).",
+            "Row 2 of triangle 0 runs along edge 2, and all of it is inside (E2 = 9).",
         ),
         (
             "raster",
@@ -140,7 +142,8 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.lane-row.edge-0",
             Settings(fill="spans"),
-            "Row 2 (level 1) crosses edge 0, on the right, at column 5: the fraction 30 / 6, of which only the "
+            "Row 2 (level 1) crosses edge 0 of triangle 0, on the right, at column 5: the fraction 30 / 6, "
+            "of which only the "
             "division is rounded.",
         ),
         (
@@ -202,13 +205,14 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "edges",
             "edges.edge.c",
             Settings(),
-            "Edge 0 (from corner 1 to corner 2): c is 48, the value of E0 at the window's origin.",
+            "Edge 0 of triangle 0 (from corner 1 to corner 2): c is 48, the value of E0 at the window's origin.",
         ),
         (
             "edges",
             "edges.edge.a",
             Settings(),
-            "Edge 0 (from corner 1 to corner 2): a is −6, so E0 falls by 6 with every pixel to the right.",
+            "Edge 0 of triangle 0 (from corner 1 to corner 2): a is −6, so E0 falls by 6 with every pixel "
+            "to the right.",
         ),
         (
             "edges",
@@ -227,7 +231,8 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "bin",
             "bin.block.verdict",
             Settings(fill="blocks", block_size=2),
-            "The block at column 6, row 6 (2 × 2 pixels) is rejected by edge 0: even its greatest E0 there, "
+            "The block at column 6, row 6 (2 × 2 pixels) is rejected by edge 0 of triangle 0: even its "
+            "greatest E0 there, "
             "−30, is outside.",
         ),
         (
@@ -291,7 +296,7 @@ def test_the_snapped_decision_and_the_unsnapped_weight_are_named_apart() -> None
     explanation = raster.explain(raster.steps.position_after(row))
     assert explanation is not None
     assert sentence(explanation, 0, (1, 3)) == (
-        "Pixel (1, 3) is covered: its centre lies exactly on edge 1, which this triangle owns because it "
+        "Pixel (1, 3) is covered by triangle 0: its centre lies exactly on edge 1, which the triangle owns because it "
         "is a left "
         "edge; E1 (snapped) decides, though weight λ1 (unsnapped) is −0.0001819."
     )
@@ -391,3 +396,14 @@ def test_of_the_many_corners_of_a_polygon_the_farthest_decides():
         sentence(behind, 0, (0, 0))
         == "Polygon 0 is not behind the eye: 6 corners have w above 0 (largest w 1)."
     )
+
+
+def test_a_shared_vertex_has_its_number_in_the_triangle_and_that_in_the_scene() -> None:
+    """As its disc is labelled: the second triangle of a quad has corner 1 at the quad's vertex 2."""
+    traced = trace(make_scene("textured-floor"), Settings()).stage("transform")
+    row = int(np.flatnonzero(traced.columns["corner"] != traced.columns["vertex"])[0])
+    corner, vertex = (int(traced.columns[name][row]) for name in ("corner", "vertex"))
+    explanation, triangle = traced.explain(int(traced.steps.starts[row]) + 1), int(traced.triangle[row])
+    assert explanation is not None
+    said = sentence(explanation, triangle, None)
+    assert said.startswith(f"Vertex {corner} of triangle {triangle} (number {vertex} in the scene): ")

@@ -97,6 +97,18 @@ def test_handles_go_to_the_triangle_that_is_clicked(window: MainWindow) -> None:
     assert grids.geometry.focus == 0
 
 
+def test_edges_of_another_triangle_than_the_step_s_say_whose_they_are(window: MainWindow) -> None:
+    session, grids = window.session, window.page.grids
+    session.go_to(session.stage_trace.steps.count)
+    assert "triangle 1" in window.page.column.sentence.text()
+    assert grids.geometry.owner == ""
+    rows, columns = np.nonzero(session.trace.source.picture.primitive == 0)
+    window.page.grid.pixel_clicked.emit(int(columns[0]), int(rows[0]))
+    assert grids.geometry.owner == "of triangle 0"
+    session.step(-1)
+    assert grids.geometry.owner == ""
+
+
 def test_a_drag_leaves_the_handles_where_they_are(window: MainWindow) -> None:
     session, grids = window.session, window.page.grids
     session.go_to(session.stage_trace.steps.count)
