@@ -11,6 +11,7 @@ from core.records.arrays import Floats, checked
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, Scene
 from lessons.depth_tables import two_triangles
 from lessons.polygons import connecting_edges, pentagram, polygon_with_holes, weiler_atherton
+from lessons.run_place import RunPlace
 from lessons.shapes import FACE_COLORS, cube, floor, knot, linear_color, plates, sphere, torus
 from lessons.teapot import teapot
 
@@ -34,10 +35,15 @@ class BuiltInScene:
     description: str
     """One sentence on what the scene shows."""
     make: Callable[[], AnyScene]
-    picture_settings: Mapping[str, str] = field(default_factory=dict)
-    """Settings of its picture on the start page, where not the defaults show what it is about."""
+    opens: RunPlace = RunPlace()
+    """Where its run is entered: at what it is about."""
     settings: Mapping[str, str] = field(default_factory=dict)
-    """Settings that it opens with, where not those of every scene."""
+    """Settings that show what it is about, where not those of every scene do."""
+
+    @property
+    def card(self) -> str:
+        """What its card and its menu entry say."""
+        return f"{self.description} {self.opens.sentence}"
 
 
 def window_triangle(
@@ -226,32 +232,37 @@ CATALOGUE = (
     BuiltInScene(
         "single-triangle",
         "Single triangle",
-        "One triangle with red, green and blue corners at three depths.",
+        "One triangle with red, green and blue corners at three depths: see which pixel centres lie inside it.",
         single_triangle,
+        RunPlace("raster", "covered"),
     ),
     BuiltInScene(
         "shared-edge",
         "Two triangles sharing an edge",
         "Every pixel centre on their common edge belongs to one of them.",
         shared_edge,
+        RunPlace("raster", "2: column == 30 and row == 24", pixel=(30, 24)),
     ),
     BuiltInScene(
         "fan",
         "Fan of shared edges",
         "Sixteen triangles meet at a pixel centre, and every pixel still belongs to exactly one.",
         fan,
+        RunPlace("raster", "column == 32 and row == 24 and covered", pixel=(32, 24)),
     ),
     BuiltInScene(
         "segment",
         "Segment",
-        "One segment from pixel (1, 1) to pixel (9, 4): type its two ends, and step Bresenham.",
+        "One segment from pixel (1, 1) to pixel (9, 4): type its two ends, and step Bresenham's decisions.",
         segment,
+        RunPlace("raster", 'kind == "bresenham"', "test"),
     ),
     BuiltInScene(
         "clipped-segment",
         "Segment and clip window",
-        "One segment crosses a window from pixel (4, 3) to (12, 9): choose a line clipper, and step it.",
+        "One segment crosses a window from pixel (4, 3) to (12, 9): Liang-Barsky finds where it enters and leaves.",
         clipped_segment,
+        RunPlace("raster", 'kind == "clip-enter"'),
         {"line_clipping": "liang-barsky"},
     ),
     BuiltInScene(
@@ -259,6 +270,7 @@ CATALOGUE = (
         "Segment and convex polygon",
         "One segment crosses a window of five corners, which Cyrus-Beck clips to.",
         segment_in_polygon,
+        RunPlace("raster", 'kind == "clip-enter" and crossing_t > bound_before'),
         {"line_clipping": "cyrus-beck"},
     ),
     BuiltInScene(
@@ -266,37 +278,42 @@ CATALOGUE = (
         "Line strip",
         "Five segments in a row draw the pixel of each common vertex once.",
         line_strip,
+        RunPlace("raster", "triangle == 1"),
     ),
     BuiltInScene(
         "points",
         "Points",
         "Each point is the pixel that contains it, and a point outside of the raster is dropped.",
         points,
+        RunPlace("raster", "covered"),
     ),
     BuiltInScene(
         "triangle-strip",
         "Triangle strip",
         "Six triangles of eight vertices: each shares an edge with the next, and all are wound alike.",
         triangle_strip,
+        RunPlace("raster", "2: column == 13 and row == 25", pixel=(13, 25)),
     ),
     BuiltInScene(
         "polygon",
         "Concave polygon",
         "A star of ten corners, cut into eight triangles that draw no pixel twice.",
         polygon,
+        RunPlace("raster", "tie"),
     ),
     BuiltInScene(
         "polygon-holes",
         "Polygon with holes",
-        "One polygon of three rings: step its edge table in the stage Raster, and drag a hole out of its outline.",
+        "One polygon of three rings: step its edge table, and drag a hole out of its outline.",
         polygon_with_holes,
+        RunPlace("raster", 'kind == "active-enter"'),
     ),
     BuiltInScene(
         "weiler-atherton",
         "Polygon and concave clip window",
-        "Weiler-Atherton walks along the polygon and along a window with a hole: step it in the stage Clip.",
+        "Weiler-Atherton walks along the polygon and along a window with a hole.",
         weiler_atherton,
-        {"polygon_clipping": "weiler-atherton"},
+        RunPlace("clip", 'kind == "wa-start"'),
         {"polygon_clipping": "weiler-atherton"},
     ),
     BuiltInScene(
@@ -304,7 +321,7 @@ CATALOGUE = (
         "Comb and clip window",
         "Sutherland-Hodgman leaves three teeth joined along the window's border, Weiler-Atherton leaves three rings.",
         connecting_edges,
-        {"polygon_clipping": "sutherland-hodgman"},
+        RunPlace("clip", "end"),
         {"polygon_clipping": "sutherland-hodgman"},
     ),
     BuiltInScene(
@@ -312,30 +329,35 @@ CATALOGUE = (
         "Self-crossing polygon",
         "The even-odd rule leaves the middle of this star out, the non-zero rule fills it.",
         pentagram,
+        RunPlace("raster", "winding == -2 and row == 12", pixel=(16, 12)),
     ),
     BuiltInScene(
         "near-plane",
         "Near-plane crosser",
-        "One triangle that begins in front of the camera and ends behind it.",
+        "One triangle that begins in front of the camera and ends behind it, where w is negative.",
         near_plane,
+        RunPlace("transform", 'kind == "camera-to-clip" and after_w < 0'),
     ),
     BuiltInScene(
         "intersecting",
         "Intersecting triangles",
         "Two triangles pass through each other, which only a test of each pixel's depth gets right.",
         intersecting,
+        RunPlace("depth", "depth-failed"),
     ),
     BuiltInScene(
         "depth-table",
         "Table of depths",
         "Two triangles of whole-number depths meet a buffer of infinities: type the cells, and step the depth test.",
         two_triangles,
+        RunPlace("depth", "covered"),
     ),
     BuiltInScene(
         "z-fighting",
         "Z-fighting plates",
         "Two plates lie so close that 16 bits of depth mix them, while 24 bits and floats keep them apart.",
         z_fighting,
+        RunPlace("depth", "not passes and stored == before"),
         {"depth": "z-16"},
     ),
     BuiltInScene(
@@ -343,23 +365,42 @@ CATALOGUE = (
         "Textured floor",
         "Two large triangles with a repeated checkerboard show what perspective does to texture coordinates.",
         textured_floor,
+        RunPlace("interpolate", "column == 24 and row == 16", "value-uv"),
     ),
-    BuiltInScene("cube", "Cube", "Six faces of one colour each, twelve triangles.", of_mesh(cube, 5.4)),
+    BuiltInScene(
+        "cube",
+        "Cube",
+        "Six faces of one colour each, twelve triangles: follow a vertex from the mesh to the window.",
+        of_mesh(cube, 5.4),
+        RunPlace("transform", 'kind == "viewport"'),
+    ),
     BuiltInScene(
         "teapot",
         "Teapot",
         "The Utah teapot, 32 Bezier patches cut into 2,256 triangles.",
         of_mesh(teapot, 3.5, "#E8E8E8"),
+        RunPlace("raster", "covered"),
     ),
     BuiltInScene(
-        "sphere", "Sphere", "A round surface of 2,208 flat triangles.", of_mesh(sphere, 3.4, "#56B4E9")
+        "sphere",
+        "Sphere",
+        "A round surface of 2,208 flat triangles, lit at every pixel.",
+        of_mesh(sphere, 3.4, "#56B4E9"),
+        RunPlace("shade", "covered"),
     ),
-    BuiltInScene("torus", "Torus", "A ring that hides a part of itself.", of_mesh(torus, 3.6, "#E69F00")),
+    BuiltInScene(
+        "torus",
+        "Torus",
+        "A ring that hides a part of itself.",
+        of_mesh(torus, 3.6, "#E69F00"),
+        RunPlace("depth", "depth-failed", triangle=2141),
+    ),
     BuiltInScene(
         "knot",
         "Knot",
         "A trefoil knot of 20,000 triangles, a small load test.",
         of_mesh(knot, 5.2, "#009E73"),
+        RunPlace("raster", "covered"),
     ),
 )
 """The scenes in the order of the menu."""

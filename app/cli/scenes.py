@@ -4,8 +4,7 @@ import argparse
 import json
 
 from lessons.scenes import CATALOGUE, BuiltInScene
-from lessons.slides.catalogue import LECTURES
-from lessons.slides.scenes import LECTURE_SCENES
+from lessons.slides.scenes import LECTURE_SCENES, LECTURES
 
 DESCRIPTION = (
     """List the built-in scenes, then the lectures' own examples. Their names can be given for any FILE."""

@@ -73,7 +73,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         "--step",
         metavar="N",
         type=whole_number(0),
-        help="number of operations done in the stage; default: all",
+        help="number of operations done in the stage; default: all, or without --stage as the scene opens",
     )
     parser.add_argument("--view", metavar="NAME", help="main view, as pixels or compare")
     parser.add_argument("--page", choices=PAGES, help="page to show (step)")

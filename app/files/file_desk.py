@@ -1,7 +1,6 @@
 """Files of the window: opening meshes, states and built-in scenes, saving a state."""
 
 from collections.abc import Callable
-from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal, Slot
@@ -19,11 +18,11 @@ from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings
 from app.pages.step.looks import look_of, show_look
 from app.pages.step.page import StepPage
-from app.session.cursor import Cursor, stage_for
+from app.session.cursor import Cursor, cursor_at
 from app.session.tracing import trace_now
 from app.window.appearance import Appearance
 from app.window.message_words import sentences
-from core import STAGES, Trace
+from core import Trace
 from core.records.steps import Level
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
@@ -85,7 +84,7 @@ class FileActions(QObject):
 
         def work(progress: Progress, is_cancelled: Callable[[], bool]) -> tuple[Opened, Trace]:
             opened = open_any(target, progress, is_cancelled, allows_outside)
-            stage = opened.state.stage if opened.state else STAGES[0]
+            stage = opened.state.stage if opened.state else opened.place.stage
             return opened, trace_now(opened.document, stage)
 
         self.progress.begin(f"Opening {Path(target).name}")
@@ -106,13 +105,15 @@ class FileActions(QObject):
             self.file_used.emit(opened.document.path)
 
     def show_opened(self, opened: Opened, trace: Trace | None = None) -> None:
-        """Show what was opened: a scene from its start, a state where it was left."""
+        """Show what was opened: a scene at its place, a state where it was left."""
         page, session, state = self._page, self._session, opened.state
         page.timeline.show_playing(False)
         if state is None:
-            start = replace(session.cursor, stage=stage_for(opened.document.scene, STAGES[0]), position=0)
-            session.open(opened.document, trace, start)
+            place = opened.place
+            trace = trace or trace_now(opened.document, place.stage)
+            session.open(opened.document, trace, cursor_at(place, trace, session.cursor.level))
             page.stepping.set_places()
+            session.set_pin(place.pixel)
             # As at first, also where the same scene was magnified before, or looked at in another view.
             page.main_area.views_by_hand.clear()
             page.show_own_view()

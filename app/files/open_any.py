@@ -11,9 +11,10 @@ from app.files.mesh_formats import Report
 from app.files.mesh_sources import remember_file
 from app.files.named_files import OutsideWarning
 from app.files.state_files import EXTENSION, State, load_state
-from app.session.document import STEPPED, Document, check_drawing, open_document, shortened
+from app.session.document import STEPPED, Document, check_drawing, focus_on, open_document, shortened
 from core.scene import AnyScene, Scene
 from core.settings import settings_from_texts
+from lessons.run_place import RunPlace
 from lessons.slides.scenes import ALL_SCENES
 
 
@@ -28,6 +29,8 @@ class Opened:
     """Where a state file was left; ``None``: not a state file. ``state.document`` is ``document``."""
     path: str = ""
     """The file that was opened, absolute; empty: a built-in scene."""
+    place: RunPlace = RunPlace()
+    """Where it is entered, unless ``state`` says it: of a file the start, of a built-in scene what it is about."""
 
     @property
     def left_outside(self) -> tuple[str, ...]:
@@ -62,7 +65,10 @@ def open_any(
     built_in = ALL_SCENES.get(target)
     if built_in is not None:
         settings = settings_from_texts(built_in.settings, STEPPED)
-        return Opened(open_document(built_in.make(), built_in.title, settings=settings))
+        document = open_document(built_in.make(), built_in.title, settings=settings)
+        if built_in.opens.triangle is not None:
+            document = focus_on(document, built_in.opens.triangle)
+        return Opened(document, place=built_in.opens)
     path = Path(target)
     if not target or (not path.suffix and not path.exists()):
         known = ", ".join(ALL_SCENES)

@@ -6,6 +6,7 @@ from core import STAGES, Trace
 from core.explain.stage_texts import skipped_because
 from core.records.steps import Level
 from core.scene import AnyScene
+from lessons.run_place import RunPlace
 
 
 @dataclass(frozen=True)
@@ -27,6 +28,17 @@ def cursor_for(scene: AnyScene, cursor: Cursor) -> Cursor:
     """Return the cursor, or the start of the next stage, if a scene skips the present one."""
     stage = stage_for(scene, cursor.stage)
     return cursor if stage == cursor.stage else replace(cursor, stage=stage, position=0)
+
+
+def cursor_at(place: RunPlace, trace: Trace, level: Level) -> Cursor:
+    """Return the cursor at a place, or at the start of the next stage, if the scene skips the place's own.
+
+    ``level`` holds where the place has none.
+
+    Raises ValueError where nothing of its name happens.
+    """
+    stage = stage_for(trace.source.scene, place.stage)
+    return Cursor(stage, place.position(trace) if stage == place.stage else 0, place.level or level)
 
 
 def placed(cursor: Cursor, trace: Trace, position: int | None, stage: str = "") -> Cursor:

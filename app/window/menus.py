@@ -116,8 +116,8 @@ class Menus(QObject):
     def _fill_scene_menu(self, menu: QMenu, scenes: tuple[BuiltInScene, ...]) -> None:
         for scene in scenes:
             made = menu.addAction(scene.title)
-            made.setStatusTip(scene.description)
-            made.setToolTip(scene.description)
+            made.setStatusTip(scene.card)
+            made.setToolTip(scene.card)
             made.setData(scene.name)
         menu.setToolTipsVisible(True)
         menu.triggered.connect(self._choose_scene)

@@ -6,7 +6,6 @@ from app.files.file_writing import FileWriteError
 from app.files.open_any import Opened, open_any
 from app.files.user_folders import preferences_folder
 from app.files.window_files import EarlierWindow, WindowFile, earlier_windows, remove_oldest_windows
-from app.session.document import open_document
 from app.window.message_words import sentences
 from lessons.scenes import CATALOGUE
 from widgets.basics.message_bar import Message, MessageKind
@@ -33,8 +32,7 @@ def reopen(is_replaced: bool = False) -> Reopened:
     is_replaced : bool
         Something else is opened next: what is returned is not to be written over by it.
     """
-    scene = CATALOGUE[0]
-    stand_in = Reopened(Opened(open_document(scene.make(), scene.title)))
+    stand_in = Reopened(open_any(CATALOGUE[0].name))
     try:
         folder = preferences_folder()
         earlier = earlier_windows(folder)

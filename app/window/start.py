@@ -13,10 +13,9 @@ from PySide6.QtWidgets import QApplication
 from app.background.workers import is_work_left
 from app.cli.commands import UsageError
 from app.export.views import export_widget
-from app.files.open_any import Opened, open_any
+from app.files.open_any import open_any
 from app.files.user_folders import has_answers
 from app.pages.page_table import page_of_file
-from app.session.document import open_document
 from app.window.appearance import sized_theme, the_application
 from app.window.end_signals import EndSignals
 from app.window.main_window import MainWindow
@@ -24,6 +23,8 @@ from app.window.preferences import load_preferences
 from app.window.reopening import reopen
 from core.fast_path.workers import BandWorkers
 from core.settings import Settings
+from core.trace.run_to import START
+from lessons.run_place import RunPlace
 from lessons.scenes import CATALOGUE
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import Theme
@@ -131,9 +132,10 @@ def grab_window(
     target : str
         A mesh, a state, the name of a built-in scene, or a saved study or atlas, which is shown on its page.
     stage : str, optional
-        A stage of ``core.STAGES``; by default the one that a state file was saved at, or the first.
+        A stage of ``core.STAGES``; by default the one that a state file was saved at, or that a scene opens in.
     step : int, optional
-        Position in the stage, in operations done; by default all of them.
+        Position in the stage, in operations done; by default all of them, of a built-in scene without a ``stage`` and
+        with its own settings those at which it opens.
     view : str, optional
         Main view, as ``pixels`` or ``scene``.
     choose : callable, optional
@@ -151,16 +153,16 @@ def grab_window(
     application = the_application()
     apply_theme(application, theme_of(theme, application))
     is_saved = bool(page_of_file(target))
-    if is_saved:
-        opened = Opened(open_document(CATALOGUE[0].make(), CATALOGUE[0].title))
-    else:
-        opened = open_any(target, allows_outside=allows_outside)
+    opened = open_any(CATALOGUE[0].name if is_saved else target, allows_outside=allows_outside)
     document = opened.document
     if choose is not None:
         document = replace(document, settings=choose(document.settings))
+    is_whole = stage is not None or step is not None
+    if opened.state is None and (is_whole or document.settings != opened.document.settings):
+        is_whole, opened = True, replace(opened, place=RunPlace(opened.place.stage))
     window = MainWindow(document)
     window.files.show_opened(replace(opened, document=document))
-    if stage is not None or step is not None or opened.state is None:
+    if is_whole or (opened.state is None and opened.place.at == START):
         window.session.set_stage(stage or window.session.cursor.stage, step)
     if view is not None and view not in window.page.view_names():
         raise UsageError(f"view must be one of {', '.join(window.page.view_names())}, got {view}")

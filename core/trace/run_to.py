@@ -4,10 +4,15 @@ A trace is data, so running is a search in its columns; nothing is executed. Pos
 ``core.records.steps.Steps``: an event is reached when its row is done.
 """
 
+import re
+
 from core.records.arrays import Flags
-from core.trace.stage_trace import StageTrace
+from core.trace.conditions import parse_condition
+from core.trace.stage_trace import MARKS, StageTrace
 
 FORWARD, BACK = 1, -1
+START, END = "start", "end"
+_COUNTED = re.compile(r"([1-9]\d{0,5}): (.+)", re.DOTALL)
 
 
 def next_event(trace: StageTrace, position: int, events: Flags, direction: int = FORWARD) -> int | None:
@@ -67,3 +72,39 @@ def next_at_pixel(
     """Return the position of the next row that is about one pixel."""
     events = (trace.pixel[:, 0] == column) & (trace.pixel[:, 1] == row)
     return next_event(trace, position, events, direction)
+
+
+def named_position(trace: StageTrace, at: str) -> int:
+    """Return the position that a text names by what happens there: numbers of steps change with a method.
+
+    Parameters
+    ----------
+    at : str
+        ``start``, ``end``, a mark of ``MARKS``, or a condition on the stage's variables: the first row that has it
+        has just been done. ``2: tie`` is the second such row.
+
+    Raises
+    ------
+    ValueError
+        If the stage has no such row, or the condition cannot be read.
+
+    Examples
+    --------
+    >>> from core import ClipScene, trace
+    >>> scene = ClipScene([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], size=(2, 2))
+    >>> raster = trace(scene).stage("raster")
+    >>> [named_position(raster, at) for at in ("start", "covered", "2: row == 1", "end")]
+    [0, 4, 16, 16]
+    """
+    if at in (START, END):
+        return 0 if at == START else trace.steps.count
+    counted = _COUNTED.fullmatch(at)
+    number, event = (int(counted[1]), counted[2]) if counted else (1, at)
+    if event in MARKS:
+        flags = trace.marks.get(event)
+    else:
+        flags = parse_condition(event).holds(trace)
+    ends = trace.steps.starts[:0] if flags is None else trace.steps.starts[1:][flags]
+    if len(ends) < number:
+        raise ValueError(f"no step of {trace.stage} meets {at}")
+    return int(ends[number - 1])

@@ -5,8 +5,7 @@ from dataclasses import dataclass
 from core import Settings, trace
 from core.scene import AnyScene
 from core.settings import DEFAULTS
-from core.trace.conditions import parse_condition
-from core.trace.run_to import next_event
+from core.trace.run_to import named_position
 
 
 @dataclass(frozen=True, eq=False)
@@ -17,13 +16,9 @@ class Refutation:
     scene: AnyScene
     stage: str
     condition: str
-    """Of the stage's variables, as breakpoints have them."""
+    """What happens there, as `named_position` reads it."""
     settings: Settings = DEFAULTS
 
     def position(self) -> int:
         """Return where the cursor stands when the step is done; ValueError where no step meets the condition."""
-        stage = trace(self.scene, self.settings).stage(self.stage)
-        position = next_event(stage, 0, parse_condition(self.condition).holds(stage))
-        if position is None:
-            raise ValueError(f"no step of {self.stage} meets {self.condition}")
-        return position
+        return named_position(trace(self.scene, self.settings).stage(self.stage), self.condition)

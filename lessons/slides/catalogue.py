@@ -3,14 +3,7 @@
 from lessons.printed.catalogue import PRINTED
 from lessons.printed.records import SlideNumber
 from lessons.slides import jubair, lmu, pellacini, zwicker
-
-LECTURES = {
-    "Zwicker": "Zwicker, Computergrafik, Bern 2016: rendering pipeline",
-    "Pellacini": "Pellacini, Computer Graphics: graphics pipeline",
-    "Jubair": "Jubair, CSE4203 Computer Graphics: chapter 8, part C, graphics pipeline",
-    "LMU": "LMU Munich, Computer Graphics 1, 2020: tutorial 5, rasterization",
-}
-"""Short name of each lecture to its full one, in the order in which they are listed."""
+from lessons.slides.scenes import LECTURES
 
 _OF_SLIDES = (*zwicker.NUMBERS, *pellacini.NUMBERS, *jubair.NUMBERS, *lmu.NUMBERS)
 NUMBERS: tuple[SlideNumber, ...] = tuple(

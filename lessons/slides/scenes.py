@@ -7,10 +7,19 @@ import numpy as np
 
 from core.scene import Camera, ClipScene, Mesh, Scene
 from lessons.depth_tables import equal_depths, larger_is_nearer, two_triangles, two_triangles_turned
+from lessons.run_place import RunPlace
 from lessons.scenes import CATALOGUE, RED_GREEN_BLUE, BuiltInScene
 from lessons.shapes import cube, linear_color
 from lessons.slides.small_scenes import SPLIT_SQUARE, triangles
 from lessons.small_scenes import pixel_segments, segment_scene
+
+LECTURES = {
+    "Zwicker": "Zwicker, Computergrafik, Bern 2016: rendering pipeline",
+    "Pellacini": "Pellacini, Computer Graphics: graphics pipeline",
+    "Jubair": "Jubair, CSE4203 Computer Graphics: chapter 8, part C, graphics pipeline",
+    "LMU": "LMU Munich, Computer Graphics 1, 2020: tutorial 5, rasterization",
+}
+"""Short name of each lecture to its full one, in the order in which they are listed."""
 
 VERTICES = np.array([(-5.0, -3.0, -10.0), (0.0, 5.0, -10.0), (10.0, -5.0, -10.0)])
 """The three.js triangle."""
@@ -78,9 +87,14 @@ def frustum_segments() -> ClipScene:
 
 
 def _scene(
-    name: str, title: str, description: str, make: Callable[[], ClipScene | Scene], **settings: str
+    name: str,
+    title: str,
+    description: str,
+    make: Callable[[], ClipScene | Scene],
+    opens: RunPlace,
+    **settings: str,
 ) -> BuiltInScene:
-    return BuiltInScene(name, title, description, make, settings=settings)
+    return BuiltInScene(name, title, description, make, opens, settings)
 
 
 LECTURE_SCENES = {
@@ -90,6 +104,7 @@ LECTURE_SCENES = {
             "4 x 3 pixels",
             "One triangle on 4 x 3 pixels, with centres from (0.5, 0.5) to (3.5, 2.5).",
             lambda: triangles(((0.0, 0.0), (4.0, 0.0), (0.0, 3.0)), size=(4, 3), colors=RED_GREEN_BLUE[None]),
+            RunPlace("raster", "covered"),
         ),
         _scene(
             "zwicker-shared-edge",
@@ -98,12 +113,14 @@ LECTURE_SCENES = {
             lambda: triangles(
                 *SPLIT_SQUARE, colors=np.repeat([RED_GREEN_BLUE[:1], RED_GREEN_BLUE[2:]], 3, axis=1)
             ),
+            RunPlace("raster", "tie"),
         ),
         _scene(
             "zwicker-z-buffer",
             "Z-buffer of 1/w",
             "Three patches of 1/w in whole numbers: a pixel is updated only if the new value is larger.",
             larger_is_nearer,
+            RunPlace("depth", "depth-failed"),
         ),
     ),
     "Pellacini": (
@@ -112,14 +129,16 @@ LECTURE_SCENES = {
             "Line of slope 0.4",
             "The segment (0, 0)-(5, 2), where the printed Bresenham loop steps one column early.",
             segment(0, 0, 5, 2),
+            RunPlace("raster", 'kind == "midpoint"', "round"),
             line="midpoint",
         ),
         _scene(
             "pellacini-frustum",
             "Segments against the frustum",
-            "One segment begins beyond the near plane and loses a quarter of its length; the other lies right of "
-            "the frustum and is rejected early.",
+            "One segment loses a quarter of its length at the near plane; the other lies right of the frustum and is "
+            "rejected early.",
             frustum_segments,
+            RunPlace("clip", 'kind == "out-in"'),
             clipping="sutherland-hodgman",
         ),
         _scene(
@@ -127,6 +146,7 @@ LECTURE_SCENES = {
             "Z-buffer, the other order",
             "The two triangles of Jubair's table, the sloping one first: hidden surfaces do not depend on the order.",
             two_triangles_turned,
+            RunPlace("depth", "not passes and stored > before"),
         ),
     ),
     "Jubair": (
@@ -135,12 +155,14 @@ LECTURE_SCENES = {
             "Barycentric coordinates",
             "A triangle of area 16 with red, green and blue corners: a pixel's colour is its weights.",
             lambda: triangles(((0.0, 0.0), (8.0, 0.0), (0.0, 4.0)), colors=RED_GREEN_BLUE[None]),
+            RunPlace("interpolate", "covered"),
         ),
         _scene(
             "jubair-cyrus-beck",
             "Cyrus-Beck, four edges",
             "The segment (-2, -1)-(10, 8) enters the window 8 x 6 at t = 1/6 and leaves it at t = 7/9.",
             clipped(-2, -1, 10, 8),
+            RunPlace("raster", 'kind == "clip-enter"'),
             line_clipping="cyrus-beck",
         ),
         _scene(
@@ -148,6 +170,7 @@ LECTURE_SCENES = {
             "Cyrus-Beck, entry after exit",
             "The segment (-2, 5)-(2, 9) has t_E = 1/2 above t_L = 1/4, so nothing is left.",
             clipped(-2, 5, 2, 9),
+            RunPlace("raster", 'kind == "clip-empty"'),
             line_clipping="cyrus-beck",
         ),
         _scene(
@@ -155,6 +178,7 @@ LECTURE_SCENES = {
             "Cyrus-Beck, parallel segment outside",
             "The segment (2, 8)-(6, 8) lies above the window; the printed algorithm keeps it.",
             clipped(2, 8, 6, 8),
+            RunPlace("raster", 'kind == "clip-parallel" and room < 0'),
             line_clipping="cyrus-beck-lecture",
         ),
         _scene(
@@ -162,14 +186,16 @@ LECTURE_SCENES = {
             "Cyrus-Beck, points and parallel segments",
             "Segments parallel to a border and points, inside, on the border and outside: N . D is 0 at every one.",
             degenerate,
+            RunPlace("raster", 'kind == "clip-parallel"'),
             line_clipping="cyrus-beck",
         ),
         _scene(
             "jubair-backfaces",
             "Back-face culling by N · V",
-            "Two cubes beside the camera's axis. The direction of the camera in place of V loses a side of the left "
-            "one. The right one is mirrored: the determinant keeps its inside, the mesh's own N its outside.",
+            "Two cubes beside the camera's axis, the right one mirrored: the camera's direction in place of V loses a "
+            "side of the left one, and the determinant keeps the inside of the right one.",
             two_cubes,
+            RunPlace("cull", "rejected"),
             cull="back-normal",
         ),
         _scene(
@@ -177,6 +203,7 @@ LECTURE_SCENES = {
             "Z-buffer, 8 x 8 cells",
             "Two triangles of whole-number depths, drawn into a buffer of 64 infinities.",
             two_triangles,
+            RunPlace("depth", "covered"),
         ),
     ),
     "LMU": (
@@ -185,6 +212,7 @@ LECTURE_SCENES = {
             "Liang-Barsky",
             "The segment (-2, 1)-(6, 5) with p = (-8, 8, -4, 4) and q = (-2, 10, 1, 5).",
             clipped(-2, 1, 6, 5),
+            RunPlace("raster", 'kind == "clip-enter"'),
             line_clipping="liang-barsky",
         ),
         _scene(
@@ -192,6 +220,7 @@ LECTURE_SCENES = {
             "Bresenham's rewritings",
             "The segment (0, 0)-(6, 5), the shortest where the versions with floats draw other pixels.",
             segment(0, 0, 6, 5),
+            RunPlace("raster", "tie", "test"),
             line="bresenham-lecture",
         ),
         _scene(
@@ -199,6 +228,7 @@ LECTURE_SCENES = {
             "Bresenham, dy < 0",
             "A segment that falls by 2 in 5 columns; the printed case starts with D = -9 instead of -1.",
             segment(0, 4, 5, 2),
+            RunPlace("raster", 'kind == "bresenham-lecture"', "test"),
             line="bresenham-lecture",
         ),
         _scene(
@@ -208,6 +238,7 @@ LECTURE_SCENES = {
             lambda: triangles(
                 ((2.5, 12.5), (9.5, 7.5), (4.5, 1.5)), size=(16, 16), colors=RED_GREEN_BLUE[None]
             ),
+            RunPlace("raster", 'kind == "line"'),
             fill="scanline-lecture",
         ),
         _scene(
@@ -215,12 +246,14 @@ LECTURE_SCENES = {
             "Z-fighting, equal depths",
             "Two patches have the same depth: with < the first one stays, with ≤ the second one replaces it.",
             equal_depths,
+            RunPlace("depth", "not passes and stored == before"),
         ),
         _scene(
             "lmu-three-js",
             "three.js triangle",
             "The triangle of face (0, 2, 1), scaled by its vertex shader; (0, 1, 2) is culled.",
             three_js_triangle,
+            RunPlace("cull", 'kind == "facing"'),
             cull="back",
         ),
     ),

@@ -10,8 +10,7 @@ from app.session.document import STEPPED
 from core import Settings, render, trace
 from core.stages.declared import STAGES
 from lessons.printed.catalogue import printed_listing
-from lessons.slides.catalogue import LECTURES
-from lessons.slides.scenes import ALL_SCENES, LECTURE_SCENES
+from lessons.slides.scenes import ALL_SCENES, LECTURE_SCENES, LECTURES
 
 OF_LECTURES = [scene.name for scenes in LECTURE_SCENES.values() for scene in scenes]
 

@@ -1,9 +1,10 @@
 """Scenes as cards: a picture, a title and a sentence; a click or Return opens one, arrows go to its neighbours."""
 
-from collections.abc import Sequence, Set
+from collections.abc import Mapping, Sequence, Set
 from dataclasses import dataclass
+from itertools import groupby
 
-from PySide6.QtCore import QEvent, QRect, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QEvent, QPoint, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
     QColor,
     QFont,
@@ -17,8 +18,11 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractButton, QWidget
 
+from widgets.basics.controls import column_layout
 from widgets.basics.flow_layout import FlowLayout
+from widgets.basics.focus_order import give_focus
 from widgets.basics.key_claim import KeyClaim
+from widgets.basics.labels import text_label
 from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
 
 PICTURE = QSize(64, 48)
@@ -27,6 +31,15 @@ SIZES = (3, 4)
 MANY = 5
 """Cards in a row that the larger pictures leave room for."""
 GAP = 8
+SPACING = 12
+"""Pixels between two cards."""
+STEPS = {
+    Qt.Key.Key_Left: (-1, 0),
+    Qt.Key.Key_Right: (1, 0),
+    Qt.Key.Key_Up: (0, -1),
+    Qt.Key.Key_Down: (0, 1),
+}
+"""Columns and rows that an arrow goes."""
 CENTERED = int(Qt.AlignmentFlag.AlignCenter) | int(Qt.TextFlag.TextWordWrap)
 WRAPPED = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop) | int(Qt.TextFlag.TextWordWrap)
 
@@ -59,7 +72,7 @@ class SceneCard(QAbstractButton):
         self.setToolTip(entry.description)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setAttribute(Qt.WidgetAttribute.WA_Hover)
-        KeyClaim(self, (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Space))
+        KeyClaim(self, (*STEPS, Qt.Key.Key_Space))
 
     @Slot(QImage)
     def show_picture(self, image: QImage) -> None:
@@ -83,7 +96,7 @@ class SceneCard(QAbstractButton):
         return self._image is not None
 
     def sizeHint(self) -> QSize:
-        """Return the size of picture, title and sentence; the parent gives all cards the height of the highest."""
+        """Return the size of picture, title and sentence; the parent gives a group the height of its highest."""
         text = sum(self._text_heights())
         return QSize(self._picture_size().width() + 2 * GAP, self._picture_size().height() + text + 3 * GAP)
 
@@ -106,7 +119,10 @@ class SceneCard(QAbstractButton):
                 # Pixels of a small raster stay squares; a large picture is made smaller smoothly.
                 is_small = self._image.width() < picture.width()
                 painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, not is_small)
-                painter.drawImage(picture, self._image)
+                size = self._image.size().scaled(picture.size(), Qt.AspectRatioMode.KeepAspectRatio)
+                shown = QRect(QPoint(), size)
+                shown.moveCenter(picture.center())
+                painter.drawImage(shown, self._image)
             text = picture.translated(0, picture.height() + GAP // 2)
             text.setBottom(self.height())
             title, sentence = self._fonts()
@@ -148,7 +164,7 @@ class SceneCard(QAbstractButton):
 
 
 class SceneCards(QWidget):
-    """All cards, as many in a row as fit."""
+    """All cards, group by group below its title, as many in a row as fit."""
 
     scene_chosen = Signal(str)
     """Name of a scene."""
@@ -156,17 +172,25 @@ class SceneCards(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.cards: list[SceneCard] = []
-        self._flow = FlowLayout(self, 12)
+        self._column = column_layout(self, 8)
         self.setAccessibleName("Scenes")
 
-    def show_scenes(self, entries: Sequence[SceneEntry]) -> None:
-        """Make a card for each scene."""
-        for entry in entries:
-            card = SceneCard(entry, self)
-            card.clicked.connect(self._choose)
-            card.installEventFilter(self)
-            self._flow.addWidget(card)
-            self.cards.append(card)
+    def show_scenes(self, groups: Mapping[str, Sequence[SceneEntry]]) -> None:
+        """Make a card for each scene: the title of a group to its scenes."""
+        for title, entries in groups.items():
+            group = QWidget(self)
+            group.setAccessibleName(title)
+            flow = FlowLayout(group, SPACING)
+            if self.cards:
+                self._column.addSpacing(SPACING)
+            self._column.addWidget(text_label(title, self, role="title", wraps=True))
+            self._column.addWidget(group)
+            for entry in entries:
+                card = SceneCard(entry, group)
+                card.clicked.connect(self._choose)
+                card.installEventFilter(self)
+                flow.addWidget(card)
+                self.cards.append(card)
         self._fit()
         theme_notifier().theme_changed.connect(self._fit)
 
@@ -177,15 +201,17 @@ class SceneCards(QWidget):
 
     @Slot()
     def _fit(self) -> None:
-        """Take the larger pictures where there is room for them, and make all cards as high as the highest."""
+        """Take the larger pictures where there is room for them, and make cards as high as the highest of their group."""
         small, large = SIZES
         scale = current_theme().text_px / 13
-        width = MANY * (large * PICTURE.width() * scale + 2 * GAP + self._flow.spacing())
+        width = MANY * (large * PICTURE.width() * scale + 2 * GAP + SPACING)
         for card in self.cards:
             card.set_size(large if width <= self.width() else small)
-        height = max(card.sizeHint().height() for card in self.cards)
-        for card in self.cards:
-            card.setFixedSize(card.sizeHint().width(), height)
+        for _, cards in groupby(self.cards, QWidget.parentWidget):
+            sizes = [(card, card.sizeHint()) for card in cards]
+            height = max(size.height() for _, size in sizes)
+            for card, size in sizes:
+                card.setFixedSize(size.width(), height)
 
     def show_picture(self, name: str, image: QImage) -> None:
         """Show the picture of a scene by its name."""
@@ -199,14 +225,25 @@ class SceneCards(QWidget):
     def eventFilter(self, watched: object, event: QEvent) -> bool:
         """Go with an arrow to the card on that side; Qt would go to the next in the order of Tab."""
         if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress and watched in self.cards:
-            row = max(1, sum(card.y() == self.cards[0].y() for card in self.cards))
-            steps = {Qt.Key.Key_Left: -1, Qt.Key.Key_Right: 1, Qt.Key.Key_Up: -row, Qt.Key.Key_Down: row}
-            if event.key() in steps:
-                place = self.cards.index(watched) + steps[Qt.Key(event.key())]
-                if 0 <= place < len(self.cards):
-                    self.cards[place].setFocus(Qt.FocusReason.TabFocusReason)
+            step = STEPS.get(Qt.Key(event.key()))
+            if step is not None:
+                card = self._beside(self.cards.index(watched), *step)
+                if card is not None:
+                    give_focus(card)
                 return True
         return False
+
+    def _beside(self, index: int, columns: int, rows: int) -> SceneCard | None:
+        """Return the card before or after one, or the nearest in the row above or below it; ``None``: there is none."""
+        if columns:
+            return self.cards[index + columns] if 0 <= index + columns < len(self.cards) else None
+        places = [card.mapTo(self, QPoint()) for card in self.cards]
+        here = places[index]
+        others = [k for k, place in enumerate(places) if (place.y() - here.y()) * rows > 0]
+        nearest = min(
+            others, key=lambda k: (abs(places[k].y() - here.y()), abs(places[k].x() - here.x())), default=None
+        )
+        return None if nearest is None else self.cards[nearest]
 
     @Slot()
     def _choose(self) -> None:

@@ -20,6 +20,7 @@ from core.scene import AnyScene, Scene
 from core.settings import settings_from_texts
 from lessons.exercises.scene_digest import scene_digest
 from lessons.scenes import CATALOGUE, TEACHING_SIZE, BuiltInScene
+from lessons.slides.scenes import ALL_SCENES, LECTURE_SCENES, LECTURES
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.image import display_image
 from widgets.basics.labels import text_label
@@ -31,8 +32,8 @@ if TYPE_CHECKING:
 
 FIRST = CATALOGUE[0].name
 WHAT = (
-    "Rasterscope shows how triangles become pixels: every stage of the pipeline, "
-    "step by step, forwards and backwards."
+    "Why does a pixel have its colour? Rasterscope steps from triangles to pixels, "
+    "through every stage of the pipeline, forwards and backwards."
 )
 MOST_RECENT = 6
 HIDDEN = "Hidden while an exercise asks about this scene"
@@ -52,7 +53,10 @@ class StartPage(Page):
         self._job = Job(self, expected=())
         self._job.part_done.connect(self._show_picture)
         self.cards = SceneCards(self)
-        self.cards.show_scenes([SceneEntry(s.name, s.title, s.description) for s in CATALOGUE])
+        groups = {"Scenes": CATALOGUE, **{LECTURES[name]: scenes for name, scenes in LECTURE_SCENES.items()}}
+        self.cards.show_scenes(
+            {title: [SceneEntry(s.name, s.title, s.card) for s in scenes] for title, scenes in groups.items()}
+        )
         self.cards.scene_chosen.connect(self.open_requested)
         self.begin_button = button_with_tip(
             "Begin with one triangle", "Open the scene with one triangle", self
@@ -108,7 +112,6 @@ class StartPage(Page):
     def _scenes(self) -> QWidget:
         pane = QWidget(self)
         layout = column_layout(pane, 8, margins=(0, 8, 8, 8))
-        layout.addWidget(text_label("Scenes", pane, role="title"))
         layout.addWidget(self.cards)
         layout.addStretch(1)
         return pane
@@ -229,7 +232,7 @@ def draw_pictures(
     progress: Progress, is_cancelled: Callable[[], bool], part_done: Callable[[object], None]
 ) -> None:
     """Draw the built-in scenes for their cards: name, digest and (H, W, 4) uint8 pixels of each, one by one."""
-    for built_in in CATALOGUE:
+    for built_in in ALL_SCENES.values():
         if is_cancelled():
             return
         scene = built_in.make()
@@ -240,7 +243,7 @@ def picture_of(built_in: BuiltInScene, scene: AnyScene) -> NDArray[np.uint8]:
     """Return the picture of a built-in scene, (H, W, 4) uint8: a teaching raster unchanged, a mesh in more pixels."""
     if isinstance(scene, Scene) and scene.size != TEACHING_SIZE:
         scene = replace(scene, size=(OF_MESH * PICTURE.width(), OF_MESH * PICTURE.height()))
-    return draw_picture(scene, settings_from_texts(dict(built_in.picture_settings))).pixels
+    return draw_picture(scene, settings_from_texts(built_in.settings)).pixels
 
 
 def _scrolled(content: QWidget, name: str) -> QScrollArea:
