@@ -48,3 +48,7 @@ class RunPlace:
             if operation.name == self.operation:
                 return int(trace.steps.starts[row]) + number
         raise ValueError(f"{self.at} in {self.stage} has no operation {self.operation}")
+
+
+FIRST_STEP = RunPlace()
+"""Before the first step of all."""

@@ -11,7 +11,7 @@ from core.records.arrays import Floats, checked
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, Scene
 from lessons.depth_tables import two_triangles
 from lessons.polygons import connecting_edges, pentagram, polygon_with_holes, weiler_atherton
-from lessons.run_place import RunPlace
+from lessons.run_place import FIRST_STEP, RunPlace
 from lessons.shapes import FACE_COLORS, cube, floor, knot, linear_color, plates, sphere, torus
 from lessons.teapot import teapot
 
@@ -35,7 +35,7 @@ class BuiltInScene:
     description: str
     """One sentence on what the scene shows."""
     make: Callable[[], AnyScene]
-    opens: RunPlace = RunPlace()
+    opens: RunPlace = FIRST_STEP
     """Where its run is entered: at what it is about."""
     settings: Mapping[str, str] = field(default_factory=dict)
     """Settings that show what it is about, where not those of every scene do."""

@@ -14,7 +14,7 @@ from app.files.state_files import EXTENSION, State, load_state
 from app.session.document import STEPPED, Document, check_drawing, focus_on, open_document, shortened
 from core.scene import AnyScene, Scene
 from core.settings import settings_from_texts
-from lessons.run_place import RunPlace
+from lessons.run_place import FIRST_STEP, RunPlace
 from lessons.slides.scenes import ALL_SCENES
 
 
@@ -29,7 +29,7 @@ class Opened:
     """Where a state file was left; ``None``: not a state file. ``state.document`` is ``document``."""
     path: str = ""
     """The file that was opened, absolute; empty: a built-in scene."""
-    place: RunPlace = RunPlace()
+    place: RunPlace = FIRST_STEP
     """Where it is entered, unless ``state`` says it: of a file the start, of a built-in scene what it is about."""
 
     @property

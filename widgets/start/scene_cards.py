@@ -20,7 +20,7 @@ from PySide6.QtWidgets import QAbstractButton, QWidget
 
 from widgets.basics.controls import column_layout
 from widgets.basics.flow_layout import FlowLayout
-from widgets.basics.focus_order import give_focus
+from widgets.basics.focus_order import ArrowGroup, give_focus
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.labels import text_label
 from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
@@ -176,7 +176,7 @@ class SceneCards(QWidget):
         self.setAccessibleName("Scenes")
 
     def show_scenes(self, groups: Mapping[str, Sequence[SceneEntry]]) -> None:
-        """Make a card for each scene: the title of a group to its scenes."""
+        """Make a card for each scene: the title of a group, which is one stop of Tab, to its scenes."""
         for title, entries in groups.items():
             group = QWidget(self)
             group.setAccessibleName(title)
@@ -185,12 +185,13 @@ class SceneCards(QWidget):
                 self._column.addSpacing(SPACING)
             self._column.addWidget(text_label(title, self, role="title", wraps=True))
             self._column.addWidget(group)
-            for entry in entries:
-                card = SceneCard(entry, group)
+            cards = [SceneCard(entry, group) for entry in entries]
+            ArrowGroup(cards, group)
+            for card in cards:
                 card.clicked.connect(self._choose)
                 card.installEventFilter(self)
                 flow.addWidget(card)
-                self.cards.append(card)
+            self.cards += cards
         self._fit()
         theme_notifier().theme_changed.connect(self._fit)
 
@@ -201,7 +202,7 @@ class SceneCards(QWidget):
 
     @Slot()
     def _fit(self) -> None:
-        """Take the larger pictures where there is room for them, and make cards as high as the highest of their group."""
+        """Take the larger pictures where there is room, and make the cards of a group as high as its highest."""
         small, large = SIZES
         scale = current_theme().text_px / 13
         width = MANY * (large * PICTURE.width() * scale + 2 * GAP + SPACING)

@@ -12,7 +12,8 @@ from app.pages.start.page import StartPage, picture_of
 from app.window import start
 from app.window.main_window import MainWindow
 from app.window.preferences import load_preferences
-from lessons.scenes import CATALOGUE, built_in_scene
+from lessons.scenes import built_in_scene
+from lessons.slides.scenes import ALL_SCENES, LECTURES
 
 pytestmark = pytest.mark.shared_window
 
@@ -27,14 +28,13 @@ def page(window: MainWindow, qtbot: QtBot) -> StartPage:
 
 
 def test_every_scene_has_a_card_with_a_picture_of_it(page: StartPage) -> None:
-    assert [card.entry.name for card in page.cards.cards] == [scene.name for scene in CATALOGUE]
-    for card in page.cards.cards:
+    assert [card.entry.name for card in page.cards.cards] == list(ALL_SCENES)
+    for card, scene in zip(page.cards.cards, ALL_SCENES.values(), strict=True):
         assert card.has_picture()
-        assert (card.accessibleName(), card.accessibleDescription()) == (
-            card.entry.title,
-            card.entry.description,
-        )
+        assert (card.accessibleName(), card.accessibleDescription()) == (scene.title, scene.card)
         assert min(card.width(), card.height()) > 24
+    groups = dict.fromkeys(card.parentWidget().accessibleName() for card in page.cards.cards)
+    assert list(groups) == ["Scenes", *LECTURES.values()]
 
 
 def test_pictures_are_drawn_by_the_core() -> None:
@@ -64,8 +64,36 @@ def test_arrows_go_from_card_to_card_and_return_opens(
     assert cards[1].hasFocus()
     QTest.keyClick(cards[1], Qt.Key.Key_Right)
     QTest.keyClick(cards[2], Qt.Key.Key_Return)
-    assert window.pages.current_name == "step"
     qtbot.waitUntil(lambda: window.session.document.title == "Fan of shared edges")
+    assert window.pages.current_name == "step"
+    session = window.session
+    assert (session.cursor.stage, session.cursor.position, session.pin) == ("raster", 4, (32, 24))
+    assert window.page.sentence.text().startswith("Pixel (32, 24) is covered")
+    session.undo()
+    assert session.document.title == "Two triangles sharing an edge"
+
+
+@pytest.mark.own_window
+def test_arrows_go_through_all_groups_and_bring_each_card_into_sight(
+    window: MainWindow, page: StartPage
+) -> None:
+    window.resize(1280, 800)
+    QApplication.processEvents()
+    cards = page.cards.cards
+    cards[0].setFocus(Qt.FocusReason.TabFocusReason)
+    for key, back in ((Qt.Key.Key_Down, Qt.Key.Key_Up), (Qt.Key.Key_Right, Qt.Key.Key_Left)):
+        passed = [cards[0]]
+        while True:
+            QTest.keyClick(passed[-1], key)
+            (focused,) = [card for card in cards if card.hasFocus()]
+            if focused is passed[-1]:
+                break
+            passed.append(focused)
+            assert focused.visibleRegion().boundingRect() == focused.rect()
+        assert passed[-1].parentWidget() is cards[-1].parentWidget()
+        for _ in passed:
+            QTest.keyClick(next(card for card in cards if card.hasFocus()), back)
+        assert cards[0].hasFocus()
 
 
 def test_recent_files_and_the_first_triangle_open(
@@ -81,7 +109,8 @@ def test_recent_files_and_the_first_triangle_open(
     window.pages.show_page("start")
     page.begin_button.click()
     qtbot.waitUntil(lambda: window.session.document.title == "Single triangle")
-    assert window.session.cursor.stage == "transform"
+    assert window.session.cursor.stage == "raster"
+    assert window.page.sentence.text().startswith("Pixel (8, 6) is covered")
 
 
 @pytest.mark.own_window
@@ -108,15 +137,16 @@ def test_what_a_start_shows(target: str | None, is_restored: bool, is_wanted: bo
 
 
 @pytest.mark.own_window
-def test_the_page_is_reached_by_tab_from_begin_to_the_last_card(window: MainWindow, page: StartPage) -> None:
+def test_the_page_is_reached_by_tab_from_begin_to_the_last_group(window: MainWindow, page: StartPage) -> None:
     page.begin_button.setFocus(Qt.FocusReason.TabFocusReason)
     reached = [QApplication.focusWidget()]
-    for _ in range(40):
+    for _ in range(20):
         QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Tab)
         reached.append(QApplication.focusWidget())
     wanted = [page.begin_button, page.open_button, page.guide_button, page.keys_button, page.always_box]
     assert [each for each in wanted if each not in reached] == []
-    assert [card.entry.name for card in page.cards.cards if card not in reached] == []
+    groups = {card.parentWidget(): card for card in reversed(page.cards.cards)}
+    assert [card.entry.name for card in groups.values() if card not in reached] == []
 
 
 @pytest.mark.parametrize("width", [900, 1920])

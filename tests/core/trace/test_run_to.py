@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from core import Settings, trace
 from core.trace.conditions import TEXT_LIMIT, parse_condition, variable_names
-from core.trace.run_to import BACK, FORWARD, next_at_pixel, next_event, next_marked
+from core.trace.run_to import BACK, FORWARD, named_position, next_at_pixel, next_event, next_marked
 from core.trace.stage_trace import MARKS
 from tests.core.trace.trace_cases import SCENES
 
@@ -61,6 +61,20 @@ def test_a_stage_without_rows_has_no_event():
     empty = trace(SCENES["clip"], Settings(), 3).stage("raster")
     assert next_marked(empty, 0, "covered") is None
     assert next_at_pixel(empty, 0, 3, 3, BACK) is None
+
+
+def test_a_place_is_named_by_what_happens_there():
+    found = TRACED.stage("raster")
+    covered = [found.steps.position_after(row) for row in np.flatnonzero(found.marks["covered"]).tolist()]
+    assert [named_position(found, at) for at in ("start", "end")] == [0, found.steps.count]
+    assert [named_position(found, at) for at in ("covered", "1: covered", "3: covered")] == [
+        covered[0], covered[0], covered[2],
+    ]  # fmt: skip
+    row = found.steps.row_at(named_position(found, "column == 5 and row == 4"))[0]
+    assert found.pixel[row].tolist() == [5, 4]
+    for at in ("depth-failed", "column == 99", f"{len(covered) + 1}: covered"):
+        with pytest.raises(ValueError, match=f"no step of raster meets {at}"):
+            named_position(found, at)
 
 
 def test_wrong_events():

@@ -66,6 +66,8 @@ def test_the_next_start_hides_what_is_asked(window: MainWindow, qtbot: QtBot) ->
     second.open_path("shared-edge")
     qtbot.waitUntil(lambda: second.session.is_asked_about)
     assert second.session.is_predicting
+    cursor = second.session.cursor
+    assert (cursor.stage, cursor.position) == ("raster", 0), "not at the pixel that its card promises"
     asked = second.pages.page("exercises")
     assert isinstance(asked, ExercisesPage)
     asked.settle()

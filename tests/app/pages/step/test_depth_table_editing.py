@@ -58,7 +58,7 @@ def test_it_is_there_for_tables_only_and_opens_at_the_depth_test(editing: MainWi
 
 def test_a_table_that_is_opened_from_the_menu_begins_at_the_depth_test(window: MainWindow) -> None:
     window.files.show_opened(open_any("depth-table"))
-    assert (window.session.cursor.stage, window.session.cursor.position) == ("depth", 0)
+    assert (window.session.cursor.stage, window.session.cursor.position) == ("depth", 3)
     assert window.page.current_view() == "pixels"
 
 

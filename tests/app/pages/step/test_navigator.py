@@ -1,5 +1,7 @@
 """The way from a whole model into a triangle and back: opening, going in, the navigator."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
@@ -13,6 +15,7 @@ from app.views.scene_picture import fractions
 from app.views.view_space import viewing_camera, viewing_matrix
 from app.window.main_window import MainWindow
 from core.records.steps import Level
+from lessons.run_place import FIRST_STEP
 from lessons.scenes import built_in_scene
 
 pytestmark = pytest.mark.shared_window
@@ -185,7 +188,7 @@ def test_the_navigator_leaves_the_numbers_beside_the_raster(window: MainWindow) 
 
 
 def test_a_mesh_opens_large_from_its_front_also_when_it_opens_again(window: MainWindow) -> None:
-    opened, page = open_any("torus"), window.page
+    opened, page = replace(open_any("torus"), place=FIRST_STEP), window.page
     window.files.show_opened(opened)
     page.settle()
     view = page.main_view()
@@ -193,7 +196,7 @@ def test_a_mesh_opens_large_from_its_front_also_when_it_opens_again(window: Main
     assert np.abs(first.azimuth) < np.pi / 3, "a face that looks along +z is seen"
     view.zoom_by(8.0)  # type: ignore[attr-defined]
     page.grid.zoom_by(4.0)
-    window.files.show_opened(open_any("torus"))
+    window.files.show_opened(opened)
     page.settle()
     assert view.orbit() == first  # type: ignore[attr-defined]
     assert page.grid.view().zoom == 1

@@ -8,6 +8,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
+from app.files.open_any import open_any
 from app.pages.step.chapters import chapters_of
 from app.pages.step.pixel_stories import story_of
 from app.pages.step.scene_outline_presenter import settings_records
@@ -166,12 +167,12 @@ def test_clippers_of_rectangles_are_refused_for_a_polygon(window: MainWindow, qt
     assert window.session.document is before
     window.session.set_setting("line_clipping", "cyrus-beck")
     assert len(window.page.grids.geometry.focus_vertices) == 2
-    open_scene(window, "clipped-segment")
-    window.session.set_setting("line_clipping", "liang-barsky")
+    window.files.show_opened(open_any("clipped-segment"))
+    assert window.session.document.settings.line_clipping == "liang-barsky"
     window.open_path("polygon-window")
     qtbot.waitUntil(lambda: not window.files.job.is_running)
     assert window.session.document.title == "Segment and convex polygon"
-    assert window.session.document.settings.line_clipping in ("none", "liang-barsky")
+    assert window.session.document.settings.line_clipping == "cyrus-beck"
 
 
 def test_menus_name_what_the_scene_is_made_of(window: MainWindow) -> None:
