@@ -12,7 +12,7 @@ from core.explain.kinds import of_kind
 from core.explain.records import Asked, Formula, Value, Variable
 from core.explain.rows import Row, find_row
 from core.explain.step_values import StepValues, key_fields, row_key
-from core.explain.variable_text import GIVEN, HIDDEN, VARIABLES, VariableText
+from core.explain.variable_text import Held, held_values
 from core.records.words import joined
 from core.trace import Explanation, StageTrace
 from core.trace.stage_trace import KEPT_EXPLANATIONS
@@ -124,15 +124,9 @@ def variables(explanation: Explanation) -> tuple[Variable, ...]:
     """
     load_subjects()
     step = StepValues(explanation)
-    hidden = HIDDEN.get(f"{step.stage}.{step.kind}", frozenset())
-    values, known = explanation.values, explanation.known
-    found: list[Variable] = []
-    for name, text in VARIABLES.get(step.stage, {}).items():
-        needed = name if text.after == "itself" else text.after
-        if name not in values or name in hidden or (needed != GIVEN and needed not in known):
-            continue
-        before: Any = values.get(text.previous) if name in explanation.changed else values[name]
-        found += (replace(variable, column=name) for variable in _shown(step, text, values[name], before))
+    found = [
+        replace(variable, column=held.column) for held in held_values(step) for variable in _shown(step, held)
+    ]
     made = formula(explanation)
     return (
         tuple(replace(variable, digits=made.digits) for variable in found)
@@ -141,9 +135,9 @@ def variables(explanation: Explanation) -> tuple[Variable, ...]:
     )
 
 
-def _shown(step: StepValues, text: VariableText, now: Any, before: Any) -> list[Variable]:
+def _shown(step: StepValues, held: Held) -> list[Variable]:
     """Return one variable, or one for every element that has its own."""
-    label = text.label if isinstance(text.label, str) else text.label(step)
+    label, text, now, before = held.label, held.text, held.now, held.before
     meaning = text.meaning if isinstance(text.meaning, str) else text.meaning(step)
     if text.is_key:
         return _key_fields(label, meaning, int(now), None if before is None else int(before))

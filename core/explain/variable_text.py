@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
+from typing import Any
 
 from core.explain.step_values import StepValues
 
@@ -46,6 +47,44 @@ def hides(kinds: str, names: Iterable[str]) -> None:
     for kind in names_of_kinds.split("|"):
         key = f"{stage}.{kind}"
         HIDDEN[key] = HIDDEN.get(key, frozenset()) | frozenset(names)
+
+
+@dataclass(frozen=True)
+class Held:
+    """A variable after a step."""
+
+    label: str
+    column: str
+    text: VariableText
+    now: Any
+    before: Any
+    """What it was before the step; ``None``: it had no value."""
+
+
+def held_values(step: StepValues) -> list[Held]:
+    """Return the variables after a step, in the order of the algorithm.
+
+    Columns of one label are one variable at different times: what an operation sets takes the place of what was known
+    before.
+    """
+    explanation, hidden = step.explanation, HIDDEN.get(f"{step.stage}.{step.kind}", frozenset())
+    values, order = explanation.values, {name: k for k, name in enumerate(explanation.known)}
+    found: dict[str, list[tuple[int, str, VariableText]]] = {}
+    for name, text in VARIABLES.get(step.stage, {}).items():
+        needed = name if text.after == "itself" else text.after
+        if name not in values or name in hidden or (needed != GIVEN and needed not in order):
+            continue
+        label = text.label if isinstance(text.label, str) else text.label(step)
+        found.setdefault(label, []).append((order.get(name, -1), name, text))
+    held = []
+    for label, times in found.items():
+        *earlier, (_, name, text) = sorted(times, key=lambda time: time[0])
+        now = values[name]
+        before: Any = now
+        if name in explanation.changed:
+            before = values[earlier[-1][1]] if earlier else values.get(text.previous)
+        held.append(Held(label, name, text, now, before))
+    return held
 
 
 def given(label: str, meaning: str, spread: str = "") -> VariableText:

@@ -1,13 +1,16 @@
 """Trace of a wireframe's coverage: every pixel of every edge, with the numbers by which the line method chose it."""
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from core.methods import table
-from core.raster.lines.records import check_segments
+from core.raster.lines.records import LineSteps, check_segments
 from core.raster.lines.traits import line_set_up, line_traits
 from core.raster.lines.wireframe import line_parameter
-from core.records.arrays import Floats
+from core.records.arrays import Flags, Floats, Integers
 from core.records.listing import listing
+from core.records.operation import Columns, Operation
 from core.records.steps import Steps, ends_of
 from core.trace.line_clipping import with_line_clipping
 from core.trace.raster_rows import FILL_OPERATIONS, overdraw_track
@@ -40,19 +43,20 @@ def trace_lines(source: TraceSource) -> StageTrace:
         "t": line_parameter(outlines, fragments, raster.center),
         "previous": _previous(steps.decision, segment),
     }
-    columns |= line_traits(line).columns(steps)
     segments = check_segments(outlines.drawn, *source.scene.size, raster.center)
     set_up = line_set_up(segments, line)
     columns |= {name: values[segment] for name, values in set_up.items()}
     is_steep = columns["is_steep"]
     columns["major"] = np.where(is_steep, pixel[:, 1], pixel[:, 0])
     columns["minor"] = np.where(is_steep, pixel[:, 0], pixel[:, 1])
+    columns |= _pixel_before(columns, steps.index == 0)
     # A listing that has swapped x and y for a steep line goes on with dx along its longer axis.
     is_unswapped = is_steep & (not line_traits(line).swaps_axes)
     columns["dx"], columns["dy"] = (
         np.where(is_unswapped, columns[other], columns[own])
         for own, other in (("run", "rise"), ("rise", "run"))
     )
+    columns |= line_traits(line).columns(columns)
 
     method = table.get("line", line)
     operations = method.operations
@@ -67,7 +71,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
         method=f"line={line}",
         steps=Steps(
             kinds=kinds,
-            kind=np.where(steps.index == 0, len(kinds) - 2, len(kinds) - 1),
+            kind=len(FILL_OPERATIONS) + _kind(steps, len(operations)),
             operations={**FILL_OPERATIONS, **operations},
             triangle_ends=ends_of(triangle),
             group_ends=ends_of(segment),
@@ -99,8 +103,32 @@ def trace_lines(source: TraceSource) -> StageTrace:
             "outlines": outlines,
         },
         constants={"center": raster.center},
+        given=_given(operations, columns),
     )
     return with_line_clipping(found, source)
+
+
+def _kind(steps: LineSteps, count: int) -> Integers:
+    """Return which of ``count`` kinds the rows (R,) are: a line's first pixel, another one, one after a step."""
+    return np.where(steps.index == 0, 0, np.minimum(1 + steps.has_stepped, count - 1))
+
+
+def _given(operations: Mapping[str, tuple[Operation, ...]], columns: Columns) -> dict[str, tuple[str, ...]]:
+    """Return what a line's first row has set for the later ones of each kind, and what the row before has left."""
+    first, *later = operations
+    again = {name for kind in later for done in operations[kind] for name in done.sets}
+    once = [name for done in operations[first] for name in done.sets if name not in again]
+    left = [f"{name}_before" for name in ("major", "minor") if name in again]
+    left += ["sum_before"] * bool(np.isfinite(columns["sum_before"]).any())
+    return dict.fromkeys(later, (*once, *left))
+
+
+def _pixel_before(columns: Columns, is_first: Flags) -> dict[str, Floats]:
+    """Return both coordinates (R,) of the pixel before on the line, NaN where a pixel is the first."""
+    return {
+        "major_before": np.where(is_first, np.nan, columns["major"] - columns["sx"]),
+        "minor_before": np.where(is_first, np.nan, columns["minor"] - columns["has_stepped"] * columns["sy"]),
+    }
 
 
 def _previous(decision: Floats, segment: np.ndarray) -> Floats:

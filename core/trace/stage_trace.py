@@ -108,6 +108,8 @@ class StageTrace:
     """Variables that are the same in all rows."""
     corner_count: int = 3
     """Corners of what is drawn: 2 of segments, 1 of points."""
+    given: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    """Kind of row to the variables that earlier rows have set for it."""
 
     def kind_of(self, row: int) -> str:
         """Return the kind of a row."""
@@ -156,7 +158,11 @@ class StageTrace:
         return Explanation(
             key=f"{self.stage}.{kind}.{done.name}",
             values=values,
-            known=(*self.constants, *(name for o in operations[: operation + 1] for name in o.sets)),
+            known=(
+                *self.constants,
+                *self.given.get(kind, ()),
+                *(name for o in operations[: operation + 1] for name in o.sets),
+            ),
             changed=done.sets,
             listing=listing,
             line=listing.lines.get(done.label_at(self.columns, row), 0) if listing else 0,

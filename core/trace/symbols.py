@@ -18,13 +18,15 @@ OF_LINES = {
 }
 """Column of the raster stage to its symbol, where triangles are filled and where lines are drawn."""
 OF_PIXELS = {"column": "x", "row": "y"}
-"""The same of line methods whose own coordinates are pixels."""
+"""The same of line methods; those that have a y between pixels call the pixel Y."""
 OF_STAGES = {
     "interpolate": {"total": "n", "fraction": "t"},
     "shade": {"lod": "λ", "level": "l", "level_fraction": "f"},
     "depth": {"depth": "z", "nearness": "v", "error": "e"},
 }
 """Stage to its columns that have a symbol."""
+SUMS = {"bresenham-float": "e"}
+"""Line method to the symbol of its sum before the decision, where that is another number."""
 DECISIONS = {"bresenham": "D", "bresenham-lecture": "D", "rectangle": "a"}
 """Line method to the symbol of the number that chooses the pixel, where it has one of its own."""
 OF_ELEMENTS = {"weights": "λ", "numerators": "n", "corner_w": "w"}
@@ -38,10 +40,10 @@ def symbols_of(trace: StageTrace) -> dict[str, str]:
     found = OF_STAGES.get(trace.stage, {})
     if trace.stage == "raster":
         found = OF_FILLS if family == "fill" else OF_LINES
-    if family == "line" and line_traits(method).takes_pixels:
-        found = found | OF_PIXELS
-    if family == "line" and method in DECISIONS:
-        found = found | {"decision": DECISIONS[method]}
+    if family == "line":
+        found = found | OF_PIXELS | ({} if line_traits(method).takes_pixels else {"row": "Y"})
+        named = {"decision": DECISIONS.get(method), "sum_before": SUMS.get(method)}
+        found = found | {column: symbol for column, symbol in named.items() if symbol}
     return {name: symbol for name, symbol in found.items() if name in trace.columns}
 
 

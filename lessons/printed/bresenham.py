@@ -186,7 +186,7 @@ def start_of_d(ends: tuple[int, int, int, int]) -> int:
     """Return D at the first decision of the integer version that is right."""
     right = table.get("line", "bresenham-lecture").listing
     assert right is not None
-    return int(right(*ends, True)[1][2])
+    return int(right(*ends, True)[0][2])
 
 
 def _counted(slide: str, what: str, number: int, compute: Callable[[], int]) -> SlideNumber:

@@ -1,9 +1,9 @@
 """Lines of a wireframe: how each method chooses its pixels, and interpolation along them."""
 
-import math
-from functools import partial
+import ast
+from fractions import Fraction
 
-from core.explain.digits import number_latex, spoken, vector_text
+from core.explain.digits import number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import (
     Part,
     all_of,
@@ -16,18 +16,27 @@ from core.explain.equation import (
     linear,
     relation,
 )
-from core.explain.records import Asked, Formula, number
+from core.explain.listed_code import (
+    assigned_name,
+    assignment,
+    code_of,
+    number_of,
+    symbols,
+    symbols_latex,
+)
+from core.explain.listed_code import tested as tested_by
+from core.explain.records import Asked, choice, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
-from core.explain.variable_text import GIVEN, PIXEL, VariableText, given, shows
+from core.explain.variable_text import VariableText, given, hides, shows
 from core.methods import table
-from core.raster.lines.traits import line_traits
+from core.raster.lines.traits import line_of_kind, line_traits
 from core.records.words import counted
 
 
 def line_method(step: StepValues) -> str:
     """Return the line method of a row."""
-    return step.kind.removesuffix("-start")
+    return line_of_kind(step.kind)
 
 
 def is_swapped(step: StepValues) -> bool:
@@ -37,6 +46,7 @@ def is_swapped(step: StepValues) -> bool:
     return is_steep and line in table.names("line") and line_traits(line).swaps_axes
 
 
+RELATIONS_LATEX = {ast.Gt: ">", ast.GtE: r"\ge", ast.LtE: r"\le", ast.Lt: "<"}
 MAJOR, MINOR = "x", "y"
 """Symbols, as in the listings, of the longer axis of the line and of the other: of a steep line x and y are swapped."""
 
@@ -46,19 +56,50 @@ def axes(step: StepValues) -> tuple[str, str]:
     return ("x (the row)", "y (the column)") if is_swapped(step) else (MAJOR, MINOR)
 
 
-def minor_direction(step: StepValues) -> int:
-    """Return the way in which the shorter axis steps, 1 or −1."""
-    major, minor = (1, 0) if step.flag("is_steep") else (0, 1)
-    along, across = (step.vector("second_end")[k] - step.vector("first_end")[k] for k in (major, minor))
-    if line_method(step) == "bresenham-lecture" and along < 0:
-        across = -across
-    return -1 if across < 0 else 1
+def listed_ends(step: StepValues) -> tuple[list[float], list[float]]:
+    """Return both ends as the listing has them after its swaps."""
+    first, second = step.vector("first_end"), step.vector("second_end")
+    if is_swapped(step):
+        first, second = first[::-1], second[::-1]
+    return (second, first) if is_reversed(step) else (first, second)
 
 
-def major_direction(step: StepValues) -> int:
-    """Return the way in which the longer axis is followed, 1 or −1."""
-    k = 1 if step.flag("is_steep") else 0
-    return -1 if step.vector("second_end")[k] < step.vector("first_end")[k] else 1
+def is_reversed(step: StepValues) -> bool:
+    """Return whether the listing has swapped the ends."""
+    k = int(step.flag("is_steep"))
+    is_backward = step.vector("second_end")[k] < step.vector("first_end")[k]
+    return line_traits(line_method(step)).swaps_ends and is_backward
+
+
+def nearness(step: StepValues) -> int:
+    """Compare the pixel that was taken with the other one: -1 where it is nearer to the line, 0 as near, 1 farther."""
+    u = int(step.flag("is_steep"))
+    first, second = ([Fraction(x) for x in step.vector(name)] for name in ("first_end", "second_end"))
+    run, rise = second[u] - first[u], second[1 - u] - first[1 - u]
+    line = first[1 - u] + (Fraction(step.number("major")) - first[u]) * rise / run if run else first[1 - u]
+    taken = Fraction(step.number("minor"))
+    other = taken + Fraction(step.number("sy")) * (-1 if step.flag("has_stepped") else 1)
+    mine, its = abs(taken - line), abs(other - line)
+    return (mine > its) - (mine < its)
+
+
+def comparison_of(step: StepValues) -> ast.Compare:
+    """Return the comparison by which the listing of a step decides whether the minor coordinate steps."""
+    found = tested_by(code_of(step, "test"))
+    assert found is not None, f"{step.explanation.key} tests nothing"
+    return found
+
+
+def will_step(step: StepValues) -> Asked:
+    """Ask for the decision."""
+    compared, (_, minor), has_stepped = comparison_of(step), axes(step), step.flag("has_stepped")
+    name = symbols(compared.left)
+    value = f"{name if name[0].isupper() else f'The value of {name}'} is {spoken(step.number('decision'))}"
+    return choice(
+        f"{value}, and the listing tests {symbols(compared)}. Does {minor} step?",
+        int(not has_stepped),
+        f"{value}, so {_does(step)}: {step.the_pixel} is next.",
+    )
 
 
 @explains("raster.*.octant")
@@ -90,15 +131,65 @@ def octant(step: StepValues) -> Said:
 
 @explains("raster.*.lengths")
 def lengths(step: StepValues) -> Said:
-    """The lengths along both axes and the first decision value."""
+    """The lengths along both axes."""
     major, minor = axes(step)
-    run, rise = step.number("run"), step.number("rise")
-    text = (
-        f"The line goes {counted(int(run), 'pixel')} along {major} and {spoken(rise)} along {minor}, "
-        f"so the decision value D starts at 2 · {spoken(rise)} − {spoken(run)} = {spoken(2 * rise - run)}."
+    (x0, y0), (x1, y1) = listed_ends(step)
+    dx, dy = step.number("run"), step.number("rise")
+    text = f"The line goes {counted(int(dx), 'pixel')} along {major} and {spoken(dy)} along {minor}."
+    apart = [
+        rf"|{name}_1 - {name}_0|::|{number_latex(second)} - {signed_latex(first)}|".split("::")
+        for name, first, second in ((MAJOR, x0, x1), (MINOR, y0, y1))
+    ]
+    (of_x, in_x), (of_y, in_y) = apart
+    return text, equation(*beside([("dx", dx), "=", (of_x, in_x)], [("dy", dy), "=", (of_y, in_y)]))
+
+
+@explains("raster.*.directions")
+def directions(step: StepValues) -> Said:
+    """The way in which the listing goes along the axes."""
+    ways: list[str] = []
+    made: list[list[Part]] = []
+    for k, (axis, symbol) in enumerate(zip(axes(step), (MAJOR, MINOR), strict=True)):
+        if f"s{symbol}" in step.explanation.changed:
+            value, (first, second) = step.number(f"s{symbol}"), listed_ends(step)
+            ways.append(f"{axis} {'grows' if value > 0 else 'falls'} by 1")
+            compared: list[Part] = [
+                (f"{symbol}_1", second[k]),
+                (r"\ge", relation(second[k], first[k])),
+                (f"{symbol}_0", first[k]),
+            ]
+            made.append([*compared, r"\Rightarrow", (f"s{symbol}", value)])
+    text = f"From the first end to the second, {', and '.join(ways)}{' where it steps' * (len(ways) > 1)}."
+    return text, equation(*beside(*made))
+
+
+@explains("raster.*.start")
+def started(step: StepValues) -> Said:
+    """Where the line begins."""
+    (major, minor), ((x0, y0), _) = axes(step), listed_ends(step)
+    x = step.number("major")
+    if "minor" not in step.explanation.changed:
+        side, bracket = ("before", "ceil") if step.number("sx") > 0 else ("after", "floor")
+        text = f"The line starts at {major} = {spoken(x)}, the first whole number not {side} {spoken(x0)}."
+        whole = (rf"\l{bracket} {MAJOR}_0 \r{bracket}", rf"\l{bracket} {number_latex(x0)} \r{bracket}")
+        return text, equation((MAJOR, x), "=", whole)
+    swapped = f", its second end, so that {major} grows" if is_reversed(step) else ""
+    text = f"The line starts at {major} = {spoken(x)} and {minor} = {spoken(y0)}{swapped}."
+    return text, equation(
+        *beside([(MAJOR, x), "=", (f"{MAJOR}_0", x0)], [(MINOR, y0), "=", (f"{MINOR}_0", y0)])
     )
-    across, along = (f"d{MINOR}", rise), (f"d{MAJOR}", run)
-    return text, equation(("D", 2 * rise - run), "=", "2", r"\cdot", across, "-", along)
+
+
+@explains("raster.*.first-sum")
+def first_sum(step: StepValues) -> Said:
+    """The first value of the sum that decides."""
+    name, (made, computed, value) = sum_name(step), assignment(step)
+    return f"The first {name} is {_amount(computed, value)}.", equation(*made)
+
+
+def _amount(computed: str, value: float) -> str:
+    """Return what was computed, and its number."""
+    return spoken(value) if computed[0].isdigit() and " " not in computed else f"{computed} = {spoken(value)}"
 
 
 @explains("raster.bresenham-float-start.slope")
@@ -113,41 +204,71 @@ def error_slope(step: StepValues) -> Said:
 
 @explains("raster.*.slope")
 def line_slope(step: StepValues) -> Said:
+    """The slope of the line."""
+    m, (_, minor) = step.number("slope"), axes(step)
+    text = f"The slope m is {spoken(m)}, the change along {minor} for every 1 along {axes(step)[0]}."
+    (x0, y0), (x1, y1) = listed_ends(step)
+    above = difference((f"{MINOR}_1", y1), (f"{MINOR}_0", y0))
+    below = difference((f"{MAJOR}_1", x1), (f"{MAJOR}_0", x0))
+    quotient: list[Part] = ["=", fraction(above, below)] if x0 != x1 else []
+    return text, equation(("m", m), *quotient)
+
+
+@explains("raster.*.intercept")
+def line_intercept(step: StepValues) -> Said:
     """The equation of the line."""
-    m, b = step.number("slope"), step.number("intercept")
+    m, b, ((x0, y0), _) = step.number("slope"), step.number("intercept"), listed_ends(step)
     swapped = ", where x counts rows" if is_swapped(step) else ""
     text = (
         f"With pixel centres at whole numbers the line is "
         f"{MINOR} = {spoken(m)} · {MAJOR} {'−' if b < 0 else '+'} {spoken(abs(b))}{swapped}."
     )
-    u, v = (1, 0) if step.flag("is_steep") else (0, 1)
-    first, second = step.vector("first_end"), step.vector("second_end")
-    above = difference((f"{MINOR}_1", second[v]), (f"{MINOR}_0", first[v]))
-    below = difference((f"{MAJOR}_1", second[u]), (f"{MAJOR}_0", first[u]))
-    quotient: list[Part] = ["=", fraction(above, below)] if second[u] != first[u] else []
-    return text, equation(*beside([("m", m), *quotient], [("b", b)]))
+    return text, equation(("b", b), "=", (f"{MINOR}_0", y0), "-", ("m", m), r"\cdot", (f"{MAJOR}_0", x0))
 
 
-@explains("raster.*.test")
+@explains("raster.dda-float32-start.sy")
+def rounded_step(step: StepValues) -> Said:
+    """The slope in the line's direction."""
+    made, computed, value = assignment(step)
+    return f"The step sy is {_amount(computed, value)}, rounded to float32.", equation(*made)
+
+
+@explains("raster.dda-float32.advance")
+def added_in_float32(step: StepValues) -> Said:
+    """The slope added once more, and the sum rounded."""
+    now, added = step.number("decision"), step.number("sy")
+    text = f"Adding sy = {spoken(added)} to y and rounding the sum to float32 makes y = {spoken(now)}."
+    return text, equation(*assignment(step)[0])
+
+
+@explains("raster.*.test", asks=will_step)
 def tested(step: StepValues) -> Said:
     """The decision whether the minor coordinate steps."""
-    value, does, is_strict = step.number("decision"), _does(step), line_method(step) == "bresenham-lecture"
-    if value == 0:
+    compared, value = comparison_of(step), step.number("decision")
+    name, limit = symbols(compared.left), number_of(compared.comparators[0], {})
+    near, does = nearness(step), _does(step)
+    side = "above" if value > limit else "below"
+    if value == limit:
+        side = "not above" if isinstance(compared.ops[0], ast.Gt | ast.LtE) else "not below"
+    shown = name if name[0].isupper() else f"The value of {name}"
+    text = f"{shown} is {spoken(value)}, {side} {spoken(limit)}, so {does}{_though(near)}."
+    if value == limit and near == 0:
         text = (
-            f"D is 0, a tie: the line passes exactly between two pixels, and by this version's rule {does}."
+            f"{shown} is {spoken(value)}, a tie: the line passes exactly between two pixels, "
+            f"and by this version's rule {does}."
         )
-    else:
-        text = f"D is {spoken(value)}, {'above' if value > 0 else 'below'} 0, so {does}."
-    return text, _decided(step, comparison("D", ">" if is_strict else r"\ge", value))
+    wanted = RELATIONS_LATEX[type(compared.ops[0])]
+    is_yes = step.flag("has_stepped") != isinstance(compared.ops[0], ast.LtE)
+    yes, no = ("stay", "step") if isinstance(compared.ops[0], ast.LtE) else ("step", "stay")
+    return text, equation(
+        *comparison(symbols_latex(compared.left), wanted, value, limit),
+        *conclusion(yes, yes if is_yes else no),
+    )
 
 
-@explains("raster.bresenham-float.test")
-def error_tested(step: StepValues) -> Said:
-    """The decision by the error in float numbers."""
-    value = step.number("decision")
-    side = "above" if value > 0.5 else "not above" if value == 0.5 else "below"
-    text = f"The error e plus the slope m is {spoken(value)}, {side} 0.5, so {_does(step)}."
-    return text, _decided(step, comparison("e + m", ">", value, 0.5))
+def _though(near: int) -> str:
+    """Return what must be said where the pixel that is taken is not the nearer one."""
+    return ", though the other pixel is nearer to the line" if near > 0 else ""
 
 
 def _does(step: StepValues) -> str:
@@ -155,21 +276,33 @@ def _does(step: StepValues) -> str:
     return f"{minor} steps" if step.flag("has_stepped") else f"{minor} stays"
 
 
-def _decided(step: StepValues, compared: list[Part]) -> Formula:
-    return equation(*compared, *conclusion("step", "step" if step.flag("has_stepped") else "stay"))
-
-
 @explains("raster.*.step")
 def stepped(step: StepValues) -> Said:
     """The pixel on the minor axis."""
-    (_, minor), now = axes(step), step.number("minor")
-    if step.flag("has_stepped"):
-        text = f"The next pixel is nearer to the line, so {minor} steps to {spoken(now)}."
-    else:
-        text = f"The same pixel along {minor} is still nearest to the line, so {minor} stays {spoken(now)}."
-    moved = float(step.flag("has_stepped") * minor_direction(step))
-    before = (rf"{MINOR}_{{\mathrm{{before}}}}", now - moved)
-    return text, equation((MINOR, now), "=", before, "+", ("s", moved))
+    (_, minor), now, near = axes(step), step.number("minor"), nearness(step)
+    why = "The next pixel is nearer to the line, so"
+    if near == 0:
+        why = "Both pixels are equally near the line, and by this version's rule"
+    elif near > 0:
+        why = "By this version's rule"
+    return f"{why} {minor} steps to {spoken(now)}{_though(near)}.", equation(*assignment(step)[0])
+
+
+@explains("raster.*.correct|advance")
+def added(step: StepValues) -> Said:
+    """What is added to the sum, or taken off it."""
+    made, computed, value = assignment(step)
+    name, now = sum_name(step), step.number(step.explanation.changed[0])
+    is_added = isinstance(code_of(step).op, ast.Add)  # type: ignore[union-attr]
+    does = "Adding" if is_added else "Subtracting"
+    return f"{does} {_amount(computed, value)} makes {name} = {spoken(now)}.", equation(*made)
+
+
+@explains("raster.*.next")
+def moved(step: StepValues) -> Said:
+    """The next pixel on the major axis."""
+    (major, _), now = axes(step), step.number("major")
+    return f"The next pixel is at {major} = {spoken(now)}.", equation(*assignment(step)[0])
 
 
 @explains("raster.*.evaluate")
@@ -179,21 +312,6 @@ def evaluated(step: StepValues) -> Said:
     text = f"At {major} = {spoken(at)} the line has {minor} = {spoken(value)}, with pixel centres at whole numbers."
     terms = [("m", step.number("slope")), ("b", step.number("intercept"))]
     return text, linear(MINOR, value, terms, (MAJOR, at))
-
-
-@explains("raster.*.advance")
-def advanced(step: StepValues) -> Said:
-    """The slope added once more."""
-    (major, minor), at, m = axes(step), step.number("major"), step.number("slope")
-    value, previous, sign = step.number("decision"), step.number("previous"), float(major_direction(step))
-    done = "added" if sign > 0 else "subtracted"
-    text = (
-        f"The slope {spoken(m)} is {done} for {major} = {spoken(at)}, which makes {minor} = {spoken(value)}."
-    )
-    if math.isnan(previous):
-        return text, equation((MINOR, value))
-    before = (rf"{MINOR}_{{\mathrm{{before}}}}", previous)
-    return text, equation((MINOR, value), "=", before, "+", ("s", sign), r"\cdot", ("m", m))
 
 
 @explains("raster.*.round")
@@ -208,7 +326,7 @@ def rounded(step: StepValues) -> Said:
         )
     symbols = rf"\lfloor {MINOR} + \frac{{1}}{{2}} \rfloor"
     numbers = rf"\lfloor {number_latex(value)} + \frac{{1}}{{2}} \rfloor"
-    return text, equation((rf"{MINOR}_{{\mathrm{{pixel}}}}", nearest), "=", (symbols, numbers))
+    return text, equation(("Y", nearest), "=", (symbols, numbers))
 
 
 @explains("raster.diamond-exit|diamond-exit-start.round")
@@ -309,46 +427,59 @@ def weight(step: StepValues) -> Said:
     )
 
 
-DECISIONS = {
-    "bresenham": "D",
-    "bresenham-lecture": "D",
-    "bresenham-float": "e + m",
-    "rectangle": "a",
-    "diamond-exit": f"{MINOR} − {MINOR} centre",
-}
-"""Symbol of the number that chooses the pixel; of other methods the line's coordinate along the minor axis."""
+DECISIONS = {"rectangle": "a", "diamond-exit": f"{MINOR} − {MINOR} centre"}
+"""Symbol of the number that chooses the pixel, where no test of the listing has it."""
 
 
 def decision_name(step: StepValues) -> str:
-    """Return the formula's symbol of the number that chooses the pixel."""
-    return DECISIONS.get(line_method(step), MINOR)
+    """Return the formula's symbol of the number that chooses the pixel: what is tested, or the line's y."""
+    test = tested_by(code_of(step, "test"))
+    return symbols(test.left) if test else DECISIONS.get(line_method(step), MINOR)
 
 
-def _pixel_label(step: StepValues, word: str, symbol: str) -> str:
-    """Return a coordinate's word, or its symbol where it is the line method's own coordinate."""
+def sum_name(step: StepValues) -> str:
+    """Return the symbol of the sum that a method adds up from pixel to pixel."""
+    return assigned_name(code_of(step, "advance")) or MINOR
+
+
+def _major_name(step: StepValues) -> str:
+    return "row" if is_swapped(step) else MAJOR
+
+
+def _minor_name(step: StepValues) -> str:
     line = line_method(step)
-    is_own = line in table.names("line") and line_traits(line).takes_pixels
-    return symbol if is_own and not is_swapped(step) else word
+    takes_pixels = line in table.names("line") and line_traits(line).takes_pixels
+    return "column" if is_swapped(step) else MINOR if takes_pixels else "Y"
 
 
-shows(
-    "raster",
-    {
-        name: VariableText(partial(_pixel_label, word=name, symbol=symbol), PIXEL[name].meaning, GIVEN)
-        for name, symbol in (("column", "x"), ("row", "y"))
-    },
-)
+for _line in table.names("line"):
+    _kinds = table.get("line", _line).operations
+    if any("minor" in done.sets for kind in _kinds.values() for done in kind):
+        # The listing's own x and y are the pixel, one step after the other.
+        hides(f"raster.{'|'.join(_kinds)}", ("column", "row"))
+_X = "Pixel along the longer axis of the line."
+_Y = "Pixel along the other axis."
+_SUM = "The sum that decides, from pixel to pixel."
 shows(
     "raster",
     {
         "first_end": VariableText("first end", "Start of the line, as the method uses it."),
         "second_end": VariableText("second end", "End of the line, as the method uses it."),
         "is_steep": VariableText("steep", "Whether y is the major axis: one pixel in every row."),
-        "dx": VariableText("dx", "Length along x, without sign; a steep line has x and y swapped.", "run"),
-        "dy": VariableText("dy", "Length along y, without sign; a steep line has x and y swapped.", "run"),
+        "dx": VariableText("dx", "Length along x, without sign; a steep line has x and y swapped."),
+        "dy": VariableText("dy", "Length along y, without sign; a steep line has x and y swapped."),
+        "sx": VariableText("sx", "The way along x, 1 or −1; a steep line has x and y swapped."),
+        "sy": VariableText("sy", "What is added to y where it steps; a steep line has x and y swapped."),
         "slope": VariableText("m", "Slope: change of the minor coordinate with every step."),
         "intercept": VariableText("b", "Intercept: minor coordinate where the major one is 0."),
+        "major_before": VariableText(_major_name, _X),
+        "major": VariableText(_major_name, _X),
+        "minor_before": VariableText(_minor_name, _Y),
+        "minor": VariableText(_minor_name, _Y),
+        "sum_before": VariableText(sum_name, _SUM),
         "decision": VariableText(decision_name, "The number whose sign or rounding chooses the pixel."),
+        "sum_corrected": VariableText(sum_name, _SUM),
+        "sum_advanced": VariableText(sum_name, _SUM),
         "has_stepped": VariableText("stepped", "Whether the minor coordinate changed."),
         "is_tie": VariableText("tie", "Whether the line passes exactly between two pixels."),
         "exit_start": VariableText(

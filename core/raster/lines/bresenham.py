@@ -27,20 +27,30 @@ from core.raster.lines.records import (
     major_first,
     visible_range,
 )
-from core.raster.lines.traits import OCTANT, PLOT, Coefficients, LineTraits, line_rows
+from core.raster.lines.traits import (
+    ADVANCE,
+    DIRECTIONS,
+    FIRST_SUM,
+    NEXT,
+    OCTANT,
+    PLOT,
+    START,
+    Coefficients,
+    LineTraits,
+    line_rows,
+)
 from core.raster.spans.lines import find_line_pixels
 from core.records.arrays import Flags, Floats, Integers
-from core.records.operation import Either, Operation
+from core.records.operation import Operation
 
 Listed = list[tuple[int, int, float]]
-"""Column, row and decision of each pixel, from a listing."""
+"""Column and row of each pixel, and D or e when it is drawn, from a listing."""
 
-_LENGTHS = Operation("lengths", "lengths", ("run", "rise"))
-_TESTED = (
-    Operation("test", "test", ("decision", "is_tie")),
-    Operation("step", Either("has_stepped", "step", "test"), ("has_stepped",)),
-    PLOT,
-)
+_SET_UP = (OCTANT, Operation("lengths", "lengths", ("dx", "dy")), DIRECTIONS)
+_TEST = Operation("test", "test", ("is_tie", "has_stepped"))
+_ERROR_TEST = Operation("test", "test", ("decision", "is_tie", "has_stepped"))
+_MOVED = (ADVANCE, NEXT, PLOT)
+_STEPPED = (Operation("step", "step", ("minor",)), Operation("correct", "correct", ("sum_corrected",)))
 
 
 def no_coefficients(ends: Floats) -> Coefficients:
@@ -82,11 +92,13 @@ def _integer_run(
     owner, i = enumerate_steps(first, last)
 
     # Pixel i, pixel i - 1, and the decision between them.
-    du, dv = du[owner], dv[owner]
+    du, dv, length = du[owner], dv[owner], length[owner]
     rule = climb if steps_at_tie else climb_lecture
     climbed, climbed_before = rule(i, du, dv), rule(i - 1, du, dv)
     decision = decision_value(i, du, dv, climbed_before)
     is_start = i == 0
+    has_stepped = (climbed > climbed_before) & ~is_start
+    corrected = decision - 2 * du * has_stepped
     major, minor = u[owner] + u_step[owner] * i, v[owner] + v_step[owner] * climbed
     is_steep = is_steep[owner]
     return LineRun(
@@ -95,8 +107,11 @@ def _integer_run(
         np.where(is_steep, minor, major),
         np.where(is_steep, major, minor),
         np.where(is_start, np.nan, decision),
-        (climbed > climbed_before) & ~is_start,
+        has_stepped,
         (decision == 0) & ~is_start,
+        sum_before=np.where(is_start, np.nan, decision),
+        sum_corrected=np.where(has_stepped, corrected, np.nan),
+        sum_advanced=decision_value(i + 1, length, dv, climbed).astype(float),
     )
 
 
@@ -106,17 +121,17 @@ def bresenham_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> L
     if is_steep:
         x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
     dx, dy = abs(x1 - x0), abs(y1 - y0)  #: lengths
-    x_step, y_step = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
-    x, y, D, chosen_by = x0, y0, 2 * dy - dx, nan  #: start
-    pixels = []
+    sx, sy = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
+    x, y = x0, y0  #: start
+    D = 2 * dy - dx  #: first-sum
+    pixels: Listed = []
     for _ in range(dx + last_pixel):
-        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
-        chosen_by = D
+        pixels.append((y, x, D) if is_steep else (x, y, D))  #: draw
         if D >= 0:  #: test
-            y += y_step  #: step
+            y += sy  #: step
             D -= 2 * dx  #: correct
         D += 2 * dy  #: advance
-        x += x_step  #: next
+        x += sx  #: next
     return pixels
 
 
@@ -128,7 +143,9 @@ def bresenham_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> L
     exact_for="ends on pixel centres: always the nearest pixel. A tie takes the diagonal step",
     breaks_where="other ends: they move to the centre of their pixel. Drawn backwards, a tie takes the other pixel",
     listing=bresenham_listing,
-    operations=line_rows("bresenham", (OCTANT, _LENGTHS, PLOT), _TESTED),
+    operations=line_rows(
+        "bresenham", (*_SET_UP, START, FIRST_SUM, PLOT), (_TEST, *_MOVED), (_TEST, *_STEPPED, *_MOVED)
+    ),
     traits=LineTraits(takes_pixels=True, coefficients=no_coefficients, find_pixels=find_line_pixels),
 )
 def bresenham(segments: Segments, last_pixel: bool) -> LineRun:
@@ -146,19 +163,18 @@ def bresenham_lecture_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bo
         x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
     if x0 > x1:  #: order
         x0, y0, x1, y1 = x1, y1, x0, y0  #: swap-ends
-    dx, dy, y_step = x1 - x0, y1 - y0, 1  #: lengths
-    if dy < 0:
-        y_step, dy = -1, -dy  #: directions
-    x, y, D, chosen_by = x0, y0, 2 * dy - dx, nan  #: start
-    pixels = []
+    dx, dy = x1 - x0, abs(y1 - y0)  #: lengths
+    sx, sy = 1, (-1 if y1 < y0 else 1)  #: directions
+    x, y = x0, y0  #: start
+    D = 2 * dy - dx  #: first-sum
+    pixels: Listed = []
     while x <= x1:
-        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
-        chosen_by = D
+        pixels.append((y, x, D) if is_steep else (x, y, D))  #: draw
         if D > 0:  #: test
-            y += y_step  #: step
+            y += sy  #: step
             D -= 2 * dx  #: correct
         D += 2 * dy  #: advance
-        x += 1  #: next
+        x += sx  #: next
     return pixels
 
 
@@ -172,8 +188,12 @@ def bresenham_lecture_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bo
     "straight step (D > 0), so the line is not the mirror image. Lines that share an end: the last "
     "pixel is always drawn, so both draw it",
     listing=bresenham_lecture_listing,
-    operations=line_rows("bresenham-lecture", (OCTANT, _LENGTHS, PLOT), _TESTED),
-    traits=LineTraits(takes_pixels=True, is_diagonal_steep=True, coefficients=no_coefficients),
+    operations=line_rows(
+        "bresenham-lecture", (*_SET_UP, START, FIRST_SUM, PLOT), (_TEST, *_MOVED), (_TEST, *_STEPPED, *_MOVED)
+    ),
+    traits=LineTraits(
+        takes_pixels=True, is_diagonal_steep=True, swaps_ends=True, coefficients=no_coefficients
+    ),
 )
 def bresenham_lecture(segments: Segments, last_pixel: bool) -> LineRun:
     """Draw from left to right (steep: bottom to top), stepping where D > 0; ``decision`` is D.
@@ -195,18 +215,18 @@ def bresenham_float_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool
     if is_steep:
         x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
     dx, dy = abs(x1 - x0), abs(y1 - y0)  #: lengths
-    x_step, y_step = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
+    sx, sy = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
     m = dy / max(dx, 1)  #: slope
-    x, y, e, chosen_by = x0, y0, 0.0, nan  #: start
-    pixels = []
+    x, y = x0, y0  #: start
+    e = 0.0  #: first-sum
+    pixels: Listed = []
     for _ in range(dx + last_pixel):
-        pixels.append((y, x, chosen_by) if is_steep else (x, y, chosen_by))  #: draw
-        chosen_by = e + m
+        pixels.append((y, x, e) if is_steep else (x, y, e))  #: draw
         if e + m > 0.5:  #: test
-            y += y_step  #: step
+            y += sy  #: step
             e -= 1  #: correct
         e += m  #: advance
-        x += x_step  #: next
+        x += sx  #: next
     return pixels
 
 
@@ -220,7 +240,10 @@ def bresenham_float_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool
     f"of their pixel. More than {STEP_LIMIT} steps are refused",
     listing=bresenham_float_listing,
     operations=line_rows(
-        "bresenham-float", (OCTANT, Operation("slope", "slope", ("run", "rise", "slope")), PLOT), _TESTED
+        "bresenham-float",
+        (*_SET_UP, Operation("slope", "slope", ("slope",)), START, FIRST_SUM, PLOT),
+        (_ERROR_TEST, *_MOVED),
+        (_ERROR_TEST, *_STEPPED, *_MOVED),
     ),
     traits=LineTraits(takes_pixels=True, coefficients=error_slope),
 )
@@ -250,28 +273,42 @@ def bresenham_float(segments: Segments, last_pixel: bool) -> LineRun:
     )
     last, longest = limited_steps("bresenham-float", first, last)
     owner, i = enumerate_steps(first, last)
-    climbed, decision = _float_errors(first, last, slope, longest)
+    climbed, decision, error = _float_errors(first, last, slope, longest)
 
     is_start = i == 0
     has_stepped = (decision > 0.5) & ~is_start
+    corrected = error - has_stepped
     major, minor = u[owner] + u_step[owner] * i, v[owner] + v_step[owner] * climbed
     is_steep = is_steep[owner]
     column, row = np.where(is_steep, minor, major), np.where(is_steep, major, minor)
-    return LineRun(owner, i, column, row, decision, has_stepped, decision == 0.5)
+    return LineRun(
+        owner,
+        i,
+        column,
+        row,
+        decision,
+        has_stepped,
+        decision == 0.5,
+        sum_before=error,
+        sum_corrected=np.where(has_stepped, corrected, nan),
+        sum_advanced=np.where(is_start, 0.0, corrected + slope[owner]),
+    )
 
 
-def _float_errors(first: Integers, last: Integers, slope: Floats, longest: int) -> tuple[Integers, Floats]:
-    """Run L errors side by side: (P,) minor steps and (P,) e + m at the steps first <= i < last."""
+def _float_errors(
+    first: Integers, last: Integers, slope: Floats, longest: int
+) -> tuple[Integers, Floats, Floats]:
+    """Run L errors side by side: (P,) minor steps, e + m and the e before it, at the steps first <= i < last."""
     counts = last - first
     place = np.cumsum(counts) - counts - first
-    climbed_at, decision_at = np.empty(counts.sum(), np.int64), np.empty(counts.sum())
+    climbed_at, decision_at, error_at = (np.empty(counts.sum(), kind) for kind in (np.int64, float, float))
 
     # Longest lines first: those that still run are a prefix.
     order = np.argsort(-np.where(counts > 0, last, 0), kind="stable")
     first, last, slope, place = first[order], last[order], slope[order], place[order]
     running = np.searchsorted(-np.where(counts[order] > 0, last, 0), -np.arange(longest), side="left")
     error, climbed = np.zeros(len(order)), np.zeros(len(order), np.int64)
-    decision = np.full(len(order), nan)
+    decision, error_before = np.full(len(order), nan), np.full(len(order), nan)
     earliest = int(first[: running[0]].min()) if longest else 0
     for i in range(longest):
         n = int(running[i])
@@ -279,8 +316,10 @@ def _float_errors(first: Integers, last: Integers, slope: Floats, longest: int) 
             is_seen = first[:n] <= i
             at = place[:n][is_seen] + i
             climbed_at[at], decision_at[at] = climbed[:n][is_seen], decision[:n][is_seen]
+            error_at[at] = error_before[:n][is_seen]
+        error_before[:n] = error[:n]
         decision[:n] = error[:n] + slope[:n]
         has_stepped = decision[:n] > 0.5
         climbed[:n] += has_stepped
         error[:n] = (error[:n] - has_stepped) + slope[:n]
-    return climbed_at, decision_at
+    return climbed_at, decision_at, error_at

@@ -30,17 +30,19 @@ from core.raster.lines.records import (
 )
 from core.raster.lines.traits import (
     EVALUATE,
+    FIRST_COLUMN,
+    INTERCEPT,
+    NEXT,
     OCTANT,
     PLOT,
     ROUND,
     SLOPE,
-    Coefficients,
     LineTraits,
     line_coefficients,
     line_rows,
 )
 from core.records.arrays import Flags, Floats, Integers, Singles
-from core.records.operation import Operation
+from core.records.operation import Columns, Operation
 
 BATCH = 2**20
 """Sums held at one time while the DDA runs along lines that begin far outside the raster."""
@@ -48,8 +50,11 @@ BATCH = 2**20
 Listed = list[tuple[int, int, float]]
 """Column, row and minor coordinate of each pixel, from a listing."""
 
-_ADVANCED = (Operation("advance", "advance", ("decision",)), ROUND, PLOT)
-
+_DIRECTION = Operation("directions", "directions", ("sx",))
+SET_UP = (OCTANT, SLOPE, INTERCEPT, _DIRECTION, FIRST_COLUMN)
+"""What the first row of a line does that any ends are given of."""
+_ADDED = Operation("sy", "sy", ("sy",))
+_ADVANCED = (Operation("advance", "advance", ("decision",)), NEXT, ROUND, PLOT)
 
 FLOAT32_ROUNDING = 2.0**-23
 """Most that one sum in float32 is off by, as a share of it, with room for the sums before it."""
@@ -119,11 +124,21 @@ def _run(
     round_minor: Callable[[Floats], Integers] = round_half_up,
 ) -> LineRun:
     """Round the minor coordinates (P,) of steps k and k - 1 to pixels."""
+    is_first = k == 0
     minor, minor_before = round_minor(v), round_minor(v_before)
     major = columns.start[owner] + columns.step[owner] * k
     is_steep = columns.is_steep[owner]
     column, row = np.where(is_steep, minor, major), np.where(is_steep, major, minor)
-    return LineRun(owner, k, column, row, v, (minor != minor_before) & (k > 0), v - np.floor(v) == 0.5)
+    return LineRun(
+        owner,
+        k,
+        column,
+        row,
+        v,
+        (minor != minor_before) & ~is_first,
+        v - np.floor(v) == 0.5,
+        sum_before=np.where(is_first, np.nan, v_before),
+    )
 
 
 def draw_nearest(segments: Segments, last_pixel: bool, round_minor: Callable[[Floats], Integers]) -> LineRun:
@@ -155,14 +170,14 @@ def midpoint_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: boo
         x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
-    x_step = -1 if x1 < x0 else 1  #: directions
-    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
+    sx = -1 if x1 < x0 else 1  #: directions
+    x = ceil(x0) if sx > 0 else floor(x0)  #: start
     pixels = []
-    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
+    while (x1 - x) * sx > 0 or (last_pixel and x == x1):
         y = m * x + b  #: evaluate
-        row = floor(y) + (y - floor(y) >= 0.5)  #: round
-        pixels.append((row, x, y) if is_steep else (x, row, y))  #: draw
-        x += x_step  #: next
+        Y = floor(y) + (y - floor(y) >= 0.5)  #: round
+        pixels.append((Y, x, y) if is_steep else (x, Y, y))  #: draw
+        x += sx  #: next
     return pixels
 
 
@@ -175,7 +190,7 @@ def midpoint_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: boo
     breaks_where="ties: they always go up (steep lines: right), so a mirrored line is not the mirror image. Far "
     "from the origin, m x + b loses digits",
     listing=midpoint_listing,
-    operations=line_rows("midpoint", (OCTANT, SLOPE, EVALUATE, ROUND, PLOT), (EVALUATE, ROUND, PLOT)),
+    operations=line_rows("midpoint", (*SET_UP, EVALUATE, ROUND, PLOT), (NEXT, EVALUATE, ROUND, PLOT)),
 )
 def midpoint(segments: Segments, last_pixel: bool) -> LineRun:
     """Evaluate m x + b in every column and round it; ``decision`` is this coordinate (centres whole)."""
@@ -189,15 +204,15 @@ def dda_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) ->
         x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
-    x_step = -1 if x1 < x0 else 1  #: directions
-    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
+    sx = -1 if x1 < x0 else 1  #: directions
+    x = ceil(x0) if sx > 0 else floor(x0)  #: start
     y = m * x + b  #: evaluate
     pixels = []
-    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
-        row = floor(y) + (y - floor(y) >= 0.5)  #: round
-        pixels.append((row, x, y) if is_steep else (x, row, y))  #: draw
-        y += m * x_step  #: advance
-        x += x_step  #: next
+    while (x1 - x) * sx > 0 or (last_pixel and x == x1):
+        Y = floor(y) + (y - floor(y) >= 0.5)  #: round
+        pixels.append((Y, x, y) if is_steep else (x, Y, y))  #: draw
+        y += m * sx  #: advance
+        x += sx  #: next
     return pixels
 
 
@@ -210,7 +225,7 @@ def dda_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) ->
     breaks_where="ties, and near ties on long lines: the rounding errors of the sums grow along the line, and the "
     "neighbouring pixel is drawn",
     listing=dda_listing,
-    operations=line_rows("dda", (OCTANT, SLOPE, EVALUATE, ROUND, PLOT), _ADVANCED),
+    operations=line_rows("dda", (*SET_UP, EVALUATE, ROUND, PLOT), _ADVANCED),
 )
 def dda(segments: Segments, last_pixel: bool) -> LineRun:
     """Add the slope from column to column and round; ``decision`` is the sum so far (centres whole).
@@ -235,23 +250,21 @@ def dda_float32_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: 
         x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
-    x_step = -1 if x1 < x0 else 1  #: directions
-    x = ceil(x0) if x_step > 0 else floor(x0)  #: start
+    sx = -1 if x1 < x0 else 1  #: directions
+    x = ceil(x0) if sx > 0 else floor(x0)  #: start
     y = np.float32(m * x + b)  #: evaluate
-    y_step = np.float32(m * x_step)
+    sy = np.float32(m * sx)  #: sy
     pixels = []
-    while (x1 - x) * x_step > 0 or (last_pixel and x == x1):
-        row = floor(y) + (float(y) - floor(y) >= 0.5)  #: round
-        pixels.append((row, x, float(y)) if is_steep else (x, row, float(y)))  #: draw
-        y = np.float32(y + y_step)  #: advance
-        x += x_step  #: next
+    while (x1 - x) * sx > 0 or (last_pixel and x == x1):
+        Y = floor(y) + (float(y) - floor(y) >= 0.5)  #: round
+        pixels.append((Y, x, float(y)) if is_steep else (x, Y, float(y)))  #: draw
+        y = np.float32(y + sy)  #: advance
+        x += sx  #: next
     return pixels
 
 
-def float32_coefficients(ends: Floats) -> Coefficients:
-    """Return the slope (L,) rounded to float32 and the intercept (L,) of ends (L, 2, 2) u, v."""
-    slope, intercept = line_coefficients(ends)
-    return slope.astype(np.float32).astype(float), intercept
+def _float32_step(columns: Columns) -> dict[str, Floats | Integers]:
+    return {"sy": (columns["slope"] * columns["sx"]).astype(np.float32).astype(float)}
 
 
 @method(
@@ -264,8 +277,8 @@ def float32_coefficients(ends: Floats) -> Coefficients:
     f"pixels over thousands of columns, more so far from the origin. More than {STEP_LIMIT} steps are "
     "refused",
     listing=dda_float32_listing,
-    operations=line_rows("dda-float32", (OCTANT, SLOPE, EVALUATE, ROUND, PLOT), _ADVANCED),
-    traits=LineTraits(coefficients=float32_coefficients),
+    operations=line_rows("dda-float32", (*SET_UP, EVALUATE, _ADDED, ROUND, PLOT), _ADVANCED),
+    traits=LineTraits(columns=_float32_step),
 )
 def dda_float32(segments: Segments, last_pixel: bool) -> LineRun:
     """Add the slope in float32 and round; ``decision`` is the sum so far (centres whole).

@@ -118,6 +118,9 @@ def _steps_of(segments: Segments, run: LineRun, seen: Integers) -> LineSteps:
         line_distance=known(run.line_distance, np.nan),
         share=known(run.share, 1.0),
         intensity=known(run.intensity, 1.0),
+        sum_before=known(run.sum_before, np.nan),
+        sum_corrected=known(run.sum_corrected, np.nan),
+        sum_advanced=known(run.sum_advanced, np.nan),
     )
     return every.select(seen)
 

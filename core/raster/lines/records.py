@@ -55,6 +55,12 @@ class LineSteps:
     without intensities."""
     intensity: Floats
     """(P,) float64, share of the line's colour that the pixel gets, above 0 to 1."""
+    sum_before: Floats
+    """(P,) float64, methods that add up from pixel to pixel (else NaN): the sum (D, e, y) before this pixel."""
+    sum_corrected: Floats
+    """(P,) float64, the sum after what a step of the minor coordinate takes off it; NaN without such a step."""
+    sum_advanced: Floats
+    """(P,) float64, the sum after what the step to this pixel adds to it."""
 
     def select(self, index: Integers) -> "LineSteps":
         """Return the numbers of the pixels ``index``, (Q,) int64."""
@@ -128,6 +134,9 @@ class LineRun:
     share: Floats | None = None
     intensity: Floats | None = None
     """(P,) float64 above 0; ``None``: 1 everywhere."""
+    sum_before: Floats | None = None
+    sum_corrected: Floats | None = None
+    sum_advanced: Floats | None = None
 
     def seen(self, segments: Segments) -> Integers:
         """Return which of the pixels are on the raster, (Q,) int64."""

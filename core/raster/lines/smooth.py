@@ -24,7 +24,7 @@ import numpy as np
 
 from core.methods import method
 from core.raster.lines.dda import LineColumns, ends_by_column, line_equation
-from core.raster.lines.records import BLENDING, LineRun, LineSteps, Segments, enumerate_steps, round_half_up
+from core.raster.lines.records import BLENDING, LineRun, Segments, enumerate_steps, round_half_up
 from core.raster.lines.traits import (
     EVALUATE,
     OCTANT,
@@ -37,7 +37,7 @@ from core.raster.lines.traits import (
     line_rows,
 )
 from core.records.arrays import Flags, Floats, Integers, read_only
-from core.records.operation import Operation
+from core.records.operation import Columns, Operation
 
 TABLE_STEPS = 16
 """Entries of the filter table in one pixel of distance, as in the paper."""
@@ -191,12 +191,12 @@ def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> 
         x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
-    x_step = -1 if x1 < x0 else 1  #: directions
+    sx = -1 if x1 < x0 else 1  #: directions
     low, high = min(x0, x1), max(x0, x1)
     first = floor(low) + (low - floor(low) >= 0.5)  #: start
     last = ceil(high) - (ceil(high) - high >= 0.5)
     pixels = []
-    for x in range(first, last + 1)[::x_step]:
+    for x in range(first, last + 1)[::sx]:
         y = m * x + b  #: evaluate
         share = max(min(x + 0.5, high) - max(x - 0.5, low), 0.0)  #: share
         fraction = y - floor(y)  #: fraction
@@ -252,12 +252,12 @@ def gupta_sproull_listing(x0: float, y0: float, x1: float, y1: float, last_pixel
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
     cosine = 1 / sqrt(1 + m * m)  #: cosine
-    x_step = -1 if x1 < x0 else 1  #: directions
+    sx = -1 if x1 < x0 else 1  #: directions
     low, high = min(x0, x1), max(x0, x1)
     first = floor(low) + (low - floor(low) >= 0.5)  #: start
     last = ceil(high) - (ceil(high) - high >= 0.5)
     pixels = []
-    for x in range(first, last + 1)[::x_step]:
+    for x in range(first, last + 1)[::sx]:
         y = m * x + b  #: evaluate
         left, right = max(x - 0.5, low), min(x + 0.5, high)
         share = max(right - left, 0.0)  #: share
@@ -278,8 +278,8 @@ def filter_entry(distance: Floats) -> Integers:
     return np.floor(distance * TABLE_STEPS + 0.5).astype(np.int64)
 
 
-def _filter_columns(steps: LineSteps) -> dict[str, Floats | Integers]:
-    entry = filter_entry(steps.line_distance)
+def _filter_columns(columns: Columns) -> dict[str, Floats | Integers]:
+    entry = filter_entry(columns["line_distance"])
     return {"entry": entry, "filtered": FILTER_TABLE.take(entry)}
 
 

@@ -6,14 +6,21 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.methods import table
-from core.raster.lines.records import BLENDING, LineSteps, Segments, major_first
+from core.raster.lines.records import BLENDING, Segments, major_first
 from core.records.arrays import Floats, Integers
-from core.records.operation import Operation
+from core.records.operation import Columns, Operation
 
 OCTANT = Operation("octant", "octant", ("first_end", "second_end", "is_steep"))
-SLOPE = Operation("slope", "slope", ("slope", "intercept"))
+DIRECTIONS = Operation("directions", "directions", ("sx", "sy"))
+SLOPE = Operation("slope", "slope", ("slope",))
+INTERCEPT = Operation("intercept", "intercept", ("intercept",))
+START = Operation("start", "start", ("major", "minor"))
+FIRST_COLUMN = Operation("start", "start", ("major",))
+FIRST_SUM = Operation("first-sum", "first-sum", ("sum_advanced",))
+ADVANCE = Operation("advance", "advance", ("sum_advanced",))
+NEXT = Operation("next", "next", ("major",))
 EVALUATE = Operation("evaluate", "evaluate", ("decision",))
-ROUND = Operation("round", "round", ("is_tie", "has_stepped"))
+ROUND = Operation("round", "round", ("minor", "is_tie", "has_stepped"))
 SHARE = Operation("share", "share", ("share",))
 PLOT = Operation("plot", "draw", ("covered", "t"))
 
@@ -40,7 +47,7 @@ def _centered_ends(segments: Segments) -> Floats:
     return segments.centered_ends
 
 
-def _no_columns(_: LineSteps) -> dict[str, Floats | Integers]:
+def _no_columns(_: Columns) -> dict[str, Floats | Integers]:
     return {}
 
 
@@ -54,21 +61,35 @@ class LineTraits:
     """Ends (L, 2, 2) that the others take, with pixel centres on whole numbers."""
     swaps_axes: bool = True
     """Whether its listing swaps x and y for a line that runs along y."""
+    swaps_ends: bool = False
+    """Whether its listing swaps the ends of a line that runs backwards along its longer axis."""
     is_diagonal_steep: bool = False
     """Whether a segment that is as long in x as in y runs along y."""
     coefficients: Callable[[Floats], Coefficients] = line_coefficients
     """Slope and intercept that it uses, of ends (L, 2, 2), the major axis first."""
-    columns: Callable[[LineSteps], dict[str, Floats | Integers]] = _no_columns
-    """Further columns (P,) of its trace."""
+    columns: Callable[[Columns], dict[str, Floats | Integers]] = _no_columns
+    """Further columns (P,) of its trace, from those that all methods have."""
     find_pixels: LineFinder | None = None
     """Finds the same pixels faster, without the numbers that chose them."""
 
 
 def line_rows(
-    line: str, first: tuple[Operation, ...], later: tuple[Operation, ...]
+    line: str,
+    first: tuple[Operation, ...],
+    later: tuple[Operation, ...],
+    stepped: tuple[Operation, ...] | None = None,
 ) -> Mapping[str, tuple[Operation, ...]]:
-    """Return the two kinds of rows of a line method: ``<line>-start`` for a line's first pixel, ``<line>``."""
-    return {f"{line}-start": first, line: later}
+    """Return the kinds of rows of a line method: ``<line>-start`` for a line's first pixel, ``<line>`` for the others.
+
+    Where ``stepped`` is given, ``<line>-step`` is one to which the minor coordinate has stepped.
+    """
+    rows = {f"{line}-start": first, line: later}
+    return rows if stepped is None else rows | {f"{line}-step": stepped}
+
+
+def line_of_kind(kind: str) -> str:
+    """Return the line method of a kind of row."""
+    return kind.removesuffix("-start").removesuffix("-step")
 
 
 def line_traits(line: str) -> LineTraits:
@@ -90,7 +111,8 @@ def line_set_up(segments: Segments, line: str) -> dict[str, np.ndarray]:
     dict
         ``first_end``, ``second_end`` (L, 2): what the listing is called with; pixels, or positions where centres
         are whole. ``is_steep`` (L,): the longer axis is y. ``run``, ``rise`` (L,): lengths along the longer
-        (major) and the other (minor) axis. ``slope``, ``intercept`` (L,): the minor coordinate is slope times the major
+        (major) and the other (minor) axis. ``sx``, ``sy`` (L,): the way in which the listing goes along
+        them, 1 or -1. ``slope``, ``intercept`` (L,): the minor coordinate is slope times the major
         one plus intercept, NaN where the method has none. ``cosine`` (L,): by what a distance along the minor axis
         shrinks to that from the line. ``length`` (L,): of the segment, in pixels.
     """
@@ -99,13 +121,19 @@ def line_set_up(segments: Segments, line: str) -> dict[str, np.ndarray]:
     size = np.abs(ends[:, 1] - ends[:, 0])
     is_steep = size[:, 1] >= size[:, 0] if traits.is_diagonal_steep else size[:, 1] > size[:, 0]
     run, rise = np.where(is_steep[:, None], size[:, ::-1], size).T
-    slope, intercept = traits.coefficients(major_first(ends, is_steep))
+    along = major_first(ends, is_steep)
+    slope, intercept = traits.coefficients(along)
+    steps = np.where(along[:, 1] < along[:, 0], -1, 1)
+    if traits.swaps_ends:
+        steps *= steps[:, :1]
     return {
         "first_end": ends[:, 0],
         "second_end": ends[:, 1],
         "is_steep": is_steep,
         "run": run,
         "rise": rise,
+        "sx": steps[:, 0],
+        "sy": steps[:, 1],
         "slope": slope,
         "intercept": intercept,
         "cosine": line_cosine(slope),

@@ -31,13 +31,20 @@ def said(line: str, key: str, place: int = 0) -> tuple[str, str, str]:
             "bresenham",
             "-start.lengths",
             0,
-            "The line goes 8 pixels along x and 2 along y, so the decision value D starts at 2 · 2 − 8 = −4.",
+            "The line goes 8 pixels along x and 2 along y.",
         ),
+        (
+            "bresenham",
+            "-start.directions",
+            1,
+            "From the first end to the second, x (the row) grows by 1, and y (the column) falls by 1 where it steps.",
+        ),
+        ("bresenham", "-start.first-sum", 0, "The first D is 2 · dy − dx = −4."),
         ("bresenham", ".test", 0, "D is −4, below 0, so y stays."),
         (
             "bresenham",
-            ".test",
-            1,
+            "-step.test",
+            0,
             "D is 0, a tie: the line passes exactly between two pixels, and by this version's rule y steps.",
         ),
         (
@@ -46,8 +53,24 @@ def said(line: str, key: str, place: int = 0) -> tuple[str, str, str]:
             1,
             "D is 0, a tie: the line passes exactly between two pixels, and by this version's rule y stays.",
         ),
-        ("bresenham", ".step", 1, "The next pixel is nearer to the line, so y steps to 2."),
-        ("bresenham-float", ".test", 1, "The error e plus the slope m is 0.5, not above 0.5, so y stays."),
+        (
+            "bresenham",
+            "-step.step",
+            0,
+            "Both pixels are equally near the line, and by this version's rule y steps to 2.",
+        ),
+        ("bresenham-lecture", "-step.step", 0, "The next pixel is nearer to the line, so y steps to 2."),
+        ("bresenham", ".advance", 0, "Adding 2 · dy = 4 makes D = 0."),
+        ("bresenham", "-step.correct", 0, "Subtracting 2 · dx = 16 makes D = −16."),
+        ("bresenham", ".next", 0, "The next pixel is at x = 2."),
+        (
+            "bresenham-float",
+            ".test",
+            1,
+            "The value of e + m is 0.5, a tie: the line passes exactly between two pixels, and by this version's rule "
+            "y stays.",
+        ),
+        ("bresenham-float", "-step.correct", 0, "Subtracting 1 makes e = −0.5."),
         ("bresenham", ".plot", 0, "Pixel (2, 1) is drawn: its centre lies at t = 0.125 of edge 2."),
         ("bresenham", "-start.plot", 0, "Pixel (1, 1) is drawn: its centre lies at the first end of edge 2."),
         ("midpoint", ".evaluate", 0, "At x = 2 the line has y = 1.25, with pixel centres at whole numbers."),
@@ -58,7 +81,7 @@ def said(line: str, key: str, place: int = 0) -> tuple[str, str, str]:
             1,
             "The value y = 1.5 lies exactly between two pixel centres: halves round up, to 2.",
         ),
-        ("dda", ".advance", 0, "The slope 0.25 is added for x = 2, which makes y = 1.25."),
+        ("dda", ".advance", 0, "Adding m · sx = 0.25 makes y = 1.25."),
         (
             "wu",
             ".share",
@@ -117,8 +140,11 @@ def test_hand_computed_formulas() -> None:
     assert symbols == r"t & = & \frac{x - x_0}{x_1 - x_0}"
     assert numbers == r"0.125 & = & \frac{2.5 - 1.5}{9.5 - 1.5}"
     _, symbols, numbers = said("dda", "raster.dda.advance")
-    assert symbols.endswith(r"& + & s & \cdot & m")
-    assert numbers == r"1.25 & = & 1 & + & 1 & \cdot & 0.25"
+    assert symbols == r"y & = & y_{\mathrm{before}} & + & m & \cdot & sx"
+    assert numbers == r"1.25 & = & 1 & + & 0.25 & \cdot & 1"
+    _, symbols, numbers = said("bresenham", "raster.bresenham-step.correct")
+    assert symbols == r"D & = & D_{\mathrm{before}} & - & 2 & \cdot & dx"
+    assert numbers == r"-16 & = & 0 & - & 2 & \cdot & 8"
     _, _, numbers = said("bresenham-lecture", "raster.bresenham-lecture.test", 1)
     assert numbers == r"0 & = & 0 & \Rightarrow & \text{stay}"
 
@@ -131,13 +157,13 @@ def test_a_steep_line_speaks_as_its_listing_that_swaps_x_and_y() -> None:
     assert sentence(start, 0, None).endswith(
         "it is longer in y, so x and y are swapped and it is drawn row by row."
     )
-    lengths = next(each for each in steep if each.key == "raster.bresenham-start.lengths")
-    run, rise = lengths.values["run"], lengths.values["rise"]
-    made = formula(lengths)
+    first = next(each for each in steep if each.key == "raster.bresenham-start.first-sum")
+    run, rise = first.values["run"], first.values["rise"]
+    made = formula(first)
     assert made is not None
     assert made.symbolic == r"D & = & 2 & \cdot & dy & - & dx"
     assert made.substituted == rf"{2 * rise - run:.0f} & = & 2 & \cdot & {rise:.0f} & - & {run:.0f}"
-    named = {variable.name: variable.now for variable in variables(lengths)}
+    named = {variable.name: variable.now for variable in variables(first)}
     assert (named["dx"], named["dy"]) == (run, rise)
-    moved = next(each for each in steep if each.key == "raster.bresenham.step" and each.values["has_stepped"])
+    moved = next(each for each in steep if each.key == "raster.bresenham-step.step")
     assert f"so y (the column) steps to {moved.values['minor']:.0f}." in sentence(moved, 0, None)

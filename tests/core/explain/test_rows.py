@@ -42,7 +42,7 @@ ANSWERS = {
     "transform": lambda values: values["after"][0],
     "edges": lambda values: values["a"],
     "bin": lambda values: {"outside": 0, "inside": 1}.get(values["verdict"], 2),
-    "raster": lambda values: 1 - values["covered"],
+    "raster": lambda values: 1 - values["has_stepped" if "has_stepped" in values else "covered"],
     "interpolate": lambda values: values["weights"][0] if "s" not in values else values["s"],
     "depth": lambda values: 1 - values["passes"],
     "blend": lambda values: values["after"][0],

@@ -67,7 +67,8 @@ def test_the_listing_executed_gives_the_rows(line, ends, last_pixel):
         listed = table.get("line", line).listing(x0, y0, x1, y1, last_pixel)
         mine = drawn.owner == segment
         assert [pixel[:2] for pixel in listed] == list(map(tuple, drawn.pixels[mine].tolist()))
-        np.testing.assert_array_equal([pixel[2] for pixel in listed], drawn.steps.decision[mine])
+        number = drawn.steps.sum_advanced if line.startswith("bresenham") else drawn.steps.decision
+        np.testing.assert_array_equal([pixel[2] for pixel in listed], number[mine])
         if has_intensities(line):
             assert [pixel[3] for pixel in listed] == drawn.intensities[mine].tolist()
         if line in METHODS:

@@ -8,6 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, Trace, render, trace
+from core.explain import variables
 from core.methods import table
 from core.raster.lines.smooth import FILTER_TABLE
 from core.raster.lines.traits import has_intensities, line_traits
@@ -15,7 +16,7 @@ from core.raster.lines.wireframe import interpolate_affine_along, interpolate_al
 from core.records.steps import Level
 from core.trace import StageTrace
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
-from tests.core.trace.executed_rows import Ran, lines_that_run
+from tests.core.trace.executed_rows import Ran, lines_that_run, states_of
 from tests.core.trace.trace_cases import SCENES, settings_of
 from tests.covering import every_pair
 
@@ -78,7 +79,8 @@ def check_chosen_pixels(found: StageTrace, bounds: tuple[int, int, int, int]) ->
         listed = [listed[k] for k in index]
         check_marks_of_pixels(found, rows, index, ran)
         assert [(x, y) for x, y, *_ in listed] == list(zip(c["column"][rows], c["row"][rows], strict=True))
-        assert np.array_equal([d for _, _, d, *_ in listed], c["decision"][rows], equal_nan=True)
+        number = c["sum_advanced" if line.startswith("bresenham") else "decision"][rows]
+        assert np.array_equal([d for _, _, d, *_ in listed], number)
         if has_intensities(line):
             assert np.array_equal([shown for *_, shown in listed], c["intensity"][rows])
         if line not in SEVERAL:
@@ -102,6 +104,38 @@ def check_marks_of_pixels(found: StageTrace, rows: np.ndarray, index: np.ndarray
             made = found.explain(int(position))
             shown = of_listing.source.splitlines()[made.line - 1].strip()
             assert made.line in since, (made.key, shown)
+
+
+STEPPED = [line for line in LINES if line not in (*SEVERAL, "diamond-exit")]
+
+
+@pytest.mark.parametrize("line", STEPPED)
+def test_every_assignment_is_a_step_and_every_variable_holds_what_the_listing_holds(line):
+    corners = [(1.5, 1.5), (9.5, 3.5), (4.5, 8.5)]
+    found = trace(ClipScene(clip_of_window([corners], (12, 10)), size=(12, 10)), wireframe(line)).stage(
+        "raster"
+    )
+    c, steps = found.columns, found.steps
+    assigned = {}
+    for start, end in pairwise([0, *steps.group_ends.tolist()]):
+        ends = [*c["first_end"][start], *c["second_end"][start]]
+        ends = [int(end) for end in ends] if line_traits(line).takes_pixels else ends
+        function = table.get("line", line).listing
+        ran = iter(states_of(function, *ends, False))
+        for position in range(steps.starts[start] + 1, steps.starts[end] + 1):
+            made = found.explain(position)
+            now, held = next((now, held) for number, now, held in ran if number == made.line)
+            shown = {variable.name: variable for variable in variables(made) if variable.name in held}
+            for name, variable in shown.items():
+                assert variable.now == held[name], (made.key, name)
+                if variable.is_changed():
+                    assert variable.before == now.get(name), (made.key, name)
+                    assert made.line == assigned.setdefault((made.key, name), made.line)
+            # Nothing that is shown changes in between: what the listing assigns is a step.
+            assert all(
+                variable.is_changed() for name, variable in shown.items() if now.get(name) != held[name]
+            )
+    assert {name for _, name in assigned} >= {"x", "sx"}
 
 
 @every_pair(
@@ -233,7 +267,8 @@ def test_rows_are_the_pixels_of_the_edges_in_order(line):
     starts = np.append(0, steps.group_ends[:-1])
     assert [found.kind_of(int(row)) for row in starts] == [f"{line}-start"] * 3
     others = np.setdiff1d(np.arange(steps.row_count), starts)
-    assert {found.kind_of(int(row)) for row in others} == {line}
+    later = set(table.get("line", line).operations) - {f"{line}-start"}
+    assert {found.kind_of(int(row)) for row in others} == later
     for group, (first, end) in enumerate(zip(starts, steps.group_ends, strict=True)):
         index, t = c["index"][first:end], c["t"][first:end]
         assert index[0] == 0

@@ -42,7 +42,10 @@ def check_labels(found: StageTrace) -> None:
     for explanation, triangle, pixel in steps_of(found):
         row = np.flatnonzero((found.pixel == pixel).all(axis=1) & (found.triangle == triangle))
         for variable in variables(explanation):
-            # The intermediate coordinate of a line method is its y as a real number, not the pixel's.
+            # The intermediate coordinate of a line method is its y as a real number, not the pixel's. Within a row,
+            # a condition means the sum that is tested and the pixel that is drawn.
+            if variable.column.endswith("_before") or variable.column.startswith("sum_"):
+                continue
             symbol = SYMBOL.fullmatch(variable.name)
             if symbol is None or isinstance(variable.now, tuple | str) or variable.now is None:
                 continue
