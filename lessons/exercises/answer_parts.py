@@ -7,6 +7,7 @@ from pydantic import Field, model_validator
 
 from core.records.words import counted
 from core.settings import settings_from_texts
+from lessons.exercises.answers.choices import CHOICE_LIMIT, ORDER_LIMIT
 from lessons.exercises.answers.pixels import SIDE_LIMIT, read_art
 from lessons.exercises.fields import (
     AnyNumber,
@@ -93,22 +94,57 @@ class OrderPart(Part):
     """Things, listed in the right order."""
 
     type: Literal["order"]
-    items: list[Word] = Field(min_length=3, max_length=8)
+    items: list[Word] = Field(min_length=3, max_length=16)
+    count: Annotated[int, Field(ge=3, le=ORDER_LIMIT)] | None = None
+    """How many of them a question draws; left out: all."""
+
+    @model_validator(mode="after")
+    def _is_enough(self) -> "OrderPart":
+        if (self.count or len(self.items)) > min(len(self.items), ORDER_LIMIT):
+            raise ValueError(
+                f"expected a count of up to {min(len(self.items), ORDER_LIMIT)}, got {self.count}"
+            )
+        return self
+
+
+class CasePart(Part):
+    """One of the cases that a choice is asked about."""
+
+    ask: Text
+    """Stands for ``{case}`` in the question and in the hints."""
+    right: Word
+    """The option that is right in this case."""
+    hint: Text | None = None
+    """The last hint, with the numbers of this case."""
 
 
 class ChoicePart(Part):
     """Options of which one is right, or several are."""
 
     type: Literal["choice"]
-    options: list[Word] = Field(min_length=2, max_length=10)
-    right: list[Word] = Field(min_length=1)
+    options: list[Word] = Field(min_length=2, max_length=24)
+    right: list[Word] = Field(default_factory=list)
     several: bool = False
+    cases: list[CasePart] = Field(default_factory=list, max_length=24)
+    """A question draws one of them; without cases ``right`` says what is right."""
+    count: Annotated[int, Field(ge=3, le=CHOICE_LIMIT)] | None = None
+    """How many of the options a question with several right ones draws; left out: all."""
+    notes: dict[str, Text] = Field(default_factory=dict)
+    """By options, a sentence that tells why it is right or wrong, in whatever case."""
 
     @model_validator(mode="after")
     def _is_known(self) -> "ChoicePart":
-        for option in self.right:
+        for option in (*self.right, *(case.right for case in self.cases), *self.notes):
             if option not in self.options:
                 raise ValueError(f"expected one of the options, got {option}")
+        if bool(self.right) == bool(self.cases):
+            raise ValueError("expected either right or cases")
+        if self.several and self.cases:
+            raise ValueError("expected one right option in every case, got several = true")
+        if self.count is not None and not self.several:
+            raise ValueError("expected several = true where a count of the options is drawn")
+        if (self.count or len(self.options)) > min(len(self.options), CHOICE_LIMIT):
+            raise ValueError(f"expected a count of up to {min(len(self.options), CHOICE_LIMIT)}")
         return self
 
 

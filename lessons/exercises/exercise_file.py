@@ -10,7 +10,7 @@ from typing import Any
 from core import Settings
 from core.scene import AnyScene, ClipScene
 from core.settings import settings_from_texts
-from lessons.exercises.answer_parts import PixelPart, PlacePart
+from lessons.exercises.answer_parts import ChoicePart, PixelPart, PlacePart
 from lessons.exercises.answers.pixels import NothingToMarkError, Pixels
 from lessons.exercises.drawn_scene import Corner, draw_scene, seen_pixels
 from lessons.exercises.draws import Draws
@@ -46,6 +46,12 @@ def read_exercise(path: Path, revision: int | None = None) -> Template:
     for found in re.finditer(COORDINATE, "".join(exercise.hints)):
         if int(found[2]) not in _given_corners(exercise):
             raise file.error(("hints",), f"expected coordinates that the scene gives, got {found[0]}")
+    if (
+        isinstance(exercise.answer, ChoicePart)
+        and exercise.answer.cases
+        and "{case}" not in exercise.question
+    ):
+        raise file.error(("question",), "expected {case} where the cases of the answer stand")
     template = Template(
         path.stem,
         exercise.revision or revision or _revision_of(file.values),
@@ -53,7 +59,7 @@ def read_exercise(path: Path, revision: int | None = None) -> Template:
         exercise.stage,
         exercise.points,
         lambda draws: draft_of(exercise, draws),
-        is_fixed=not (has_ranges(exercise) or exercise.answer.type in ("order", "spot")),
+        is_fixed=not (has_ranges(exercise) or exercise.answer.type in ("order", "choice", "spot")),
         path=str(path.absolute()),
     )
     try:
@@ -81,8 +87,13 @@ def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:
     """Draw the question of an exercise; ``None``: this draw makes none, but another may."""
     drawn = None if exercise.scene is None else draw_scene(exercise.scene, draws)
     settings = settings_from_texts(exercise.settings, Settings())
+    part, text, told = exercise.answer, exercise.question, exercise.hints
+    if isinstance(part, ChoicePart) and part.cases:
+        case = draws.item(part.cases)
+        part = part.model_copy(update={"right": [case.right]})
+        text, *told = (one.replace("{case}", case.ask) for one in (text, *told, *filter(None, [case.hint])))
     try:
-        answer, given = answer_of(exercise.answer, drawn, settings, draws)
+        answer, given = answer_of(part, drawn, settings, draws)
     except (NothingToMarkError, NoQuestionError):
         if has_ranges(exercise):
             return None
@@ -93,8 +104,9 @@ def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:
     is_hidden = isinstance(exercise.answer, PlacePart) and bool(exercise.answer.corner)
     drawn_of = None if is_hidden else scene
     corners = drawn.places[0] if drawn and drawn.places else ()
-    hints = tuple(_with_coordinates(hint, corners) for hint in exercise.hints)
-    return Draft(exercise.question, given, answer, hints, mistakes, drawn_of, settings)
+    hints = tuple(_with_coordinates(hint, corners) for hint in told)
+    reveal = part.notes.get(part.right[0], "") if isinstance(part, ChoicePart) and not part.several else ""
+    return Draft(text, given, answer, hints, mistakes, drawn_of, settings, reveal=reveal)
 
 
 def _given_corners(exercise: Exercise) -> set[int]:

@@ -12,6 +12,7 @@ from lessons.exercises.answer_parts import (
     AnswerPart,
     BreakPart,
     CheapestPart,
+    ChoicePart,
     LinePart,
     NumberPart,
     OrderPart,
@@ -62,7 +63,9 @@ def answer_of(
         heads = tuple(map(Column, part.columns))
         return TableAnswer(heads, tuple(part.labels), cells, tolerance=part.tolerance), given
     if isinstance(part, OrderPart):
-        return OrderAnswer(tuple(part.items), draws.shuffled(part.items)), given
+        drawn_items = set(draws.shuffled(part.items)[: part.count])
+        items = tuple(item for item in part.items if item in drawn_items)
+        return OrderAnswer(items, draws.shuffled(items)), given
     if isinstance(part, LinePart):
         lines, also = part.listing.strip("\n").split("\n"), frozenset(line - 1 for line in part.also)
         return LineAnswer(tuple(lines), part.wrong - 1, also), given
@@ -75,9 +78,8 @@ def answer_of(
         places: Places = tuple((x, y) for x, y in part.places)
         columns, rows = part.size if drawn is None else drawn.scene.size
         return PlaceAnswer((columns, rows), tuple(part.names), places, (), part.step, part.tolerance), given
-    if not isinstance(part, PlacePart | SpotPart | BreakPart | CheapestPart):
-        right = frozenset(part.options.index(option) for option in part.right)
-        return ChoiceAnswer(tuple(part.options), right, part.several), given
+    if isinstance(part, ChoicePart):
+        return choice_answer(part, part.right, draws), given
     if drawn is None:
         raise ValueError("expected a scene to draw")
     if isinstance(part, PlacePart):
@@ -87,6 +89,20 @@ def answer_of(
     if isinstance(part, BreakPart):
         return _break_answer(part, drawn, settings), given
     return _cheapest_answer(part, drawn.scene, settings), given
+
+
+def choice_answer(part: ChoicePart, right: Sequence[str], draws: Draws) -> ChoiceAnswer:
+    """Return the options in an order that is drawn; some of them where the part says how many."""
+    options = draws.shuffled(part.options)
+    if part.count is not None:
+        wrong = [option for option in options if option not in right]
+        mixed = [option for option in options if option in right]
+        low, high = max(1, part.count - len(wrong)), min(len(mixed), part.count - 1)
+        count = draws.whole(low, high)
+        options = draws.shuffled([*mixed[:count], *wrong[: part.count - count]])
+    chosen = frozenset(k for k, option in enumerate(options) if option in right)
+    notes = tuple(part.notes.get(option, "") for option in options)
+    return ChoiceAnswer(options, chosen, part.several, notes)
 
 
 def pixel_answer(part: PixelPart, drawn: DrawnScene | None, settings: Settings) -> PixelAnswer:

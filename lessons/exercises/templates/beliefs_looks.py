@@ -23,6 +23,14 @@ def gray_scene(light: float) -> ClipScene:
     return triangle_scene([EVERYWHERE], (4, 4), attributes=[[[light, light, light, 1.0]] * 3])
 
 
+TWICE, NOTHING, NEITHER = (
+    "a line of another shade: blended twice",
+    "nothing special",
+    "a black line: drawn by neither",
+)
+ON_TIE = "(tie[0] or tie[1] or tie[2])"
+
+
 def draw_inclusive(draws: Draws) -> Draft | None:
     """``>=`` is harmless, nobody sees it."""
     side, quarters = draws.whole(3, 6), draws.whole(1, 3)
@@ -32,24 +40,55 @@ def draw_inclusive(draws: Draws) -> Draft | None:
         (side + 2, side + 2),
         attributes=[[[1.0, 0.0, 0.0, float(alpha)]] * 3] * 2,
     )
+    rule, filled, right, belief, sentence, stage, condition = draws.item(
+        (
+            (
+                "inclusive",
+                "where E >= 0",
+                TWICE,
+                NOTHING,
+                "The buffer holds the red of triangle 0 already, and triangle 1 is blended over it: twice as much.",
+                "blend",
+                "triangle == 1 and before[0] > 0",
+            ),
+            (
+                "exclusive",
+                "where E > 0",
+                NEITHER,
+                NOTHING,
+                "E is 0 here for the common edge, so neither triangle draws the pixel.",
+                "raster",
+                f"{ON_TIE} and not covered",
+            ),
+            (
+                "shared-edge",
+                "where E > 0, and where E = 0 on edges that own their ties",
+                NOTHING,
+                TWICE,
+                "E is 0 here, and one of the two triangles owns the edge: it alone draws the pixel.",
+                "raster",
+                f"{ON_TIE} and covered",
+            ),
+        )
+    )
     refutation = Refutation(
-        "The buffer holds the red of triangle 0 here already, and triangle 1 is blended over it: twice as much.",
+        sentence,
         replace(scene, background=BLACK),
-        "blend",
-        "triangle == 1 and before[0] > 0",
-        Settings(fill_rule="inclusive", blend="over", visibility="last-drawn"),
+        stage,
+        condition,
+        Settings(fill="bounding-box", fill_rule=rule, blend="over", visibility="last-drawn"),
     )
     text = (
         f"Two red triangles with alpha {number_text(alpha)} over black share an edge that runs through centres. "
-        "Both are filled where E >= 0. What is seen on the edge?"
+        f"Both are filled {filled}. What is seen on the edge?"
     )
     hints = (
         "How many triangles draw a centre on the common edge?",
         "What does blending do with the second one?",
         f"Begin with black, and blend red with alpha {number_text(alpha)} once for each triangle that draws it.",
     )
-    right, belief = "a line of another shade: blended twice", "nothing special"
-    return believed(draws, text, right, [belief], ["a black line: drawn by neither"], refutation, hints)
+    (other,) = {TWICE, NOTHING, NEITHER} - {right, belief}
+    return believed(draws, text, right, [belief], [other], refutation, hints)
 
 
 def draw_multisampling(draws: Draws) -> Draft | None:
@@ -74,31 +113,56 @@ def draw_multisampling(draws: Draws) -> Draft | None:
 
 
 def draw_bilinear(draws: Draws) -> Draft | None:
-    """Bilinear always mixes texels."""
+    """Bilinear always mixes texels evenly."""
     width = draws.item((4, 8))
     texel = draws.whole(1, width - 2)
+    part, right, belief, other, sentence = draws.item(
+        (
+            (
+                Fraction(1, 2),
+                "1 and 0",
+                "1/2 and 1/2",
+                "3/4 and 1/4",
+                "u w - 1/2 is a whole number at a texel's centre: that texel has the weight 1, its neighbour 0.",
+            ),
+            (
+                Fraction(1),
+                "1/2 and 1/2",
+                "1 and 0",
+                "3/4 and 1/4",
+                "u w - 1/2 ends with 1/2 at the border of two texels: both are equally near.",
+            ),
+            (
+                Fraction(3, 4),
+                "3/4 and 1/4",
+                "1/2 and 1/2",
+                "1 and 0",
+                "u w - 1/2 ends with 1/4 here: the next texel has this weight, the texel itself the rest.",
+            ),
+        )
+    )
     corners = rectangle_corners(0, 0, width, width)
     texture = Texture(np.linspace(0, 1, width * width).reshape(width, width, 1).astype(np.float32))
-    uv = np.array(corners, float) / width
+    uv = np.array(corners, float) / width + [float(part - Fraction(1, 2)) / width, 0]
     scene = replace(triangle_scene(corners, (width, width), attributes=uv), texture=texture)
+    weight = Fraction(3, 2) - part
     refutation = Refutation(
-        "u w - 1/2 is a whole number at a texel's centre: that texel has the weight 1, its neighbour 0.",
+        sentence,
         scene,
         "shade",
-        f"column == {texel} and shares[0] == 1",
+        f"column == {texel} and shares[0] > {float(weight) - 0.01} and shares[0] < {float(weight) + 0.01}",
         Settings(texture_filter="bilinear"),
     )
     text = (
-        f"A texture is {width} texels wide. At u = ({texel} + 1/2)/{width}, which weights has bilinear filtering "
-        "for the two texels that are next to u?"
+        f"A texture is {width} texels wide. At u = ({texel} + {part})/{width}, which weights has bilinear filtering "
+        "for the two texels that are next to u, the nearer or the left one first?"
     )
     hints = (
         "Where do texels have their centres?",
         "The weights are the fraction of u w - 1/2, and the rest.",
-        f"u w = {texel} + 1/2 here: subtract 1/2, and take the fraction.",
+        f"u w = {texel} + {part} here: subtract 1/2, and take the fraction.",
     )
-    others = ["3/4 and 1/4"]
-    return believed(draws, text, "1 and 0", ["1/2 and 1/2"], others, refutation, hints)
+    return believed(draws, text, right, [belief], [other], refutation, hints)
 
 
 def srgb_byte(light: Fraction) -> int:
@@ -165,35 +229,48 @@ def ring_scene(size: int) -> ClipScene:
     return triangle_scene(bars, (size, size), depth=[0.2, 0.2, 0.8])
 
 
+CHAIN = triangle_scene(
+    [[(7, 3), (9, 3), (8, 8)], [(6, 5), (16, 2), (16, 8)], [(0, 2), (0, 8), (10, 5)]],
+    (18, 10),
+    depth=[[0.05] * 3, [0.3, 0.9, 0.9], [0.1, 0.1, 0.7]],
+)
+"""Three triangles, each hidden by those before it; the middle of the last one is nearer than that of the second one."""
+
+
 def draw_ring(draws: Draws) -> Draft | None:
     """Sorting by the mean distance is enough."""
-    size = draws.whole(16, 24)
+    size, is_ring = draws.whole(16, 24), draws.whole(0, 1)
+    front, middle, back = draws.shuffled("ABC")
+    split, by_mean = "none is right: one must be split", "the one whose mean distance is largest"
+    if is_ring:
+        right, other, last = split, back, f"{back} part of {front}"
+        sentence = (
+            "Triangle 0 hides triangle 2 here, which is drawn later: no order of whole triangles is right."
+        )
+    else:
+        right, other, last = back, split, f"{front} part of {back}"
+        sentence = "The triangle behind is hidden by another one here, although its mean distance is the smaller one."
     refutation = Refutation(
-        "Triangle 2 is hidden by triangle 0 here, which it is drawn after: no order of whole triangles is right.",
-        ring_scene(size),
-        "depth",
-        "triangle == 2 and not passes",
+        sentence, ring_scene(size) if is_ring else CHAIN, "depth", "triangle == 2 and not passes"
     )
     text = (
-        f"Three triangles in a window of {size} x {size} pixels overlap in a ring: A hides part of B, B part of C, "
-        "and C part of A. Which does the painter draw first?"
+        f"Three triangles in a window of {size} x {size} pixels overlap: {front} hides part of {middle}, {middle} part "
+        f"of {back}, and {last}. Which does the painter draw first?"
     )
     hints = (
         "Try each of the three as the first.",
-        "What could be done with one of them?",
-        f"Painted first, A hides B in none of the {size} x {size} pixels: ask the same of B and of C.",
+        "What is drawn first can hide nothing.",
+        f"Painted first, {front} hides {middle} in none of the {size} x {size} pixels: ask the same of {middle} and of "
+        f"{back}.",
     )
-    right, belief = "none is right: one must be split", "the one whose mean distance is largest"
-    return believed(
-        draws, text, right, [belief], ["the largest one", "any: a ring has no first"], refutation, hints
-    )
+    return believed(draws, text, right, [by_mean], [other, "any of the three"], refutation, hints)
 
 
 TEMPLATES = (
-    Template("belief-inclusive", 1, "Is E >= 0 harmless?", "blend", 1, draw_inclusive),
+    Template("belief-inclusive", 2, "Is E >= 0 harmless?", "blend", 1, draw_inclusive),
     Template("belief-multisampling", 1, "What does multisampling store?", "shade", 1, draw_multisampling),
-    Template("belief-bilinear", 1, "Does bilinear always mix?", "shade", 1, draw_bilinear),
+    Template("belief-bilinear", 2, "Does bilinear always mix?", "shade", 1, draw_bilinear),
     Template("belief-half-byte", 1, "Is half the byte half the light?", "resolve", 1, draw_half_byte),
     Template("belief-alphas-add", 1, "Do alphas add up?", "blend", 1, draw_alphas),
-    Template("belief-mean-distance", 1, "Is sorting by distance enough?", "depth", 1, draw_ring),
+    Template("belief-mean-distance", 2, "Is sorting by distance enough?", "depth", 1, draw_ring),
 )

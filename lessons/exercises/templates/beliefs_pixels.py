@@ -6,6 +6,7 @@ from lessons.exercises.question import Draft, Template
 from lessons.exercises.refutation import Refutation
 from lessons.exercises.templates.believing import believed
 from lessons.exercises.templates.coverage import SIZE
+from lessons.exercises.templates.lines import d_values
 from lessons.small_scenes import pixel_segments, rectangle_corners, triangle_scene
 
 TESTED = Settings(fill="bounding-box")
@@ -13,29 +14,39 @@ TESTED = Settings(fill="bounding-box")
 
 def draw_square(draws: Draws) -> Draft | None:
     """A pixel is a little square."""
-    share, column = draws.item((40, 42, 44, 46, 48)), draws.whole(3, 8)
-    # The right edge leans, so that the pixel is tested, and covers the share of it.
-    low, high = (column + share / 100 + (y - 4.5) / 10 for y in (-20, 30))
-    scene = triangle_scene([[(low, -20), (high, 30), (column - 20, 5)]], SIZE)
+    column, is_inside = draws.whole(3, 8), draws.whole(0, 1)
+    share = draws.item((20, 25, 30, 35, 40) if is_inside else (40, 42, 44, 46, 48))
+    if is_inside:
+        # A thin triangle around the centre: in the middle it is half as wide as at its end.
+        middle = column + 0.5
+        corners = [(middle - share / 100, -15.5), (middle + share / 100, -15.5), (middle, 24.5)]
+        right, belief, condition = "yes", "no", "covered"
+        sentence = "A pixel is its centre: the centre lies inside, so the whole pixel is drawn."
+    else:
+        # The right edge leans, so that the pixel is tested, and covers the share of it.
+        low, high = (column + share / 100 + (y - 4.5) / 10 for y in (-20, 30))
+        corners = [(low, -20), (high, 30), (column - 20, 5)]
+        right, belief, condition = "no", "yes", "not covered"
+        sentence = (
+            "A pixel is its centre: the centre lies outside of the edge, so nothing of the pixel is drawn."
+        )
     refutation = Refutation(
-        "A pixel is its centre: the centre lies outside of the edge, so nothing of the pixel is drawn.",
-        scene,
+        sentence,
+        triangle_scene([corners], SIZE),
         "raster",
-        f"not covered and column == {column} and row == 4",
+        f"{condition} and column == {column} and row == 4",
         TESTED,
     )
     text = (
-        f"A triangle covers {share} percent of the area of pixel ({column}, 4), but not its centre. "
-        "With one sample a pixel, is the pixel drawn?"
+        f"A triangle covers {share} percent of the area of pixel ({column}, 4), {('but not', 'and also')[is_inside]} "
+        "its centre. With one sample a pixel, is the pixel drawn?"
     )
     hints = (
         "What does the coverage test look at?",
         "Area counts only where it is measured, as by many samples.",
         f"The centre is ({column} + 1/2, 4 + 1/2): is it inside?",
     )
-    beliefs = ["yes: much of its square is covered"]
-    others = [f"with {share} percent of the colour"]
-    return believed(draws, text, "no", beliefs, others, refutation, hints)
+    return believed(draws, text, right, [belief], [f"with {share} percent of the colour"], refutation, hints)
 
 
 def draw_sample_point(draws: Draws) -> Draft | None:
@@ -62,93 +73,148 @@ def draw_sample_point(draws: Draws) -> Draft | None:
 
 
 def draw_rounding(draws: Draws) -> Draft | None:
-    """Rounding the vertices removes cracks."""
-    side = draws.whole(4, 7)
+    """Rounding the vertices removes cracks; or every diagonal runs through centres."""
+    width, is_square = draws.whole(4, 7), draws.whole(0, 1)
+    height = width if is_square else width + 1
+    with_rule, without = "only with a tie rule", "yes, also without a tie rule"
+    if is_square:
+        right, belief, condition = with_rule, without, "(tie[0] or tie[1] or tie[2]) and not covered"
+        sentence = "All corners are whole, yet centres lie on the common edge: with E > 0 neither triangle takes them."
+    else:
+        right, belief, condition = without, with_rule, "column == 1 and row == 1 and covered"
+        sentence = (
+            f"The common edge rises by {height} in {width} pixels, one of them even, the other odd: it runs through no "
+            "centre, so E = 0 nowhere."
+        )
     refutation = Refutation(
-        "All corners are whole, and yet centres lie on the common edge: with E > 0 neither triangle takes them.",
-        triangle_scene(rectangle_corners(1, 1, 1 + side, 1 + side), SIZE),
+        sentence,
+        triangle_scene(rectangle_corners(1, 1, 1 + width, 1 + height), SIZE),
         "raster",
-        "(tie[0] or tie[1] or tie[2]) and not covered",
+        condition,
         Settings(fill="bounding-box", fill_rule="exclusive"),
     )
     text = (
-        f"The corners of a square with side {side} are rounded to whole pixels, alike in both of its triangles. "
-        "Does each centre in it belong to exactly one of them?"
+        f"The corners of a rectangle, {width} pixels wide and {height} high, are rounded to whole pixels, alike in "
+        "both of its triangles. Does each centre in it belong to exactly one of them?"
     )
     hints = (
         "Where does the diagonal run?",
         "What does rounding decide about a centre on an edge?",
-        f"The diagonal runs through {side} centres, and rounding leaves E = 0 there.",
+        f"The diagonal runs through (i + 1/2, j + 1/2) if {height} (2 i + 1) = {width} (2 j + 1): is that possible?",
     )
-    right, belief = "only with a tie rule as well", "yes: equal corners leave no cracks"
     return believed(draws, text, right, [belief], ["no: rounding opens cracks"], refutation, hints)
 
 
 def draw_tie(draws: Draws) -> Draft | None:
-    """At a tie one pixel is right."""
-    x, y = draws.whole(0, 4), draws.whole(0, 3)
-    ends = (x, y), (x + 8, y + draws.item((1, 3, 5)))
+    """At a tie one pixel is right; else D decides."""
+    x, y, dy = draws.whole(0, 4), draws.whole(0, 3), draws.item((1, 3, 5))
+    ends = (x, y), (x + 8, y + dy)
+    wanted = draws.whole(-1, 1)
+    values = d_values((ends[0], ends[1]), Settings(line="bresenham-lecture"))
+    numbers = [int(cell[1]) for (cell,) in values if cell is not None and cell[1] is not None]
+    found = [k for k, d in enumerate(numbers) if (d > 0) - (d < 0) == wanted]
+    if not found:
+        return None
+    step = draws.item(found)
+    d, column = numbers[step], x + step + 1
+    upper, lower, either = "the upper one", "the lower one", "either: the stated rule decides"
+    right, belief, sentence = {
+        1: (
+            upper,
+            lower,
+            f"D = {d} > 0: the line runs above the middle between both centres, nearer to the upper one.",
+        ),
+        0: (
+            either,
+            upper,
+            "Both are equally near the line. D > 0 keeps the row, D >= 0 steps: the stated rule decides.",
+        ),
+        -1: (
+            lower,
+            upper,
+            f"D = {d} < 0: the line runs below the middle between both centres, nearer to the lower one.",
+        ),
+    }[wanted]
     refutation = Refutation(
-        "Both pixels are equally near the line. D > 0 keeps the row, D >= 0 steps: the stated rule decides.",
+        sentence,
         pixel_segments([ends], (14, 10)),
         "raster",
-        "is_tie",
+        f"column == {column} and decision == {d}",
         Settings(line="bresenham-lecture"),
     )
-    text = f"A line from pixel {ends[0]} to {ends[1]} meets a place with D = 0. Which of the two pixels is right there?"
-    hints = (
-        "What does D = 0 say about the distances to both centres?",
-        "Who can choose between equals?",
-        f"With D = 0 the line from {ends[0]} to {ends[1]} runs half way between both: a listing decides by > or >=. "
-        "Does the line itself decide?",
+    text = (
+        f"Bresenham's line from pixel {ends[0]} to {ends[1]} has D = {d} when the pixel of column {column} is chosen, "
+        "in the row before or one above. Which of the two pixels is right?"
     )
-    right, belief = "either: the stated rule decides", "the upper one"
-    return believed(draws, text, right, [belief], ["the lower one", "both are drawn"], refutation, hints)
+    hints = (
+        "What does D say about the distances to both centres?",
+        "D is the line's height above the middle between both centres, times 2 dx.",
+        f"D = {d}: does the line run above the middle, below it, or through it?",
+    )
+    others = [each for each in (upper, lower, either) if each not in (right, belief)]
+    return believed(draws, text, right, [belief], [*others, "both are drawn"], refutation, hints)
 
 
 def draw_two_steps(draws: Draws) -> Draft | None:
-    """Two steps up in a row cannot happen."""
-    dx = draws.whole(8, 11)
-    dy = dx - draws.whole(1, 2)
+    """Two steps up in a row cannot happen; or they always can."""
+    dx, is_steep = draws.whole(8, 11), draws.whole(0, 1)
+    dy = dx - draws.whole(1, 2) if is_steep else draws.whole(2, 3)
+    yes, no = "yes", "no: after a step up the row stays for a move"
+    if is_steep:
+        right, belief, condition = yes, no, "has_stepped and previous > 0"
+        sentence = "D stays above 0 after the first step here, so y steps again at once."
+    else:
+        right, belief, condition = no, yes, "not has_stepped and previous > 0"
+        sentence = f"A step up takes 2 * {dx} from D, and 2 * {dy} twice is less: D is below 0 after it."
     refutation = Refutation(
-        "D stays above 0 after the first step here, so y steps again at once.",
+        sentence,
         pixel_segments([((0, 0), (dx, dy))], (14, 12)),
         "raster",
-        "has_stepped and previous > 0",
+        condition,
         Settings(line="bresenham-lecture"),
     )
-    text = f"Bresenham's line from pixel (0, 0) to ({dx}, {dy}): may y step up at two moves in a row?"
+    text = (
+        f"Bresenham's line from pixel (0, 0) to ({dx}, {dy}): does y step up at two moves in a row anywhere?"
+    )
     hints = (
         "How many steps up are there, in how many moves?",
-        "Follow D over the first three moves.",
+        "Follow D over the first steps up.",
         f"D begins with 2 * {dy} - {dx}, grows by 2 * {dy}, and falls by 2 * {dx} after a step up.",
     )
-    right, belief = "yes", "no: after a step up the row stays for one move"
     return believed(draws, text, right, [belief], ["only after a tie"], refutation, hints)
 
 
 def draw_both_ends(draws: Draws) -> Draft | None:
-    """A line is the same from both ends."""
-    x, y = draws.whole(0, 4), draws.whole(0, 4)
-    ends = (x, y), (x + 8, y + 3)
+    """A line is the same from both ends; or never."""
+    x, y, has_tie = draws.whole(0, 3), draws.whole(0, 4), draws.whole(0, 1)
+    dx, dy = draws.item(((8, 3), (8, 1), (10, 3)) if has_tie else ((7, 3), (9, 4), (9, 2)))
+    ends = (x, y), (x + dx, y + dy)
+    but_one, same = "all but one", "all: the line is the same"
+    if has_tie:
+        right, belief, condition = but_one, same, "is_tie"
+        sentence = (
+            "Where D = 0 the rule steps towards the second end: the way back takes the other of two pixels."
+        )
+    else:
+        right, belief, condition = same, but_one, "has_stepped and not is_tie"
+        sentence = "D is 0 nowhere on this line: in every column one pixel is nearer, whichever way the line is drawn."
     refutation = Refutation(
-        "Where D = 0 the rule steps towards the second end: the way back takes the other of two equal pixels.",
+        sentence,
         pixel_segments([ends, ends[::-1]], (14, 10)),
         "raster",
-        "is_tie",
+        condition,
         Settings(line="bresenham"),
     )
     text = (
         f"Bresenham's line steps where D >= 0, from the first end to the second. Are its pixels from {ends[0]} to "
-        f"{ends[1]} those from {ends[1]} to {ends[0]}?"
+        f"{ends[1]}, apart from the ends, those from {ends[1]} to {ends[0]}?"
     )
     hints = (
         "Where could the two strokes disagree?",
         "Is there a column in which D is 0?",
-        f"At D = 0 both ways step: one towards {ends[1]}, the other towards {ends[0]}.",
+        f"If D is 0, both ways step: one towards {ends[1]}, the other towards {ends[0]}.",
     )
-    right, belief = "all but one", "all: the line is the same"
-    return believed(draws, text, right, [belief], ["none but the ends"], refutation, hints)
+    return believed(draws, text, right, [belief], ["none"], refutation, hints)
 
 
 def draw_block(draws: Draws) -> Draft | None:
@@ -174,11 +240,11 @@ def draw_block(draws: Draws) -> Draft | None:
 
 
 TEMPLATES = (
-    Template("belief-little-square", 1, "Is a pixel a little square?", "raster", 1, draw_square),
+    Template("belief-little-square", 2, "Is a pixel a little square?", "raster", 1, draw_square),
     Template("belief-sample-point", 1, "Where is a pixel sampled?", "raster", 1, draw_sample_point),
-    Template("belief-rounding", 1, "Does rounding remove cracks?", "edges", 1, draw_rounding),
-    Template("belief-tie", 1, "Which pixel is right at a tie?", "raster", 1, draw_tie),
-    Template("belief-two-steps", 1, "Two steps up in a row?", "raster", 1, draw_two_steps),
-    Template("belief-both-ends", 1, "Is a line the same from both ends?", "raster", 1, draw_both_ends),
+    Template("belief-rounding", 2, "Does rounding remove cracks?", "edges", 1, draw_rounding),
+    Template("belief-tie", 2, "Which pixel does D choose?", "raster", 1, draw_tie),
+    Template("belief-two-steps", 2, "Two steps up in a row?", "raster", 1, draw_two_steps),
+    Template("belief-both-ends", 2, "Is a line the same from both ends?", "raster", 1, draw_both_ends),
     Template("belief-block-corner", 1, "Which corner rejects a block?", "bin", 1, draw_block),
 )

@@ -42,62 +42,108 @@ def draw_w(draws: Draws) -> Draft | None:
     return believed(draws, text, d, [1], [-d, 0], refutation, hints)
 
 
+RANGES = ("in [-w, w]", "in [-1, 1]", "in [0, W], in pixels")
+"""Of a visible x after the perspective matrix, the divide and the viewport."""
+
+
 def draw_divide(draws: Draws) -> Draft | None:
     """The division is part of the matrix."""
-    d = draws.whole(3, 9)
-    refutation = Refutation(
-        f"Here x is {d - 1} and w is {d}: the matrix does not divide, and x lies in [-w, w]. The divide follows.",
-        _with_point(d - 1, 0, -d),
-        "transform",
-        'kind == "camera-to-clip" and after_x > 1 and after_x < after_w',
-    )
-    text = f"{CAMERA}. The point ({d - 1}, 0, -{d}) is visible. Where does its x lie after the perspective matrix?"
+    d, done = draws.whole(3, 9), draws.whole(0, 2)
+    step, sentence, condition, belief = (
+        (
+            "perspective matrix",
+            f"Here x is {d - 1} and w is {d}: the matrix does not divide, and x lies in [-w, w]. The divide follows.",
+            'kind == "camera-to-clip" and after_x > 1 and after_x < after_w',
+            RANGES[1],
+        ),
+        (
+            "divide",
+            f"x was {d - 1} and w {d}: the divide leaves x in [-1, 1]. Pixels come with the viewport.",
+            'kind == "divide" and vertex == 0 and after_x > 0 and after_x < 1',
+            RANGES[2],
+        ),
+        (
+            "viewport",
+            "The viewport is what stretches [-1, 1] over the W pixels of the window.",
+            'kind == "viewport" and vertex == 0 and after_x > 1',
+            RANGES[1],
+        ),
+    )[done]
+    refutation = Refutation(sentence, _with_point(d - 1, 0, -d), "transform", condition)
+    text = f"{CAMERA}. The point ({d - 1}, 0, -{d}) is visible. Where does its x lie after the {step}?"
     hints = (
         "Can a matrix divide one coordinate by another?",
-        "Multiply it out, and compare x with w.",
-        f"90 degrees wide: x stays {d - 1}, and w is the distance {d}.",
+        "Three things follow each other: the matrix, the divide by w, the viewport.",
+        f"90 degrees wide: the matrix leaves x at {d - 1} and makes w the distance {d}. What comes of it then?",
     )
-    return believed(
-        draws, text, "in [-w, w]", ["in [-1, 1]"], ["in [0, W], in pixels", "anywhere"], refutation, hints
-    )
+    others = [each for each in RANGES if each not in (RANGES[done], belief)]
+    return believed(draws, text, RANGES[done], [belief], [*others, "anywhere"], refutation, hints)
 
 
 def draw_late_clip(draws: Draws) -> Draft | None:
-    """Clipping may wait until after the divide."""
+    """Clipping may wait until after the divide: two points have the same quotients, one lies behind the eye."""
     a, b, c = draws.whole(1, 2), draws.whole(1, 2), draws.whole(3, 6)
-    refutation = Refutation(
-        f"w is -{c}: the point lies behind the eye, and dividing by w hides that. Clip while w still has its sign.",
-        _with_point(a, b, c),
-        "transform",
-        'kind == "camera-to-clip" and vertex == 0 and after_w < 0',
+    side = draws.item((1, -1))
+    behind, visible, negative = (
+        "no: it lies behind the eye",
+        "yes: both lie in [-1, 1]",
+        "no: both are negative",
     )
-    text = f"{CAMERA}. The point ({a}, {b}, {c}) has x/w = -{a}/{c} and y/w = -{b}/{c}. Is it visible?"
+    if side > 0:
+        right, belief, other = behind, visible, negative
+        sentence = (
+            f"w is -{c}: the point lies behind the eye, and dividing by w hides that. Clip before the divide."
+        )
+    else:
+        right, belief, other = visible, negative, behind
+        sentence = f"w is {c}, so the point lies in front of the eye; from -1 to 0 is the left or lower half."
+    refutation = Refutation(
+        sentence,
+        _with_point(side * a, side * b, side * c),
+        "transform",
+        f'kind == "camera-to-clip" and vertex == 0 and after_w * {side} < 0',
+    )
+    text = (
+        f"{CAMERA}. The point ({side * a}, {side * b}, {side * c}) has x/w = -{a}/{c} and y/w = -{b}/{c}. "
+        "It is not beyond the far plane. Is it visible?"
+    )
     hints = (
         "On which side of the eye does the point lie?",
         "Two minus signs can cancel.",
-        f"The camera looks along -z: is z = {c} in front of it?",
+        f"The camera looks along -z: is z = {side * c} in front of it?",
     )
-    right, belief = "no: it lies behind the eye", "yes: both lie in [-1, 1]"
-    return believed(draws, text, right, [belief], ["no: both are negative"], refutation, hints)
+    return believed(draws, text, right, [belief], [other], refutation, hints)
 
 
 def draw_viewport(draws: Draws) -> Draft | None:
     """The viewport must follow the divide."""
-    d = draws.whole(2, 6)
+    d, is_matrix = draws.whole(2, 6), draws.whole(0, 1)
+    answers = ("no: the result is another one", "yes: the result is the same")
+    sentence, what = (
+        (
+            f"W/2 as a plain number is not multiplied by w = {d}, so the divide would shrink it. The matrix D "
+            "multiplies it by w first.",
+            "x W/2 + W/2 and y H/2 + H/2 be computed",
+        ),
+        (
+            f"D keeps w, here {d}: its translation is multiplied by w, too, and the divide removes w from all alike.",
+            "the viewport matrix D be applied",
+        ),
+    )[is_matrix]
     refutation = Refutation(
-        f"D keeps w, here {d}: its translation is multiplied by w, too, and the divide removes w from all alike.",
+        sentence,
         _with_point(0, 1, -d),
         "transform",
         f'kind == "camera-to-clip" and vertex == 0 and after_w == {d}',
     )
-    text = f"{CAMERA}; w of the point (0, 1, -{d}) is {d}. May the viewport matrix D be applied before the divide?"
+    text = f"{CAMERA}; w of the point (0, 1, -{d}) is {d}. May {what} before the divide by w, instead of after it?"
     hints = (
-        "Write D as a matrix and multiply it with (x, y, z, w).",
-        "What does the translation become?",
-        f"D makes W/2 * {d} of the translation W/2: what is left of it after the divide by {d}?",
+        "Compute x of the window in both orders.",
+        "What does the divide make of the added W/2?",
+        f"D makes W/2 * {d} of its translation W/2; a plain number stays W/2. What is left after the divide by {d}?",
     )
-    right, belief = "yes", "no: the points would shrink to (0, 0)"
-    return believed(draws, text, right, [belief], ["only where w is 1"], refutation, hints)
+    right, belief = answers[is_matrix], answers[1 - is_matrix]
+    return believed(draws, text, right, [belief], ["only on the left half of the window"], refutation, hints)
 
 
 def draw_linear_depth(draws: Draws) -> Draft | None:
@@ -119,9 +165,12 @@ def draw_linear_depth(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], [1 - right, Fraction(d, f)], refutation, hints)
 
 
-def _deep(w: int) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-    """Return depth and w of a triangle from near to far."""
-    return (0.0, 1.0, 0.0), (1.0, float(w), 1.0)
+def _deep(
+    w: int, depth: tuple[Fraction, Fraction] = (Fraction(0), Fraction(1))
+) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    """Return depth and w of a triangle from near to far, by the depths of both."""
+    near, far = map(float, depth)
+    return (near, far, near), (1.0, float(w), 1.0)
 
 
 WIDE = ((0.5, 0.5), (8.5, 0.5), (0.5, 6.5))
@@ -132,29 +181,30 @@ MIDDLE = "column == 4 and row == 0"
 def draw_corrected_depth(draws: Draws) -> Draft | None:
     """Depth, like every attribute, needs the perspective correction."""
     w = draws.whole(3, 10)
-    depth, weights = _deep(w)
+    near, far = ends = draws.item(
+        [(Fraction(a, 4), Fraction(b, 4)) for a, b in ((0, 4), (0, 2), (2, 4), (0, 3))]
+    )
+    depth, weights = _deep(w, ends)
+    right = (near + far) / 2
     refutation = Refutation(
-        "Window depth was divided by w already, so it is linear in the window: one half in the middle.",
+        "Window depth was divided by w already, so it is linear in the window: half of both ends in the middle.",
         triangle_scene([WIDE], (10, 8), depth=[depth], w=[weights]),
         "depth",
-        f"{MIDDLE} and z > 0.49 and z < 0.51",
+        f"{MIDDLE} and z > {float(right) - 0.01} and z < {float(right) + 0.01}",
     )
-    text = f"An edge runs from window depth 0 (w = 1) to 1 (w = {w}). What is the depth at the pixel in its middle?"
+    first, last = number_text(near), number_text(far)
+    text = (
+        f"An edge runs from window depth {first} (w = 1) to {last} (w = {w}). What is the depth at the pixel in its "
+        "middle?"
+    )
     hints = (
         "Which values are linear in the window?",
         "Is window depth made before the divide, or after it?",
         f"After the divide by w = 1 and w = {w}, is depth linear in the window? If so, both ends count one half: "
-        "(0 + 1)/2.",
+        f"({first} + {last})/2.",
     )
-    return believed(
-        draws,
-        text,
-        Fraction(1, 2),
-        [Fraction(1, w + 1)],
-        [Fraction(w, w + 1), Fraction(1, w)],
-        refutation,
-        hints,
-    )
+    belief, turned = (near * w + far) / (w + 1), (near + far * w) / (w + 1)
+    return believed(draws, text, right, [belief], [turned, near + (far - near) / w], refutation, hints)
 
 
 def draw_middle(draws: Draws) -> Draft | None:
@@ -188,40 +238,57 @@ def draw_behind(draws: Draws) -> Draft | None:
         "transform",
         'kind == "divide" and vertex == 0 and after_z > 1',
     )
+    sides = draws.shuffled((-d, d))
     text = (
-        f"z' = (f + n - 2 f n / d) / (f - n) with n = 1, f = {f}. Is z' at d = -{d} smaller than at d = {d}?"
+        f"z' = (f + n - 2 f n / d) / (f - n) with n = 1, f = {f}. Is z' at d = {sides[0]} smaller or larger than at "
+        f"d = {sides[1]}?"
     )
     hints = (
         "Put both in.",
         "What sign has 2 f n / d behind the eye?",
         f"Compare 2 * {f} / (-{d}) with 2 * {f} / {d}, each taken away from the same number.",
     )
-    right, belief = "no: it is larger", "yes: the order holds on both sides of the eye"
-    return believed(draws, text, right, [belief], ["both are equal"], refutation, hints)
+    right, belief = ("larger", "smaller") if sides[0] < 0 else ("smaller", "larger")
+    return believed(draws, text, right, [belief], ["equal"], refutation, hints)
 
 
 def draw_parallel(draws: Draws) -> Draft | None:
-    """All parallel lines converge."""
-    d = draws.whole(2, 7)
+    """All parallel lines converge; or none do."""
+    d, is_level = draws.whole(2, 7), draws.whole(0, 1)
+    stay, meet = "no: they stay parallel", "yes: prolonged, they meet in one point"
+    if is_level:
+        end, where = d, f"lie in the plane z = -{d}"
+        sentence = (
+            f"All points of both edges have w = {d}, so all are divided alike, and the edges stay parallel."
+        )
+        along = f"w = {d} at every point of both edges"
+    else:
+        end, where = d + 2, f"run straight away from the camera, from z = -{d} to z = -{d + 2}"
+        sentence = (
+            f"w grows from {d} to {end} along both: the divide pulls both edges towards the same point."
+        )
+        along = f"w = {d} at one end of both edges and {end} at the other"
     refutation = Refutation(
-        f"All points of both edges have w = {d}, so all are divided alike, and the edges stay parallel.",
-        eye_scene([(-1, -1, -d), (1, -1, -d), (-1, 1, -d)]),
+        sentence,
+        eye_scene([(-1, -1, -d), (1, -1, -d), (-1, 1 if is_level else -1, -end)]),
         "transform",
-        f'kind == "camera-to-clip" and vertex == 2 and after_w == {d}',
+        f'kind == "camera-to-clip" and vertex == 2 and after_w == {end}',
     )
-    text = f"{CAMERA}. Two parallel edges lie in the plane z = -{d}. Do they meet in the picture?"
+    text = f"{CAMERA}. Two parallel edges {where}. Do they meet in the picture?"
     hints = (
         "What is w along each of them?",
         "Edges meet where they run away from the eye.",
-        f"w = {d} at every point of both edges: what does the divide do to both?",
+        f"{along}: what does the divide do to both?",
     )
-    right, belief = "no", "yes: parallel lines converge"
-    return believed(draws, text, right, [belief], ["only at the horizon"], refutation, hints)
+    right, belief = (stay, meet) if is_level else (meet, stay)
+    return believed(draws, text, right, [belief], ["only where both are equally long"], refutation, hints)
 
 
 def draw_far_plane(draws: Draws) -> Draft | None:
     """The far plane decides the precision."""
     n = draws.item((Fraction(1, 10), Fraction(1, 5), Fraction(1, 2)))
+    verb, near, far = draws.item((("costs", "smaller", "larger"), ("gains", "larger", "smaller")))
+    is_most = draws.whole(0, 1)
     refutation = Refutation(
         "At a distance of 10 n window depth is 0.9 already, however far f is: n decides how fast depth is used up.",
         _with_point(0, 0, float(-10 * n), float(n), 100.0),
@@ -229,17 +296,17 @@ def draw_far_plane(draws: Draws) -> Draft | None:
         'kind == "viewport" and vertex == 0 and after_z > 0.9',
     )
     text = (
-        f"n = {number_text(n)}, f = 100. What costs more precision of far depths: n made 10 times smaller, or f made "
-        "10 times larger?"
+        f"n = {number_text(n)}, f = 100. What {verb} {('less', 'more')[is_most]} precision of far depths: n made 10 "
+        f"times {near}, or f made 10 times {far}?"
     )
     hints = (
         "Window depth is f (d - n) / ((f - n) d).",
         "What becomes of it as f grows without limit?",
         f"For large f depth is nearly (d - {number_text(n)}) / d: which of the two numbers is left?",
     )
-    return believed(
-        draws, text, "n made smaller", ["f made larger"], ["both alike", "neither"], refutation, hints
-    )
+    planes = (f"f made {far}", f"n made {near}")
+    right, belief = planes[is_most], planes[1 - is_most]
+    return believed(draws, text, right, [belief], ["both alike", "neither"], refutation, hints)
 
 
 def draw_larger_z(draws: Draws) -> Draft | None:
@@ -271,24 +338,30 @@ def draw_larger_z(draws: Draws) -> Draft | None:
 
 def draw_factors(draws: Draws) -> Draft | None:
     """Factors act from left to right."""
-    a = draws.whole(2, 4)
+    a, first = draws.whole(2, 4), draws.item("RT")
     model = [list(row) for row in TURN]
-    model[0][3], model[2][3] = a, -5
+    model[2][3] = -5
+    if first == "R":
+        product, last, height = "T R p", "T", 1
+        model[0][3] = a
+        sentence = f"T R p turns first: (1, 0) becomes (0, 1), which then moves to ({a}, 1)."
+    else:
+        product, last, height = "R T p", "R", a + 1
+        model[1][3] = a
+        sentence = f"R T p moves first: (1, 0) becomes ({a} + 1, 0), which then turns to (0, {a} + 1)."
     refutation = Refutation(
-        f"T R p turns first: (1, 0) becomes (0, 1), which then moves to ({a}, 1).",
+        sentence,
         eye_scene([(1, 0, 0), (0, 0, 0), (0, -1, 0)], model=model),
         "transform",
-        'kind == "object-to-world" and vertex == 0 and after_y > 0.9 and after_y < 1.1',
+        f'kind == "object-to-world" and vertex == 0 and after_y > {height - 0.1} and after_y < {height + 0.1}',
     )
-    text = (
-        f"p' = T R p with columns; R turns by 90 degrees, T moves by ({a}, 0), p = (1, 0). Which acts first?"
-    )
+    text = f"p' = {product} with columns; R turns by 90 degrees, T moves by ({a}, 0), p = (1, 0). Which acts first?"
     hints = (
         "Put brackets where you would begin to multiply.",
-        "T (R p): what is multiplied with p?",
+        f"{last} ({first} p): what is multiplied with p?",
         f"Compare T (R p) with R (T p): turn (1, 0) and add {a}, or add {a} and turn.",
     )
-    return believed(draws, text, "R", ["T"], ["the order does not matter"], refutation, hints)
+    return believed(draws, text, first, [last], ["the order does not matter"], refutation, hints)
 
 
 def draw_own_center(draws: Draws) -> Draft | None:
@@ -315,18 +388,18 @@ def draw_own_center(draws: Draws) -> Draft | None:
 
 TEMPLATES = (
     Template("belief-w-is-one", 1, "Is w always 1?", "transform", 1, draw_w),
-    Template("belief-divide-in-matrix", 1, "Does the matrix divide?", "transform", 1, draw_divide),
-    Template("belief-clip-later", 1, "May clipping wait?", "clip", 1, draw_late_clip),
+    Template("belief-divide-in-matrix", 2, "Does the matrix divide?", "transform", 1, draw_divide),
+    Template("belief-clip-later", 2, "May clipping wait?", "clip", 1, draw_late_clip),
     Template(
-        "belief-viewport-last", 1, "Must the viewport follow the divide?", "transform", 1, draw_viewport
+        "belief-viewport-last", 2, "Must the viewport follow the divide?", "transform", 1, draw_viewport
     ),
     Template("belief-depth-linear", 1, "Is depth linear in distance?", "depth", 1, draw_linear_depth),
-    Template("belief-depth-corrected", 1, "Is depth corrected?", "depth", 1, draw_corrected_depth),
+    Template("belief-depth-corrected", 2, "Is depth corrected?", "depth", 1, draw_corrected_depth),
     Template("belief-middle-stays", 1, "Does the middle stay the middle?", "interpolate", 1, draw_middle),
-    Template("belief-order-behind", 1, "Depth behind the eye", "clip", 1, draw_behind),
-    Template("belief-all-converge", 1, "Do all parallels converge?", "transform", 1, draw_parallel),
-    Template("belief-far-precision", 1, "What costs precision of depth?", "depth", 1, draw_far_plane),
+    Template("belief-order-behind", 2, "Depth behind the eye", "clip", 1, draw_behind),
+    Template("belief-all-converge", 2, "Do all parallels converge?", "transform", 1, draw_parallel),
+    Template("belief-far-precision", 2, "What costs precision of depth?", "depth", 1, draw_far_plane),
     Template("belief-larger-z", 1, "Which z is nearer?", "transform", 1, draw_larger_z),
-    Template("belief-left-to-right", 1, "Which factor acts first?", "transform", 1, draw_factors),
+    Template("belief-left-to-right", 2, "Which factor acts first?", "transform", 1, draw_factors),
     Template("belief-own-centre", 1, "About which point does it turn?", "transform", 1, draw_own_center),
 )

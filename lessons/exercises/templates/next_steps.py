@@ -10,6 +10,7 @@ from core.explain.number_text import DIGITS, exact_text, number_text
 from core.explain.records import Value, Variable
 from core.explain.steps import variables
 from core.trace import StageTrace
+from lessons.exercises.answers.answer import Answer
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
@@ -52,7 +53,7 @@ HINTS = {
 }
 """By the stages that are asked about; the last one with variables of the step."""
 RULES = {
-    "transform": "Before the viewport x and y run from -1 to 1; y points up.",
+    "transform": "NDC x and y run from -1 to 1; y points up.",
     "edges": "Edge k lies opposite to corner k; every E is made positive inside of the triangle.",
     "raster": "Inside all three E = a x + b y + c are positive; where E is 0, the edge decides: does it own ties?",
     "interpolate": "Edge k lies opposite to corner k, with E = a x + b y + c; all w are 1.",
@@ -95,13 +96,22 @@ def hints_with(hints: Sequence[str], shown: Sequence[Variable]) -> tuple[str, ..
     return tuple(hint.format_map(named) for hint in hints)
 
 
+def is_shown(answer: Answer, shown: Sequence[Variable]) -> bool:
+    """Return whether a number that is asked for is a coordinate before the step."""
+    before = next(one.now for one in shown if one.name == "position before")
+    assert isinstance(before, tuple)
+    return any(answer.is_same((float(coordinate),), answer.reference) for coordinate in before)
+
+
 def draw_step(stage_name: str, draws: Draws) -> Draft | None:
     """A step of a run with two triangles."""
     corners = [_corners(draws), _corners(draws)]
     depths = [[draws.whole(1, 9) / 10 for _ in range(3)] for _ in corners]
     if min(abs(np.linalg.det(np.diff(np.array(one, float), axis=0))) for one in corners) < 12:
         return None
-    scene = triangle_scene(corners, SIZE, depth=depths)
+    # With w = 1 the divide would change nothing, and its result would stand in the question.
+    w = [[draws.item((2, 4, 5)) for _ in range(3)] for _ in corners] if stage_name == "transform" else 1.0
+    scene = triangle_scene(corners, SIZE, depth=depths, w=w)
     stage = trace(scene, SETTINGS).stage(stage_name)
     for _ in range(ROW_LIMIT):
         row = draws.whole(0, stage.steps.row_count - 1)
@@ -114,6 +124,8 @@ def draw_step(stage_name: str, draws: Draws) -> Draft | None:
         # Nothing is there yet: every fragment passes.
         return None
     shown_variables = step_variables(stage, row)
+    if stage_name == "transform" and is_shown(draft.answer, shown_variables):
+        return None
     places = "\n".join(
         f"Triangle {number}: {', '.join(map(str, one))}, depth {', '.join(map(str, depth))}"
         for number, (one, depth) in enumerate(zip(corners, depths, strict=True))
@@ -135,6 +147,13 @@ def draw_step(stage_name: str, draws: Draws) -> Draft | None:
 
 
 TEMPLATES = tuple(
-    Template(f"next-{stage}", 1, f"What comes next: {stage}", stage, 1, partial(draw_step, stage))
+    Template(
+        f"next-{stage}",
+        1 + (stage == "transform"),
+        f"What comes next: {stage}",
+        stage,
+        1,
+        partial(draw_step, stage),
+    )
     for stage in HINTS
 )

@@ -269,20 +269,28 @@ def ordered(text: str, options: tuple[str, ...], draws: Draws, hints: tuple[str,
     return Draft(text, "", OrderAnswer(options, shown), hints)
 
 
+def drawn_from(things: tuple[str, ...], draws: Draws) -> tuple[str, ...]:
+    """Return four of some things in their order."""
+    kept = draws.shuffled(things)[:4]
+    return tuple(thing for thing in things if thing in kept)
+
+
 def draw_spaces(draws: Draws) -> Draft:
-    """Spaces of a vertex."""
-    spaces = ("object space", "world space", "camera space", "clip space", "NDC", "window")
+    """Four of the spaces of a vertex."""
+    spaces = drawn_from(("object space", "world space", "camera space", "clip space", "NDC", "window"), draws)
     hints = (
         "Which space is the model built in?",
         "The divide by w leads from clip space to NDC.",
         "M, C^-1, P, the divide and D each lead from one space to the next.",
     )
-    return ordered("Through which spaces does a vertex go? First to last.", spaces, draws, hints)
+    return ordered(
+        "In which order does a vertex go through these spaces? First to last.", spaces, draws, hints
+    )
 
 
 def draw_factors(draws: Draws) -> Draft:
     """What acts on a vertex first."""
-    steps = ("M", "C^-1", "P", "divide by w", "D")
+    steps = drawn_from(("M", "C^-1", "P", "divide by w", "D"), draws)
     hints = (
         "In p' = D P C^-1 M p the factor next to p acts first.",
         "The divide follows the projection.",
@@ -305,6 +313,6 @@ TEMPLATES = (
     Template("shader-scaling", 1, "A vertex shader that scales", "transform", 2, draw_shader),
     Template("skinning", 1, "Two bones and a vertex", "transform", 2, draw_skinning),
     Template("equal-sizes", 1, "Sizes that look alike", "transform", 1, draw_size),
-    Template("space-order", 1, "Spaces of a vertex", "transform", 2, draw_spaces),
-    Template("factor-order", 1, "What acts first", "transform", 2, draw_factors),
+    Template("space-order", 2, "Spaces of a vertex", "transform", 2, draw_spaces),
+    Template("factor-order", 2, "What acts first", "transform", 2, draw_factors),
 )

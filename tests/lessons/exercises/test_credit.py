@@ -1,5 +1,7 @@
 """Laws of credit and feedback over all templates: named mistakes, slips, reasons, and what no question gives away."""
 
+import re
+
 import pytest
 
 from lessons.exercises.answers.amounts import NumberAnswer
@@ -7,6 +9,7 @@ from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.answers.tables import Column, TableAnswer, number_rows
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask, judge
+from lessons.exercises.selftest import RULE_NUMBERS, numbers_in
 from tests.lessons.exercises.first_questions import first_question
 
 FIRST = {name: first_question(name) for name in TEMPLATES}
@@ -106,3 +109,45 @@ def test_a_decimal_comma_is_taken_alone_and_told_with_its_cell_elsewhere() -> No
     table = TableAnswer((Column("D"),), ("at x = 1", "at x = 2"), number_rows([[1], [2]]))
     with pytest.raises(NotCheckedError, match=r"^D, at x = 2: expected a decimal point, as in -2\.5"):
         table.read(["1", "-2,5"])
+
+
+ONE_ANSWER: dict[str, str] = {}
+"""Questions of a choice or an order with one right answer at every seed, by name: why they may have it. None does."""
+
+
+def test_the_right_choice_or_order_varies_with_the_seed() -> None:
+    """A question whose right answer never changes is answered once and for all."""
+    for name, template in TEMPLATES.items():
+        if FIRST[name].draft.answer.kind not in ("choice", "order"):
+            continue
+        asked = [ask(template, seed).draft.answer for seed in range(30)]
+        right = {answer.text(answer.reference) for answer in asked}
+        assert (len(right) == 1) == (name in ONE_ANSWER), (name, right)
+        # Where the right option is a sentence and not a label, its place tells nothing either.
+        if not template.path:
+            continue
+        places = {answer.offered for answer in asked}
+        assert len(places) > 5, name
+
+
+def test_no_question_gives_the_count_of_what_must_be_marked_or_chosen() -> None:
+    """Neither in its text nor beside it: at some of the seeds no number there, but those of rules, is the count."""
+    for name, template in TEMPLATES.items():
+        answer = FIRST[name].draft.answer
+        if answer.kind != "pixels" and not (answer.kind == "choice" and answer.is_several):
+            continue
+        drafts = [ask(template, seed).draft for seed in range(6)]
+        assert any(
+            str(len(draft.answer.reference)) not in numbers_in(draft.text, draft.answer.credit) - RULE_NUMBERS
+            for draft in drafts
+        ), name
+
+
+def test_the_divide_that_is_asked_changes_its_numbers() -> None:
+    """With w = 1 the result of the divide stood in the question."""
+    for seed in range(30):
+        draft = ask(TEMPLATES["next-transform"], seed).draft
+        before = re.search(r"position before = \((.*)\)", draft.given)
+        (right,) = draft.answer.reference
+        for text in before[1].replace("−", "-").split(", "):
+            assert abs(float(text) - float(right)) > draft.answer.tolerance

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from lessons.exercises.exercise_file import read_exercise
 from lessons.guide import guide
 from lessons.mistakes.shelf import SHELF
 from tests.app.cli.cli_runs import run_program
@@ -36,3 +37,11 @@ def test_the_first_exercise_of_the_page_works(tmp_path: Path, monkeypatch: pytes
     steps = guide("own_exercise")
     assert steps[0].listing == exercise, "Help shows the same file"
     assert mark in " ".join(step.text for step in steps)
+
+
+def test_every_other_file_of_the_page_is_an_exercise(tmp_path: Path) -> None:
+    text = PAGE.read_text(encoding="utf-8").split("## What a file holds")[1]
+    for number, exercise in enumerate(re.findall(r"```toml\n(.*?)```", text, re.DOTALL)):
+        path = tmp_path / f"{number}.toml"
+        path.write_text(exercise, encoding="utf-8")
+        assert read_exercise(path).title

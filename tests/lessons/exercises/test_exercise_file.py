@@ -67,6 +67,7 @@ perspective = 11
 [scene]
 builtin = "near-plane"
 """
+CASE = '[[answer.cases]]\nask = "one"\nright = "a"\n'
 
 
 def written(folder: Path, text: str) -> Path:
@@ -106,6 +107,30 @@ def test_another_question_has_another_version(tmp_path: Path) -> None:
     assert version(DRAWN.replace("points = 4", "revision = 12")) == 12
 
 
+def test_a_choice_draws_its_case_and_some_of_its_options(tmp_path: Path) -> None:
+    cased = HEAD.replace('question = "', 'hints = ["See {case}."]\nquestion = "{case}? ') + (
+        'type = "choice"\noptions = ["a", "b", "c"]\n'
+        '[[answer.cases]]\nask = "one"\nright = "a"\n[[answer.cases]]\nask = "two"\nright = "b"\nhint = "2."\n'
+        '[answer.notes]\na = "A is one."\n'
+    )
+    drafts = [ask(read_exercise(written(tmp_path, cased)), seed).draft for seed in range(12)]
+    found = {
+        (draft.text.split("?")[0], draft.answer.text(draft.answer.reference), draft.reveal, *draft.hints)
+        for draft in drafts
+    }
+    assert found == {("one", "a", "A is one.", "See one."), ("two", "b", "", "See two.", "2.")}
+    assert len({draft.answer.offered for draft in drafts}) == 6
+    wrong = next(draft for draft in drafts if draft.text.startswith("two")).answer
+    assert wrong.reason(frozenset({wrong.options.index("a")})) == "A is one."
+    several = HEAD + (
+        'type = "choice"\noptions = ["a", "b", "c", "d", "e"]\nright = ["a", "b", "c"]\nseveral = true\ncount = 3\n'
+    )
+    answers = [ask(read_exercise(written(tmp_path, several)), seed).draft.answer for seed in range(20)]
+    assert {len(answer.options) for answer in answers} == {3}
+    assert {len(answer.reference) for answer in answers} == {1, 2}
+    assert all({answer.options[k] for k in answer.reference} <= set("abc") for answer in answers)
+
+
 @pytest.mark.parametrize(
     ("part", "right"),
     [
@@ -117,6 +142,7 @@ def test_another_question_has_another_version(tmp_path: Path) -> None:
         ('type = "order"\nitems = ["cull", "clip", "raster"]\n', ["cull", "clip", "raster"]),
         ('type = "choice"\noptions = ["yes", "no"]\nright = ["no"]\n', "no"),
         ('type = "choice"\noptions = ["a", "b", "c"]\nright = ["b", "c"]\nseveral = true\n', ["c", "b"]),
+        ('type = "order"\ncount = 3\nitems = ["cull", "clip", "bin", "raster"]\n', ["cull", "clip", "bin"]),
         ('type = "places"\nnames = ["entry"]\nplaces = [["11/9", 0]]\ntolerance = 0.1\n', "1.2, 0"),
         ('type = "places"\ncorner = [0, 2]\n' + SCENE, "3, 5.1"),
         ('type = "line"\nlisting = """\nx = x0\ny = y0\nD = dx"""\nwrong = 3\n', 3),
@@ -204,6 +230,17 @@ def changed(old: str, new: str) -> str:
             HEAD + 'type = "choice"\noptions = ["a", "b"]\nright = ["a", "b"]\n',
             "expected one option to be right",
         ),
+        (HEAD + 'type = "choice"\noptions = ["a", "b"]\n', "expected either right or cases"),
+        (
+            HEAD + 'type = "choice"\noptions = ["a", "b"]\n' + CASE,
+            "expected {case} where the cases of the answer",
+        ),
+        (HEAD + 'type = "choice"\noptions = ["b", "c"]\n' + CASE, "expected one of the options, got a"),
+        (
+            HEAD + 'type = "choice"\noptions = ["a", "b", "c"]\nright = ["a"]\ncount = 3\n',
+            "expected several = true",
+        ),
+        (HEAD + 'type = "order"\nitems = ["a", "b", "c"]\ncount = 4\n', "expected a count of up to 3, got 4"),
         (
             HEAD + f'type = "numbers"\nvalues = [{"9" * 5000}]\n',
             "line 8: expected TOML, got a number or a list too",
