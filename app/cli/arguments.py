@@ -9,10 +9,11 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.cli.commands import PROGRAM, UsageError, add_allow_outside
+from app.cli.commands import add_allow_outside
 from app.files.mesh_formats import OutsideMeshError, Report
 from app.files.open_any import Opened, open_any
 from app.files.state_files import OutsideSourceError
+from app.usage import PROGRAM, UsageError
 from core import Settings
 from core.scene import SIZE_LIMIT, AnyScene
 from core.settings import settings_from_texts

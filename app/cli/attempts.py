@@ -8,11 +8,11 @@ from operator import attrgetter
 
 from pydantic import ValidationError
 
-from app.cli.commands import PROGRAM, UsageError
 from app.cli.exercise_folders import known_templates
 from app.files.attempts import SIZE_LIMIT, attempt_file
 from app.files.file_writing import write_file
 from app.files.input_files import read_input
+from app.usage import PROGRAM, UsageError
 from lessons.attempts.practice import Progress, next_question, progress
 from lessons.attempts.record import DEFAULT_USER, attempt_of, exported_attempts, read_attempts_json
 from lessons.exercises.answers.answer import Response

@@ -7,7 +7,8 @@ import argparse
 from pathlib import Path
 
 from app.bench.threads import set_threads
-from app.cli.commands import MOST_ROUNDS, UsageError, whole_number
+from app.cli.commands import MOST_ROUNDS, whole_number
+from app.usage import UsageError
 from lessons.os_errors import os_error_reason
 
 DESCRIPTION = """Draw the workloads with the core and with every other library that is installed, check the

@@ -15,9 +15,9 @@ from pathlib import Path
 from typing import Any, NoReturn
 
 from app import __version__
+from app.usage import PROGRAM, UsageError
 from lessons.os_errors import os_error_reason
 
-PROGRAM = "rasterscope"
 MOST_ROUNDS = 1000
 MOST_SEED = 999_999_999
 USAGE_ERROR = 2
@@ -61,10 +61,6 @@ EXAMPLES = """examples:
 FILES = """FILE is a mesh (OBJ, PLY, STL, OFF, GLB, glTF), a state file (.rasterscope) or the name of a built-in
 scene; a file with the name of a command or scene opens as ./name.
 """
-
-
-class UsageError(ValueError):
-    """The command line is wrong; the message is one line."""
 
 
 def add_allow_outside(parser: argparse.ArgumentParser) -> None:

@@ -3,8 +3,6 @@
 import argparse
 from pathlib import Path
 
-import numpy as np
-
 from app.cli.arguments import (
     add_file,
     add_settings,
@@ -15,9 +13,8 @@ from app.cli.arguments import (
     sized,
 )
 from app.files.drawn_pictures import read_drawn
-from core.records.arrays import Flags
-from core.scene import AnyScene
-from lessons.diagnosis import RIGHT, Diagnosis, Drawn, check_size, compared_text, diagnose
+from lessons.diagnosis import RIGHT, Diagnosis, check_size, compared_text, diagnose
+from lessons.diagnosis_text import pixels_text, right_text, scene_text
 
 DESCRIPTION = """Say which mistake, or which other method, makes a picture of a scene that another program drew; or how
 near the nearest is. For homework in any language."""
@@ -33,7 +30,6 @@ examples:
   rasterscope diagnose shared-edge homework.png
   rasterscope diagnose shared-edge homework.csv --size 32x24 --set fill_rule=inclusive
 """
-PIXELS_SHOWN = 20
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
@@ -62,11 +58,6 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def scene_text(title: str, scene: AnyScene) -> str:
-    """Return which scene a picture is compared with."""
-    return f"{title or 'the open scene'}, {scene.size[0]} x {scene.size[1]} pixels"
-
-
 def report(diagnosis: Diagnosis) -> list[str]:
     """Return what was found, as lines of text."""
     if diagnosis.is_right:
@@ -83,21 +74,3 @@ def report(diagnosis: Diagnosis) -> list[str]:
         f"nearest: {pixels_text(diagnosis.differing, nearest.name)}",
         *([nearest.sentence] if nearest.sentence else []),
     ]
-
-
-def right_text(drawn: Drawn) -> str:
-    """Return what is right of a picture in which nothing differs: no more than was compared."""
-    if drawn.covered is not None:
-        return "exactly the pixels that this scene and its settings cover"
-    if drawn.primitive is not None:
-        return "every pixel shows the triangle that this scene and its settings draw there"
-    return "every pixel has the colour that this scene and its settings draw there"
-
-
-def pixels_text(differing: Flags, name: str) -> str:
-    """Return how many pixels differ from the picture of a ``name``, and the first of them as (column, row)."""
-    places = [f"({column}, {row})" for row, column in np.argwhere(differing)[:PIXELS_SHOWN].tolist()]
-    count = int(differing.sum())
-    more = f" and {count - PIXELS_SHOWN} more" if count > PIXELS_SHOWN else ""
-    verb = "pixel differs" if count == 1 else "pixels differ"
-    return f"{count} of {differing.size} {verb} from {name}: {' '.join(places)}{more}"

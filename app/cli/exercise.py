@@ -7,9 +7,10 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict
 
 from app.cli import attempts, exercise_folders
-from app.cli.commands import UsageError, whole_number
+from app.cli.commands import whole_number
 from app.cli.exercise_coverage import coverage_lines
 from app.cli.exercise_folders import known_templates
+from app.usage import UsageError
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.draws import SEED_LIMIT

@@ -3,7 +3,7 @@
 import argparse
 import sys
 
-from app.cli.commands import PROGRAM
+from app.usage import PROGRAM
 from lessons.exercises.question import Template
 
 

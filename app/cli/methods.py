@@ -5,7 +5,7 @@ import json
 import textwrap
 
 import core  # noqa: F401  (its modules register the methods)
-from app.cli.commands import UsageError
+from app.usage import UsageError
 from core import Settings
 from core.methods import Method, table
 

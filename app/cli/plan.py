@@ -13,8 +13,9 @@ from app.cli.arguments import (
     progress_line,
     sized,
 )
-from app.cli.commands import MOST_ROUNDS, UsageError, add_allow_outside, whole_number
+from app.cli.commands import MOST_ROUNDS, add_allow_outside, whole_number
 from app.cli.study import aligned
+from app.usage import UsageError
 from core import Settings
 from core.explain.kinds import of_kind
 from core.study import PlanReport, Tolerance, plan_and_check

@@ -14,9 +14,9 @@ from app.cli.arguments import (
     overflow_reported,
     sized,
 )
-from app.cli.commands import UsageError
 from app.files.file_writing import check_writable, whole_file
-from app.files.memory import check_free
+from app.session.memory import check_free
+from app.usage import UsageError
 from core import Frame, Settings, render
 from core.framebuffer.display import picture_bytes
 from core.resolved import resolve

@@ -5,10 +5,11 @@ import os
 import sys
 
 from app.cli.arguments import add_file, add_settings, chosen_settings, outside_hinted, size_from_text
-from app.cli.commands import MOST_ROUNDS, UsageError, whole_number
+from app.cli.commands import MOST_ROUNDS, whole_number
 from app.cli.window import load_qt
 from app.files.file_names import VIEW_ENDINGS
 from app.files.file_writing import check_writable
+from app.usage import UsageError
 from core import STAGES
 
 DESCRIPTION = """Save a picture of the window with FILE open, without showing the window."""
@@ -132,7 +133,7 @@ def run(options: argparse.Namespace) -> int:
 
     content = None
     if options.page not in (None, "step"):
-        from app.pages.page_filling import PageContent  # All pages come along: not for the Step page alone.
+        from app.window.page_filling import PageContent  # All pages come along: not for the Step page alone.
 
         content = PageContent(
             options.page,

@@ -5,7 +5,7 @@ import textwrap
 from math import isnan
 from typing import Any
 
-from app.cli.commands import UsageError
+from app.usage import UsageError
 from core.records.listing import listing
 from lessons.printed.catalogue import PRINTED, printed_listing
 from lessons.printed.records import PrintedListing, first_divergence

@@ -6,10 +6,11 @@ from pathlib import Path
 
 from app import __version__
 from app.cli.arguments import progress_line
-from app.cli.commands import MOST_SEED, UsageError, output_folder, whole_number
+from app.cli.commands import MOST_SEED, output_folder, whole_number
 from app.cli.window import load_qt
 from app.export.atlas_text import atlas_text
 from app.files.shrunk_files import export_shrunk
+from app.usage import UsageError
 from core.study import machine
 from core.study.stability import Experiment, Outcome, experiments, stress
 from core.study.stability.shrink import shrink_cell

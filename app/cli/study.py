@@ -4,14 +4,7 @@ import argparse
 
 from app import __version__
 from app.cli.arguments import FILE_HELP, add_settings, chosen_settings, outside_hinted, progress_line
-from app.cli.commands import (
-    MOST_ROUNDS,
-    MOST_SEED,
-    UsageError,
-    add_allow_outside,
-    output_folder,
-    whole_number,
-)
+from app.cli.commands import MOST_ROUNDS, MOST_SEED, add_allow_outside, output_folder, whole_number
 from app.cli.window import load_qt
 from app.files.open_any import open_any
 from app.pages.words import (
@@ -24,6 +17,7 @@ from app.pages.words import (
     time_text,
     work_sentence,
 )
+from app.usage import UsageError
 from core import Settings
 from core.study import Study, machine, measure, pareto_front, study_families, study_family
 from core.study.accuracy.family import chosen_dials

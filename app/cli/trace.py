@@ -20,12 +20,13 @@ from app.cli.arguments import (
     size_from_text,
     sized,
 )
-from app.cli.commands import PROGRAM, UsageError, whole_number
+from app.cli.commands import whole_number
 from app.cli.trace_tables import arrays, table_parts
 from app.files.file_writing import check_writable, whole_file
-from app.files.memory import check_free
 from app.files.open_any import Opened
 from app.session.document import MOST_TRIANGLES, Document, focus_on
+from app.session.memory import check_free
+from app.usage import PROGRAM, UsageError
 from core import STAGES, Trace, trace
 from core.raster.binning import bound
 from core.raster.fills.traits import fill_traits

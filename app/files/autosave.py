@@ -13,7 +13,7 @@ from app.files.window_files import WindowFile, new_window_file
 from app.session.document import Document
 from app.session.moment import Change
 from app.session.session import Session
-from app.window.message_words import sentences
+from core.records.sentences import sentences
 
 PAUSE = 700
 """Milliseconds after the last edit."""

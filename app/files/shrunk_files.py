@@ -4,7 +4,7 @@ from pathlib import Path
 
 from app.files.file_writing import write_file
 from app.files.state_files import EXTENSION, State, save_state
-from app.pages.step.opening_document import document_at
+from app.session.opening_document import document_at
 from core.study.stability.shrink import Shrunk
 
 TEST_ENDING = ".py"

@@ -17,9 +17,9 @@ from numpy.typing import NDArray
 
 from app.files.file_writing import make_folder, write_file
 from app.files.input_files import read_input
-from app.files.memory import check_free
 from app.files.mesh_sources import fingerprint
 from app.files.state_models import ArrayRecord
+from app.session.memory import check_free
 from lessons.os_errors import os_error_reason
 
 READABLE_COUNT = 1200

@@ -19,7 +19,7 @@ from widgets.basics.labels import text_label
 from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
-    from app.window.preferences import Preferences
+    from app.files.preferences import Preferences
     from core.scene import AnyScene
     from core.study.accuracy.record import (
         Opening,
@@ -84,7 +84,7 @@ class Page(QWidget):
     """Address of a page of Help, as ``family/fill``."""
 
     preference_changed = Signal(str, object)
-    """Name and value of a field of ``app.window.preferences.Preferences`` that the user has changed."""
+    """Name and value of a field of ``app.files.preferences.Preferences`` that the user has changed."""
 
     action_requested = Signal(str)
     """Name of an action of ``app.window.actions.ACTIONS`` that is another page's, or shows another page."""

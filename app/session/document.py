@@ -4,7 +4,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from app.files.memory import check_free
+from app.session.memory import check_free
 from core import STAGES, Settings, Trace, trace
 from core.raster.fills.traits import fill_traits
 from core.records.arrays import Floats

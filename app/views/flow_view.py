@@ -4,7 +4,7 @@ import numpy as np
 from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QWidget
 
-from app.pages.step.chapters import chapters_of, traced_counts
+from app.views.chapters import chapters_of, traced_counts
 from app.views.stage_view import StageView
 from core import STAGES
 from core.explain.kinds import of_kind

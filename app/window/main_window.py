@@ -7,8 +7,7 @@ from PySide6.QtGui import QCloseEvent, QContextMenuEvent, QDragEnterEvent, QDrop
 from PySide6.QtWidgets import QLabel, QStatusBar
 
 from app.background.workers import ending_within
-from app.files.export_desk import ExportActions
-from app.files.file_desk import READ_OUTSIDE, FileActions
+from app.files.preferences import Preferences
 from app.help.pane import HelpPane
 from app.pages.page_bar import COVERED, Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
@@ -20,16 +19,17 @@ from app.session.moment import Change
 from app.session.session import Session
 from app.window.actions import ACTIONS, ACTIONS_BY_NAME, ActionWindow
 from app.window.appearance import Appearance, the_application
+from app.window.export_desk import ExportActions
+from app.window.file_desk import READ_OUTSIDE, FileActions
 from app.window.focus_walk import FocusWalk
 from app.window.key_choices import KeyChoices
 from app.window.keys import has_use_for
 from app.window.menus import Menus
-from app.window.message_words import sentences
 from app.window.notices import Notices
 from app.window.overlays import Overlays
-from app.window.preferences import Preferences
 from app.window.presenter import Presenter
 from app.window.remembering import Remembering
+from core.records.sentences import sentences
 from widgets.basics.accessible import install_roles
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 

@@ -8,11 +8,11 @@ from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMainWindow, QMenu
 
-from app.files.export_desk import SCALES
 from app.files.user_folders import preferences_folder
 from app.files.window_files import earlier_windows
 from app.session.document import TEACHING_SIZES
 from app.window.appearance import DESK_THEMES, TEXT_SIZES
+from app.window.export_desk import SCALES
 from app.window.key_choices import KeyChoices
 from app.window.keys import KeyAction, key_text
 from core.explain.kinds import of_kind

@@ -8,7 +8,7 @@ from types import TracebackType
 from PySide6.QtCore import QObject, Slot
 from PySide6.QtWidgets import QStatusBar
 
-from app.window.message_words import sentence_case
+from core.records.sentences import sentence_case
 from widgets.basics.accessible import announce
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 

@@ -4,13 +4,13 @@ from abc import abstractmethod
 
 from PySide6.QtWidgets import QMainWindow
 
-from app.files.export_desk import ExportActions
-from app.files.file_desk import FileActions
 from app.pages.page_bar import Pages
 from app.pages.step.page import StepPage
 from app.session.document_edits import DocumentEdits
 from app.session.session import Session
 from app.window.appearance import Appearance
+from app.window.export_desk import ExportActions
+from app.window.file_desk import FileActions
 from app.window.menus import Menus
 from app.window.notices import Notices
 from app.window.overlays import Overlays

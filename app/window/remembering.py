@@ -6,13 +6,13 @@ from collections.abc import Sequence
 from PySide6.QtCore import QByteArray, QObject, Signal, Slot
 
 from app.files.autosave import Autosave
+from app.files.preferences import Preferences, save_preferences, with_recent_file
 from app.files.state_files import StateFileError
 from app.pages.page_bar import Page
 from app.window.appearance import DESK_THEMES
 from app.window.key_choices import KeyChoices, choices_from
 from app.window.keys import KeyAction
 from app.window.parts import WindowParts
-from app.window.preferences import Preferences, save_preferences, with_recent_file
 from core.records.steps import Level
 
 

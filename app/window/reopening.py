@@ -6,7 +6,7 @@ from app.files.file_writing import FileWriteError
 from app.files.open_any import Opened, open_any
 from app.files.user_folders import preferences_folder
 from app.files.window_files import EarlierWindow, WindowFile, earlier_windows, remove_oldest_windows
-from app.window.message_words import sentences
+from core.records.sentences import sentences
 from lessons.scenes import CATALOGUE
 from widgets.basics.message_bar import Message, MessageKind
 

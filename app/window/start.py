@@ -11,15 +11,15 @@ from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QApplication
 
 from app.background.workers import is_work_left
-from app.cli.commands import UsageError
 from app.export.views import export_widget
 from app.files.open_any import open_any
+from app.files.preferences import load_preferences
 from app.files.user_folders import has_answers
 from app.pages.page_table import page_of_file
+from app.usage import UsageError
 from app.window.appearance import sized_theme, the_application
 from app.window.end_signals import EndSignals
 from app.window.main_window import MainWindow
-from app.window.preferences import load_preferences
 from app.window.reopening import reopen
 from core.fast_path.workers import BandWorkers
 from core.settings import Settings
@@ -30,7 +30,7 @@ from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import Theme
 
 if TYPE_CHECKING:
-    from app.pages.page_filling import PageContent
+    from app.window.page_filling import PageContent
 
 PART_OF_SCREEN = 0.85
 TITLE_ROOM = 40
@@ -188,7 +188,7 @@ def grab_window(
 
 def _fill(window: MainWindow, saved: str, content: "PageContent | None") -> None:
     """Show a saved study or atlas, or fill a page."""
-    from app.pages.page_filling import (  # Imports all pages: not before one is opened.
+    from app.window.page_filling import (  # Imports all pages: not before one is opened.
         fill_page,
         open_saved,
     )

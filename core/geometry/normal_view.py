@@ -25,7 +25,6 @@ from fractions import Fraction
 
 import numpy as np
 
-from core.geometry.culling import cull_back
 from core.geometry.vertex_stage import VertexStage
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
@@ -212,7 +211,7 @@ _TESTS = (
 )
 def cull_by_normal(facing: Floats) -> Flags:
     """Drop triangles with N . V above 0. (T,) -N . V to (T,) bool."""
-    return cull_back(facing)
+    return np.asarray(facing < 0)
 
 
 @method(
@@ -229,7 +228,7 @@ def cull_by_normal(facing: Floats) -> Flags:
 )
 def cull_by_axis(facing: Floats) -> Flags:
     """Drop triangles whose normal leads along the view. (T,) -N . V to (T,) bool."""
-    return cull_back(facing)
+    return np.asarray(facing < 0)
 
 
 @method(
@@ -251,4 +250,4 @@ def cull_by_axis(facing: Floats) -> Flags:
 )
 def cull_by_stored_normal(facing: Floats) -> Flags:
     """Drop triangles with N . V above 0, N as the mesh has it. (T,) -N . V to (T,) bool."""
-    return cull_back(facing)
+    return np.asarray(facing < 0)

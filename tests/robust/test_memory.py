@@ -12,14 +12,13 @@ from PIL import Image
 
 from app.cli import trace
 from app.cli.render import check_memory
-from app.files import memory
-from app.files.memory import GIBI, MEBI, MemoryBoundError, Need, amounts, check_free, free_memory
 from app.files.mesh_files import MeshFileError, load_meshes
 from app.files.mesh_formats import gltf
 from app.files.open_any import open_any
 from app.files.state_arrays import array_from, array_record
 from app.files.state_files import State, save_state
-from app.session import document
+from app.session import document, memory
+from app.session.memory import GIBI, MEBI, MemoryBoundError, Need, amounts, check_free, free_memory
 from app.session.tracing import trace_now
 from core import Settings
 from tests.app.cli.cli_runs import refused, run_program

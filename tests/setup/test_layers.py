@@ -9,7 +9,21 @@ from pathlib import Path
 import bootstrap
 
 STAGES = ("core/fragments", "core/framebuffer", "core/geometry", "core/raster", "core/visibility")
+APP = (
+    "cli",
+    "bench",
+    "opengl_check",
+    "window",
+    "help",
+    "pages",
+    "export",
+    "views",
+    "files",
+    "session",
+    "background",
+)
 OTHERS = (
+    *(f"app/{name}" for name in APP),
     "core/antialiasing",
     "core/explain",
     "core/fast_path",
@@ -41,6 +55,10 @@ FORBIDDEN = [
     ("widgets", "from core.trace import case"),
     ("widgets", "from core.raster.edges import case"),
     ("core/geometry", "import core.raster"),
+    ("app/session", "import app.files"),
+    ("app/views", "import app.pages"),
+    ("app/pages", "import app.window"),
+    ("app/window", "import app.cli"),
     ("core/raster", "import core.framebuffer"),
     ("core/raster", "from core.explain import rows"),
 ]
@@ -52,6 +70,7 @@ ALLOWED = [
     ("core/explain", "import numpy, core.raster"),
     ("widgets", "import core.explain, core.records, core.framebuffer"),
     ("app", "import core, lessons, widgets, PySide6, trimesh, PIL"),
+    ("app/pages", "import app.export, app.views, app.session"),
 ]
 
 
@@ -61,7 +80,13 @@ def check_layers(folder: Path, statements: list[tuple[str, str]]) -> "subprocess
     for name in ("app", "core", "lessons", "widgets", *STAGES, *OTHERS):
         (folder / name).mkdir()
         (folder / name / "__init__.py").touch()
-    for name in ("core/pipeline.py", "core/explain/rows.py", "app/module.py"):
+    for name in (
+        "core/pipeline.py",
+        "core/explain/rows.py",
+        "app/module.py",
+        "app/__main__.py",
+        "app/usage.py",
+    ):
         (folder / name).touch()
     for number, (package, statement) in enumerate(statements):
         (folder / package / f"case_{number}.py").write_text(f"{statement}\n")

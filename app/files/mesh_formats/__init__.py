@@ -11,7 +11,6 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.memory import MemoryBoundError
 from app.files.mesh_formats.obj import read_obj
 from app.files.mesh_formats.off import read_off
 from app.files.mesh_formats.ply import read_ply
@@ -27,6 +26,7 @@ from app.files.mesh_formats.reading import (
 from app.files.mesh_formats.stl import read_stl
 from app.files.mesh_formats.through_trimesh import describe
 from app.files.named_files import NamedFiles, OutsideWarning
+from app.session.memory import MemoryBoundError
 from core.scene import Mesh
 from lessons.os_errors import os_error_reason
 

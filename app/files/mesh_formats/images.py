@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from app.files.input_files import open_input
-from app.files.memory import MemoryBoundError, Need
 from app.files.named_files import NamedFileError, NamedFiles
+from app.session.memory import MemoryBoundError, Need
 from core.framebuffer.display import Bytes, from_display, linear_light
 from core.records.arrays import Floats, Singles
 from core.scene import Texture

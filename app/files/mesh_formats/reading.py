@@ -7,8 +7,8 @@ from pathlib import Path
 import numpy as np
 
 from app.files.input_files import open_input
-from app.files.memory import amounts, free_memory
 from app.files.named_files import NamedFiles
+from app.session.memory import amounts, free_memory
 from core.records.arrays import Floats, Integers
 from core.records.words import counted
 from core.scene import Mesh

@@ -11,8 +11,8 @@ from app import __version__
 from app.background.turns import turns
 from app.background.workers import JobGroup, Progress
 from app.pages.page_bar import StepRequest
-from app.pages.step.opening_document import part_around
 from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER
+from app.session.opening_document import part_around
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study import Opening, Pictures, Plan, Point, Study, machine, measure, opening, pictures

@@ -8,7 +8,6 @@ from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QFileDialog
 
 from app.background.workers import Job, Progress
-from app.cli.diagnose import pixels_text, right_text, scene_text
 from app.files.drawn_pictures import read_drawn
 from app.files.file_names import DRAWN_ENDINGS
 from app.pages.page_bar import COVERED, StepRequest
@@ -22,6 +21,7 @@ from core.settings import FAMILIES
 from core.study.accuracy.record import Opening
 from core.study.planner.phrases import capitalized
 from lessons.diagnosis import RIGHT, Candidate, Diagnosis, Drawn, compared_text, diagnose
+from lessons.diagnosis_text import pixels_text, right_text, scene_text
 from lessons.exercises.scene_digest import scene_digest
 from lessons.mistakes.twin import same_scene
 from lessons.os_errors import os_error_reason

@@ -28,7 +28,7 @@ from widgets.basics.theme import current_theme, theme_notifier
 from widgets.start.scene_cards import PICTURE, SceneCards, SceneEntry
 
 if TYPE_CHECKING:
-    from app.window.preferences import Preferences
+    from app.files.preferences import Preferences
 
 FIRST = CATALOGUE[0].name
 WHAT = (

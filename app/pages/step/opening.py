@@ -7,13 +7,13 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.background.workers import Job
 from app.pages.page_bar import StepRequest
 from app.pages.step.ab_choice import OtherRun
-from app.pages.step.opening_document import document_at
 from app.pages.step.page import StepPage
 from app.session.document import Document
+from app.session.opening_document import document_at
 from app.session.session import Session
 from app.session.tracing import trace_now
-from app.window.message_words import sentences
 from core import Trace
+from core.records.sentences import sentences
 from widgets.basics.message_bar import Message, MessageKind
 
 

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.window.message_words import sentence_case
 from core.explain.history.parts import of_sample, piece_reason, pieces_verdict, samples_name, samples_verdict
 from core.explain.history.sentences import count_sentences, event_reason, event_title, verdict_sentence
 from core.explain.kinds import of_kind
@@ -12,6 +11,7 @@ from core.framebuffer.display import encode_linear, encode_srgb
 from core.pixel_history import PixelHistory, PixelState, why
 from core.pixel_history.pieces import PixelPieces, pixel_pieces
 from core.records.arrays import Singles
+from core.records.sentences import sentence_case
 from core.records.words import counted
 from core.resolved import resolve
 from core.trace import TraceSource

@@ -9,9 +9,9 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.files.state_models import Bookmark, Breakpoints
 from app.pages.step.bookmarks import Bookmarks
 from app.pages.step.breaks import Breaks, line_positions
-from app.pages.step.chapters import chapters_of
 from app.session.moment import Moment
 from app.session.session import Session
+from app.views.chapters import chapters_of
 from core import STAGES
 from core.explain.kinds import of_kind
 from core.methods import table

@@ -146,7 +146,7 @@ def test_a_picture_larger_than_the_memory_is_refused(monkeypatch):
 def test_samples_count_as_memory(monkeypatch):
     import app.cli.render as memory
 
-    monkeypatch.setattr("app.files.memory.free_memory", lambda: 2.0**30)
+    monkeypatch.setattr("app.session.memory.free_memory", lambda: 2.0**30)
     cases = {
         Settings(): 380,
         Settings(antialiasing="area"): 380,

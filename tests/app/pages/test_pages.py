@@ -8,10 +8,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
+from app.files.preferences import Preferences, load_preferences
 from app.pages.page_bar import StepRequest
 from app.session.document import open_document
 from app.window.main_window import MainWindow
-from app.window.preferences import Preferences, load_preferences
 from core import Settings
 from core.study.accuracy.record import Opening
 from lessons.scenes import built_in_scene, make_scene

@@ -8,10 +8,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.files.preferences import load_preferences
 from app.pages.start.page import StartPage, picture_of
 from app.window import start
 from app.window.main_window import MainWindow
-from app.window.preferences import load_preferences
 from lessons.scenes import built_in_scene
 from lessons.slides.scenes import ALL_SCENES, LECTURES
 

@@ -2,7 +2,7 @@
 
 import pytest
 
-from app.window.message_words import sentence_case, sentences
+from core.records.sentences import sentence_case, sentences
 
 
 @pytest.mark.parametrize(

@@ -7,8 +7,7 @@ import sys
 import pytest
 
 from app.files.file_writing import FileWriteError
-from app.files.user_folders import preferences_folder
-from app.window.preferences import (
+from app.files.preferences import (
     FILE_NAME,
     RECENT_LIMIT,
     Preferences,
@@ -16,6 +15,7 @@ from app.window.preferences import (
     save_preferences,
     with_recent_file,
 )
+from app.files.user_folders import preferences_folder
 
 
 @pytest.fixture(autouse=True)

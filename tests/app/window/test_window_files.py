@@ -12,9 +12,9 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
+from app.files.preferences import load_preferences
 from app.session.document import open_document
 from app.window.main_window import MainWindow
-from app.window.preferences import load_preferences
 from app.window.reopening import reopen
 from core.records.steps import Level
 from core.scene import Scene

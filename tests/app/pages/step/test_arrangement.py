@@ -24,10 +24,10 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 import core
+from app.files.preferences import Preferences
 from app.pages.step.inspector_column import InspectorColumn
 from app.session.document import open_document
 from app.window.main_window import MainWindow
-from app.window.preferences import Preferences
 from core.records.listing import Listing, listing
 from core.stages.declared import STAGES
 from lessons.scenes import make_scene

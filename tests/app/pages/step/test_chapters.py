@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import pytest
 
-from app.pages.step.chapters import COMPUTED, chapters_of, traced_counts
+from app.views.chapters import COMPUTED, chapters_of, traced_counts
 from core import STAGES, ClipScene, Settings, trace
 from lessons.scenes import make_scene
 from widgets.timeline.chapter_button import Chapter, ChapterState

@@ -9,10 +9,10 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
-from app.pages.step.chapters import chapters_of
 from app.pages.step.pixel_stories import story_of
 from app.pages.step.scene_outline_presenter import settings_records
 from app.session.document import open_document
+from app.views.chapters import chapters_of
 from app.window.main_window import MainWindow
 from core import STAGES
 from core.records.steps import Level

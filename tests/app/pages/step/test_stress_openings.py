@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from app.pages.step.opening_document import document_at
+from app.session.opening_document import document_at
 from core.study.stability import Outcome, experiments
 from core.study.stability.coverage import COVERAGE_EXPERIMENTS
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 from PySide6.QtCore import QEventLoop
 from PySide6.QtWidgets import QApplication
 
-from app.cli.commands import UsageError
 from app.pages.compare.page import ComparePage
 from app.pages.exercises.catalogue_presenter import FIRST_COURSE
 from app.pages.exercises.page import ExercisesPage
@@ -15,6 +14,7 @@ from app.pages.plan.page import PlanPage
 from app.pages.result_page import ResultPage
 from app.pages.stability.page import StabilityPage
 from app.pages.start.page import StartPage
+from app.usage import UsageError
 from app.window.main_window import MainWindow
 
 PICTURE_SEED = 7

@@ -7,7 +7,6 @@ from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QFileDialog, QWidget
 
 from app.background.freeing import Freeing
-from app.background.progress import WorkProgress
 from app.background.workers import Job, Progress
 from app.files.file_names import is_text
 from app.files.mesh_files import EXTENSIONS, OpeningCancelledError, OutsideMeshError
@@ -21,8 +20,9 @@ from app.pages.step.page import StepPage
 from app.session.cursor import Cursor, cursor_at
 from app.session.tracing import trace_now
 from app.window.appearance import Appearance
-from app.window.message_words import sentences
+from app.window.work_progress import WorkProgress
 from core import Trace
+from core.records.sentences import sentences
 from core.records.steps import Level
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
