@@ -114,20 +114,6 @@ class GridBuffer:
         """Name in :mod:`widgets.basics.colormaps` of the map of its values, one channel each."""
         return "grey" if self.channels > 1 else "diverging" if self.kind == "signed" else "viridis"
 
-    def is_same_picture(self, other: "GridBuffer | None") -> bool:
-        """Return whether ``other`` looks the same: equal values, kind and range."""
-        if other is None or (self.kind, self.range) != (other.kind, other.range):
-            return False
-        if (self.known is None) != (other.known is None):
-            return False
-        if self.known is not None and other.known is not None and not np.array_equal(self.known, other.known):
-            return False
-        if self.values is other.values:
-            return True
-        if self.values.shape != other.values.shape or self.values.dtype != other.values.dtype:
-            return False
-        return bool(np.array_equal(self.values, other.values, equal_nan=self.values.dtype.kind == "f"))
-
 
 def number_text(value: bool | int | float, digits: int = 4, width: int | None = None) -> str:
     """Return a number as people read it: in full where that is short, else four significant digits, a true minus.

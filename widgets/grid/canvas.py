@@ -5,6 +5,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QRect, QRectF
 from PySide6.QtGui import QColor, QImage, QPainter, QPixmap
 
+from core.records.alike import is_alike
 from widgets.basics.image import buffer_image, value_range
 from widgets.basics.theme import Theme
 from widgets.grid.buffer import GridBuffer
@@ -33,6 +34,8 @@ from widgets.grid.view import GridPlacement
 Cells = tuple[int, int, int, int]
 """A block of cells: column0, row0, column1, row1, upper ends excluded."""
 NO_CELLS: Cells = (0, 0, 0, 0)
+WORDS = ("name", "unit", "title", "description", "origin")
+"""What a buffer is called and where it lies: no cell looks otherwise for that."""
 COMPACT_LINE_CELL = 10.0
 """Side of a cell from which a thumbnail has grid lines."""
 
@@ -91,7 +94,7 @@ class GridCanvas:
             self._hidden = None
         if (before.values.shape, before.origin) != (buffer.values.shape, buffer.origin):
             return self._forget(True)
-        if buffer.is_same_picture(before):
+        if is_alike(before, buffer, WORDS):
             return False
         self._image = None
         looks = [
@@ -123,9 +126,7 @@ class GridCanvas:
     def set_hidden(self, hidden: NDArray[np.bool_] | None) -> bool:
         """Cover the cells of an (H, W) mask; None covers none."""
         before, self._hidden = self._hidden, hidden
-        if before is hidden or (before is not None and hidden is not None and np.array_equal(before, hidden)):
-            return False
-        return self._forget(True)
+        return self._forget(not is_alike(before, hidden))
 
     @property
     def samples(self) -> SampleDots | None:
@@ -137,8 +138,7 @@ class GridCanvas:
         before, self._samples = self._samples, samples
         if samples is None or before is None:
             return self._forget(before is not samples)
-        is_other = not np.array_equal(before.position, samples.position)
-        if is_other or before.shown.shape != samples.shown.shape:
+        if not is_alike(before.position, samples.position) or before.shown.shape != samples.shown.shape:
             return self._forget(True)
         return self._add_dirty(bounds((before.shown != samples.shown).any(axis=0)))
 

@@ -8,6 +8,7 @@ from PySide6.QtCore import QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QAccessible, QColor, QPainter, QPaintEvent, QRegion
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
+from core.records.alike import is_alike
 from widgets.basics.key_claim import FocusRing
 from widgets.basics.theme import Theme, current_theme, theme_notifier
 from widgets.grid.buffer import NO_VALUE, GridBuffer
@@ -128,7 +129,7 @@ class GridDisplay(QWidget):
     def show_step(self, mark: StepMark) -> None:
         """Mark what the step just done was about."""
         before, self._step = self._step, mark
-        if not before.is_same(mark):
+        if not is_alike(before, mark):
             placement = self.placement()
             for each in (before, mark):
                 self.update(self._with_room(each.reach(placement)))

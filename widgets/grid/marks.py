@@ -36,14 +36,6 @@ class StepMark:
         if self.pixels.ndim != 2 or self.pixels.shape[1] != 2:
             raise ValueError(f"pixels must be (N, 2), got {self.pixels.shape}")
 
-    def is_same(self, other: "StepMark") -> bool:
-        """Return whether both mark the same."""
-        names = ("pixels", "lines", "points", "trail")
-        return all(
-            np.array_equal(getattr(self, name), getattr(other, name), equal_nan=name in ("lines", "points"))
-            for name in names
-        )
-
     def reach(self, placement: GridPlacement) -> QRectF:
         """Return where in the widget something is marked; of nothing, nothing."""
         if len(self.lines) or len(self.points):

@@ -3,11 +3,13 @@
 Nothing depends on colour alone: every mark has a fill, hatch, ring, glyph or outline of its own.
 """
 
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
+
+from core.records.alike import is_alike
 
 
 class Mark(Enum):
@@ -73,19 +75,6 @@ class NamedOverlay:
     def label(self) -> str:
         """Name in the legend."""
         return self.title
-
-    def looks_like(self, other: "NamedOverlay") -> bool:
-        """Return whether ``other`` has the same kind and values."""
-        if type(self) is not type(other):
-            return False
-        for each in fields(self):
-            mine, its = getattr(self, each.name), getattr(other, each.name)
-            if isinstance(mine, np.ndarray):
-                if not np.array_equal(mine, its, equal_nan=mine.dtype.kind == "f"):
-                    return False
-            elif mine != its:
-                return False
-        return True
 
 
 @dataclass(frozen=True, eq=False)
@@ -212,7 +201,7 @@ def changed_cells(
             and (old.key, old.mark, old.mask.shape) == (new.key, new.mark, new.mask.shape)
         ):
             changed = union(changed, bounds(old.mask != new.mask))
-        elif not old.looks_like(new):
+        elif not is_alike(old, new):
             return None
     return changed
 

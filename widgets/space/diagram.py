@@ -94,27 +94,6 @@ class Diagram:
     caption: str = ""
     """What the drawing shows, in one to three sentences."""
 
-    def is_drawn_like(self, other: "Diagram") -> bool:
-        """Return whether both drawings are alike; their captions may differ."""
-        own, others = (
-            [*shown.patches, *shown.strokes, *shown.spots, *shown.words] for shown in (self, other)
-        )
-        return (
-            len(own) == len(others)
-            and all(map(_is_same, own, others))
-            and (self.azimuth, self.elevation) == (other.azimuth, other.elevation)
-            and np.array_equal(self.frame, other.frame, equal_nan=True)
-        )
-
-
-def _is_same(first: object, second: object) -> bool:
-    """Return whether two parts of drawings are equal, array by array."""
-    own, others = (
-        [value.tobytes() if isinstance(value, np.ndarray) else value for value in vars(part).values()]
-        for part in (first, second)
-    )
-    return type(first) is type(second) and own == others
-
 
 def _check_points(name: str, points: NDArray[np.float64]) -> None:
     if points.ndim != 2 or points.shape[1] != 3:

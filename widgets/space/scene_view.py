@@ -20,6 +20,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
+from core.records.alike import is_alike
 from widgets.basics.drawn_text import LabelPlaces
 from widgets.basics.image import display_image
 from widgets.basics.theme import Theme, current_theme, faded, ink_color
@@ -60,12 +61,6 @@ class SceneMark:
         if self.points.ndim != 2 or self.points.shape[1] != 2:
             raise ValueError(f"points must be (N, 2), got {self.points.shape}")
 
-    def is_same(self, other: "SceneMark") -> bool:
-        """Return whether both are painted alike."""
-        names = (self.ink, self.label, self.shape)
-        is_named_alike = names == (other.ink, other.label, other.shape)
-        return is_named_alike and np.array_equal(self.points, other.points, equal_nan=True)
-
 
 @dataclass(frozen=True, eq=False)
 class ScenePicture:
@@ -84,16 +79,6 @@ class ScenePicture:
     def __post_init__(self) -> None:
         if self.pixels.ndim != 3 or self.pixels.shape[2] != 4 or 0 in self.pixels.shape:
             raise ValueError(f"pixels must be (H, W, 4) with at least one pixel, got {self.pixels.shape}")
-
-    def is_same(self, other: "ScenePicture") -> bool:
-        """Return whether both are painted alike: the same pixels, and equal things over them."""
-        over = (self.handles, self.labels, self.caption)
-        is_like = self.pixels is other.pixels and over == (other.handles, other.labels, other.caption)
-        return (
-            is_like
-            and len(self.marks) == len(other.marks)
-            and all(mark.is_same(shown) for mark, shown in zip(self.marks, other.marks, strict=True))
-        )
 
 
 class SceneView(OrbitArea):
@@ -144,8 +129,8 @@ class SceneView(OrbitArea):
             self._has_new_pixels = True
         caption = self.empty_text if picture is None else picture.caption
         self.setAccessibleDescription(caption)
-        is_painted = before is not None and picture is not None and picture.is_same(before)
-        if not is_painted or self._corner_area() != self._left_free:
+        is_painted = not self._has_new_pixels and is_alike(before, picture, ("pixels", "sight"))
+        if picture is None or not is_painted or self._corner_area() != self._left_free:
             self.update()
 
     def set_caption(self, caption: str) -> None:

@@ -3,6 +3,7 @@
 from PySide6.QtGui import QPainter, QResizeEvent
 from PySide6.QtWidgets import QWidget
 
+from core.records.alike import is_alike
 from widgets.basics.theme import Theme
 from widgets.space.diagram import Diagram
 from widgets.space.orbit import Orbit, framed
@@ -37,11 +38,11 @@ class SpaceView(OrbitArea):
         room = self._room()
         self._longest_caption = max(self._longest_caption, caption, key=len)
         self.setAccessibleDescription(self.empty_text if diagram is None else diagram.caption)
-        if diagram is None or before is None or room != self._room() or not diagram.is_drawn_like(before):
+        if diagram is None or room != self._room() or not is_alike(before, diagram, ("caption",)):
             if diagram is not None:
                 self._refit()
             self.update()
-        elif caption != before.caption:
+        elif before is not None and caption != before.caption:
             self._update_captions(caption, before.caption)
 
     def fit(self) -> None:

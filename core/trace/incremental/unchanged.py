@@ -1,12 +1,12 @@
 """What an edit left alone: found by comparing everything that a primitive's pixels are made from, bit for bit."""
 
-from dataclasses import fields, is_dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.raster.pixel_runs import Runs, expand
+from core.records.alike import is_alike
 from core.records.arrays import Flags, Integers
 from core.scene import AnyScene, ClipScene
 from core.stages.fragment_depth import logarithm_range
@@ -34,7 +34,7 @@ def _are_comparable(now: TraceSource, before: TraceSource) -> bool:
     return (
         now.settings == before.settings
         and now.raster == before.raster
-        and is_same(_surroundings(now.scene), _surroundings(before.scene))
+        and is_alike(_surroundings(now.scene), _surroundings(before.scene))
         and now.geometry.outlines is None
         and now.geometry.edges.numbers == before.geometry.edges.numbers
         and now.geometry.primitives.layout == before.geometry.primitives.layout
@@ -47,23 +47,6 @@ def _surroundings(scene: AnyScene) -> tuple[Any, ...]:
     if isinstance(scene, ClipScene):
         return (scene.texture,)
     return (scene.camera, scene.lights, *((mesh.material, mesh.texture) for mesh in scene.meshes))
-
-
-def is_same(first: Any, second: Any) -> bool:
-    """Return whether two values are the same bits, looking into tuples and records."""
-    if first is second:
-        return True
-    if type(first) is not type(second):
-        return False
-    if isinstance(first, np.ndarray | float):
-        return bool(same_rows(np.asarray(first)[None], np.asarray(second)[None]).all())
-    if isinstance(first, tuple):
-        return len(first) == len(second) and all(map(is_same, first, second))
-    if is_dataclass(first):
-        return all(
-            is_same(getattr(first, field.name), getattr(second, field.name)) for field in fields(first)
-        )
-    return bool(first == second)
 
 
 def _pairs(now: TraceSource, before: TraceSource) -> tuple[Integers, Integers]:

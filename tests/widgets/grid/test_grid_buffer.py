@@ -3,6 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from core.records.alike import is_alike
 from widgets.grid.buffer import GridBuffer, number_text
 
 
@@ -81,7 +82,7 @@ def test_bad_input_is_named(values: np.ndarray, kind: str, message: str) -> None
 def test_equal_values_are_the_same_picture() -> None:
     values = np.array([[0.0, np.nan]])
     buffer = GridBuffer("z", values)
-    assert buffer.is_same_picture(GridBuffer("z", values.copy()))
-    assert not buffer.is_same_picture(GridBuffer("z", values + 1))
-    assert not buffer.is_same_picture(GridBuffer("z", values, range=(0, 1)))
-    assert not buffer.is_same_picture(None)
+    assert is_alike(buffer, GridBuffer("z", values.copy()))
+    assert not is_alike(buffer, GridBuffer("z", values + 1))
+    assert not is_alike(buffer, GridBuffer("z", values, range=(0, 1)))
+    assert not is_alike(buffer, None)
