@@ -559,7 +559,7 @@ ACTIONS: tuple[Action, ...] = (
         Row(
             "answer_rows", "Ctrl+L", "Answer row by row instead of on the picture", lambda p: p.toggle_rows()
         ),
-        Row("try_next", "Ctrl+Shift+N", "Exercise to try next", lambda p: p.exercises.open_next()),
+        Row("try_next", "Ctrl+Shift+N", "Exercise to try next", lambda p: p.open_next()),
         Row("show_progress", "Ctrl+I", "Progress, and who answers", lambda p: p.toggle_progress()),
         Row("add_exercises", "", "Add a folder of exercises…", lambda p: p.ask_folder()),
         Row("diagnose_picture", "", "Which mistake makes a picture?…", lambda p: p.diagnosis.ask_picture()),

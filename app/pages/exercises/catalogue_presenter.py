@@ -81,8 +81,8 @@ class CataloguePresenter(QObject):
         self._choosing.succeeded.connect(self._take_choice)
         self._choosing.failed.connect(self._refuse)
         view.exercise_chosen.connect(self._open)
-        view.next_requested.connect(self.open_next)
         view.line_entered.connect(self.open_line)
+        self.question_chosen.connect(self._forget_next)
 
     @property
     def is_working(self) -> bool:
@@ -161,6 +161,9 @@ class CataloguePresenter(QObject):
         self.question_chosen.emit(self.templates[name], None)
 
     @Slot()
+    def _forget_next(self) -> None:
+        self._wants_next = False
+
     def open_next(self) -> None:
         """Open what suits the learner now: what was chosen before the last answer does so no longer."""
         self._wants_next = self.is_working
@@ -235,7 +238,7 @@ class CataloguePresenter(QObject):
     @Slot(object)
     def show_question(self, question: Question) -> None:
         """Show which exercise is asked."""
-        self._current, self._wants_next = question.template.name, False
+        self._current = question.template.name
         self.refresh()
 
     # What is shown.

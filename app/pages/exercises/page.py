@@ -80,6 +80,7 @@ class ExercisesPage(Page):
         self.questions.checked.connect(self.exercises.take_attempt)
         self.questions.message_sent.connect(self.message_sent)
         self.questions.evidence.step_requested.connect(self.step_requested)
+        self.catalogue.next_requested.connect(self.open_next)
         self.catalogue.progress_requested.connect(self.toggle_progress)
         self.catalogue.picture_requested.connect(self.diagnosis.ask_picture)
         self.progress_view.closed.connect(self.show_question)
@@ -168,6 +169,11 @@ class ExercisesPage(Page):
         self._make_room()
         self.stack.setCurrentWidget(self.panes)
         self.questions.open(template, seed)
+
+    @Slot()
+    def open_next(self) -> None:
+        """Ask what suits the learner, after the answer that is being checked."""
+        self.questions.after_check(self.exercises.open_next)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Press a button with Return; elsewhere Return checks the answer."""

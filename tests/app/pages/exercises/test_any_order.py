@@ -18,6 +18,7 @@ from app.session.document import open_document
 from app.session.session import Session
 from lessons.attempts.practice import first_tries
 from lessons.attempts.record import Attempt
+from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Question, judge
 from lessons.scenes import built_in_scene
@@ -38,10 +39,17 @@ NAMES = (
     "cheapest-methods",
 )
 """An exercise of every type of answer."""
+
+
+def line_of(name: str, seed: int) -> str:
+    """Return the line that gives a question."""
+    return f"{name} {TEMPLATES[name].version}, seed {seed}"
+
+
 LINES = (
     "ask/shared-edge/16x12/fill=bounding-box/raster/step=5 1, seed 0",
-    "facing 1, seed 3",
-    "triangle-coverage 1, seed 5",
+    line_of("facing", 3),
+    line_of("triangle-coverage", 5),
 )
 
 
@@ -161,11 +169,11 @@ def test_another_question_waits_for_the_verdict_and_ends_the_one_before(page: Ex
         lambda: page.catalogue.exercise_chosen.emit("facing"),
         lambda: page.catalogue.next_button.click(),
         lambda: page.open_line(LINES[0]),
-        lambda: page.open_line("triangle-coverage 1, seed 9"),
+        lambda: page.open_line(line_of("triangle-coverage", 9)),
         lambda: page.progress.user_changed.emit("Ada"),
     )
     for way in ways:
-        page.open_line("triangle-coverage 1, seed 8")
+        page.open_line(line_of("triangle-coverage", 8))
         page.settle()
         question = page.question
         assert question is not None
@@ -177,7 +185,7 @@ def test_another_question_waits_for_the_verdict_and_ends_the_one_before(page: Ex
         student.look()
         assert len(student.kept) == before
         assert page.question_view.verdict.parentWidget().isHidden()
-        page.open_line("triangle-coverage 1, seed 8")
+        page.open_line(line_of("triangle-coverage", 8))
         page.settle()
         page.questions.answer(question.draft.answer.reference)
         page.question_view.check_button.click()
@@ -190,7 +198,7 @@ def test_another_question_waits_for_the_verdict_and_ends_the_one_before(page: Ex
 def test_a_verdict_is_that_of_the_answer_that_was_checked(page: ExercisesPage) -> None:
     """An answer that is changed during its check has points, but no marks until the change is taken back."""
     student = Student(page, 1)
-    page.open_line("facing 1, seed 3")
+    page.open_line(line_of("facing", 3))
     page.settle()
     question, view = page.question, page.question_view
     assert question is not None
