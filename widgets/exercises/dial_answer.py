@@ -11,7 +11,8 @@ from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.records import AnswerMarks, DialForm
 
-HOW = (
+HOW = "Drag a slider, or type a number."
+HOW_CORNERS = (
     "Drag a corner on the picture, or a slider, or type a number. On the picture the arrows move a corner and "
     "Space chooses the next one."
 )
@@ -25,10 +26,12 @@ class DialAnswerView(AnswerView):
     def __init__(self, form: DialForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
         self._form, self._grid = form, grid
+        self._refused: dict[int, str] = {}
+        """Why the text of a field is not taken, by the number of its dial."""
         self.sliders: list[QSlider] = []
         self.fields: list[QLineEdit] = []
         layout = column_layout(self, 8)
-        layout.addWidget(text_label(HOW, self, role="muted", wraps=True))
+        layout.addWidget(text_label(HOW_CORNERS if form.corners else HOW, self, role="muted", wraps=True))
         rows = QGridLayout()
         rows.setHorizontalSpacing(8)
         for row, dial in enumerate(form.dials):
@@ -36,11 +39,14 @@ class DialAnswerView(AnswerView):
             slider.setRange(0, dial.count - 1)
             slider.setAccessibleName(dial.name)
             field.setAccessibleName(f"{dial.name} as a number")
+            field.setAccessibleDescription(dial.values)
             field.setFixedWidth(field.fontMetrics().horizontalAdvance("-00000.0000") + 16)
             slider.valueChanged.connect(self._slid)
-            field.editingFinished.connect(self._typed)
+            field.textEdited.connect(self._type)
+            field.editingFinished.connect(self._end_typing)
             for column, widget in enumerate((text_label(dial.name, self), slider, field)):
-                rows.addWidget(widget, row, column)
+                rows.addWidget(widget, 2 * row, column)
+            rows.addWidget(text_label(dial.values, self, role="muted", wraps=True), 2 * row + 1, 0, 1, 3)
             self.sliders.append(slider)
             self.fields.append(field)
         layout.addLayout(rows)
@@ -56,11 +62,14 @@ class DialAnswerView(AnswerView):
             dial.text(slider.value()) for dial, slider in zip(self._form.dials, self.sliders, strict=True)
         ]
 
+    def unread(self) -> str:
+        """Say which text is not taken as a number, and why."""
+        return next(iter(self._refused.values()), "")
+
     def show_given(self, given: Any) -> None:
         """Set the dials; ``None`` sets them to what they begin with."""
         for number, text in enumerate(given or self._form.start):
-            place = self._form.dials[number].place(text)
-            self._set(number, 0 if place is None else place)
+            self._set(number, self._form.dials[number].place(text))
         self._show_corners()
 
     def show_marks(self, marks: AnswerMarks | None) -> None:
@@ -78,13 +87,15 @@ class DialAnswerView(AnswerView):
         super().set_open(is_open)
         self._grid.set_paintable(is_open and bool(self._form.corners))
 
-    def _set(self, number: int, place: int) -> None:
-        """Set one dial without a word."""
+    def _set(self, number: int, place: int, *, is_typed: bool = False) -> None:
+        """Set one dial without a word; what ``is_typed`` stays as it is typed."""
         slider = self.sliders[number]
         slider.blockSignals(True)
         slider.setValue(place)
         slider.blockSignals(False)
-        self.fields[number].setText(self._form.dials[number].text(slider.value()))
+        self._refused.pop(number, None)
+        if not is_typed:
+            self.fields[number].setText(self._form.dials[number].text(slider.value()))
 
     def _show_corners(self) -> None:
         given = self.given()
@@ -97,33 +108,43 @@ class DialAnswerView(AnswerView):
         assert isinstance(slider, QSlider)
         self._change({self.sliders.index(slider): slider.value()})
 
+    @Slot(str)
+    def _type(self, text: str) -> None:
+        """Take a number as it is typed; what means none stays in its field, and is not checked."""
+        number = self._number_of_field()
+        try:
+            place = self._form.dials[number].place(text)
+        except ValueError as problem:
+            said = self._refused[number] = str(problem)
+            self.note_changed.emit(f"{said[:1].upper()}{said[1:]}.")
+        else:
+            self.note_changed.emit("")
+            self._change({number: place}, is_typed=True)
+
     @Slot()
-    def _typed(self) -> None:
+    def _end_typing(self) -> None:
+        """Write a number that was taken as the dial writes it."""
+        number = self._number_of_field()
+        if number not in self._refused:
+            self._set(number, self.sliders[number].value())
+
+    def _number_of_field(self) -> int:
         field = self.sender()
         assert isinstance(field, QLineEdit)
-        number = self.fields.index(field)
-        dial = self._form.dials[number]
-        place = dial.place(field.text())
-        if place is None:
-            low, high = dial.text(0), dial.text(dial.count - 1)
-            self.note_changed.emit(
-                f"{dial.name}: expected a step from {low} to {high}, got {field.text()[:20]!r}."
-            )
-            self._set(number, self.sliders[number].value())
-        elif place != self.sliders[number].value():
-            self.note_changed.emit("")
-            self._change({number: place})
+        return self.fields.index(field)
 
     @Slot(int, float, float)
     def _moved(self, number: int, x: float, y: float) -> None:
         """Set the dials of a corner that was dragged."""
-        corner = self._form.corners[number]
-        changed = {}
-        for dial, value in ((corner.x, x), (corner.y, y)):
-            place = None if dial is None else self._form.dials[dial].place(self._form.snapped(dial, value))
-            if dial is not None and place is not None:
-                changed[dial] = place
-        self._change(changed)
+        corner, form = self._form.corners[number], self._form
+        values = ((corner.x, x), (corner.y, y))
+        self._change(
+            {
+                dial: form.dials[dial].place(form.snapped(dial, value))
+                for dial, value in values
+                if dial is not None
+            }
+        )
 
     @Slot(int, int, int, bool)
     def _nudged(self, number: int, across: int, up: int, is_whole: bool) -> None:
@@ -134,10 +155,9 @@ class DialAnswerView(AnswerView):
             {dial: self.sliders[dial].value() + reach * move for dial, move in moves if dial is not None}
         )
 
-    def _change(self, places: dict[int, int]) -> None:
-        before = self.given()
+    def _change(self, places: dict[int, int], *, is_typed: bool = False) -> None:
         for number, place in places.items():
-            self._set(number, place)
+            self._set(number, place, is_typed=is_typed)
         self._show_corners()
-        if self.given() != before or places:
+        if places:
             self.answer_changed.emit()

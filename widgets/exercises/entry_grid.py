@@ -1,4 +1,4 @@
-"""Text fields in rows and columns with their heads: arrows and Return go from one to the next, each can have a mark."""
+"""Text fields in rows and columns with their heads: Tab, arrows and Return go from one to the next."""
 
 from collections.abc import Sequence
 
@@ -6,7 +6,7 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 
-from widgets.basics.focus_order import ArrowGroup, give_focus
+from widgets.basics.focus_order import give_focus
 from widgets.basics.labels import text_label
 from widgets.basics.typed_value import tabular_font
 from widgets.exercises.answer_view import show_mark
@@ -14,8 +14,9 @@ from widgets.exercises.records import Cell
 
 WIDEST = 240
 """Pixels of a field that stands alone in its row."""
-MOST_STOPS = 12
-"""Fields that Tab stops at one by one; of more it stops at one, and the arrows go on."""
+MANY = 12
+"""Fields of a table of which is said how to leave it: Tab takes so many presses."""
+KEYS = "Tab goes to the next cell, Return down. F6 leaves the table, Ctrl+Tab the page."
 _RETURN = Qt.Key.Key_Return, Qt.Key.Key_Enter
 _UPRIGHT = {Qt.Key.Key_Up: -1, Qt.Key.Key_Down: 1, **dict.fromkeys(_RETURN, 1)}
 
@@ -68,12 +69,9 @@ class EntryGrid(QWidget):
         for row, note in enumerate(self._notes):
             layout.addWidget(note, 1 + row, 1 + 2 * len(columns))
         layout.setColumnStretch(1 + 2 * len(columns), 4 if len(columns) == 1 else 1)
-        open_fields = [field for field in self._fields.values() if not field.isReadOnly()]
-        if len(open_fields) > MOST_STOPS:
-            self._group = ArrowGroup(open_fields, self, is_upright=True)
-            # Its arrows are those of this grid, which asks first: Up and Down go by rows.
-            for field in open_fields:
-                field.installEventFilter(self)
+        if sum(not field.isReadOnly() for field in self._fields.values()) > MANY:
+            keys = text_label(KEYS, self, role="muted", wraps=True)
+            layout.addWidget(keys, 1 + len(labels), 0, 1, layout.columnCount())
 
     def text(self, row: int, column: int) -> str:
         """Return what is in a field."""

@@ -202,6 +202,14 @@ class QuestionView(QWidget):
         self.note.setVisible(bool(text))
         announce(self, text)
 
+    def show_not_checked(self, text: str) -> None:
+        """Say why the answer is not checked, and bring that into sight."""
+        self.show_note(text)
+        column = self._content.layout()
+        assert column is not None
+        column.activate()
+        self.scroll_area.ensureWidgetVisible(self.note)
+
     def show_hints(self, shown: Sequence[str], count: int) -> None:
         """Show the hints so far, of ``count``."""
         before, numbered = self.hints.text(), enumerate(shown, 1)

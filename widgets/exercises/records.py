@@ -228,8 +228,10 @@ class DialRecord:
     """How many values it has."""
     text: Callable[[int], str]
     """The text of a value, by its place from 0."""
-    place: Callable[[str], int | None]
-    """The place of the value that a text means; ``None``: it means none."""
+    place: Callable[[str], int]
+    """The place of the value that a text means; ValueError with a sentence where it means none."""
+    values: str
+    """What it can be, as ``0 to 8 in steps of 1/4``."""
 
 
 @dataclass(frozen=True)

@@ -69,6 +69,8 @@ class QuestionPresenter(QObject):
         """What the last check found; ``None``: nothing was checked since the question was asked."""
         self._hints = 0
         self._has_answer = self._is_checked = self._is_corrected = self._is_shown = self._is_sure = False
+        self._left_out: object = None
+        """The answer of which was said that it leaves something empty."""
         self._digest = ""
         self._history = AnswerHistory(grid, self)
         self._begun = monotonic()
@@ -183,7 +185,7 @@ class QuestionPresenter(QObject):
         is_other = kept is None or (kept.version, kept.seed) != (template.version, question.seed)
         if kept is None or is_other or (asked.is_afresh and kept.is_checked):
             kept = Unfinished(version=template.version, seed=question.seed)
-        self._checked, self._is_sure = None, False
+        self._checked, self._left_out, self._is_sure = None, None, False
         self._has_answer = kept.given is not None
         self._hints = min(kept.hints, len(draft.hints))
         self._is_checked, self._is_shown = kept.is_checked, kept.is_shown
@@ -304,7 +306,12 @@ class QuestionPresenter(QObject):
                 raise NotCheckedError(unread)
             response = answer.read(KINDS[answer.kind].read(answer, given))
         except NotCheckedError as problem:
-            self._view.show_note(f"Not checked yet: {problem}.")
+            self._view.show_not_checked(f"Not checked yet: {problem}.")
+            return
+        left_out = answer.left_out(response)
+        if left_out and given != self._left_out:
+            self._left_out = given
+            self._view.show_not_checked(f"{left_out}. Check anyway? Then choose Check again.")
             return
         self._view.show_note("")
         seconds = monotonic() - self._begun

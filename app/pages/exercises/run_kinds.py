@@ -13,7 +13,7 @@ from core.methods import table
 from core.raster.edges.snapping import window_position
 from core.settings import FAMILIES
 from lessons.exercises.answers.amounts import read_entry
-from lessons.exercises.answers.answer import NotCheckedError, Response, Verdict
+from lessons.exercises.answers.answer import Response, Verdict
 from lessons.exercises.answers.places import PlaceAnswer, Places
 from lessons.exercises.answers.steps import FIXED, Run, StepsAnswer
 from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Dial, Values
@@ -180,10 +180,13 @@ class BreakKind(AnswerKind):
             for at, (x, y) in corners.items()
         )
         dials = tuple(
-            DialRecord(dial.name, dial.count, partial(self._value, dial), partial(self._place, dial))
+            DialRecord(
+                dial.name, dial.count, partial(self._value, dial), partial(self._place, dial), dial.values
+            )
             for dial in answer.dials
         )
-        return DialForm(dials, tuple(map(plain_number, answer.start)), records, snapped)
+        start = tuple(snapped(number, float(value)) for number, value in enumerate(answer.start))
+        return DialForm(dials, start, records, snapped)
 
     def _at(self, answer: BreakAnswer, at: tuple[int, int], given: list[str]) -> tuple[float, float]:
         scene = answer.scene_of(answer.read(given))
@@ -193,15 +196,8 @@ class BreakKind(AnswerKind):
     def _value(self, dial: Dial, place: int) -> str:
         return plain_number(dial.value(place))
 
-    def _place(self, dial: Dial, text: str) -> int | None:
-        try:
-            number = read_entry(text)
-        except NotCheckedError:
-            return None
-        is_value = isinstance(number, Fraction) and dial.low <= number <= dial.high
-        if not isinstance(number, Fraction) or not is_value or (number - dial.low) % dial.step:
-            return None
-        return int((number - dial.low) / dial.step)
+    def _place(self, dial: Dial, text: str) -> int:
+        return int((dial.read(text) - dial.low) / dial.step)
 
     def given(self, answer: BreakAnswer, response: Values) -> list[str]:
         """Return the numbers as texts."""

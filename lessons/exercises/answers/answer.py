@@ -98,6 +98,10 @@ class Answer(ABC):
     def text(self, response: Response) -> str:
         """Return an answer as text, as it was understood."""
 
+    def left_out(self, response: Response) -> str:
+        """Return a sentence without its full stop that says what an answer leaves empty; empty: nothing."""
+        return ""
+
     def first_wrong(self, response: Response) -> str:
         """Return a sentence that says where a wrong answer goes wrong first, without what is right; may be empty."""
         return ""

@@ -130,6 +130,12 @@ class SpotAnswer(Answer):
         named = [] if response.option is None else [self.options[response.option]]
         return "; ".join([pixels, *named])
 
+    def left_out(self, response: Spot) -> str:
+        """Say which half is missing."""
+        if not response.pixels:
+            return "No pixel is marked"
+        return "No mistake is named" if self.options and response.option is None else ""
+
     def first_wrong(self, response: Spot) -> str:
         """Name the first pixel that does not differ."""
         extra: list[Pixel] = sorted(response.pixels - self.wrong)

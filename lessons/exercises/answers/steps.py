@@ -6,6 +6,7 @@ from fractions import Fraction
 from math import prod
 from typing import Any, ClassVar, Literal
 
+from core.records.words import counted
 from lessons.exercises.answers.amounts import random_number, read_entry
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
 from lessons.exercises.answers.choices import read_names
@@ -208,6 +209,12 @@ class StepsAnswer(Answer):
             f"{step.prompt}: {', then '.join(map(step.text, tries))}"
             for step, tries in zip(self.steps, response, strict=False)
         )
+
+    def left_out(self, response: Run) -> str:
+        """Count the steps that are not done."""
+        number = self.open_step(response)
+        count = 0 if number is None else len(self.steps) - number
+        return f"{counted(count, 'step')} {'is' if count == 1 else 'are'} not done" if count else ""
 
     def first_wrong(self, response: Run) -> str:
         """Name the first wrong step."""

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import ClassVar, Literal
 
+from core.records.words import counted
 from lessons.exercises.answers.amounts import random_number, read_entry
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict, placed
 from lessons.exercises.draws import Draws
@@ -189,6 +190,11 @@ class TableAnswer(Answer):
             "  ".join(text.ljust(width) for text, width in zip(line, widths, strict=True)) for line in lines
         )
         return "\n".join(line.rstrip() for line in padded)
+
+    def left_out(self, response: Rows) -> str:
+        """Count the empty cells."""
+        count = sum(cell is None for row in response for cell in row)
+        return f"{counted(count, 'cell')} {'is' if count == 1 else 'are'} empty" if count else ""
 
     def first_wrong(self, response: Rows) -> str:
         """Name the first cell that is wrong."""

@@ -58,6 +58,23 @@ class Dial:
         """Return one of its values."""
         return self.low + index * self.step
 
+    @property
+    def values(self) -> str:
+        """What it can be, as ``0 to 8 in steps of 1/4 (0.25)``."""
+        low, high, step = map(number_text, (self.low, self.high, self.step))
+        return f"{low} to {high} in steps of {step}"
+
+    def read(self, given: object) -> Fraction:
+        """Return the value that an entry of a file or a text means; NotCheckedError where it means none."""
+        try:
+            number = read_entry(given)
+        except NotCheckedError as problem:
+            raise NotCheckedError(f"{self.name}: {problem}") from None
+        is_value = isinstance(number, Fraction) and self.low <= number <= self.high
+        if not isinstance(number, Fraction) or not is_value or (number - self.low) % self.step:
+            raise NotCheckedError(f"expected {self.name} from {self.values}, got {given!r:.40}")
+        return number
+
 
 @dataclass(frozen=True, eq=False)
 class BreakAnswer(Answer):
@@ -86,8 +103,7 @@ class BreakAnswer(Answer):
     def offered(self) -> str:
         """The dials, and what they begin with."""
         return "\n".join(
-            f"{dial.name}: {number_text(dial.low)} to {number_text(dial.high)} in steps of {number_text(dial.step)}, "
-            f"at first {number_text(value)}"
+            f"{dial.name}: {dial.values}, at first {number_text(value)}"
             for dial, value in zip(self.dials, self.start, strict=True)
         )
 
@@ -123,17 +139,7 @@ class BreakAnswer(Answer):
     def read(self, given: object) -> Values:
         """Read a list of numbers, or a table of them by the names of the dials."""
         entries = _entries_of(given, [dial.name for dial in self.dials], "a number")
-        return tuple(self._read(dial, entry) for dial, entry in zip(self.dials, entries, strict=True))
-
-    def _read(self, dial: Dial, given: object) -> Fraction:
-        number = read_entry(given)
-        is_value = isinstance(number, Fraction) and dial.low <= number <= dial.high
-        if not isinstance(number, Fraction) or not is_value or (number - dial.low) % dial.step:
-            low, high, step = map(number_text, (dial.low, dial.high, dial.step))
-            raise NotCheckedError(
-                f"expected {dial.name} from {low} to {high} in steps of {step}, got {given!r:.40}"
-            )
-        return number
+        return tuple(dial.read(entry) for dial, entry in zip(self.dials, entries, strict=True))
 
     def check(self, response: Values) -> Verdict:
         """Run both methods."""

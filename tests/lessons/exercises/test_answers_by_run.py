@@ -239,3 +239,18 @@ def test_answers_that_cannot_be_right_are_refused() -> None:
     with pytest.raises(ValueError, match="no methods stay within"):
         replace(CHEAPEST, limit=Fraction(-1))
     assert np.isfinite(CORNERS.chance)
+
+
+@pytest.mark.parametrize(
+    ("answer", "given", "said"),
+    [
+        (SPOT, {"option": "rounded"}, "No pixel is marked"),
+        (SPOT, {"pixels": [[2, 2]]}, "No mistake is named"),
+        (RUN, [["-2"]], "3 steps are not done"),
+        (RUN, [["-2"], ["9, 9"]], "3 steps are not done"),
+        (RUN, [["-2"], ["2, 1"], ["yes"]], "1 step is not done"),
+    ],
+)
+def test_what_is_left_out_is_said_before_it_is_charged(answer, given, said) -> None:
+    assert answer.left_out(answer.read(given)) == said
+    assert answer.left_out(answer.reference) == ""

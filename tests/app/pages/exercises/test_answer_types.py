@@ -2,7 +2,7 @@
 
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLineEdit
+from PySide6.QtWidgets import QApplication, QLabel, QLineEdit
 from pytestqt.qtbot import QtBot
 
 from app.files.attempts import attempt_file
@@ -15,6 +15,7 @@ from lessons.exercises.question import ask
 from tests.app.pages.exercises.acting import LEFT, Page, at, check, paint
 from widgets.exercises.choice_answer import ChoiceAnswerView
 from widgets.exercises.dial_answer import DialAnswerView
+from widgets.exercises.entry_grid import KEYS
 from widgets.exercises.field_answer import FieldAnswerView
 from widgets.exercises.listing_answer import ListingAnswerView
 from widgets.exercises.mark_grid import MarkGrid
@@ -104,6 +105,42 @@ def check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page: Page) -
     assert f"{len(right) - 1} of {len(right)} cells right" in check(shown)
     assert last.accessibleDescription() == "wrong"
     assert answer.fields.field(0, 0).accessibleDescription() == "right"
+
+
+def check_that_tab_fills_a_large_table_and_empty_cells_are_asked_about(page: Page) -> None:
+    """Tab stops at every cell, F6 leaves the table; what is left empty is not charged unasked."""
+    shown = page("z-buffer-grid")
+    view, before = shown.question_view, len(attempt_file().attempts())
+    answer = view.answer
+    assert isinstance(answer, FieldAnswerView)
+    assert any(label.text() == KEYS for label in answer.findChildren(QLabel))
+    rows, columns = len(answer.given()), len(answer.given()[0])
+    answer.fields.field(0, 0).setFocus()
+    typed = [[f"{row}.{column}" for column in range(columns)] for row in range(rows)]
+    for text in (text for row in typed for text in row):
+        focused = QApplication.focusWidget()
+        assert focused is not None
+        QTest.keyClicks(focused, text)
+        QTest.keyClick(focused, Qt.Key.Key_Tab)
+    assert answer.given() == typed
+    focused = answer.fields.field(1, 1)
+    focused.setFocus()
+    QTest.keyClick(focused, Qt.Key.Key_F6)
+    assert shown.grid.hasFocus()
+    shown.questions.ask_again()
+    answer = view.answer
+    assert isinstance(answer, FieldAnswerView)
+    QTest.keyClicks(answer.fields.field(0, 0), "1")
+    QTest.mouseClick(view.check_button, LEFT)
+    shown.settle()
+    asked = f"{rows * columns - 1} cells are empty. Check anyway? Then choose Check again."
+    assert view.note.text() == asked
+    QTest.keyClicks(answer.fields.field(0, 1), "1")
+    QTest.mouseClick(view.check_button, LEFT)
+    assert view.note.text() == asked.replace(str(rows * columns - 1), str(rows * columns - 2))
+    assert len(attempt_file().attempts()) == before
+    assert f"of {rows * columns} cells right" in check(shown)
+    assert len(attempt_file().attempts()) == before + 1
 
 
 def check_that_a_typed_point_stands_in_the_sketch(page: Page) -> None:
@@ -316,6 +353,35 @@ def check_that_a_weak_method_is_broken_by_a_drag_and_by_keys(page: Page) -> None
     assert float(answer.given()[0]) == x + float(right.dials[0].step)
 
 
+def check_that_a_number_which_a_dial_refuses_is_not_checked(page: Page) -> None:
+    """It stays in its field; what the dial takes is said beside it, and the one before is not checked instead."""
+    shown = page("break-depth-format")
+    view, before = shown.question_view, attempt_file().attempts()
+    answer = view.answer
+    assert isinstance(answer, DialAnswerView)
+    assert answer.fields[0].accessibleDescription() == "0 to 5e-05 in steps of 2.5e-06"
+    assert any(label.text() == "0 to 5e-05 in steps of 2.5e-06" for label in answer.findChildren(QLabel))
+    for text in ("1e-6", "x", "1", ""):
+        answer.fields[0].selectAll()
+        QTest.keyClick(answer.fields[0], Qt.Key.Key_Delete)
+        QTest.keyClicks(answer.fields[0], text)
+        check(shown)
+        QTest.keyClick(answer.fields[0], Qt.Key.Key_Return)
+        shown.settle()
+        assert answer.fields[0].text() == text
+        assert view.note.text().startswith(
+            ("Not checked yet: expected gap from 0 to 5e-05 in", "Not checked yet: gap: ")
+        )
+    assert attempt_file().attempts() == before
+    QTest.keyClick(answer.sliders[0], Qt.Key.Key_Left)
+    assert answer.fields[0].text() == answer.given()[0] == "4.75e-05"
+    answer.fields[0].selectAll()
+    QTest.keyClicks(answer.fields[0], "0.0000025")
+    assert answer.given() == ["2.5e-06"]
+    assert "fail" in check(shown)
+    assert attempt_file().attempts()[-1].answer == "gap = 2.5e-06"
+
+
 def check_that_the_cheapest_methods_are_chosen(page: Page) -> None:
     shown = page("cheapest-methods")
     answer = shown.question_view.answer
@@ -344,6 +410,7 @@ def test_every_type_is_answered_in_one_window(page: Page, window: MainWindow) ->
     check_that_strokes_are_undone(page, window)
     check_that_pixels_are_marked_by_keyboard_alone(page)
     check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page)
+    check_that_tab_fills_a_large_table_and_empty_cells_are_asked_about(page)
     check_that_a_typed_point_stands_in_the_sketch(page)
     check_that_nonsense_costs_nothing(page)
     check_that_nonsense_in_a_row_or_a_step_is_said_and_not_passed_over(page)
@@ -355,6 +422,7 @@ def test_every_type_is_answered_in_one_window(page: Page, window: MainWindow) ->
     check_that_what_is_wrong_with_a_picture_is_pointed_at_and_named(page)
     check_that_steps_are_judged_at_once_and_put_right(page)
     check_that_a_weak_method_is_broken_by_a_drag_and_by_keys(page)
+    check_that_a_number_which_a_dial_refuses_is_not_checked(page)
     check_that_the_cheapest_methods_are_chosen(page)
 
 
