@@ -16,11 +16,22 @@ if TYPE_CHECKING:
         stage_card,
         summary_sentence,
     )
-    from core.explain.steps import account, formula, question, sentence, variables
+    from core.explain.steps import (
+        account,
+        formula,
+        question,
+        remarks,
+        row_sentence,
+        sentence,
+        variables,
+    )
 else:
     __getattr__ = import_on_demand(
         globals(),
-        **dict.fromkeys(("account", "formula", "question", "sentence", "variables"), "core.explain.steps"),
+        **dict.fromkeys(
+            ("account", "formula", "question", "remarks", "row_sentence", "sentence", "variables"),
+            "core.explain.steps",
+        ),
         **dict.fromkeys(
             ("family_title", "initial_sentence", "method_text", "stage_card", "summary_sentence"),
             "core.explain.stage_texts",
@@ -34,6 +45,8 @@ __all__ = [
     "initial_sentence",
     "method_text",
     "question",
+    "remarks",
+    "row_sentence",
     "sentence",
     "stage_card",
     "summary_sentence",

@@ -12,6 +12,8 @@ from typing import TypeVar
 
 from core.explain.records import Asked, Formula
 from core.explain.step_values import StepValues
+from core.records.arrays import Flags, Integers
+from core.records.operation import Columns
 
 Said = str | tuple[str, Formula | None]
 """A sentence, alone or with its formula."""
@@ -26,13 +28,21 @@ class Row:
     """Returns the sentence of a step, with its formula where the step computes something."""
     asks: Callable[[StepValues], Asked | None] | None = None
     """Returns a question about the step, with its answer; ``None`` where this step has none."""
+    decides: bool = False
+    """Whether it chooses what the later operations of its row do: a step of a whole row says it, too."""
 
 
 ROWS: dict[str, Row] = {}
 """``stage.kind.operation`` to its row."""
+Which = Callable[[Columns, Integers], Flags]
+"""Takes columns and rows (R,) of a trace; returns which of these, (R,) bool."""
+REMARKS: dict[str, Which] = {}
+"""``stage.kind.operation`` to the rows of which steps larger than a row repeat what it says."""
 
 
-def explains(*keys: str, asks: Callable[[StepValues], Asked | None] | None = None) -> Callable[[Say], Say]:
+def explains(
+    *keys: str, asks: Callable[[StepValues], Asked | None] | None = None, decides: bool = False
+) -> Callable[[Say], Say]:
     """Enter a function as the row of these keys; ValueError for a key that has a row already."""
 
     def enter(say: Say) -> Say:
@@ -41,7 +51,7 @@ def explains(*keys: str, asks: Callable[[StepValues], Asked | None] | None = Non
                 name = ".".join(parts)
                 if name in ROWS:
                     raise ValueError(f"{name} has a row already, in {ROWS[name].say.__module__}")
-                ROWS[name] = Row(say, asks)
+                ROWS[name] = Row(say, asks, decides)
         return say
 
     return enter

@@ -10,10 +10,10 @@ import numpy as np
 from core.explain.digits import in_words, spoken, vector_text
 from core.explain.kinds import of_kind
 from core.explain.records import Asked, Formula, Value, Variable
-from core.explain.rows import Row, find_row
+from core.explain.rows import REMARKS, Row, find_row
 from core.explain.step_values import StepValues, key_fields, row_key
 from core.explain.variable_text import Held, held_values
-from core.records.words import joined
+from core.records.words import counted, joined
 from core.trace import Explanation, StageTrace
 from core.trace.stage_trace import KEPT_EXPLANATIONS
 
@@ -80,6 +80,44 @@ def _said(step: StepValues) -> tuple[str, Formula | None]:
 def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | None) -> str:
     """Return the sentence of a step, as `account` does."""
     return account(explanation, triangle, pixel)[0]
+
+
+def row_sentence(trace: StageTrace, position: int) -> str:
+    """Return the sentence of the operation just done, behind those of the same row that chose what it does."""
+    row, operation = trace.steps.row_at(position)
+    done = [trace.explain(position - back) for back in range(operation, -1, -1)]
+    *before, last = (e for e in done if e is not None)
+    deciding = [e for e in before if (said := row_of(e.key)) is not None and said.decides]
+    *texts, text = (_sentence_of(trace, row, e) for e in (*deciding, last))
+    name = "Pixel ({}, {})".format(*trace.pixel[row])
+    if texts and texts[-1].startswith(name):
+        rest = text.removeprefix(f"{name}: ")
+        text = rest[:1].upper() + rest[1:]
+    return " ".join([*texts, text])
+
+
+def remarks(trace: StageTrace, first: int, end: int) -> list[str]:
+    """Return what a step of the rows from ``first`` to ``end`` (excluded) repeats of them, each kind of remark once."""
+    load_subjects()
+    steps, said = trace.steps, []
+    for key, which in REMARKS.items():
+        stage, kind, operation = key.split(".", 2)
+        if stage != trace.stage or kind not in steps.kinds:
+            continue
+        rows = first + np.flatnonzero(steps.kind[first:end] == steps.kinds.index(kind))
+        rows = rows[which(trace.columns, rows)]
+        if len(rows):
+            names = [done.name for done in steps.operations[kind]]
+            explanation = trace.explain(int(steps.starts[rows[0]]) + 1 + names.index(operation))
+            assert explanation is not None
+            more = f" The same happens {counted(len(rows) - 1, 'more time')}." if len(rows) > 1 else ""
+            said.append(_sentence_of(trace, int(rows[0]), explanation) + more)
+    return said
+
+
+def _sentence_of(trace: StageTrace, row: int, explanation: Explanation) -> str:
+    column, line = trace.pixel[row].tolist()
+    return sentence(explanation, int(trace.triangle[row]), (column, line))
 
 
 @lru_cache(KEPT_EXPLANATIONS)

@@ -7,7 +7,15 @@ from threading import Thread
 from PySide6.QtCore import QObject, QTimer, Slot
 
 from app.session.moment import Moment, Step
-from core.explain import formula, initial_sentence, sentence, summary_sentence, variables
+from core.explain import (
+    formula,
+    initial_sentence,
+    remarks,
+    row_sentence,
+    sentence,
+    summary_sentence,
+    variables,
+)
 from core.explain.steps import load_subjects
 from core.records.steps import Level
 from core.trace.tracers import load_tracers
@@ -21,14 +29,17 @@ STEPS_AHEAD = 3
 
 
 def sentence_at(step: Step) -> str:
-    """Return the sentence of the step just done; one larger than a row is summed up."""
+    """Return what is said of the step just done: of a row, what decided comes first; a larger one is summed up."""
     trace, row, level = step.stage_trace, step.row, step.cursor.level
     if row < 0:
         return initial_sentence(trace.stage, trace.corner_count)
     first = trace.steps.rows_done(trace.steps.back(step.cursor.position, level))
     if level <= Level.GROUP and row > first:
         counts = trace.summary(first, row + 1)
-        return summary_sentence(trace.stage, level, counts, step.triangle, trace.corner_count)
+        said = summary_sentence(trace.stage, level, counts, step.triangle, trace.corner_count)
+        return " ".join([said, *remarks(trace, first, row + 1)])
+    if level != Level.OPERATION:
+        return row_sentence(trace, step.cursor.position)
     explanation = step.explanation
     assert explanation is not None
     return sentence(explanation, step.triangle, step.pixel)

@@ -31,7 +31,7 @@ def _side(distance: float) -> str:
     return f"{'inside' if distance >= 0 else 'outside'} (distance {spoken(distance)})"
 
 
-@explains(f"clip.{'|'.join(CASES)}.distances", asks=corner_count)
+@explains(f"clip.{'|'.join(CASES)}.distances", asks=corner_count, decides=True)
 def distances(step: StepValues) -> Said:
     """Signed distances of both ends of an edge from the plane."""
     axis, sign = PLANE_SIGNS[step.text("plane")]

@@ -107,7 +107,7 @@ def _apart(step: StepValues) -> str:
     return f" ({text})" if text else ""
 
 
-@explains("depth.*.compare", asks=passes)
+@explains("depth.*.compare", asks=passes, decides=True)
 def compared(step: StepValues) -> Said:
     """The depth test."""
     new, old = step.number("stored"), step.number("before")

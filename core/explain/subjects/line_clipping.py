@@ -16,7 +16,7 @@ from core.explain.equation import (
     vector_latex,
 )
 from core.explain.records import Formula
-from core.explain.rows import Said, explains
+from core.explain.rows import REMARKS, Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import PIXEL, VariableText, hides, shows
 from core.geometry.line_clipping.records import RECTANGLE_EDGES
@@ -55,7 +55,7 @@ def is_point(step: StepValues) -> bool:
     return step.vector("window_start") == step.vector("window_end")
 
 
-@explains("raster.clip-enter|clip-leave|clip-parallel|clip-outside.room")
+@explains("raster.clip-enter|clip-leave|clip-parallel|clip-outside.room", decides=True)
 def room(step: StepValues) -> Said:
     """How fast an edge runs outwards, and how much room its first end has."""
     border, along, distance = step.text("border"), step.number("approach"), step.number("room")
@@ -148,8 +148,14 @@ def parallel(step: StepValues) -> Said:
     if is_point(step):
         text = f"The edge is a point, which is not outside the {border} border: there is nothing to cut."
     if step.number("room") < 0:
-        text = f"As printed, a parallel edge is ignored although it lies outside the {border} border: it is kept."
+        text = (
+            f"As printed, the {border} border is ignored, because it is parallel to the edge, and the edge is kept; "
+            "it lies outside this border, so the right algorithm drops it."
+        )
     return text, _side(step)
+
+
+REMARKS["raster.clip-parallel.side"] = lambda columns, rows: columns["room"][rows] < 0
 
 
 @explains("raster.clip-outside.drop")
@@ -189,7 +195,7 @@ def _codes(step: StepValues) -> tuple[int, int]:
     return step.whole("code_start"), step.whole("code_end")
 
 
-@explains("raster.outcodes-accept|outcodes-reject|outcodes-cut.codes")
+@explains("raster.outcodes-accept|outcodes-reject|outcodes-cut.codes", decides=True)
 def codes(step: StepValues) -> Said:
     """The outcodes of both ends, and what they have in common."""
     first, second = _codes(step)

@@ -241,7 +241,7 @@ def added_in_float32(step: StepValues) -> Said:
     return text, equation(*assignment(step)[0])
 
 
-@explains("raster.*.test", asks=will_step)
+@explains("raster.*.test", asks=will_step, decides=True)
 def tested(step: StepValues) -> Said:
     """The decision whether the minor coordinate steps."""
     compared, value = comparison_of(step), step.number("decision")
@@ -314,7 +314,7 @@ def evaluated(step: StepValues) -> Said:
     return text, linear(MINOR, value, terms, (MAJOR, at))
 
 
-@explains("raster.*.round")
+@explains("raster.*.round", decides=True)
 def rounded(step: StepValues) -> Said:
     """The nearest pixel centre."""
     (_, minor), value, nearest = axes(step), step.number("decision"), step.number("minor")
@@ -329,7 +329,7 @@ def rounded(step: StepValues) -> Said:
     return text, equation(("Y", nearest), "=", (symbols, numbers))
 
 
-@explains("raster.diamond-exit|diamond-exit-start.round")
+@explains("raster.diamond-exit|diamond-exit-start.round", decides=True)
 def nearest_centre(step: StepValues) -> Said:
     """How far the line passes from the centre of the nearest pixel (diamond exit)."""
     height, is_steep = step.number("decision"), step.flag("is_steep")
@@ -347,7 +347,7 @@ def nearest_centre(step: StepValues) -> Said:
     return text, equation(f"-{half}", r"\le", away, r"\le", half)
 
 
-@explains("raster.diamond-exit|diamond-exit-start.leaves")
+@explains("raster.diamond-exit|diamond-exit-start.leaves", decides=True)
 def leaves(step: StepValues) -> Said:
     """The diamond-exit test."""
     first, second = step.number("exit_start"), step.number("exit_end")

@@ -88,7 +88,7 @@ def key(step: StepValues) -> Said:
     return text, equation((_NEW, _key_latex(packed)), "=", *terms)
 
 
-@explains("depth.*.minimum", asks=passes)
+@explains("depth.*.minimum", asks=passes, decides=True)
 def minimum(step: StepValues) -> Said:
     """The depth test as the minimum of two keys."""
     new, old = step.whole("key"), step.whole("before_key")

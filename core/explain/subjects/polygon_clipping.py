@@ -96,7 +96,7 @@ def follow(step: StepValues) -> Said:
     return f"Along the {along} to {what}, {vector_text(step.vector('point'))}."
 
 
-@explains("clip.wa-switch.switch")
+@explains("clip.wa-switch.switch", decides=True)
 def switch(step: StepValues) -> Said:
     """From one polygon to the other."""
     if step.flag("on_region"):
@@ -114,7 +114,7 @@ def close(step: StepValues) -> Said:
     )
 
 
-@explains(f"clip.{SH}.sides")
+@explains(f"clip.{SH}.sides", decides=True)
 def sides(step: StepValues) -> Said:
     """On which side of a window's edge both ends of an edge lie."""
     first, last = step.number("start_side"), step.number("end_side")

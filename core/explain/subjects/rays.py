@@ -53,7 +53,7 @@ def first(step: StepValues) -> Said:
     return f"{step.pixel_name}: the ray has met nothing before, so triangle {step.triangle} is the nearest so far."
 
 
-@explains("depth.ray.compare", asks=nearer)
+@explains("depth.ray.compare", asks=nearer, decides=True)
 def compared(step: StepValues) -> Said:
     """A hit that float64 tells from the nearest so far."""
     new, old, nearest = step.number("nearness"), step.number("nearest_nearness"), step.whole("nearest")
@@ -83,7 +83,7 @@ def doubted(step: StepValues) -> Said:
     )
 
 
-@explains("depth.ray-exact.exact", asks=nearer)
+@explains("depth.ray-exact.exact", asks=nearer, decides=True)
 def exact(step: StepValues) -> Said:
     """The comparison in whole numbers."""
     sign, nearest = step.whole("sign"), f"triangle {step.whole('nearest')}"

@@ -28,7 +28,7 @@ def rectangle_length(step: StepValues) -> Said:
     return text, equation(("L", length), "=", (r"\sqrt{dx^2 + dy^2}", rf"\sqrt{{{x}^2 + {y}^2}}"))
 
 
-@explains("raster.rectangle|rectangle-start.across")
+@explains("raster.rectangle|rectangle-start.across", decides=True)
 def across(step: StepValues) -> Said:
     """The distance from the line, between the long sides."""
     away, length = step.number("decision"), step.number("length")
@@ -74,7 +74,7 @@ def share(step: StepValues) -> Said:
     return text, equation(("g", part), "=", (symbols, numbers))
 
 
-@explains("raster.*.divide")
+@explains("raster.*.divide", decides=True)
 def divided(step: StepValues) -> Said:
     """The intensity by Wu."""
     (_, axis), minor, part = axes(step), step.whole("minor"), step.number("fraction")
@@ -105,7 +105,7 @@ def line_cosine(step: StepValues) -> Said:
     return text, equation(("c", cosine), "=", fraction(("1", 1.0), below))
 
 
-@explains("raster.*.distance")
+@explains("raster.*.distance", decides=True)
 def distance(step: StepValues) -> Said:
     """The distance of a pixel's centre from the line."""
     (_, axis), minor, line = axes(step), step.number("minor"), step.number("decision")

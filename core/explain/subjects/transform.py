@@ -5,7 +5,7 @@ from functools import partial
 from core.explain.digits import number_latex, spoken
 from core.explain.equation import equation, fraction, linear
 from core.explain.records import Asked, number
-from core.explain.rows import Said, explains
+from core.explain.rows import REMARKS, Said, explains
 from core.explain.step_values import AXES, StepValues
 from core.explain.variable_text import VariableText, given, shows
 
@@ -78,6 +78,9 @@ def divided(step: StepValues) -> Said:
         text += f"; not between −1 and 1, so it lies beyond the {BEYOND[axis, 1 if after > 0 else -1]} plane"
     quotient = fraction((rf"{axis}_{{\mathrm{{clip}}}}", before), ("w", w), _colored(step))
     return f"{text}.", equation((_symbol(step, axis, "ndc"), after), "=", quotient)
+
+
+REMARKS["transform.divide.z"] = lambda columns, rows: columns["before_w"][rows] <= 0
 
 
 @explains("transform.viewport.x|y|z", asks=position)
