@@ -148,6 +148,8 @@ class StepPage(Page):
     @Slot(Change)
     def _follow(self, what: Change) -> None:
         """Bring all parts up to date, each once: who shows another document shows its step and its pin, too."""
+        if Change.DOCUMENT in what:
+            what &= ~(Change.CURSOR | Change.POINTING)
         for change, show in self._order:
             if change & what:
                 # A part may have gone on to another step: the others show that one.

@@ -1,0 +1,50 @@
+"""The order in which the parts of the Step page show a moment."""
+
+import sys
+from collections import Counter
+from collections.abc import Callable
+from types import FrameType
+
+import pytest
+
+from app.session.document import open_document
+from app.window.main_window import MainWindow
+from lessons.scenes import make_scene
+
+pytestmark = pytest.mark.shared_window
+
+
+def counted(window: MainWindow, do: Callable[[], object]) -> Counter[str]:
+    """Return how often each part is brought up to date, by the page or by another part."""
+    codes = {show.__func__.__code__: show.__qualname__ for _, show in window.page._order}
+    found: Counter[str] = Counter()
+
+    def look(frame: FrameType, event: str, _: object) -> None:
+        if event == "call" and frame.f_code in codes:
+            found[codes[frame.f_code]] += 1
+
+    sys.setprofile(look)
+    try:
+        do()
+    finally:
+        sys.setprofile(None)
+    return found
+
+
+def test_a_change_refreshes_each_part_once(window: MainWindow) -> None:
+    session = window.session
+    session.set_pin((3, 3))
+    session.set_stage("raster", 400)
+    ways: list[Callable[[], object]] = [
+        lambda: session.open(open_document(make_scene("cube"), "cube")),
+        lambda: session.set_setting("fill", "scanline"),
+        lambda: session.set_stage("depth", 5),
+        lambda: session.step(1),
+        lambda: session.set_pin((5, 5)),
+        lambda: window.page.set_predicting(True),
+        session.undo,
+    ]
+    for way in ways:
+        found = counted(window, way)
+        assert found
+        assert max(found.values()) == 1, found
