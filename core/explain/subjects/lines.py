@@ -47,6 +47,8 @@ def is_swapped(step: StepValues) -> bool:
 
 
 RELATIONS_LATEX = {ast.Gt: ">", ast.GtE: r"\ge", ast.LtE: r"\le", ast.Lt: "<"}
+ON_LINE = 1e-9
+"""Pixels from a line within which a centre lies on it, but for the rounding of its ends."""
 MAJOR, MINOR = "x", "y"
 """Symbols, as in the listings, of the longer axis of the line and of the other: of a steep line x and y are swapped."""
 
@@ -366,13 +368,18 @@ def plotted(step: StepValues) -> Said:
     start, end = step.vector("window_start"), step.vector("window_end")
     k = 1 if abs(end[1] - start[1]) > abs(end[0] - start[0]) else 0
     axis, length = "xy"[k ^ is_swapped(step)], end[k] - start[k]
-    center = (step.whole("column"), step.whole("row"))[k] + step.number("center")
+    center, beside_it = ((step.whole("column"), step.whole("row"))[n] + step.number("center") for n in (k, 1 - k))
     along = (center - start[k]) / length if length else 0.0
+    away = beside_it - start[1 - k] - along * (end[1 - k] - start[1 - k])
     intensity, edge = step.number("intensity"), f"edge {step.whole('edge')}"
     drawn = "is drawn" if intensity == 1 else f"is drawn with intensity {spoken(intensity)}"
+    side = (("below", "above"), ("to the left of", "to the right of"))[k][away > 0]
     if not 0 <= along <= 1:
         end_name = "first" if along < 0 else "second"
         where = f"lies beyond the {end_name} end of {edge}, which stands for it"
+    elif abs(away) > ON_LINE:
+        at = {0.0: "level with the first end", 1.0: "level with the second end"}.get(along, f"at t = {spoken(along)}")
+        where = f"is {at} of {edge}, {spoken(abs(away))} px {side} the line"
     else:
         at = {0.0: "at the first end", 1.0: "at the second end"}.get(along, f"at t = {spoken(along)}")
         where = f"lies {at} of {edge}"
