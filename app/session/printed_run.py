@@ -36,7 +36,7 @@ def settings_of(name: str, document: Document) -> tuple[Settings, Settings]:
     settings = document.settings
     if printed.family == "fill":
         settings = replace(settings, polygon_mode="fill")
-    mine = with_method(settings, printed.family, printed.right)
+    mine = with_method(settings, printed.family, printed.beside or printed.right)
     reason = no_effect(mine, printed.family, document.scene)
     if printed.family == "line" and document.scene.corner_count != 2:
         reason = SEGMENTS

@@ -5,11 +5,11 @@ from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
-from core.explain.digits import number_latex
+from core.explain.digits import number_latex, signed_latex
 from core.explain.equation import Part, fraction
 from core.explain.step_values import StepValues
 from core.explain.variable_text import held_values
-from core.records.listing import listing
+from core.records.listing import source_listing
 
 BEFORE = r"_{\mathrm{before}}"
 NAMES = {"major": "x", "minor": "y"}
@@ -21,7 +21,7 @@ Values = Mapping[str, float]
 @cache
 def _code(function: Callable[..., Any], label: str) -> ast.stmt | None:
     """Return the statement on a labelled line of a function, without its body; ``None``: it has no such line."""
-    shown = listing(function)
+    shown = source_listing(function)
     if label not in shown.lines:
         return None
     line = shown.source.splitlines()[shown.lines[label] - 1].strip()
@@ -30,8 +30,13 @@ def _code(function: Callable[..., Any], label: str) -> ast.stmt | None:
 
 def code_of(step: StepValues, label: str = "") -> ast.stmt | None:
     """Return the statement that a step marks, or the one with a label, in the listing of the step."""
-    shown = step.explanation.listing
-    return None if shown is None else _code(shown.function, label or step.operation)
+    shown, line = step.explanation.listing, step.explanation.line
+    if shown is None:
+        return None
+    if not label:
+        marked = [name for name, number in shown.lines.items() if number == line]
+        label = step.operation if step.operation in marked else next(iter(marked), "")
+    return _code(shown.function, label)
 
 
 def assigned_name(code: ast.stmt | None) -> str:
@@ -142,6 +147,11 @@ def _terms(code: ast.expr, sign: int) -> list[tuple[int, ast.expr]]:
 
 
 def _product(code: ast.expr, values: Values) -> list[Part]:
+    if isinstance(code, ast.BinOp) and isinstance(code.op, ast.Add | ast.Sub):
+        parts = _sum(code, values)
+        symbols = " ".join(part if isinstance(part, str) else part[0] for part in parts)
+        numbers = " ".join(part if isinstance(part, str) else _number(part[1]) for part in parts)
+        return [(f"({symbols})", f"({numbers})")]
     if isinstance(code, ast.BinOp) and isinstance(code.op, ast.Mult):
         return [*_product(code.left, values), r"\cdot", *_product(code.right, values)]
     if isinstance(code, ast.BinOp):
@@ -152,6 +162,10 @@ def _product(code: ast.expr, values: Values) -> list[Part]:
     if isinstance(code, ast.Name):
         return [(_latex(code.id), values.get(code.id, float("nan")))]
     return [number_latex(number_of(code, values))]
+
+
+def _number(value: float | str) -> str:
+    return value if isinstance(value, str) else signed_latex(value)
 
 
 def _latex(name: str) -> str:

@@ -7,7 +7,7 @@ import ast
 import inspect
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cache
 from textwrap import dedent
 from typing import Any
@@ -25,8 +25,32 @@ class Listing:
     """Label to line number, counted from 1."""
 
 
+_PRINTED: dict[Callable[..., Any], str] = {}
+
+
+def print_as(function: Callable[..., Any], text: str) -> None:
+    """Let ``text``, whose labels stand behind ``#:``, be shown as the listing of a function, as a book prints it."""
+    _PRINTED[function] = text
+
+
+def without_labels(text: str) -> str:
+    """Return a text for `print_as` as it is shown."""
+    return "\n".join(line.partition("#:")[0].rstrip() for line in text.splitlines())
+
+
 @cache
 def listing(function: Callable[..., Any]) -> Listing:
+    """Return what is shown of ``function``: its source, or the text that it is printed as."""
+    own, text = source_listing(function), _PRINTED.get(function)
+    if text is None:
+        return own
+    lines = enumerate(text.splitlines(), start=1)
+    labels = {label: number for number, line in lines for label in line.partition("#:")[2].split()}
+    return replace(own, source=without_labels(text), lines=labels)
+
+
+@cache
+def source_listing(function: Callable[..., Any]) -> Listing:
     """Read the source of ``function`` as a textbook prints it: its labels and types are taken out."""
     lines, labels = [], {}
     for number, line in enumerate(_untyped(dedent(inspect.getsource(function))), start=1):

@@ -1,7 +1,20 @@
 """Pellacini's loops for a line with a slope from 0 to 1: midpoint, DDA and Bresenham."""
 
+from dataclasses import replace
 from math import ceil, floor, nan
 
+from core.raster.lines.bresenham import CORRECT, STEP, TEST
+from core.raster.lines.traits import (
+    ADVANCE,
+    EVALUATE,
+    FIRST_COLUMN,
+    FIRST_SUM,
+    INTERCEPT,
+    NEXT,
+    PLOT,
+    SLOPE,
+)
+from core.records.operation import Operation
 from lessons.printed.records import (
     Listed,
     ListedLines,
@@ -20,62 +33,64 @@ EXAMPLE = (0.0, 0.0, 5.0, 2.0)
 def midpoint(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
     """Listing of the midpoint loop; ``to`` includes floor(x1)."""
     pixels = []
-    m = (y1 - y0) / (x1 - x0)  #: slope
+    m = (y1 - y0) / (x1 - x0)
     b = y0 - m * x0
-    for x in range(ceil(x0), floor(x1) + 1):
+    x = ceil(x0)  #: start
+    while x <= floor(x1):
         y = m * x + b  #: evaluate
         pixels.append((x, half_up(y), y))  #: draw
+        x += 1  #: next
     return pixels
 
 
 def dda(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
     """Listing of the DDA loop, which ends before floor(x1)."""
     pixels = []
-    m = (y1 - y0) / (x1 - x0)  #: slope
+    m = (y1 - y0) / (x1 - x0)
     b = y0 - m * x0
-    x = ceil(x0)
+    x = ceil(x0)  #: start
     y = m * x + b  #: evaluate
     while x < floor(x1):
         pixels.append((x, half_up(y), y))  #: draw
         y += m  #: advance
-        x += 1
+        x += 1  #: next
     return pixels
 
 
 def bresenham(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
     """Listing of the Bresenham loop, which adds m to d before it tests d."""
     pixels, chosen_by = [], nan
-    m = (y1 - y0) / (x1 - x0)  #: slope
+    m = (y1 - y0) / (x1 - x0)
     b = y0 - m * x0
-    x = ceil(x0)
-    y = half_up(m * x + b)
-    d = m * (x + 1) + b - y
+    x = ceil(x0)  #: start
+    y = half_up(m * x + b)  #: first-y
+    d = m * (x + 1) + b - y  #: first-sum
     while x < floor(x1):
         pixels.append((x, y, chosen_by))  #: draw
-        x += 1
-        d += m
+        x += 1  #: next
+        d += m  #: advance
         chosen_by = d
         if d > 0.5:  #: test
             y += 1  #: step
-            d -= 1
+            d -= 1  #: correct
     return pixels
 
 
 def bresenham_tested_first(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
     """Listing of the Bresenham loop with its lines in the order of the slide before it: test, then add m."""
     pixels, chosen_by = [], nan
-    m = (y1 - y0) / (x1 - x0)  #: slope
+    m = (y1 - y0) / (x1 - x0)
     b = y0 - m * x0
-    x = ceil(x0)
-    y = half_up(m * x + b)
-    d = m * (x + 1) + b - y
+    x = ceil(x0)  #: start
+    y = half_up(m * x + b)  #: first-y
+    d = m * (x + 1) + b - y  #: first-sum
     while x < floor(x1):
         pixels.append((x, y, chosen_by))  #: draw
         x += 1
         chosen_by = d
         if d > 0.5:  #: test
             y += 1  #: step
-            d -= 1
+            d -= 1  #: correct
         d += m
     return pixels
 
@@ -93,6 +108,7 @@ def first_difference(listing: str) -> tuple[int, tuple[int, int] | None, tuple[i
     return found.step, printed, right
 
 
+_LINE = (replace(SLOPE, label=""), replace(INTERCEPT, label=""))
 LOOPS = {"dda": dda, "bresenham": bresenham, "bresenham, tested first": bresenham_tested_first}
 
 MIDPOINT = PrintedListing(
@@ -101,10 +117,10 @@ MIDPOINT = PrintedListing(
     "Pellacini",
     MIDPOINT_SLIDE,
     """\
-for x = ceil(x0) to
+for x = ceil(x0) to  #: start next
     floor(x1) {
-    y = m*x + b
-    write(x, round(y))
+    y = m*x + b  #: evaluate
+    write(x, round(y))  #: draw
 }""",
     "line",
     "midpoint",
@@ -120,6 +136,7 @@ for x = ceil(x0) to
         ),
     ),
     rule=ListedLines(midpoint, None, takes_pixels=False),
+    rows=((*_LINE, FIRST_COLUMN, EVALUATE, PLOT), (NEXT, EVALUATE, PLOT)),
     like="midpoint",
 )
 
@@ -129,12 +146,12 @@ DDA = PrintedListing(
     "Pellacini",
     DDA_SLIDE,
     """\
-x = ceil(x0)
-y = m*x + b
+x = ceil(x0)  #: start
+y = m*x + b  #: evaluate
 while x < floor(x1)
-  write(x, round(y), 1)
-  y += m
-  x += 1""",
+  write(x, round(y), 1)  #: draw
+  y += m  #: advance
+  x += 1  #: next""",
     "line",
     "midpoint",
     {"as printed": dda},
@@ -149,6 +166,7 @@ while x < floor(x1)
         ),
     ),
     rule=ListedLines(dda, None, takes_pixels=False),
+    rows=((*_LINE, FIRST_COLUMN, EVALUATE, PLOT), (replace(ADVANCE, sets=("decision",)), NEXT, PLOT)),
     like="dda",
 )
 
@@ -158,16 +176,16 @@ BRESENHAM = PrintedListing(
     "Pellacini",
     BRESENHAM_SLIDE,
     """\
-x = ceil(x0)
-y = round(m*x + b)
-d = m*(x+1)+b-y
+x = ceil(x0)  #: start
+y = round(m*x + b)  #: first-y
+d = m*(x+1)+b-y  #: first-sum
 while x < floor(x1)
-  write(x, y, 1)
-  x += 1
-  d += m
-  if d > 0.5
-    y += 1
-    d -= 1""",
+  write(x, y, 1)  #: draw
+  x += 1  #: next
+  d += m  #: advance
+  if d > 0.5  #: test
+    y += 1  #: step
+    d -= 1  #: correct""",
     "line",
     "midpoint",
     {"as printed": bresenham, "tested before m is added": bresenham_tested_first},
@@ -199,7 +217,13 @@ while x < floor(x1)
         ),
     ),
     rule=ListedLines(bresenham, 0.5, takes_pixels=False),
+    rows=(
+        (*_LINE, FIRST_COLUMN, Operation("first-y", "first-y", ("minor",)), FIRST_SUM, PLOT),
+        (NEXT, ADVANCE, TEST, PLOT),
+        (NEXT, ADVANCE, TEST, STEP, CORRECT, PLOT),
+    ),
     like="bresenham-float",
+    beside="bresenham-float",
 )
 
 ALL = (MIDPOINT, DDA, BRESENHAM)

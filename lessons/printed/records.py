@@ -3,7 +3,7 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from functools import partial
-from math import floor
+from math import floor, nan
 from typing import Any
 
 import numpy as np
@@ -11,8 +11,12 @@ import numpy as np
 from core import Settings
 from core.methods import Method, table
 from core.raster.lines.records import LineRun, Segments, limited_steps
-from core.raster.lines.traits import LineTraits, line_coefficients
+from core.raster.lines.traits import LineTraits, line_rows, line_traits
+from core.records.listing import print_as, without_labels
+from core.records.operation import Columns, Operation
+from lessons.printed.recorded import recorded
 
+Operations = tuple[Operation, ...]
 Listed = list[tuple[int, int, float]]
 """Column, row and decision of each pixel; the decision is NaN where nothing had to be decided."""
 
@@ -48,16 +52,23 @@ class ListedLines:
             raise ValueError(f"the slide prints this for x0 < x1 and slopes {slopes}, got {first}")
         limited_steps(self.listing.__name__, np.zeros(len(dx), np.int64), np.ceil(dx).astype(np.int64))
         rows = [
-            (owner, index, *pixel)
+            (owner, index, *pixel, *sums)
             for owner, (x0, y0, x1, y1) in enumerate(ends.reshape(-1, 4).tolist())
-            for index, pixel in enumerate(self.listing(x0, y0, x1, y1, last_pixel))
+            for index, (pixel, sums) in enumerate(
+                zip(*recorded(self.listing, x0, y0, x1, y1, last_pixel), strict=True)
+            )
         ]
-        table_of_rows = np.array(rows, float).reshape(-1, 5)
+        table_of_rows = np.array(rows, float).reshape(-1, 8)
         owner, index, column, row = table_of_rows[:, :4].T.astype(np.int64)
-        decision = table_of_rows[:, 4]
+        decision, before, corrected, advanced = table_of_rows[:, 4:].T
         has_stepped = (index > 0) & (row != np.roll(row, 1))
         is_tie = decision - np.floor(decision) == 0.5 if self.tie is None else decision == self.tie
-        return LineRun(owner, index, column, row, decision, has_stepped, is_tie)
+        return LineRun(
+            *(owner, index, column, row, decision, has_stepped, is_tie),
+            sum_before=before,
+            sum_corrected=corrected,
+            sum_advanced=advanced,
+        )
 
 
 @dataclass(frozen=True)
@@ -109,6 +120,12 @@ def is_same(expected: Any, found: Any) -> bool:
     return bool(expected == found)
 
 
+def signed_lengths(columns: Columns) -> dict[str, np.ndarray]:
+    """Return dx and dy (R,) as the slides have them, with their signs."""
+    dx, dy = (columns["second_end"] - columns["first_end"]).T
+    return {"dx": dx, "dy": dy}
+
+
 @dataclass(frozen=True, eq=False)
 class PrintedListing:
     """A listing as a slide prints it."""
@@ -118,7 +135,7 @@ class PrintedListing:
     lecture: str
     slide: str
     text: str
-    """The listing as the slide has come to us, its layout restored."""
+    """The listing as the slide has come to us, its layout restored; of a line listing given with labels."""
     family: str
     """Family of the method that is right."""
     right: str
@@ -131,8 +148,14 @@ class PrintedListing:
     """What is known of it."""
     rule: ListedLines | None = None
     """Of a line listing: its first reading in the pipeline."""
+    rows: tuple[Operations, ...] = ()
+    """Of a line listing: what the first pixel of a line does, every other one, and one after a step."""
+    read: tuple[str, str] = ("", "")
+    """Of a line listing: what ``text`` prints, and how its first reading has it."""
     like: str = ""
-    """Of a line listing: the method whose rows and sentences its trace has."""
+    """Of a line listing: the method whose sentences its trace has."""
+    beside: str = ""
+    """Of a line listing: the method that runs beside it, where that is another one than ``right``."""
     registered: str = ""
     """Name of the method of the table that is this listing; empty: it is in no table."""
     method: Method | None = field(init=False, default=None)
@@ -140,6 +163,8 @@ class PrintedListing:
 
     def __post_init__(self) -> None:
         if self.rule is not None:
+            print_as(self.rule.listing, self.text.replace(*self.read) if self.read[0] else self.text)
+            object.__setattr__(self, "text", without_labels(self.text))
             made = replace(
                 table.get(self.family, self.like),
                 title=f"{self.title} ({self.lecture})",
@@ -148,7 +173,8 @@ class PrintedListing:
                 breaks_where="",
                 function=self.rule,
                 listing=self.rule.listing,
-                traits=LineTraits(takes_pixels=self.rule.takes_pixels, coefficients=line_coefficients),
+                operations=line_rows(self.like, *self.rows),
+                traits=LineTraits(takes_pixels=self.rule.takes_pixels, columns=signed_lengths),
             )
             object.__setattr__(self, "method", made)
 
@@ -191,6 +217,9 @@ def first_divergence(
     method = table.get("line", right).listing
     assert method is not None, f"{right} has no listing"
     mine, its = listing(*ends, True), method(*ends, True)
+    if line_traits(right).takes_pixels:
+        # It lists D with the pixel that was there before the decision.
+        its = [(x, y, D) for (x, y, _), D in zip(its, [nan, *(pixel[2] for pixel in its)], strict=False)]
     for step in range(max(len(mine), len(its))):
         printed, wanted = (pixels[step] if step < len(pixels) else None for pixels in (mine, its))
         if printed is None or wanted is None or printed[:2] != wanted[:2]:

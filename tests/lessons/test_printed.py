@@ -2,11 +2,13 @@
 
 import copy
 import pickle
+import re
 
 import numpy as np
 import pytest
 
 from core import Settings, render, trace
+from core.explain import account, variables
 from core.methods import table
 from core.records.listing import listing
 from lessons.printed.bresenham import final, missed_ends, naive
@@ -39,9 +41,35 @@ def test_render_and_trace_run_the_printed_listing(printed):
     count = np.zeros((12, 16), int)
     np.add.at(count, tuple(stage.pixel.T[::-1]), 1)
     assert np.array_equal(render(scene, settings).cover_count, count)
-    # A step says a sentence and marks its line of the printed listing.
-    explained = [stage.explain(position) for position in range(1, stage.steps.count + 1)]
-    assert {one.line for one in explained if one} - {0}
+
+
+@pytest.mark.parametrize("printed", LINES, ids=lambda printed: printed.name)
+def test_every_assignment_of_the_printed_text_is_a_step_with_its_sum(printed):
+    stage = trace(two_segments(printed.rule.rises), printed.settings(Settings())).stage("raster")
+    shown = next(iter(stage.listings.values())).source
+    assert shown == (printed.text.replace(*printed.read) if printed.read[0] else printed.text)
+    assert not re.search("chosen_by|half_up|#:", shown)
+    held, marked = {}, set()
+    for row in range(stage.steps.row_count):
+        held = {} if stage.kind_of(row).endswith("-start") else held
+        for position in range(stage.steps.starts[row] + 1, stage.steps.starts[row + 1] + 1):
+            made = stage.explain(position)
+            text, equation = account(made, 0, None)
+            assert "NaN" not in text + (equation.substituted if equation else ""), made.key
+            now = {one.name: one for one in variables(made) if one.name in ("x", "y", "e", "d", "D")}
+            # No variable jumps: what was there before a step is what the step before has left.
+            assert all(one.before == held.get(name) for name, one in now.items() if one.is_changed()), (
+                made.key
+            )
+            assert all(one.now == held[name] for name, one in now.items() if not one.is_changed()), made.key
+            assert equation or not any(one.is_changed() for one in now.values())
+            held = {name: one.now for name, one in now.items()}
+            marked.add(made.line)
+    # All lines that do something are marked, but for those of brackets, comments and loops that go on.
+    assigning = {
+        k for k, line in enumerate(shown.splitlines(), 1) if re.search(r"[+-]= |draw|write|if ", line)
+    }
+    assert assigning <= marked
 
 
 def test_the_table_of_methods_has_none_of_them():

@@ -136,14 +136,14 @@ def lengths(step: StepValues) -> Said:
     """The lengths along both axes."""
     major, minor = axes(step)
     (x0, y0), (x1, y1) = listed_ends(step)
-    dx, dy = step.number("run"), step.number("rise")
+    dx, dy = step.number("dx"), step.number("dy")
     text = f"The line goes {counted(int(dx), 'pixel')} along {major} and {spoken(dy)} along {minor}."
-    apart = [
-        rf"|{name}_1 - {name}_0|::|{number_latex(second)} - {signed_latex(first)}|".split("::")
-        for name, first, second in ((MAJOR, x0, x1), (MINOR, y0, y1))
-    ]
-    (of_x, in_x), (of_y, in_y) = apart
-    return text, equation(*beside([("dx", dx), "=", (of_x, in_x)], [("dy", dy), "=", (of_y, in_y)]))
+    bar = "|" if "abs" in ast.unparse(code_of(step) or ast.Pass()) else ""
+    made: list[list[Part]] = []
+    for axis, found, first, second in ((MAJOR, dx, x0, x1), (MINOR, dy, y0, y1)):
+        symbols, numbers = difference((f"{axis}_1", second), (f"{axis}_0", first))
+        made.append([(f"d{axis}", found), "=", (f"{bar}{symbols}{bar}", f"{bar}{numbers}{bar}")])
+    return text, equation(*beside(*made))
 
 
 @explains("raster.*.directions")
@@ -197,6 +197,8 @@ def _amount(computed: str, value: float) -> str:
 @explains("raster.bresenham-float-start.slope")
 def error_slope(step: StepValues) -> Said:
     """The slope that is added to the error."""
+    if "d" not in ast.unparse(code_of(step) or ast.Pass()):
+        return line_slope(step)
     _, minor = axes(step)
     run, rise, m = (step.number(name) for name in ("run", "rise", "slope"))
     bars = fraction((f"d{MINOR}", rise), (f"d{MAJOR}", max(run, 1.0)))
@@ -290,6 +292,17 @@ def stepped(step: StepValues) -> Said:
     return f"{why} {minor} steps to {spoken(now)}{_though(near)}.", equation(*assignment(step)[0])
 
 
+@explains("raster.*.first-y")
+def first_pixel(step: StepValues) -> Said:
+    """The first pixel on the minor axis."""
+    first, m, b, x = (step.number(name) for name in ("minor", "slope", "intercept", "major"))
+    line = rf"m \cdot {MAJOR} + b", rf"{number_latex(m)} \cdot {signed_latex(x)} + {signed_latex(b)}"
+    symbols, numbers = (rf"\lfloor {text} + \frac{{1}}{{2}} \rfloor" for text in line)
+    return f"The nearest pixel centre at x = {spoken(x)} is at y = {spoken(first)}.", equation(
+        (MINOR, first), "=", (symbols, numbers)
+    )
+
+
 @explains("raster.*.correct|advance")
 def added(step: StepValues) -> Said:
     """What is added to the sum, or taken off it."""
@@ -368,7 +381,9 @@ def plotted(step: StepValues) -> Said:
     start, end = step.vector("window_start"), step.vector("window_end")
     k = 1 if abs(end[1] - start[1]) > abs(end[0] - start[0]) else 0
     axis, length = "xy"[k ^ is_swapped(step)], end[k] - start[k]
-    center, beside_it = ((step.whole("column"), step.whole("row"))[n] + step.number("center") for n in (k, 1 - k))
+    center, beside_it = (
+        (step.whole("column"), step.whole("row"))[n] + step.number("center") for n in (k, 1 - k)
+    )
     along = (center - start[k]) / length if length else 0.0
     away = beside_it - start[1 - k] - along * (end[1 - k] - start[1 - k])
     intensity, edge = step.number("intensity"), f"edge {step.whole('edge')}"
@@ -378,7 +393,9 @@ def plotted(step: StepValues) -> Said:
         end_name = "first" if along < 0 else "second"
         where = f"lies beyond the {end_name} end of {edge}, which stands for it"
     elif abs(away) > ON_LINE:
-        at = {0.0: "level with the first end", 1.0: "level with the second end"}.get(along, f"at t = {spoken(along)}")
+        at = {0.0: "level with the first end", 1.0: "level with the second end"}.get(
+            along, f"at t = {spoken(along)}"
+        )
         where = f"is {at} of {edge}, {spoken(abs(away))} px {side} the line"
     else:
         at = {0.0: "at the first end", 1.0: "at the second end"}.get(along, f"at t = {spoken(along)}")

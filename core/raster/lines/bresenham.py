@@ -46,11 +46,14 @@ from core.records.operation import Operation
 Listed = list[tuple[int, int, float]]
 """Column and row of each pixel, and D or e when it is drawn, from a listing."""
 
-_SET_UP = (OCTANT, Operation("lengths", "lengths", ("dx", "dy")), DIRECTIONS)
-_TEST = Operation("test", "test", ("is_tie", "has_stepped"))
-_ERROR_TEST = Operation("test", "test", ("decision", "is_tie", "has_stepped"))
+LENGTHS = Operation("lengths", "lengths", ("dx", "dy"))
+STEP = Operation("step", "step", ("minor",))
+CORRECT = Operation("correct", "correct", ("sum_corrected",))
+TEST = Operation("test", "test", ("is_tie", "has_stepped"))
+ERROR_TEST = Operation("test", "test", ("decision", "is_tie", "has_stepped"))
 _MOVED = (ADVANCE, NEXT, PLOT)
-_STEPPED = (Operation("step", "step", ("minor",)), Operation("correct", "correct", ("sum_corrected",)))
+_SET_UP = (OCTANT, LENGTHS, DIRECTIONS)
+_STEPPED = (STEP, CORRECT)
 
 
 def no_coefficients(ends: Floats) -> Coefficients:
@@ -144,7 +147,7 @@ def bresenham_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> L
     breaks_where="other ends: they move to the centre of their pixel. Drawn backwards, a tie takes the other pixel",
     listing=bresenham_listing,
     operations=line_rows(
-        "bresenham", (*_SET_UP, START, FIRST_SUM, PLOT), (_TEST, *_MOVED), (_TEST, *_STEPPED, *_MOVED)
+        "bresenham", (*_SET_UP, START, FIRST_SUM, PLOT), (TEST, *_MOVED), (TEST, *_STEPPED, *_MOVED)
     ),
     traits=LineTraits(takes_pixels=True, coefficients=no_coefficients, find_pixels=find_line_pixels),
 )
@@ -189,7 +192,7 @@ def bresenham_lecture_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bo
     "pixel is always drawn, so both draw it",
     listing=bresenham_lecture_listing,
     operations=line_rows(
-        "bresenham-lecture", (*_SET_UP, START, FIRST_SUM, PLOT), (_TEST, *_MOVED), (_TEST, *_STEPPED, *_MOVED)
+        "bresenham-lecture", (*_SET_UP, START, FIRST_SUM, PLOT), (TEST, *_MOVED), (TEST, *_STEPPED, *_MOVED)
     ),
     traits=LineTraits(
         takes_pixels=True, is_diagonal_steep=True, swaps_ends=True, coefficients=no_coefficients
@@ -242,8 +245,8 @@ def bresenham_float_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool
     operations=line_rows(
         "bresenham-float",
         (*_SET_UP, Operation("slope", "slope", ("slope",)), START, FIRST_SUM, PLOT),
-        (_ERROR_TEST, *_MOVED),
-        (_ERROR_TEST, *_STEPPED, *_MOVED),
+        (ERROR_TEST, *_MOVED),
+        (ERROR_TEST, *_STEPPED, *_MOVED),
     ),
     traits=LineTraits(takes_pixels=True, coefficients=error_slope),
 )

@@ -10,6 +10,7 @@ from core.explain import question
 from core.explain.rows import ROWS, explains
 from core.explain.step_values import row_key
 from core.explain.steps import load_subjects, row_of
+from lessons.printed.catalogue import PRINTED
 from tests.core.explain.explained_steps import all_steps, traces
 
 
@@ -20,6 +21,9 @@ def declared_keys() -> set[str]:
         for name in STAGES:
             for kind, operations in traced.stage(name).steps.operations.items():
                 found |= {row_key(f"{name}.{kind}.{operation.name}") for operation in operations}
+    for method in (printed.method for printed in PRINTED if printed.method is not None):
+        for kind, operations in method.operations.items():
+            found |= {row_key(f"raster.{kind}.{operation.name}") for operation in operations}
     return found
 
 

@@ -1,6 +1,7 @@
 """Listings as printed run as side B of A | B, beside the right method, from where they first differ."""
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -28,12 +29,13 @@ def test_bresenham_as_printed_steps_up_one_column_early(window: MainWindow) -> N
     window.show_printed("pellacini-bresenham")
     view = window.page.comparing._view
     assert window.page.current_view() == "compare"
-    assert window.session.document.settings.line == "midpoint"
+    assert window.session.document.settings.line == "bresenham-float"
     assert window.session.cursor.stage == "raster"
     assert "as printed: Bresenham loop (Pellacini)" in view.titles[1].text()
     assert said[-1].startswith("Step 2 is the first that differs: A draws (1, 0), B draws (1, 1).")
-    assert "def midpoint_listing" in view.listings[0].toPlainText()
-    assert "def bresenham" in view.listings[1].toPlainText()
+    # The same loop with its two lines the other way round: test, then add.
+    assert re.search(r"if e \+ m > 0.5:.*e \+= m", view.listings[0].toPlainText(), re.DOTALL)
+    assert re.search(r"write\(x, y, 1\).*d \+= m.*if d > 0.5", view.listings[1].toPlainText(), re.DOTALL)
     assert all(listing._line for listing in view.listings)
     assert view.grids[2].isVisibleTo(view)
 
