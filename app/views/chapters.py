@@ -5,7 +5,6 @@ from core.explain.kinds import POLYGON
 from core.explain.stage_texts import skipped_because
 from core.explain.subjects.number_formats import replaced_fill
 from core.records.frame import StageCount
-from core.resolved import resolve
 from core.stages.declared import GEOMETRY_STAGES, stage_of
 from core.trace import TraceSource
 from widgets.timeline.chapter_button import Chapter, ChapterState
@@ -29,8 +28,7 @@ def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
     """Return what goes into and comes out of every stage of the trace.
 
     The picture has all triangles, and interpolates and shades only what is seen in the end; the trace may have one
-    triangle in focus, and does it with every fragment, in pipeline order. With several samples a pixel, the counts from
-    the bins on are those of the picture.
+    triangle in focus, and does it with every fragment, in pipeline order.
     """
     source, geometry = trace.source, trace.source.geometry
     given, kept, pieces = len(geometry.assembled), len(geometry.kept), len(geometry.primitives)
@@ -38,12 +36,10 @@ def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
     found = {stage: (count.incoming, count.outgoing) for stage, count in counts.items()}
     found |= {"transform": (given, given), "cull": (given, kept)}
     found |= {"clip": (kept, pieces), "edges": (pieces, pieces)}
-    if resolve(source.settings).sampling.count == 1:
-        fragments, passed = len(source.fragments), int(source.depth_tests.passes.sum())
-        tested = fragments if geometry.outlines is not None else int(source.runs.lengths.sum())
-        found |= {"bin": (pieces, tested), "raster": (tested, fragments)}
-        found |= dict.fromkeys(("interpolate", "shade"), (fragments, fragments))
-        found |= {"depth": (fragments, passed), "blend": (passed, passed)}
+    tested, fragments, shaded, passed = trace.fragment_counts
+    found |= {"bin": (pieces, tested), "raster": (tested, fragments)}
+    found |= dict.fromkeys(("interpolate", "shade"), (shaded, shaded))
+    found |= {"depth": (fragments, passed), "blend": (passed, passed)}
     if source.scene.corner_count != 3:
         found |= {"bin": (pieces, pieces), "raster": (pieces, found["raster"][1])}
     elif not found["raster"][0] and found["raster"][1]:

@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from core.lazy_import import import_on_demand
+from core.records.cached import cached_property
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.stages.declared import STAGES
@@ -31,6 +32,13 @@ class Trace:
     def __init__(self, source: "TraceSource") -> None:
         self.source = source
         self._stages: dict[str, StageTrace] = {}
+
+    @cached_property
+    def fragment_counts(self) -> tuple[int, int, int, int]:
+        """Pixels or samples that are tested and covered, what is shaded, and what passes the depth test."""
+        from core.trace.sample_sources import count_fragments
+
+        return count_fragments(self.source)
 
     def stage(self, name: str) -> "StageTrace":
         """Return the trace of a stage of ``core.STAGES``; ValueError if there is no such stage."""

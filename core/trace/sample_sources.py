@@ -15,6 +15,7 @@ from core.raster.pixel_runs import Raster
 from core.records.arrays import Floats
 from core.records.cached import cached_property
 from core.records.frame import Frame, StageCount
+from core.resolved import resolve
 from core.stages.declared import STAGES
 from core.stages.fragments import fragment_values, fragments_at, owner_of, texture_slopes
 from core.stages.vertices import Geometry, process_geometry
@@ -132,6 +133,38 @@ class FinerSource(TraceSource):
         _, height, width, *channels = by_place.shape
         squares = by_place.reshape(side, side, height, width, *channels)
         return np.moveaxis(squares, (0, 1), (1, 3)).reshape(side * height, side * width, *channels)
+
+
+def stepped_sources(whole: TraceSource) -> tuple[tuple[TraceSource, ...], TraceSource]:
+    """Return the sources of all fragments that are stepped, and the source of those that are shaded."""
+    sampling = resolve(whole.settings).sampling
+    if sampling.count == 1:
+        return (whole,), whole
+    if sampling.side:
+        finer = finer_source(whole, sampling.side)
+        return (finer,), finer
+    samples = sources_of_samples(whole)
+    return samples, center_source(whole, samples)
+
+
+def count_fragments(whole: TraceSource) -> tuple[int, int, int, int]:
+    """Count the pixels or samples that are tested and covered, what is shaded, and what passes the depth test.
+
+    Shading comes before the depth test: what is hidden in the end counts, too.
+    """
+    sources, shaded = stepped_sources(whole)
+    fragments = [len(source.fragments) for source in sources]
+    is_filled = whole.geometry.outlines is None
+    tested = [int(source.runs.lengths.sum()) for source in sources] if is_filled else fragments
+    passed = sum(int(source.depth_tests.passes.sum()) for source in sources)
+    return sum(tested), sum(fragments), len(shaded.fragments), passed
+
+
+def center_source(whole: TraceSource, samples: tuple[SampleSource, ...]) -> CenterSource:
+    """Return the source of what is shaded of four samples."""
+    return CenterSource(
+        whole.scene, whole.settings, whole.triangle, whole.region, whole.before, samples=samples
+    )
 
 
 def sources_of_samples(whole: TraceSource) -> tuple[SampleSource, ...]:

@@ -19,7 +19,7 @@ from core.records.steps import Steps, ends_of
 from core.resolved import resolve
 from core.stages.declared import UNSAMPLED_STAGES, stage_of
 from core.trace.raster_rows import occurrence
-from core.trace.sample_sources import CenterSource, finer_source, sources_of_samples
+from core.trace.sample_sources import center_source, finer_source, sources_of_samples
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
@@ -39,10 +39,7 @@ def trace_samples(source: TraceSource, stage: str, tracer: Tracer) -> StageTrace
         return tracer(source)
     sources = sources_of_samples(source)
     if stage_of(stage).at_centers:
-        centers = CenterSource(
-            source.scene, source.settings, source.triangle, source.region, source.before, samples=sources
-        )
-        return tracer(centers)
+        return tracer(center_source(source, sources))
     return _joined([tracer(of_sample) for of_sample in sources], source)
 
 

@@ -30,10 +30,16 @@ def test_what_comes_out_of_a_stage_goes_into_the_next(fill: str) -> None:
     assert "seen in the end" in chapters["shade"].reason
 
 
-def test_several_samples_are_counted_as_the_picture_counts_them() -> None:
-    run = trace(make_scene("intersecting"), Settings(antialiasing="msaa-4"))
-    counts = run.source.picture.statistics
-    assert traced_counts(run)["shade"] == (counts["shade"].incoming, counts["shade"].outgoing)
+@pytest.mark.parametrize("antialiasing", ["none", "msaa-4", "ssaa-4", "area"])
+@pytest.mark.parametrize("more", [{}, {"polygon_mode": "wireframe"}, {"visibility": "painters"}], ids=str)
+def test_the_rail_counts_the_rows(antialiasing: str, more: dict[str, str]) -> None:
+    """Triangles hide each other: what is shaded before the depth test is counted, too."""
+    run = trace(make_scene("intersecting"), Settings(antialiasing=antialiasing, **more))
+    counts = traced_counts(run)
+    for stage in ("interpolate", "shade", "depth", "blend"):
+        assert counts[stage][0] == run.stage(stage).steps.row_count, stage
+    assert counts["raster"][1] == counts["depth"][0] == run.stage("raster").marks["covered"].sum()
+    assert counts["depth"][1] == counts["blend"][0]
 
 
 @pytest.mark.parametrize("mode", ["fill", "wireframe"])
