@@ -155,12 +155,13 @@ def _check(question: Question, path: Path, user: str | None) -> int:
     except NotCheckedError as problem:
         raise ValueError(f"not checked yet: {file.error(('answer',), str(problem))}") from None
     judgement = judge(question, response)
-    if user is not None:
-        attempts.keep(user, question, response, judgement)
+    attempt = None if user is None else attempts.attempt_for(user, question, response, judgement)
     print(f"Understood:\n{answer.text(response)}")
     print(f"{judgement.points:.3g} of {points_text(question.template.points)}: {judgement.verdict.counts}")
     for sentence in filter(None, (*judgement.sentences, answer.first_wrong(response))):
         print(sentence)
+    if attempt is not None:
+        attempts.keep(attempt)
     return 0
 
 

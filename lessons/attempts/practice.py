@@ -1,22 +1,24 @@
 """Practice: which question comes next, from what was missed and how long ago."""
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime, timedelta
+from datetime import UTC, datetime, timedelta
 from hashlib import sha256
 from itertools import combinations, count, islice
 
-from lessons.attempts.record import Attempt
+from lessons.attempts.record import NOT_CHECKED, Attempt
 from lessons.exercises.draws import SEED_LIMIT
 from lessons.exercises.question import Question, Template, ask
 
-VARIANTS_IN_TURN = 3
-"""Most variants of a template one after the other, while they are missed."""
+MISSES_IN_A_ROW = 3
+"""After so many misses of a template in a row it is explained, and not asked again on that day."""
+QUESTIONS_OF_A_REPEAT = 3
+"""At most one in so many questions of a day repeats what was asked on that day already, or was missed last."""
 TRY_LIMIT = 8
 """Most seeds that are tried until two mistakes give different answers, or until a question can be drawn."""
-
-
+KNOWN_STILL = "It was asked some time ago: do you still know it?"
+DUE_FIRST = "Nothing is due yet: this one is due first."
 CORRECTION = timedelta(minutes=10)
 """An answer to the same question within this time after another one corrects it, with the marks in sight."""
 
@@ -28,6 +30,8 @@ class Choice:
     question: Question
     reason: str
     """Why, in a sentence."""
+    explained: Attempt | None = None
+    """The last answer, where its exercise was missed so often that it should be explained first."""
 
 
 def next_question(
@@ -38,68 +42,116 @@ def next_question(
     Parameters
     ----------
     attempts : sequence of Attempt
-        Those of the user, in the order of time.
+        Those of the user, in the order of time; what is dated later than now does not count.
     templates : mapping
         By name, in the order in which new ones are asked.
     user : str
         The same user, attempts and time always get the same question.
     now : datetime
-        In UTC.
+        With its zone: a day is one of that zone.
 
     Notes
     -----
-    A new variant of what was just missed comes first; if several mistakes gave the wrong answer, one that tells them
-    apart. Then comes what is due by FSRS, the most forgotten first, then what is new, then what is due next.
+    At most one in ``QUESTIONS_OF_A_REPEAT`` questions of a day repeats, while there are others: first a variant of what
+    was missed today, then what is due by FSRS. The others are what is due and was right, the most forgotten first,
+    then what is new, then what is due next. If several mistakes gave a wrong answer, a question tells them apart.
     """
-    known = [attempt for attempt in attempts if attempt.template in templates]
+    known = [attempt for attempt in attempts if attempt.template in templates and attempt.at <= now]
     tries = first_tries(known)
-    again = _missed_last(tries, templates)
-    if again is not None:
-        told = telling_apart(again.mistakes, _tries(known, templates, again, user))
+    day = _Day(tries, now)
+    explained = (
+        tries[-1] if tries and tries[-1].at >= day.begin and day.is_enough(tries[-1].template) else None
+    )
+    missed = [] if explained is not None else [name for name in day.missed if not templates[name].is_fixed]
+    if missed:
+        last = day.last[missed[0]]
+        allowed = [
+            one
+            for one in _tries(known, templates, last, user)
+            if not day.repeats(one[0].name) or day.may_repeat
+        ]
+        told = telling_apart(last.mistakes, allowed)
         if told is not None:
-            names = " and ".join(again.mistakes)
-            return Choice(told, f"The last answer can come from {names}: this question tells them apart.")
-    for template, reason in _in_turn(tries, templates, again, now):
+            names = " and ".join(last.mistakes)
+            return Choice(told, f"An answer of today can come from {names}: this question tells them apart.")
+    for template, reason in _in_turn(day, templates, now):
         for seed in _fresh_seeds(known, template, user):
             try:
-                return Choice(ask(template, seed), reason)
+                return Choice(ask(template, seed), reason, explained)
             except ValueError:
                 continue  # A teacher's ranges may leave a seed without a question.
     return None
 
 
-def _missed_last(attempts: Sequence[Attempt], templates: Mapping[str, Template]) -> Attempt | None:
-    """Return the last attempt if a new variant of it should follow."""
-    if not attempts or attempts[-1].score == 1:
-        return None
-    last = attempts[-1]
-    turn = [
-        attempt.template == last.template and attempt.score < 1 for attempt in attempts[-VARIANTS_IN_TURN:]
-    ]
-    has_enough = len(turn) == VARIANTS_IN_TURN and all(turn)
-    return None if has_enough or templates[last.template].is_fixed else last
+class _Day:
+    """What was asked today, and before."""
+
+    def __init__(self, tries: Sequence[Attempt], now: datetime) -> None:
+        self.begin = now.replace(hour=0, minute=0, second=0, microsecond=0)
+        self.last: dict[str, Attempt] = {}
+        """By template."""
+        self.recall = recall(tries, now)
+        count = repeated = 0
+        for attempt in tries:
+            if attempt.at >= self.begin:
+                count += 1
+                repeated += self.repeats(attempt.template)
+            self.last[attempt.template] = attempt
+        self.may_repeat = QUESTIONS_OF_A_REPEAT * (repeated + 1) <= count + 1
+        self._misses = misses_in_a_row(tries)
+        self.missed = [
+            name
+            for name, attempt in sorted(self.last.items(), key=lambda item: item[1].at, reverse=True)
+            if attempt.at >= self.begin and attempt.score < 1 and not self.is_enough(name)
+        ]
+        """Templates that were missed last today, the latest first; without those that are to be explained."""
+
+    def repeats(self, name: str) -> bool:
+        """Return whether a template was asked today already, or was missed when it was asked last."""
+        last = self.last.get(name)
+        return last is not None and (last.at >= self.begin or last.score < 1)
+
+    def is_enough(self, name: str) -> bool:
+        """Return whether a template was asked today, and missed too often in a row to be asked again."""
+        return self._misses[name] >= MISSES_IN_A_ROW and self.last[name].at >= self.begin
 
 
-def _in_turn(
-    attempts: Sequence[Attempt], templates: Mapping[str, Template], again: Attempt | None, now: datetime
-) -> Iterator[tuple[Template, str]]:
+def misses_in_a_row(attempts: Sequence[Attempt]) -> Counter[str]:
+    """Return by template how often it was missed since it was last right, from first tries."""
+    misses: Counter[str] = Counter()
+    for attempt in attempts:
+        misses[attempt.template] = 0 if attempt.score == 1 else misses[attempt.template] + 1
+    return misses
+
+
+def _in_turn(day: _Day, templates: Mapping[str, Template], now: datetime) -> Iterator[tuple[Template, str]]:
     """Yield all templates, the most urgent first, each with the reason."""
-    if again is not None:
-        yield templates[again.template], "A new variant of what was just missed."
-    known = recall(attempts, now)
-    last = {attempt.template: attempt.at for attempt in attempts}
-    later = {name: day for name, (_, day) in known.items() if day > now}
+    due_at = {name: due for name, (_, due) in day.recall.items()}
     for name, template in templates.items():
         # The same question again at once would be a correction.
-        if template.is_fixed and name in known and now < last[name] + CORRECTION:
-            later[name] = last[name] + CORRECTION
-    for name in sorted((name for name in known if name not in later), key=known.__getitem__):
-        yield templates[name], "It was asked some time ago: do you still know it?"
+        if template.is_fixed and name in due_at and now < day.last[name].at + CORRECTION:
+            due_at[name] = max(due_at[name], day.last[name].at + CORRECTION)
+    due = sorted((name for name in due_at if due_at[name] <= now), key=day.recall.__getitem__)
+    later = sorted((name for name in due_at if due_at[name] > now), key=due_at.__getitem__)
+    if day.may_repeat:
+        for name in day.missed:
+            if not templates[name].is_fixed:
+                yield templates[name], "A new variant of what was missed today."
+        for name in due:
+            if day.repeats(name) and not day.is_enough(name):
+                yield templates[name], KNOWN_STILL
+    for name in due:
+        if not day.repeats(name):
+            yield templates[name], KNOWN_STILL
     for name, template in templates.items():
-        if name not in known:
+        if name not in due_at:
             yield template, "This one is new."
-    for name in sorted(later, key=later.__getitem__):
-        yield templates[name], "Nothing is due yet: this one is due first."
+    for name in later:
+        if not day.repeats(name):
+            yield templates[name], DUE_FIRST
+    # Nothing but repeats is left.
+    for name in sorted((*due, *later), key=lambda name: (day.is_enough(name), due_at[name])):
+        yield templates[name], KNOWN_STILL if name in due else DUE_FIRST
 
 
 def first_tries(attempts: Sequence[Attempt]) -> list[Attempt]:
@@ -139,7 +191,8 @@ def recall(attempts: Sequence[Attempt], now: datetime) -> dict[str, tuple[float,
         rating = Rating.Good if attempt.score == 1 else Rating.Hard if attempt.is_slip else Rating.Again
         card = cards.get(attempt.template) or Card(card_id=0, due=attempt.at)
         cards[attempt.template], _ = scheduler.review_card(card, rating, attempt.at)
-    return {name: (scheduler.get_card_retrievability(card, now), card.due) for name, card in cards.items()}
+    at = now.astimezone(UTC)  # FSRS takes no other zone.
+    return {name: (scheduler.get_card_retrievability(card, at), card.due) for name, card in cards.items()}
 
 
 def _fresh_seeds(attempts: Sequence[Attempt], template: Template, user: str) -> Iterator[int]:
@@ -204,11 +257,19 @@ class Progress:
     """Answers that were all right, by template."""
     tried: Mapping[str, int]
     """All answers, by template."""
+    unchecked: float = 0.0
+    """Points among the best that come from another file, and could not be checked."""
 
     @property
     def points(self) -> float:
         """Sum of the best points."""
         return sum(self.best.values())
+
+    @property
+    def points_text(self) -> str:
+        """The points in words, with those that are not checked."""
+        unsure = f", {self.unchecked:.3g} of them {NOT_CHECKED}" if self.unchecked else ""
+        return f"{self.points:.3g} points{unsure}"
 
 
 def progress(attempts: Sequence[Attempt]) -> Progress:
@@ -218,12 +279,16 @@ def progress(attempts: Sequence[Attempt]) -> Progress:
     best: dict[str, float] = {}
     correct: dict[str, int] = defaultdict(int)
     tried: dict[str, int] = defaultdict(int)
+    sure: dict[str, float] = {}
     for attempt in first_tries(attempts):
         for mistake in attempt.asked:
             asked[attempt.stage, mistake] += 1
             made[attempt.stage, mistake] += mistake in attempt.mistakes
         best[attempt.template] = max(best.get(attempt.template, 0), attempt.points)
+        if attempt.is_checked:
+            sure[attempt.template] = max(sure.get(attempt.template, 0), attempt.points)
         correct[attempt.template] += attempt.score == 1
         tried[attempt.template] += 1
     counts = tuple(MistakeCount(*place, made[place], number) for place, number in asked.items())
-    return Progress(counts, best, dict(correct), dict(tried))
+    unchecked = sum(best.values()) - sum(sure.values())
+    return Progress(counts, best, dict(correct), dict(tried), unchecked)

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from datetime import UTC, datetime
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
-from pydantic import AfterValidator, AwareDatetime, BaseModel, ConfigDict, Field, ValidationError
+from pydantic import AfterValidator, AwareDatetime, BaseModel, ConfigDict, Field, TypeAdapter, ValidationError
 
 from lessons.exercises.draws import SEED_LIMIT
 
@@ -21,6 +21,8 @@ VERSION: Literal[1] = 1
 """Of the database and of exported files; later ones are refused."""
 DEFAULT_USER = "me"
 """Name of the user where nobody has chosen one."""
+NOT_CHECKED = "not checked"
+"""First words of a verdict that comes from another file and could not be given again."""
 ANSWER_LIMIT = 1 << 16
 """Longest answer in characters."""
 
@@ -47,6 +49,18 @@ Name = Annotated[str, Field(min_length=1, max_length=200), AfterValidator(_print
 Mistake = Annotated[str, Field(max_length=200), AfterValidator(_one_word)]
 Whole = Annotated[int, Field(ge=0, le=SEED_LIMIT)]
 Amount = Annotated[float, Field(ge=0, le=1e9, allow_inf_nan=False)]
+
+
+_NAMES: TypeAdapter[str] = TypeAdapter(Name)
+
+
+def is_name(value: object) -> bool:
+    """Return whether a value can be the name of a user: 1 to 200 printable characters."""
+    try:
+        _NAMES.validate_python(value, strict=True)
+    except ValidationError:
+        return False
+    return True
 
 
 class Attempt(BaseModel):
@@ -77,6 +91,11 @@ class Attempt(BaseModel):
     is_slip: bool = False
     seconds: Amount
     """Time taken."""
+
+    @property
+    def is_checked(self) -> bool:
+        """Whether this program has judged the answer."""
+        return not self.verdict.startswith(NOT_CHECKED)
 
 
 def attempt_of(

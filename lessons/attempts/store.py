@@ -14,7 +14,9 @@ from pathlib import Path
 from time import monotonic, sleep
 from typing import Any
 
-from lessons.attempts.record import COLUMNS, VERSION, Attempt, attempt_row
+from pydantic import ValidationError
+
+from lessons.attempts.record import COLUMNS, VERSION, Attempt, attempt_row, is_name
 from lessons.os_errors import os_error_reason
 
 FILE_NAME = "attempts.sqlite"
@@ -51,10 +53,9 @@ _INSERT = (
 _REASONS = {
     sqlite3.SQLITE_FULL: "the disk is full",
     sqlite3.SQLITE_BUSY: "another window is writing to it",
-    sqlite3.SQLITE_READONLY: "permission is denied",
-    sqlite3.SQLITE_PERM: "permission is denied",
-    sqlite3.SQLITE_CANTOPEN: "its folder cannot be written to, or it is no file",
 }
+_REFUSED = (sqlite3.SQLITE_READONLY, sqlite3.SQLITE_PERM, sqlite3.SQLITE_CANTOPEN)
+"""The system refused the file: it knows why."""
 
 
 class AttemptFileError(OSError):
@@ -72,7 +73,7 @@ class AttemptFile:
     path: Path
 
     def check(self) -> str:
-        """Look at the whole file; begin one where there is none, and set aside one that is damaged.
+        """Look at the whole file; begin one where there is none, and set aside one that is damaged as a whole.
 
         Returns
         -------
@@ -117,25 +118,35 @@ class AttemptFile:
             return self._insert(attempts)
 
     def attempts(self, user: str | None = None) -> tuple[Attempt, ...]:
-        """Return the attempts of a user, or of all, in the order of time; AttemptFileError if they cannot be read."""
-        query = f"SELECT {', '.join(COLUMNS)} FROM attempts WHERE user = ? OR ? IS NULL ORDER BY at, rowid"
-        if not self.path.exists():
-            return ()
-        with self._opened() as connection:
-            rows = connection.execute(query, (user, user)).fetchall()
-        try:
-            return tuple(_attempt_of_row(row) for row in rows)
-        except ValueError as problem:
-            raise DamagedFileError(f"{self.path} holds an attempt that cannot be read") from problem
+        """Return the attempts of a user, or of all, in the order of time; AttemptFileError if they cannot be read.
+
+        A row that holds no attempt is left out; `left_out` tells of such.
+        """
+        return tuple(each for each in self._rows(user) if each is not None)
+
+    def left_out(self) -> str:
+        """Return a sentence about rows that hold no attempt; empty: there are none."""
+        count = self._rows(None).count(None)
+        if not count:
+            return ""
+        are = "1 answer cannot be read and is" if count == 1 else f"{count} answers cannot be read and are"
+        return f"{self.path}: {are} left out. The others are unchanged."
 
     def users(self) -> tuple[str, ...]:
         """Return the names of all users; errors as `attempts`."""
         if not self.path.exists():
             return ()
         with self._opened() as connection:
-            return tuple(
-                user for (user,) in connection.execute("SELECT DISTINCT user FROM attempts ORDER BY 1")
-            )
+            users = [user for (user,) in connection.execute("SELECT DISTINCT user FROM attempts ORDER BY 1")]
+        return tuple(user for user in users if is_name(user))
+
+    def _rows(self, user: str | None) -> list[Attempt | None]:
+        """Return the attempts of a user, or of all; ``None`` for a row that holds none."""
+        if not self.path.exists():
+            return []
+        query = f"SELECT {', '.join(COLUMNS)} FROM attempts WHERE user = ? OR ? IS NULL ORDER BY at, rowid"
+        with self._opened() as connection:
+            return [_attempt_of_row(row) for row in connection.execute(query, (user, user))]
 
     def _insert(self, attempts: Iterable[Attempt]) -> int:
         with self._opened() as connection:
@@ -153,8 +164,7 @@ class AttemptFile:
             with self._opened() as connection:
                 (found,) = connection.execute("PRAGMA quick_check(1)").fetchone()
             if found == "ok":
-                self.attempts()
-                return ""
+                return self.left_out()
         except DamagedFileError:
             pass
         kept = self._replace()
@@ -190,6 +200,7 @@ class AttemptFile:
         lock = self.path.with_name(f"{self.path.name}.lock")
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
+            lock.touch()  # The system says why it cannot; SQLite does not.
             with self._connected(lock, "rwc") as connection:
                 _lock(connection)
                 yield
@@ -223,13 +234,26 @@ class AttemptFile:
             with closing(
                 sqlite3.connect(address, timeout=SECONDS_TO_WAIT, isolation_level=None, uri=True)
             ) as connection:
+                # A byte that is no UTF-8 makes one row unreadable, not the file.
+                connection.text_factory = lambda text: text.decode("utf-8", "surrogateescape")
                 yield connection
         except sqlite3.Error as problem:
             code = getattr(problem, "sqlite_errorcode", sqlite3.SQLITE_ERROR) & 0xFF
             if code in (sqlite3.SQLITE_CORRUPT, sqlite3.SQLITE_NOTADB):
                 raise DamagedFileError(f"{self.path} is damaged: {problem}") from problem
             reason = _REASONS.get(code, str(problem))
+            if code in _REFUSED:
+                reason = _refusal(path) or "its folder cannot be written to"
             raise AttemptFileError(f"{self.path} cannot be read or written: {reason}") from problem
+
+
+def _refusal(path: Path) -> str:
+    """Return why the system lets nobody write to a file, as the end of a sentence; empty: it does."""
+    try:
+        with path.open("r+b"):
+            return ""
+    except OSError as problem:
+        return os_error_reason(problem)
 
 
 def _lock(connection: sqlite3.Connection) -> None:
@@ -251,7 +275,10 @@ def _row_of_attempt(attempt: Attempt) -> tuple[Any, ...]:
     return tuple(attempt_row(attempt).values())
 
 
-def _attempt_of_row(row: tuple[Any, ...]) -> Attempt:
+def _attempt_of_row(row: tuple[Any, ...]) -> Attempt | None:
     values = dict(zip(COLUMNS, row, strict=True))
     values |= {name: tuple(str(values[name]).split()) for name in ("asked", "mistakes")}
-    return Attempt(**values)
+    try:
+        return Attempt(**values)
+    except ValidationError:
+        return None

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
-from datetime import UTC, datetime
+from datetime import datetime
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal, Slot
@@ -94,10 +94,17 @@ class CataloguePresenter(QObject):
 
         def work() -> Found:
             templates, skipped = all_templates()
-            file = attempt_file()
             trouble = [f"Skipped: {sentence}." for sentence in skipped]
-            trouble += filter(None, [file.check()])
-            return Found(templates, file.attempts(user), " ".join(trouble))
+            attempts: Attempts = ()
+            try:
+                file = attempt_file()
+                try:
+                    trouble += filter(None, [file.check()])
+                finally:  # What was kept before can be read where nothing can be written.
+                    attempts = file.attempts(user)
+            except OSError as problem:
+                trouble.append(f"{problem}. Answers are checked, but not kept.")
+            return Found(templates, attempts, " ".join(trouble))
 
         user = self.user
         self._reading.call(work)
@@ -135,7 +142,7 @@ class CataloguePresenter(QObject):
         templates = {
             name: self.templates[name] for name in dict.fromkeys((*FIRST_COURSE, *self._practised()))
         }
-        self._choosing.call(lambda: next_question(attempts, templates, user, datetime.now(UTC)))
+        self._choosing.call(lambda: next_question(attempts, templates, user, datetime.now().astimezone()))
         self.refresh()
 
     def _practised(self) -> list[str]:

@@ -7,6 +7,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QMenu
 
 from app.pages.exercises.runs import (
+    explaining_run,
     faulty_picture,
     faulty_run,
     is_pictured,
@@ -20,7 +21,7 @@ from lessons.exercises.question import Question
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
 
-BACK, SEVERAL = "Back to my answer", "Show those runs"
+BACK, SEVERAL, EXPLAIN = "Back to my answer", "Show those runs", "Step it"
 
 
 class Evidence(QObject):
@@ -35,18 +36,29 @@ class Evidence(QObject):
         self._view, self._grid = view, grid
         self._question: Question | None = None
         self._checked: Checked | None = None
-        self._is_asked = self._is_shown = self._is_pictured = False
-        """Whether the question is open, whether the model answer was shown, and whether the picture of a mistake stands
-        in place of the raster."""
+        self._is_asked = self._is_shown = self._is_explained = self._is_pictured = False
+        """Whether the question is open, whether the model answer was shown, whether the step that decides is offered,
+        and whether the picture of a mistake stands in place of the raster."""
         view.twin_requested.connect(self.show_mistake)
         view.step_requested.connect(self.step_hidden)
 
-    def follow(self, question: Question, checked: Checked | None, *, is_asked: bool, is_shown: bool) -> None:
-        """Offer what can be shown of a question that ``is_asked``, was checked, or whose model answer ``is_shown``."""
+    def follow(
+        self,
+        question: Question,
+        checked: Checked | None,
+        *,
+        is_asked: bool,
+        is_shown: bool,
+        is_explained: bool,
+    ) -> None:
+        """Offer what can be shown of a question that ``is_asked``, was checked, or whose model answer ``is_shown``.
+
+        ``is_explained``: it was missed so often that its step is offered.
+        """
         if question is not self._question:
             self._is_pictured = False
         self._question, self._checked = question, checked
-        self._is_asked, self._is_shown = is_asked, is_shown
+        self._is_asked, self._is_shown, self._is_explained = is_asked, is_shown, is_explained
         self._show_buttons()
 
     def _show_buttons(self) -> None:
@@ -56,7 +68,13 @@ class Evidence(QObject):
         self._view.show_choices(
             twin=BACK if self._is_pictured else mistake,
             model="Model answer" if not self._is_shown else "Step the right run" if has_run else "",
-            step="Step it, hidden" if has_run and self._is_asked else "",
+            step=""
+            if not has_run
+            else "Step it, hidden"
+            if self._is_asked
+            else EXPLAIN
+            if self._is_explained
+            else "",
         )
 
     def _shown(self) -> dict[str, Callable[[], None]]:
@@ -122,9 +140,11 @@ class Evidence(QObject):
 
     @Slot()
     def step_hidden(self) -> None:
-        """Step the scene while it is asked about; the Step page hides what comes next, as while predicting."""
+        """Step the scene while it is asked about, hidden as while predicting; or the step that decides it."""
         if self._question is not None and self._is_asked:
             self._step(partial(right_run, self._question, is_asked=True))
+        elif self._question is not None and self._checked is not None and self._is_explained:
+            self._step(partial(explaining_run, self._question, self._checked.response))
 
     def step_right(self) -> None:
         """Step the right run."""

@@ -1,7 +1,9 @@
 """What is said of a check: points, counts, the mistake by name, and whether it counts."""
 
+from app.pages.exercises.evidence import EXPLAIN
 from app.pages.exercises.work import Checked
 from core.records.words import counted
+from lessons.attempts.practice import MISSES_IN_A_ROW
 from lessons.exercises.question import Question
 from widgets.exercises.records import Feedback, PixelMarks
 
@@ -9,8 +11,17 @@ SHOWN = "What is right was shown before, so this earns nothing."
 CORRECTED = "The first check of a question counts. A new variant earns points of its own."
 
 
-def feedback_of(question: Question, checked: Checked, *, is_corrected: bool) -> Feedback:
-    """Return what is said; ``is_corrected``: there was a check before."""
+EXPLAINED = (
+    f"Missed {MISSES_IN_A_ROW} times in a row. Choose {EXPLAIN}: it opens the right run at the step that decides.",
+    f"Missed {MISSES_IN_A_ROW} times in a row. Model answer shows what is right.",
+)
+"""What is said of an exercise with a scene, and of one without."""
+
+
+def feedback_of(
+    question: Question, checked: Checked, *, is_corrected: bool, is_explained: bool = False
+) -> Feedback:
+    """Return what is said; ``is_corrected``: there was a check before; ``is_explained``: its step is offered."""
     judgement, marks = checked.judgement, checked.marks
     heading = f"{judgement.points:.3g} of {counted(question.template.points, 'point')}"
     is_right = judgement.verdict.score == 1
@@ -19,4 +30,5 @@ def feedback_of(question: Question, checked: Checked, *, is_corrected: bool) -> 
         counts += f", {len(marks.double)} of these double"
     reveal = (question.draft.reveal,) if is_right and question.draft.reveal else ()
     before = (SHOWN,) if checked.attempt is None else (CORRECTED,) if is_corrected else ()
-    return Feedback(heading, counts, (*judgement.sentences, *reveal, *before), is_right)
+    offer = (EXPLAINED[question.draft.scene is None],) if is_explained else ()
+    return Feedback(heading, counts, (*judgement.sentences, *reveal, *before, *offer), is_right)

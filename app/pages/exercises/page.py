@@ -59,6 +59,7 @@ class ExercisesPage(Page):
         self.panes = PaneSplitter(Qt.Orientation.Horizontal, self)
         self.diagnosis_view = DiagnosisView(self)
         self.diagnosis = DiagnosisPresenter(session, self.diagnosis_view, self)
+        self._presenters = self.questions, self.exercises, self.diagnosis, self.progress
         for pane, stretch in ((self.question_view, 2), (self.grid, 3)):
             self.panes.addWidget(pane)
             self.panes.setStretchFactor(self.panes.count() - 1, stretch)
@@ -88,7 +89,8 @@ class ExercisesPage(Page):
         self.diagnosis.shown.connect(self._show_diagnosis)
         self.diagnosis.hidden.connect(self.show_question)
         self.diagnosis.step_requested.connect(self.step_requested)
-        self.diagnosis.work_progressed.connect(self.work_progressed)
+        for presenter in (self.diagnosis, self.progress):
+            presenter.work_progressed.connect(self.work_progressed)
         self.progress.user_changed.connect(self._set_user)
         self.progress.attempts_added.connect(self.exercises.begin)
         self.progress.message_sent.connect(self.message_sent)
@@ -316,7 +318,7 @@ class ExercisesPage(Page):
 
     def settle(self) -> None:
         """Wait until the question is there."""
-        while self.questions.is_working or self.exercises.is_working or self.diagnosis.is_working:
+        while any(each.is_working for each in self._presenters):
             QCoreApplication.processEvents()
             QThread.msleep(5)
 
@@ -334,6 +336,6 @@ class ExercisesPage(Page):
 
     def stop(self) -> None:
         """End all work, and keep the answer."""
-        for work in (self.questions, self.exercises, self.diagnosis):
-            work.stop()
+        for each in self._presenters:
+            each.stop()
         self.unfinished.finish()

@@ -1,29 +1,32 @@
 """Shows what a learner has reached, lets another one answer, and exchanges answers as files."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from datetime import UTC, datetime
 from itertools import groupby
 from operator import attrgetter
 from pathlib import Path
 
-from pydantic import TypeAdapter, ValidationError
 from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QFileDialog
 
+from app.background.workers import Job, Progress
 from app.files.attempts import SIZE_LIMIT, attempt_file
+from app.files.exercise_folders import all_templates
 from app.files.file_writing import write_file
 from app.files.input_files import read_input
 from app.files.save_dialog import SaveDialog
 from core import STAGES
 from core.records.words import counted
 from core.stages.declared import stage_of
+from lessons.attempts.imports import judged_again
 from lessons.attempts.practice import progress
-from lessons.attempts.record import Attempt, Name, exported_attempts, read_attempts_json
+from lessons.attempts.record import Attempt, exported_attempts, is_name, read_attempts_json
 from lessons.mistakes.shelf import MISTAKES
+from widgets.basics.message_bar import Progress as Done
 from widgets.exercises.progress_view import MistakeRecord, ProgressView, StageProgress
 
 KINDS = "Answers (*.json);;All files (*)"
 EXPORTED = "Answers, to be imported (*.json);;Table for a spreadsheet (*.csv)"
-_NAMES: TypeAdapter[str] = TypeAdapter(Name)
 
 
 class ProgressPresenter(QObject):
@@ -35,11 +38,17 @@ class ProgressPresenter(QObject):
     """Answers were imported."""
     message_sent = Signal(str)
     refused = Signal(str)
+    work_progressed = Signal(object)
 
     def __init__(self, view: ProgressView, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._view = view
         self._user = ""
+        self._importing = Job(self, expected=(OSError, ValueError, MemoryError))
+        self._importing.progressed.connect(self._tell_progress)
+        self._importing.ended.connect(self._end_progress)
+        self._importing.succeeded.connect(self._take_imported)
+        self._importing.failed.connect(self._refuse_import)
         view.user_chosen.connect(self._choose_user)
         view.export_requested.connect(self._export)
         view.import_requested.connect(self._import)
@@ -72,17 +81,14 @@ class ProgressPresenter(QObject):
                     for each in by_stage.get(stage, ())
                 )
                 stages.append(StageProgress(stage_of(stage).short_title, points, mistakes))
-        self._view.show_progress(f"{reached.points:.3g} points", stages)
+        self._view.show_progress(reached.points_text, stages)
 
     @Slot(str)
     def _choose_user(self, name: str) -> None:
-        try:
-            user = _NAMES.validate_python(name)
-        except ValidationError:
+        if not is_name(name):
             self.refused.emit(f"Expected a name of 1 to 200 printable characters, got {name[:40]!r}.")
-            return
-        if user != self._user:
-            self.user_changed.emit(user)
+        elif name != self._user:
+            self.user_changed.emit(name)
 
     @Slot()
     def _export(self) -> None:
@@ -107,14 +113,43 @@ class ProgressPresenter(QObject):
             self.import_from(path)
 
     def import_from(self, path: str) -> None:
-        """Add the answers of an exported file, all or none."""
-        try:
-            added = attempt_file().add_all(read_attempts_json(read_input(path, SIZE_LIMIT), Path(path).name))
-        except (OSError, ValueError) as problem:
-            self.refused.emit(f"The answers were not imported: {problem}.")
-        else:
-            self.message_sent.emit(f"Imported {counted(added, 'answer')} from {Path(path).name}.")
-            self.attempts_added.emit()
+        """Judge the answers of an exported file again, and add them, all or none."""
+
+        def work(report: Progress, is_cancelled: Callable[[], bool]) -> str:
+            name = Path(path).name
+            given = read_attempts_json(read_input(path, SIZE_LIMIT), name)
+            templates, _ = all_templates()
+            imported = judged_again(given, templates, datetime.now(UTC), report)
+            added = attempt_file().add_all(imported.attempts)
+            return " ".join([f"Imported {counted(added, 'answer')} from {name}.", *imported.sentences])
+
+        self._importing.start(work)
+
+    @Slot(object, str)
+    def _tell_progress(self, fraction: float, doing: str) -> None:
+        self.work_progressed.emit(Done(doing, round(100 * fraction), 100))
+
+    @Slot()
+    def _end_progress(self) -> None:
+        self.work_progressed.emit(None)
+
+    @Slot(object)
+    def _take_imported(self, said: str) -> None:
+        self.message_sent.emit(said)
+        self.attempts_added.emit()
+
+    @Slot(object)
+    def _refuse_import(self, problem: Exception) -> None:
+        self.refused.emit(f"The answers were not imported: {problem}.")
+
+    @property
+    def is_working(self) -> bool:
+        """Whether answers are being imported."""
+        return self._importing.is_running
+
+    def stop(self) -> None:
+        """End all work."""
+        self._importing.shut_down()
 
 
 def _place(count: object) -> int:

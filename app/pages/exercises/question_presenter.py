@@ -18,7 +18,7 @@ from app.pages.exercises.evidence import Evidence
 from app.pages.exercises.feedback import feedback_of
 from app.pages.exercises.work import Asked, Checked, asking, asking_apart, checking, drawing, drawn
 from core.records.words import counted
-from lessons.attempts.practice import TRY_LIMIT, is_correction
+from lessons.attempts.practice import MISSES_IN_A_ROW, TRY_LIMIT, first_tries, is_correction, misses_in_a_row
 from lessons.attempts.record import Attempt
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.answers.steps import StepsAnswer
@@ -71,6 +71,8 @@ class QuestionPresenter(QObject):
         self._has_answer = self._is_checked = self._is_corrected = self._is_shown = self._is_sure = False
         self._left_out: object = None
         """The answer of which was said that it leaves something empty."""
+        self._is_explained = False
+        """Whether the exercise was missed so often in a row that the step which decides is offered."""
         self._digest = ""
         self._history = AnswerHistory(grid, self)
         self._begun = monotonic()
@@ -189,6 +191,7 @@ class QuestionPresenter(QObject):
         self._has_answer = kept.given is not None
         self._hints = min(kept.hints, len(draft.hints))
         self._is_checked, self._is_shown = kept.is_checked, kept.is_shown
+        self._is_explained = False
         self._digest = "" if draft.scene is None else scene_digest(draft.scene)
         self._begun = monotonic()
         kind = KINDS[draft.answer.kind]
@@ -324,6 +327,9 @@ class QuestionPresenter(QObject):
         """Show marks, points and the mistake."""
         attempt = checked.attempt
         self._is_corrected = attempt is not None and is_correction(self._attempts(), attempt)
+        self._is_explained = (
+            attempt is not None and attempt.score < 1 and self._misses(attempt) >= MISSES_IN_A_ROW
+        )
         self._checked, self._is_checked = checked, True
         self._show_verdict()
         self._show_state()
@@ -333,13 +339,19 @@ class QuestionPresenter(QObject):
         if attempt is not None:
             self.checked.emit(attempt)
 
+    def _misses(self, attempt: Attempt) -> int:
+        """Return how often its exercise was missed in a row, this attempt among them."""
+        return misses_in_a_row(first_tries((*self._attempts(), attempt)))[attempt.template]
+
     def _show_verdict(self) -> None:
         """Show what the last check found; of an answer that was changed since, the points alone."""
         if self._checked is None or self.question is None or self._view.answer is None:
             return
         is_stale = self._view.answer.given() != self._checked.given
         self._view.answer.show_marks(None if is_stale else self._checked.marks)
-        feedback = feedback_of(self.question, self._checked, is_corrected=self._is_corrected)
+        feedback = feedback_of(
+            self.question, self._checked, is_corrected=self._is_corrected, is_explained=self._is_explained
+        )
         self._view.show_feedback(feedback, is_stale=is_stale)
 
     # Help.
@@ -361,7 +373,13 @@ class QuestionPresenter(QObject):
         assert self.question is not None
         hints = self._all_hints()
         self._view.show_hints(hints[: self._hints], len(hints))
-        self.evidence.follow(self.question, self._checked, is_asked=self.is_asked, is_shown=self._is_shown)
+        self.evidence.follow(
+            self.question,
+            self._checked,
+            is_asked=self.is_asked,
+            is_shown=self._is_shown,
+            is_explained=self._is_explained,
+        )
         self.state_changed.emit()
 
     def give_up(self) -> None:

@@ -1,11 +1,15 @@
 """The runs behind a question, for the Step page: the right one, and beside it the one with a mistake."""
 
+from dataclasses import replace
+
 from app.pages.exercises.answer_kind import Live
 from app.pages.exercises.marked_kinds import picture_of
 from app.pages.exercises.scene_outline import document_of, scene_outline
 from app.pages.page_bar import StepRequest
 from core.scene import ClipScene
 from core.study.accuracy.record import Opening
+from lessons.exercises.answers.answer import Response
+from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.question import Question
 from lessons.exercises.refutation import Refutation
 from lessons.mistakes.shelf import SHELF
@@ -22,6 +26,16 @@ def right_run(question: Question, *, is_asked: bool = False) -> StepRequest | No
     document = document_of(draft, question.template.title)
     opening = Opening(draft.scene, document.settings, question.template.stage, draft.pixel)
     return StepRequest(opening, question.template.title, is_asked=is_asked)
+
+
+def explaining_run(question: Question, response: Response) -> StepRequest | None:
+    """Return what steps the right run at the pixel asked about, or the lowest that an answer has wrong."""
+    request, answer = right_run(question), question.draft.answer
+    if request is None or request.opening.pixel is not None or not isinstance(answer, PixelAnswer):
+        return request
+    wrong = (response ^ answer.reference) - answer.may
+    pixel = min(wrong, key=lambda pixel: pixel[::-1], default=None)
+    return replace(request, opening=replace(request.opening, pixel=pixel))
 
 
 def is_stepped(question: Question, mistake: str) -> bool:

@@ -60,8 +60,8 @@ def test_attempts_of_a_user_are_kept_exported_and_imported(
     assert run_program(*check, "'; DROP TABLE attempts").returncode == 0
     assert "expected a name without control characters" in refused(2, *check, "a\nb")
     practice = run_program("exercise", "practice", "--user", "Zoë").stdout.splitlines()
-    assert practice[0] == "A new variant of what was just missed."
-    assert "rasterscope exercise show perspective-u --seed " in practice[2]
+    assert practice[0] == "This one is new.", "one miss is no third of a day's questions"
+    assert "rasterscope exercise show triangle-coverage --seed " in practice[2]
     reached = run_program("exercise", "progress", "--user", "Zoë").stdout.splitlines()
     assert reached[0] == "0 points"
     assert "    affine-for-perspective        0 of 1" in reached
@@ -71,14 +71,28 @@ def test_attempts_of_a_user_are_kept_exported_and_imported(
     monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path / "other"))
     taken = [run_program("exercise", "import", out).stdout for _ in range(2)]
     assert taken == [
-        f"{out}: 2 attempts added, 0 known before\n",
-        f"{out}: 0 attempts added, 2 known before\n",
+        f"{out}: {said}\n2 answers judged again.\n"
+        for said in ("2 attempts added, 0 known before", "0 attempts added, 2 known before")
     ]
     assert "is no file of attempts" in refused(1, "exercise", "import", path)
     (tmp_path / "other" / "attempts.sqlite").write_bytes(b"not a database")
     checked = run_program(*check, "Zoë")
     assert checked.returncode == 0
     assert "It is kept as attempts.sqlite.broken-1" in checked.stderr
+
+
+def test_where_nothing_can_be_kept_the_verdict_is_given_all_the_same(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Nobody, not even root, can make a folder below a file."""
+    (tmp_path / "file").write_text("")
+    monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path / "file" / "data"))
+    path = answered(tmp_path, 'answer = "1/7"\n')
+    done = run_program("exercise", "check", "perspective-u", "--seed", "3", path, "--user", "Zoë")
+    assert done.returncode == 1
+    assert done.stdout.startswith("Understood:\n1/7 (0.1429)\n0 of ")
+    assert done.stderr.startswith("rasterscope exercise: the attempt is not kept: ")
+    assert done.stderr.endswith("not a directory\n")
 
 
 @pytest.mark.parametrize(

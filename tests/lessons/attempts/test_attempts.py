@@ -1,6 +1,7 @@
 """Attempts are on the disk at once, and nothing that happens to the process, the disk or the file loses one."""
 
 import csv
+import errno
 import io
 import os
 import shutil
@@ -10,6 +11,7 @@ import subprocess
 import sys
 from datetime import UTC, datetime, timedelta, timezone
 from pathlib import Path
+from typing import NoReturn
 
 import pytest
 from pydantic import ValidationError
@@ -112,19 +114,13 @@ def other_content(path: Path) -> None:
     path.write_bytes(b"[answer]\n" * 4000)
 
 
-def altered(path: Path) -> None:
-    with sqlite3.connect(path) as connection:
-        connection.execute("UPDATE attempts SET score = 'all', at = -1, asked = x'ff' WHERE seed = 3")
-    connection.close()
-
-
 def other_tables(path: Path) -> None:
     with sqlite3.connect(path) as connection:
         connection.execute("CREATE TRIGGER lose AFTER INSERT ON attempts BEGIN DELETE FROM attempts; END")
     connection.close()
 
 
-@pytest.mark.parametrize("damage", [truncated, emptied, scribbled, other_content, altered, other_tables])
+@pytest.mark.parametrize("damage", [truncated, emptied, scribbled, other_content, other_tables])
 def test_a_damaged_file_is_set_aside(damage, file: AttemptFile) -> None:
     file.add_all(attempt(number, answer="#" * 300) for number in range(60))
     damage(file.path)
@@ -141,6 +137,40 @@ def test_a_damaged_file_is_set_aside(damage, file: AttemptFile) -> None:
     assert "broken-2" in file.add(attempt(1)), "damage is met while saving, too"
     assert file.attempts() == (attempt(1),)
     assert kept.read_bytes() == damaged
+
+
+def test_a_row_that_cannot_be_read_costs_no_other_answer(file: AttemptFile) -> None:
+    file.add_all(attempt(number) for number in range(6))
+    altered = ("score = 'all', asked = x'ff'", "user = CAST(x'ff41' AS TEXT)", "user = x'ff'", "at = -1")
+    with sqlite3.connect(file.path) as connection:
+        for seed, change in enumerate(altered):
+            connection.execute(f"UPDATE attempts SET {change} WHERE seed = {seed}")
+    connection.close()
+    assert [one.seed for one in file.attempts()] == [4, 5]
+    assert file.users() == ("me",)
+    said = f"{file.path}: 4 answers cannot be read and are left out. The others are unchanged."
+    assert file.check() == file.left_out() == said
+    assert file.add(attempt(7)) == ""
+    assert [one.seed for one in file.attempts("me")] == [4, 5, 7]
+
+
+@pytest.mark.parametrize(
+    ("code", "wanted"), [(errno.EROFS, "read-only file system"), (errno.EACCES, "permission is denied")]
+)
+def test_the_reason_is_that_of_the_system(
+    code: int, wanted: str, file: AttemptFile, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A disk that is read-only is none that somebody else owns."""
+
+    def refuse(*_: object, **__: object) -> NoReturn:
+        raise OSError(code, os.strerror(code))
+
+    file.add(attempt())
+    monkeypatch.setattr(Path, "touch", refuse)
+    with pytest.raises(AttemptFileError) as problem:
+        file.add(attempt(1))
+    assert str(problem.value) == f"{file.path} cannot be written: {wanted}"
+    assert file.attempts() == (attempt(),), "what was kept can still be read"
 
 
 def test_the_journal_of_a_lost_file_is_not_played_back(file: AttemptFile) -> None:

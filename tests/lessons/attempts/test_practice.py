@@ -1,12 +1,13 @@
 """Practice asks what was missed and what is long ago, and progress counts it."""
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from lessons.attempts.practice import Choice, next_question, progress, recall
+from lessons.attempts.practice import Choice, first_tries, misses_in_a_row, next_question, progress, recall
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import Question, Template, ask, judge
@@ -58,32 +59,60 @@ def test_what_is_most_forgotten_comes_first() -> None:
     assert chosen(attempts).question.template.name == "facing"
 
 
-def test_a_miss_is_followed_by_a_new_variant_three_times() -> None:
-    attempts: list[Attempt] = []
-    for number in range(3):
-        question = chosen(attempts).question
-        assert question.template.name == "triangle-coverage"
-        attempts.append(answered(question, (), timedelta(minutes=9 - number)))
-    assert len({attempt.seed for attempt in attempts}) == 3
-    assert chosen(attempts[:1]).reason == "A new variant of what was just missed."
-    assert chosen(attempts).reason != "A new variant of what was just missed."
-    right = [*attempts[:2], answered(ask(SOME["triangle-coverage"], 3), None, timedelta(0))]
-    assert chosen(right).question.template.name == "facing"
+def test_at_most_one_in_three_questions_of_a_day_repeats() -> None:
+    """Three templates that are never mastered, as on the day before, do not crowd out the others."""
+    hard = list(TEMPLATES)[:3]
+    attempts = [answered(ask(TEMPLATES[name], 1), (), timedelta(days=1)) for name in hard]
+    repeated = 0
+    for number in range(100):
+        now = NOW + timedelta(minutes=number)
+        choice = chosen(attempts, TEMPLATES, now)
+        name = choice.question.template.name
+        before = [attempt for attempt in attempts if attempt.template == name]
+        repeated += bool(before) and (before[-1].score < 1 or before[-1].at.date() == NOW.date())
+        assert 3 * repeated <= number + 1
+        attempts.append(answered(choice.question, () if name in hard else None, NOW - now))
+    asked = Counter(attempt.template for attempt in attempts[3:])
+    assert repeated > 2
+    # The misses of yesterday count: the third in a row is explained, and it is another day's question.
+    assert [asked[name] for name in hard] == [2, 2, 2]
+
+
+def test_a_third_miss_in_a_row_is_explained_and_not_asked_again_today() -> None:
+    attempts = [
+        answered(ask(SOME["triangle-coverage"], seed), (), timedelta(minutes=30 - 10 * seed))
+        for seed in range(3)
+    ]
+    assert misses_in_a_row(attempts) == {"triangle-coverage": 3}
+    choice = chosen(attempts)
+    assert (choice.explained, choice.question.template.name) == (attempts[-1], "facing")
+    assert chosen(attempts[:2]).explained is None
+    right = [*attempts, answered(ask(SOME["triangle-coverage"], 3), None, timedelta(0))]
+    assert misses_in_a_row(right) == {"triangle-coverage": 0}
+    tomorrow = chosen(attempts, {"triangle-coverage": SOME["triangle-coverage"]}, NOW + timedelta(days=1))
+    assert (tomorrow.explained, tomorrow.question.template.name) == (None, "triangle-coverage")
+
+
+def test_what_is_dated_later_than_now_does_not_count() -> None:
+    late = answered(ask(SOME["triangle-coverage"], 1), (), -timedelta(days=365 * 73))
+    assert chosen([late]).reason == "This one is new."
 
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_the_next_variant_tells_two_mistakes_apart(seed: int) -> None:
+    before = [
+        answered(ask(SOME[name], 1), None, timedelta(minutes=5)) for name in ("facing", "perspective-u")
+    ]
     missed = answered(ask(SOME["triangle-coverage"], seed), PAIR, timedelta(0))
-    choice = chosen([missed])
+    choice = chosen([*before, missed])
     draft = choice.question.draft
-    assert (
-        choice.reason
-        == f"The last answer can come from {' and '.join(PAIR)}: this question tells them apart."
-    )
+    names = " and ".join(PAIR)
+    assert choice.reason == f"An answer of today can come from {names}: this question tells them apart."
     assert not draft.answer.is_same(*(draft.mistakes[name] for name in PAIR))
     assert choice.question.seed != seed
     alike = answered(ask(SOME["perspective-u"], seed), sorted(*SOME["perspective-u"].alike), timedelta(0))
-    assert chosen([alike]).reason == "A new variant of what was just missed."
+    known = [answered(ask(SOME[name], 1), None, timedelta(minutes=5)) for name in list(SOME)[:2]]
+    assert chosen([*known, alike]).reason == "A new variant of what was missed today."
 
 
 def test_a_template_that_cannot_draw_is_passed_over() -> None:
@@ -95,7 +124,7 @@ def test_a_template_that_cannot_draw_is_passed_over() -> None:
 def test_a_correction_with_the_marks_in_sight_does_not_count() -> None:
     question = ask(SOME["triangle-coverage"], 1)
     attempts = [answered(question, (), timedelta(minutes=5)), answered(question, None, timedelta(minutes=4))]
-    assert chosen(attempts).reason == "A new variant of what was just missed."
+    assert misses_in_a_row(first_tries(attempts)) == {"triangle-coverage": 1}
     assert (progress(attempts).points, progress(attempts).tried) == (1.0, {"triangle-coverage": 1})
     later = answered(question, None, -timedelta(minutes=7))
     assert progress([*attempts, later]).points == question.template.points
@@ -106,7 +135,9 @@ def test_a_fixed_question_does_not_come_again_at_once() -> None:
     templates = {"facing": fixed, "perspective-u": SOME["perspective-u"]}
     missed = answered(ask(SOME["facing"], 1), (), timedelta(minutes=2))
     assert chosen([missed], templates).question.template.name == "perspective-u"
-    assert chosen([missed], templates, NOW + timedelta(minutes=10)).question.template.name == "facing"
+    other = answered(ask(SOME["perspective-u"], 1), None, timedelta(minutes=1))
+    later = chosen([missed, other], templates, NOW + timedelta(minutes=10))
+    assert later.question.template.name == "facing"
 
 
 def test_points_never_fall_and_mistakes_are_counted() -> None:
