@@ -61,7 +61,7 @@ def test_attempts_of_a_user_are_kept_exported_and_imported(
     assert "expected a name without control characters" in refused(2, *check, "a\nb")
     practice = run_program("exercise", "practice", "--user", "Zoë").stdout.splitlines()
     assert practice[0] == "This one is new.", "one miss is no third of a day's questions"
-    assert "rasterscope exercise show triangle-coverage --seed " in practice[2]
+    assert "rasterscope exercise show vertex-pixels --seed " in practice[2]
     reached = run_program("exercise", "progress", "--user", "Zoë").stdout.splitlines()
     assert reached[0] == "0 points"
     assert "    affine-for-perspective        0 of 1" in reached
@@ -90,7 +90,7 @@ def test_where_nothing_can_be_kept_the_verdict_is_given_all_the_same(
     path = answered(tmp_path, 'answer = "1/7"\n')
     done = run_program("exercise", "check", "perspective-u", "--seed", "3", path, "--user", "Zoë")
     assert done.returncode == 1
-    assert done.stdout.startswith("Understood:\n1/7 (0.1429)\n0 of ")
+    assert done.stdout.startswith("Understood:\nu = 1/7 (0.1429)\n0 of 3 points")
     assert done.stderr.startswith("rasterscope exercise: the attempt is not kept: ")
     assert done.stderr.endswith("not a directory\n")
 

@@ -1,8 +1,11 @@
 """The Exercises page, as a learner uses it: the mistake behind an answer, variants, progress, and what is kept."""
 
+import errno
+import os
 from dataclasses import replace
 from itertools import count, cycle
 from pathlib import Path
+from typing import NoReturn
 
 import numpy as np
 import pytest
@@ -196,8 +199,14 @@ def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path
     assert tree.topLevelItemCount() == 0
     assert shown.questions.user == "Ada"
     assert shown.grid.marked() == frozenset()
-    shown.progress.import_from(str(tmp_path / "answers.json"))
-    shown.progress.import_from(str(tmp_path / "nothing.json"))
+    said: list[str] = []
+    shown.message_sent.connect(said.append)
+    shown.edit_refused.connect(said.append)
+    for name in ("answers.json", "nothing.json"):
+        shown.progress.import_from(str(tmp_path / name))
+        shown.settle()
+    assert said[0] == "Imported 0 answers from answers.json. 1 answer judged again."
+    assert said[1].startswith("The answers were not imported: ")
     assert shown.dismiss()
     path = tmp_path / "mine.toml"
     path.write_text(
@@ -208,6 +217,43 @@ def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path
     shown.settle()
     assert shown.question.template.title == "Mine"
     assert shown.grid.isHidden()
+
+
+def test_the_third_miss_in_a_row_offers_the_step_that_decides(page: Page, qtbot: QtBot) -> None:
+    for seed in range(3):
+        shown = page("triangle-coverage", seed)
+        shown.questions.answer(shown.question.draft.mistakes["y-down"])  # type: ignore[union-attr]
+        verdict = check(shown)
+        assert ("Missed 3 times in a row." in verdict) is (seed == 2)
+        assert shown.question_view.step_button.isHidden() is (seed < 2)
+    question = shown.question
+    assert question is not None
+    wrong = question.draft.mistakes["y-down"] ^ question.draft.answer.reference
+    window = shown.window()
+    assert isinstance(window, MainWindow)
+    with qtbot.waitSignal(window.opening.opened):
+        QTest.mouseClick(shown.question_view.step_button, LEFT)
+    assert window.session.cursor.stage == "raster"
+    assert window.session.pin == min(wrong, key=lambda pixel: pixel[::-1])
+
+
+def test_where_nothing_can_be_kept_the_verdict_says_so(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object, **__: object) -> NoReturn:
+        raise OSError(errno.EROFS, os.strerror(errno.EROFS))
+
+    shown = page("triangle-coverage")
+    monkeypatch.setattr(Path, "touch", refuse)
+    said: list[str] = []
+    shown.edit_refused.connect(said.append)
+    assert shown.question is not None
+    shown.questions.answer(shown.question.draft.answer.reference)
+    assert check(shown).startswith("4 of 4 points")
+    shown.exercises.begin()
+    shown.settle()
+    assert said[0].startswith("The attempt is not saved: ")
+    assert said[0].endswith("attempts.sqlite cannot be written: read-only file system.")
+    assert said[1].endswith("read-only file system. Answers are checked, but not kept.")
+    assert shown.exercises.templates, "exercises and what was kept before are still there"
 
 
 def test_only_a_pixel_that_another_triangle_covers_is_double(tmp_path: Path) -> None:
