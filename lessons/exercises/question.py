@@ -60,7 +60,7 @@ class Template:
     make: Callable[[Draws], Draft | None]
     """Draws a question; ``None``: this draw makes none."""
     alike: tuple[frozenset[str], ...] = ()
-    """Mistakes that always give the same answer."""
+    """Mistakes that may give the same answer: then both are named."""
     is_fixed: bool = False
     """Every draw is the same."""
     path: str = ""

@@ -69,7 +69,7 @@ class Catalogue(QWidget):
         self.tree.itemActivated.connect(self._open)
         self.tree.itemExpanded.connect(self._fold_others)
         self.line = QLineEdit(self)
-        self.line.setPlaceholderText("triangle-coverage 1, seed 7")
+        self.line.setPlaceholderText("triangle-coverage 2, seed 7")
         self.line.setAccessibleName("Line of a question")
         self.line.setToolTip("Type or paste a line that was handed out, then press Return")
         self.line.returnPressed.connect(self._enter)

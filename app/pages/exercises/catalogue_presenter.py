@@ -186,7 +186,7 @@ class CataloguePresenter(QObject):
 
     @Slot(str)
     def open_line(self, line: str) -> None:
-        """Open the question of a line such as ``triangle-coverage 1, seed 7``."""
+        """Open the question of a line such as ``triangle-coverage 2, seed 7``."""
         head, _, seed = line.strip().rpartition(", seed ")
         name, _, version = head.rpartition(" ")
         try:
@@ -196,7 +196,7 @@ class CataloguePresenter(QObject):
             return
         if template is None or not seed.isascii() or not seed.isdecimal() or len(seed) > 10:
             self.refused.emit(
-                f"Expected a line such as triangle-coverage 1, seed 7; got {line.strip()[:60]!r}."
+                f"Expected a line such as triangle-coverage 2, seed 7; got {line.strip()[:60]!r}."
             )
         elif version != str(template.version):
             self.refused.emit(
