@@ -63,8 +63,8 @@ def _earlier_formula(
     explanation: Explanation, triangle: int = -1, pixel: tuple[int, int] | None = None
 ) -> Formula | None:
     """Return the last formula of the row's earlier operations."""
-    for key in reversed(explanation.earlier):
-        _, made = _said(StepValues(replace(explanation, key=key), triangle, pixel))
+    for earlier in reversed(explanation.earlier):
+        _, made = _said(StepValues(earlier, triangle, pixel))
         if made is not None:
             return made
     return None

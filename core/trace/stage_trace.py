@@ -77,8 +77,8 @@ class Explanation:
     """The algorithm that the operation is part of."""
     line: int
     """Its line, from 1; 0: none."""
-    earlier: tuple[str, ...] = ()
-    """Keys of the operations that the row has done before."""
+    earlier: tuple["Explanation", ...] = ()
+    """What the row has done before, operation by operation."""
     corner_count: int = 3
     """Corners of what is drawn: 2 of segments, 1 of points."""
 
@@ -146,14 +146,19 @@ class StageTrace:
         row, operation = self.steps.row_at(position)
         if row < 0:
             return None
-        kind = self.kind_of(row)
-        operations: tuple[Operation, ...] = self.steps.operations[kind]
-        done = operations[operation]
         values = self._latest.get(row)
         if values is None:
             values = self.variables(row)
             self._latest.clear()
             self._latest[row] = values
+        *earlier, done = (self._done(row, values, k) for k in range(operation + 1))
+        return replace(done, earlier=tuple(earlier))
+
+    def _done(self, row: int, values: Mapping[str, Value], operation: int) -> Explanation:
+        """Explain one operation of a row with its variables."""
+        kind = self.kind_of(row)
+        operations: tuple[Operation, ...] = self.steps.operations[kind]
+        done = operations[operation]
         listing = self.listings.get(f"{kind}.{done.name}", self.listings.get(kind))
         return Explanation(
             key=f"{self.stage}.{kind}.{done.name}",
@@ -166,7 +171,6 @@ class StageTrace:
             changed=done.sets,
             listing=listing,
             line=listing.lines.get(done.label_at(self.columns, row), 0) if listing else 0,
-            earlier=tuple(f"{self.stage}.{kind}.{o.name}" for o in operations[:operation]),
             corner_count=self.corner_count,
         )
 

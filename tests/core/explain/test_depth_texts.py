@@ -60,7 +60,7 @@ def test_neighbours_in_float32_are_told_apart() -> None:
 
 
 def test_a_failed_test_keeps_its_inequality_when_it_stores_nothing() -> None:
-    made = replace(
-        compared(0.5, 0.25), key="depth.test.write", earlier=("depth.test.depth", "depth.test.compare")
-    )
-    assert formula(made) == formula(compared(0.5, 0.25))
+    compare = compared(0.5, 0.25)
+    earlier = (replace(compare, key="depth.test.depth"), replace(compare, key="depth.test.compare"))
+    made = replace(compare, key="depth.test.write", earlier=earlier)
+    assert formula(made) == formula(compare)
