@@ -41,7 +41,7 @@ def read_names(given: object, options: tuple[str, ...]) -> tuple[int, ...]:
 
 @dataclass(frozen=True, eq=False)
 class OrderAnswer(Answer):
-    """Things in order: scored by the longest run of right neighbours, less what chance gives."""
+    """Things in order: scored by the longest run of right neighbours, compared with that of a random order."""
 
     options: tuple[str, ...]
     """In the right order."""

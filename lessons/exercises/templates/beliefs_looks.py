@@ -154,8 +154,8 @@ def draw_bilinear(draws: Draws) -> Draft | None:
         Settings(texture_filter="bilinear"),
     )
     text = (
-        f"A texture is {width} texels wide. At u = ({texel} + {part})/{width}, which weights has bilinear filtering "
-        "for the two texels that are next to u, the nearer or the left one first?"
+        f"A texture is {width} texels wide. At u = ({texel} + {part})/{width}, which weights does bilinear filtering "
+        "give the two texels that are next to u, the nearer or the left one first?"
     )
     hints = (
         "Where do texels have their centres?",

@@ -229,7 +229,10 @@ def draw_block(draws: Draws) -> Draft | None:
         'kind == "block" and verdict == "leaf"',
         Settings(fill="blocks"),
     )
-    text = f"E = {a} x + {b} y + c, inside where E >= 0. At which corner does E < 0 show that a whole block is outside?"
+    sum_text = f"{a} x {'+-'[b < 0]} {abs(b)} y + c"
+    text = (
+        f"E = {sum_text}, inside where E >= 0. At which corner does E < 0 show that a whole block is outside?"
+    )
     hints = (
         "At which corner is E largest?",
         "The signs of a and b say in which direction E grows.",

@@ -245,7 +245,7 @@ def draw_behind(draws: Draws) -> Draft | None:
     )
     hints = (
         "Put both in.",
-        "What sign has 2 f n / d behind the eye?",
+        "What is the sign of 2 f n / d behind the eye?",
         f"Compare 2 * {f} / (-{d}) with 2 * {f} / {d}, each taken away from the same number.",
     )
     right, belief = ("larger", "smaller") if sides[0] < 0 else ("smaller", "larger")

@@ -157,8 +157,8 @@ def draw_line_samples(draws: Draws) -> Draft:
     """A line with more and more samples a pixel."""
     grey = draws.whole(3, 15) * 16
     text = (
-        "A grey line over black is as wide as a pixel. It is drawn with 1, 4 and 16 samples a pixel. Which grey value, "
-        "the mean of the samples, has one of its pixels?"
+        "A grey line over black is as wide as a pixel. It is drawn with 1, 4 and 16 samples a pixel. What is the grey "
+        "value, the mean of the samples, of one of its pixels?"
     )
     hints = (
         "How many of its samples does the line cover?",
@@ -176,7 +176,7 @@ def draw_tent(draws: Draws) -> Draft:
     distance = abs(place - Fraction(1, 2))
     text = (
         "The tent filter weighs a sample by 1 - d in each direction, d its distance from the pixel's centre in "
-        "pixels. Which weight, before all are made to sum to 1, has this sample?"
+        "pixels. What is the weight of this sample, before all are made to sum to 1?"
     )
     other = Fraction(2 * draws.whole(0, side - 1) + 1, 2 * side)
     right = [Fraction(float(tent(np.array([float(distance)]))[0])) * (1 - abs(other - Fraction(1, 2)))]

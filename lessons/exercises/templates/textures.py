@@ -140,7 +140,7 @@ def draw_repeated(draws: Draws) -> Draft | None:
         for name in ("window-for-uv", "negative-repeat")
     }
     text = (
-        f"Which value has pixel {pixel}? The texture is repeated, and the nearest texel is read at the pixel's "
+        f"What is the value of pixel {pixel}? The texture is repeated, and the nearest texel is read at the pixel's "
         "centre."
     )
     given = (
