@@ -16,7 +16,7 @@ from typing import Any, NoReturn
 
 from app import __version__
 from app.usage import PROGRAM, UsageError
-from lessons.os_errors import os_error_reason
+from lessons.os_errors import problem_text
 
 MOST_ROUNDS = 1000
 MOST_SEED = 999_999_999
@@ -134,8 +134,10 @@ def run_command_line(arguments: Sequence[str]) -> int:
         return _fail(program, "there is not enough memory for this", 1)
     except OSError as problem:
         _silence_stdout()
-        text = problem if problem.strerror is None else _os_error_text(problem)
-        return _fail(program, text, 1)
+        is_output = problem.strerror is not None and problem.filename is None
+        return _fail(
+            program, f"{'the output cannot be written: ' if is_output else ''}{problem_text(problem)}", 1
+        )
     except (ValueError, ImportError) as problem:
         return _fail(program, problem, 1)
 
@@ -195,13 +197,6 @@ def _fail(program: str, problem: object, code: int) -> int:
     text = " ".join(str(problem).split()) or type(problem).__name__
     print(f"{program}: {text}", file=sys.stderr)
     return code
-
-
-def _os_error_text(problem: OSError) -> str:
-    reason = os_error_reason(problem)
-    if problem.filename is None:
-        return f"the output cannot be written: {reason}"
-    return f"{problem.filename} cannot be read or written: {reason}"
 
 
 def _silence_stdout() -> None:

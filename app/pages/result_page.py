@@ -18,6 +18,7 @@ from app.files.save_dialog import SaveDialog
 from app.pages.page_bar import Page
 from app.pages.result_presenter import Result, ResultPresenter
 from app.pages.side_columns import SideColumns
+from lessons.os_errors import problem_text
 from widgets.basics.controls import button_with_tip, column_layout, flat_button
 from widgets.basics.labels import ElidedLabel, Readout
 from widgets.basics.pane_splitter import PaneSplitter
@@ -244,7 +245,7 @@ class ResultPage(WorkPage):
         try:
             write()
         except (OSError, ValueError) as error:
-            self.edit_refused.emit(f"The {noun} was not {done}: {error}")
+            self.edit_refused.emit(f"The {noun} was not {done}: {problem_text(error)}")
         else:
             self.went_well.emit()
             self.message_sent.emit(f"{done.capitalize()} {Path(path).name}.")

@@ -7,6 +7,7 @@ from app.files.open_any import Opened, open_any
 from app.files.user_folders import preferences_folder
 from app.files.window_files import EarlierWindow, WindowFile, earlier_windows, remove_oldest_windows
 from core.records.sentences import sentences
+from lessons.os_errors import problem_text
 from lessons.scenes import CATALOGUE
 from widgets.basics.message_bar import Message, MessageKind
 
@@ -54,7 +55,8 @@ def _opened_again(last: EarlierWindow, stand_in: Reopened, is_replaced: bool) ->
         return Reopened(opened, message=Message(MessageKind.WARNING, str(problem)))
     except (OSError, ValueError, MemoryError) as problem:
         text = sentences(
-            f"The last scene could not be opened again: {problem}", "It is kept: File, Earlier windows"
+            f"The last scene could not be opened again: {problem_text(problem)}",
+            "It is kept: File, Earlier windows",
         )
         return replace(
             stand_in, message=Message(MessageKind.WARNING, text, action="Try again"), offered=str(last.path)

@@ -20,6 +20,7 @@ from lessons.exercises.catalogue import SUBJECTS, TEMPLATES
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Question, Template
 from lessons.exercises.screen import PREFIX, screen_template
+from lessons.os_errors import problem_text
 from widgets.exercises.catalogue import Catalogue
 from widgets.exercises.records import ExerciseEntry, ExerciseGroup, Standing
 
@@ -159,7 +160,7 @@ class CataloguePresenter(QObject):
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
         self._wants_next = False
-        self.refused.emit(f"{error}.")
+        self.refused.emit(f"{problem_text(error)}.")
 
     # What is chosen.
 
@@ -228,7 +229,7 @@ class CataloguePresenter(QObject):
         try:
             template = read_exercise(Path(path))
         except (OSError, ValueError) as problem:
-            self.refused.emit(f"{problem}. The page is unchanged.")
+            self.refused.emit(f"{problem_text(problem)}. The page is unchanged.")
         else:
             self.templates[template.name] = template
             self.question_chosen.emit(template, None)
@@ -238,7 +239,7 @@ class CataloguePresenter(QObject):
         try:
             add_folder(folder)
         except (OSError, ValueError) as problem:
-            self.refused.emit(f"The folder was not added: {problem}.")
+            self.refused.emit(f"The folder was not added: {problem_text(problem)}.")
         else:
             self.begin()
 

@@ -24,7 +24,7 @@ from lessons.diagnosis import RIGHT, Candidate, Diagnosis, Drawn, compared_text,
 from lessons.diagnosis_text import pixels_text, right_text, scene_text
 from lessons.exercises.scene_digest import scene_digest
 from lessons.mistakes.twin import same_scene
-from lessons.os_errors import os_error_reason
+from lessons.os_errors import problem_text
 from widgets.basics.message_bar import Progress as Done
 from widgets.exercises.diagnosis_view import DiagnosisView
 from widgets.exercises.records import DiagnosisRecord, FoundRun
@@ -121,10 +121,7 @@ class DiagnosisPresenter(QObject):
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
-        said = f"{error}"
-        if isinstance(error, OSError) and error.strerror:
-            said = f"{error.filename}: {os_error_reason(error)}"
-        self.refused.emit(f"The picture was not compared: {said}.")
+        self.refused.emit(f"The picture was not compared: {problem_text(error)}.")
 
     @Slot(object)
     def _show(self, diagnosed: _Diagnosed) -> None:

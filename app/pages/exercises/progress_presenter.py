@@ -22,6 +22,7 @@ from lessons.attempts.imports import judged_again
 from lessons.attempts.practice import progress
 from lessons.attempts.record import Attempt, exported_attempts, is_name, read_attempts_json
 from lessons.mistakes.shelf import MISTAKES
+from lessons.os_errors import problem_text
 from widgets.basics.message_bar import Progress as Done
 from widgets.exercises.progress_view import MistakeRecord, ProgressView, StageProgress
 
@@ -140,7 +141,7 @@ class ProgressPresenter(QObject):
 
     @Slot(object)
     def _refuse_import(self, problem: Exception) -> None:
-        self.refused.emit(f"The answers were not imported: {problem}.")
+        self.refused.emit(f"The answers were not imported: {problem_text(problem)}.")
 
     @property
     def is_working(self) -> bool:

@@ -92,7 +92,7 @@ def test_what_is_no_such_picture_is_one_sentence(small: MainWindow, tmp_path: Pa
     for name, wanted in (
         ("small.png", "small.png: expected a picture of 16 x 12 pixels, got 3 x 2."),
         ("text.csv", "text.csv: expected lines of column, row;"),
-        ("nothing.npz", "nothing.npz: "),
+        ("nothing.npz", "nothing.npz cannot be read or written: no such file or directory."),
     ):
         said.clear()
         assert dropped(small, tmp_path / name).main_view() is not page

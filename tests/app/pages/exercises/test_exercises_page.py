@@ -207,6 +207,7 @@ def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path
         shown.settle()
     assert said[0] == "Imported 0 answers from answers.json. 1 answer judged again."
     assert said[1].startswith("The answers were not imported: ")
+    assert said[1].endswith("nothing.json cannot be read or written: no such file or directory.")
     assert shown.dismiss()
     path = tmp_path / "mine.toml"
     path.write_text(
