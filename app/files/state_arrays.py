@@ -9,6 +9,7 @@ import math
 import sys
 import zlib
 from base64 import b64decode, b64encode
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from app.files.file_writing import make_folder, write_file
 from app.files.input_files import read_input
 from app.files.mesh_sources import fingerprint
 from app.files.state_models import ArrayRecord
-from app.session.memory import check_free
+from app.session.memory import Need, check_free
 from lessons.os_errors import os_error_reason
 
 READABLE_COUNT = 1200
@@ -28,6 +29,11 @@ ARRAY_LIMIT = 4 << 30
 """Largest array in bytes."""
 DEFLATE = 1032
 """Most bytes that zlib makes of one."""
+UNFOLDED = 50
+"""Bytes that all arrays of a state may unfold to for each compressed one, beside what any file may take.
+
+Whole meshes unfold to 3 to 10 times their compressed bytes.
+"""
 ENDING = ".array"
 """Of the files with the bytes of one array."""
 
@@ -70,6 +76,13 @@ def array_from(record: ArrayRecord) -> NDArray[Any]:
     if len(content) != size:
         raise ValueError(f"shape {record.shape} wants {size} bytes, got {len(content)}")
     return _array_of(content, record)
+
+
+def check_unfolded(records: Iterable[ArrayRecord | None]) -> None:
+    """Raise MemoryBoundError, before any is unfolded, if compressed arrays unfold to more than such a file may hold."""
+    packed = [record for record in records if record is not None and record.zlib is not None]
+    size = sum(math.prod(record.shape) * np.dtype(record.dtype).itemsize for record in packed)
+    Need(factor=UNFOLDED).ask(size, sum(len(record.zlib or "") * 3 // 4 for record in packed), "its arrays")
 
 
 def array_folder(state: Path) -> Path:

@@ -26,7 +26,7 @@ from app.files.mesh_sources import (
 )
 from app.files.named_files import NamedFileError, NamedFiles, OutsideError
 from app.files.own_files import is_in_own_folder, is_marked, mark_of
-from app.files.state_arrays import array_folder, array_from, array_of_record, array_record
+from app.files.state_arrays import array_folder, array_from, array_of_record, array_record, check_unfolded
 from app.files.state_models import (
     ArrayRecord,
     CameraRecord,
@@ -54,6 +54,7 @@ from core.scene import (
 )
 from lessons.scenes import make_scene
 
+CLIP_ARRAYS = ("clip", "attributes", "shared", "clip_region", "rings", "region_rings", "texture")
 Keep = Callable[[NDArray[Any]], ArrayRecord]
 """Returns the record of an array of a mesh, and keeps its bytes elsewhere if it is to be."""
 
@@ -220,10 +221,14 @@ def scene_from_record(
     Raises StateFileError if a field does not fit, or the source is gone or has changed.
     """
     if isinstance(record, ClipSceneRecord):
+        with in_field("scene"):
+            check_unfolded(getattr(record, name) for name in CLIP_ARRAYS)
         return _clip_scene(record), "", ()
     if isinstance(record, TableSceneRecord):
         return _table_scene(record), "", ()
     sources, path, warnings = _open_source(record.source, state, progress, is_cancelled, allows_outside)
+    with in_field("scene.meshes"):
+        check_unfolded(array for mesh in record.meshes for array in mesh.arrays.values())
     meshes = tuple(_mesh(k, mesh, sources, record.source, state) for k, mesh in enumerate(record.meshes))
     with in_field("scene.camera"):
         camera_values: dict[str, Any] = {
@@ -237,7 +242,7 @@ def scene_from_record(
 
 def _clip_scene(record: ClipSceneRecord) -> ClipScene:
     arrays: dict[str, Any] = {}
-    for name in ("clip", "attributes", "shared", "clip_region", "rings", "region_rings", "texture"):
+    for name in CLIP_ARRAYS:
         found: ArrayRecord | None = getattr(record, name)
         with in_field(f"scene.{name}"):
             arrays[name] = None if found is None else array_from(found)

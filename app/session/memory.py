@@ -18,12 +18,12 @@ class MemoryBoundError(ValueError):
 class Need:
     """What the parts of one file take together, and what they hold."""
 
-    def __init__(self, allowance: int = ALLOWANCE) -> None:
-        self._allowance, self._taken, self._held = allowance, 0, 0
+    def __init__(self, allowance: int = ALLOWANCE, factor: int = FACTOR) -> None:
+        self._allowance, self._factor, self._taken, self._held = allowance, factor, 0, 0
 
     def ask(self, taken: int, held: int, what: str) -> None:
         """Count a part that takes ``taken`` bytes for ``held`` bytes of the file, or raise MemoryBoundError."""
-        bound = self._allowance + FACTOR * (self._held + held)
+        bound = self._allowance + self._factor * (self._held + held)
         if self._taken + taken > bound:
             text, least = amounts(self._taken + taken, bound)
             raise MemoryBoundError(

@@ -12,15 +12,17 @@ from PIL import Image
 
 from app.cli import trace
 from app.cli.render import check_memory
+from app.files import state_scenes
 from app.files.mesh_files import MeshFileError, load_meshes
 from app.files.mesh_formats import gltf
 from app.files.open_any import open_any
 from app.files.state_arrays import array_from, array_record
-from app.files.state_files import State, save_state
+from app.files.state_files import State, StateFileError, save_state
 from app.session import document, memory
+from app.session.document import open_document
 from app.session.memory import GIBI, MEBI, MemoryBoundError, Need, amounts, check_free, free_memory
 from app.session.tracing import trace_now
-from core import Settings
+from core import ClipScene, Settings
 from tests.app.cli.cli_runs import refused, run_program
 from tests.app.files.mesh_writing import GltfWriter, write
 
@@ -131,6 +133,17 @@ def test_compressed_bytes_that_cannot_hold_an_array_are_not_unpacked():
     larger = record.model_copy(update={"shape": [2**28]})
     with pytest.raises(ValueError, match="more than 61 compressed ones hold"):
         array_from(larger)
+
+
+def test_a_state_that_unfolds_to_more_than_it_may_is_refused_before(tmp_path, monkeypatch):
+    path = tmp_path / "a.rasterscope"
+    save_state(path, State(open_document(ClipScene(np.zeros((2000, 3, 4))), "zeros")))
+    path.write_text(path.read_text().replace('"shape": [2000, 3, 4]', f'"shape": [{2**22}, 3, 4]'))
+    monkeypatch.setattr(state_scenes, "array_from", lambda record: pytest.fail("it is unfolded"))
+    with pytest.raises(
+        StateFileError, match=r"scene: its arrays would take 768\.0 MiB of memory, and the limit"
+    ):
+        open_any(str(path))
 
 
 def test_an_array_that_does_not_fit_into_what_is_free_is_refused(monkeypatch):

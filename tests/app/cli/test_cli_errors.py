@@ -225,6 +225,25 @@ class TestWriting:
         assert run.returncode == 1
         assert run.stderr == "rasterscope methods: the output cannot be written: no space left on device\n"
 
+    def test_an_unbuffered_standard_output_that_is_cut_off(self, tmp_path):
+        # A limit on the size of files: one write is done in part, as on a disk that fills up.
+        code = (
+            "import resource, sys; from app.cli.commands import run_command_line; "
+            "resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000)); "
+            "sys.exit(run_command_line(sys.argv[1:]))"
+        )
+        command = ["trace", "shared-edge", "--stage", "raster", "--format", "csv"]
+        with open(tmp_path / "out.csv", "wb") as output:
+            run = subprocess.run(
+                [sys.executable, "-u", "-c", code, *command],
+                stdout=output,
+                stderr=subprocess.PIPE,
+                env={**os.environ, "PYTHONPATH": str(ROOT), "PYTHONDONTWRITEBYTECODE": "1"},
+                text=True,
+            )
+        assert run.returncode == 1
+        assert "the output cannot be written: " in run.stderr.splitlines()[-1]
+
     @pytest.mark.skipif(
         os.geteuid() == 0 if hasattr(os, "geteuid") else True, reason="root may write anywhere"
     )
