@@ -110,8 +110,13 @@ def field_problem(error: ValidationError, union: str = "") -> str:
         return f"{where} is missing{more}"
     if first["type"] == "extra_forbidden":
         return f"{where} is not a known field{more}"
+    if first["type"] == "union_tag_invalid":
+        known = first["ctx"]
+        name = known["discriminator"].strip("'")
+        return f"{where}.{name} must be one of {known['expected_tags']}, got {_shown(known['tag'])}{more}"
     message = first["msg"].removeprefix("Value error, ").removeprefix("Assertion failed, ")
-    message = re.sub(r"^\w+ should ", "must ", message)
+    message = re.sub(r"^\w+ should ", "must ", re.sub(r", unable to parse .*", "", message))
+    message = re.sub(r"^Unable to parse input string as an integer.*", "must be a smaller integer", message)
     message = message[:1].lower() + message[1:]
     if first["type"] in ("value_error", "assertion_error"):
         return f"{where}: {message}{more}"

@@ -60,7 +60,10 @@ def array_from(record: ArrayRecord) -> NDArray[Any]:
         numbers = [number for row in record.rows for number in row]
         if dtype.kind == "i" and not all(isinstance(number, int) for number in numbers):
             raise ValueError(f"numbers of {record.dtype} must be whole")
-        return np.array(numbers, dtype).reshape(record.shape)
+        try:
+            return np.array(numbers, dtype).reshape(record.shape)
+        except OverflowError:
+            raise ValueError(f"a number is too large for {record.dtype}") from None
     if record.zlib is None:
         raise ValueError("only arrays of meshes have a file of their own")
     try:

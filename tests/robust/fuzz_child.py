@@ -6,6 +6,7 @@ traceback, the files opened outside the folder of the cases, and the peak of mem
 
 import json
 import os
+import re
 import sys
 import traceback
 from contextlib import suppress
@@ -22,6 +23,11 @@ from app.files.study_files import load_study  # noqa: E402
 
 TRACED = 50
 """Most triangles that are traced: a trace keeps every pixel of each, which is not what the bound on memory is about."""
+FOREIGN = re.compile(
+    "could not convert|invalid literal|to unpack|unable to parse|reshape|broadcast|Python int|NoneType|codec|"
+    "out of range|out of bounds|unmatched data|input tag|has no attribute"
+)
+"""Words that Python and its libraries have for themselves: no message to a user has them."""
 OUTSIDE: list[str] = []
 ALLOWED = (
     ROOT,
@@ -81,7 +87,8 @@ def main() -> None:
             open_one(json.loads(line))
         except (ValueError, OSError) as problem:
             message = str(problem)
-            if type(problem).__module__ in ("builtins", "numpy") or "\n" in message or not message:
+            is_raw = type(problem).__module__ in ("builtins", "numpy") or "\n" in message or not message
+            if is_raw or FOREIGN.search(message):
                 text = traceback.format_exc()
         except BaseException:
             text = traceback.format_exc()

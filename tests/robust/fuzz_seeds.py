@@ -11,7 +11,9 @@ from app.files.open_any import open_any
 from app.files.state_files import State, save_state
 from app.files.state_models import Bookmark, Breakpoints, GridLook, Look, OrbitRecord
 from app.session.document import Document, open_document
+from core.assembly.depth_tables import table_scene
 from core.scene import Mesh
+from lessons.depth_tables import depth_table
 from tests.app.files.mesh_writing import GltfWriter, ply_binary, ply_text, stl_binary, stl_text
 
 EARLIER = Path(__file__).resolve().parents[1] / "app/files/earlier"
@@ -121,6 +123,8 @@ def seed_files(folder: Path) -> list[dict[str, bytes]]:
     corners = np.random.default_rng(1).random((450, 3))
     loose = frame_meshes((Mesh(corners, np.arange(450).reshape(-1, 3)),))
     found.append({"d.rasterscope": state_of(open_document(loose, "loose"), folder)})
+    table = open_document(table_scene(depth_table("- 4", "- -")), "table")
+    found.append({"e.rasterscope": state_of(table, folder)})
     kinds = (
         ("JPEG", "L"),
         ("BMP", "P"),

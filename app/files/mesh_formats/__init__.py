@@ -24,7 +24,6 @@ from app.files.mesh_formats.reading import (
     check_positions,
 )
 from app.files.mesh_formats.stl import read_stl
-from app.files.mesh_formats.through_trimesh import describe
 from app.files.named_files import NamedFiles, OutsideWarning
 from app.session.memory import MemoryBoundError
 from core.scene import Mesh
@@ -105,7 +104,10 @@ def read_file(path: Path, report: Report, allows_outside: bool = False) -> Loade
         raise MeshFileError(f"{path.name} is too large: {problem}") from problem
     except (LookupError, ValueError, ArithmeticError, RecursionError) as problem:
         # The checks of the core on the arrays of a mesh, and whatever a reader has not thought of.
-        raise MeshFileError(f"{path.name} cannot be used: {describe(problem)}") from problem
+        said = " ".join(str(problem).split())[:200] if type(problem) is ValueError else ""
+        raise MeshFileError(
+            f"{path.name} cannot be used: {said or 'its parts do not fit together'}"
+        ) from problem
     return loaded
 
 

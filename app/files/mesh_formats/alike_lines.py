@@ -78,7 +78,10 @@ def corner_rows(block: bytes) -> tuple[Integers, Integers] | None:
     count = int(sizes.sum())
     if block.count(b"//") == count:
         columns = [0, 2]
-    named = np.fromstring(block.replace(b"/", b" ").translate(None, b"f"), np.int64, sep=" ")
+    try:
+        named = np.fromstring(block.replace(b"/", b" ").translate(None, b"f"), np.int64, sep=" ")
+    except ValueError:  # Something other than numbers; the line is named where lines are read one by one.
+        return None
     if len(named) != count * len(columns) or named.max() == CLAMPED:
         return None
     corners = np.zeros((count, 3), np.int64)

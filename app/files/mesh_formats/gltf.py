@@ -9,7 +9,13 @@ import numpy as np
 from app.files.mesh_formats.gltf_buffers import GltfFile
 from app.files.mesh_formats.gltf_header import MeshParts, Node, Primitive
 from app.files.mesh_formats.images import TextureReader
-from app.files.mesh_formats.reading import DRAWING, LoadedMeshes, MeshFileError, Report
+from app.files.mesh_formats.reading import (
+    DRAWING,
+    LoadedMeshes,
+    MeshFileError,
+    Report,
+    check_mesh_count,
+)
 from app.files.named_files import NamedFileError, NamedFiles, left_out
 from app.session.memory import Need, check_free
 from core.records.arrays import Floats, Integers
@@ -42,6 +48,7 @@ def read_gltf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
             for place in range(len(parts_of[mesh]))
         )
     )
+    check_mesh_count(path, len(placed), "parts in its nodes")
     maker = PrimitiveMaker(file, warnings)
     meshes: list[Mesh] = []
     for mesh, place, node in placed:

@@ -1,7 +1,7 @@
 """MTL: the materials that an OBJ file names."""
 
 import os
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
@@ -56,8 +56,8 @@ class MaterialText:
         return replace(self.look, texture=texture, color=np.append(np.ones(3), self.look.color[3]))
 
 
-def read_mtl(path: Path) -> tuple[dict[str, MaterialText], list[str]]:
-    """Read the materials of an MTL file.
+def read_mtl(path: Path, used: Set[str]) -> tuple[dict[str, MaterialText], list[str]]:
+    """Read the ``used`` materials of an MTL file.
 
     Kd, Ks, Ns, d, Tr and map_Kd are read; colours count as sRGB. Ns and Ks become the exponent and, as the
     mean of its channels, the strength of the highlight.
@@ -67,7 +67,7 @@ def read_mtl(path: Path) -> tuple[dict[str, MaterialText], list[str]]:
     materials : dict
         By name.
     warnings : list of str
-        Lines that cannot be read.
+        Lines of these that cannot be read.
 
     Raises
     ------
@@ -81,7 +81,8 @@ def read_mtl(path: Path) -> tuple[dict[str, MaterialText], list[str]]:
     for number, line in enumerate(content.splitlines(), 1):
         keyword, _, rest = line.strip().partition(" ")
         if keyword == "newmtl":
-            current = MaterialText(ObjMaterial(name=rest.strip()), folder=path.parent)
+            name = rest.strip()
+            current = MaterialText(ObjMaterial(name), folder=path.parent) if name in used else None
         elif current is not None and keyword.lower() == "map_kd":
             current = replace(current, texture=texture_name(rest.strip()))
         elif current is not None:
@@ -153,8 +154,8 @@ def find_materials(
     has_uvs : bool
         Whether it has texture coordinates: then an image beside it is its texture if it names no library.
     """
-    texts, warnings, unread = read_libraries(textures.files, libraries)
     used = dict.fromkeys(name for name in names if name)
+    texts, warnings, unread = read_libraries(textures.files, libraries, set(used))
     materials = {name: texts[name].made(textures, warnings) for name in used if name in texts}
     missing = [name for name in used if name not in materials]
     if missing and libraries and not unread:
@@ -170,9 +171,9 @@ def find_materials(
 
 
 def read_libraries(
-    files: NamedFiles, libraries: Sequence[str]
+    files: NamedFiles, libraries: Sequence[str], used: Set[str]
 ) -> tuple[dict[str, MaterialText], list[str], int]:
-    """Return the materials of all MTL files by name, warnings, and how many files could not be read."""
+    """Return the ``used`` materials of all MTL files by name, warnings, and how many files could not be read."""
     materials: dict[str, MaterialText] = {}
     warnings: list[str] = []
     unread = 0
@@ -183,7 +184,7 @@ def read_libraries(
             if path in done:
                 continue
             done.add(path)
-            more, problems = read_mtl(path)
+            more, problems = read_mtl(path, used)
         except (OSError, NamedFileError) as problem:
             unread += 1
             reason: object = problem

@@ -15,6 +15,7 @@ from app.files.mesh_formats.reading import (
     Report,
     Wires,
     check_memory,
+    check_mesh_count,
     check_positions,
     check_text,
     load_wires,
@@ -95,6 +96,8 @@ def build_meshes(
     uvs, normals = np.array(found.uvs).reshape(-1, 2), np.array(found.normals).reshape(-1, 3)
     colors = np.array(found.colors).reshape(-1, 3)
     sizes = np.array(found.sizes, np.int64)
+    parts = runs(found, len(sizes))
+    check_mesh_count(path, len(parts), "runs of faces with one material")
     check_positions(path, positions, first=1)
     corners, faces = triangulate_polygons(positions, numbers[:, 0], sizes, report)
     corners = numbers[corners]
@@ -103,7 +106,8 @@ def build_meshes(
         textures, found.libraries, [name for _, name in found.materials], bool(found.uvs)
     )
     meshes: list[Mesh] = []
-    for first, end, name in runs(found, len(sizes)):
+    for first, end, name in parts:
+        report(first / len(sizes), "making a mesh of each material")
         look = materials.get(name, ObjMaterial(name))
         chosen = slice(*np.searchsorted(faces, [first, end]))
         part = corners[chosen]

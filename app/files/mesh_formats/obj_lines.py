@@ -8,7 +8,7 @@ from pathlib import Path
 
 from app.files.input_files import open_input
 from app.files.mesh_formats.alike_lines import corner_rows, decimal_rows, runs_of_lines, single_spaced
-from app.files.mesh_formats.reading import MeshFileError, Report
+from app.files.mesh_formats.reading import MeshFileError, Report, numbers_of
 
 FEWEST_ALIKE = 16
 """Lines of one keyword side by side that are worth reading together."""
@@ -153,7 +153,7 @@ def read_line(found: ObjLines, line: str, number: int) -> None:
     if "#" in line and keyword in ("v", "vt", "vn", "f", "l", "p"):
         words = line.partition("#")[0].split()
     if keyword == "v":
-        found.vertex([float(word) for word in words[1:]])
+        found.vertex(numbers_of(words[1:]))
     elif keyword == "f":
         found.face(words[1:], number)
     elif keyword == "l":
@@ -163,10 +163,11 @@ def read_line(found: ObjLines, line: str, number: int) -> None:
     elif keyword == "vt":
         if len(words) < 2:
             raise ValueError("a texture coordinate needs 1 number or more, got 0")
-        found.uvs.extend([*map(float, words[1:3]), 0.0][:2])
+        found.uvs.extend([*numbers_of(words[1:3]), 0.0][:2])
     elif keyword == "vn":
-        x, y, z = [float(word) for word in words[1:]]
-        found.normals.extend((x, y, z))
+        if len(words) != 4:
+            raise ValueError(f"a normal needs 3 numbers, got {len(words) - 1}")
+        found.normals.extend(numbers_of(words[1:]))
     elif keyword == "usemtl":
         found.materials.append((len(found.sizes), line.strip()[6:].strip()))
     elif keyword == "mtllib":

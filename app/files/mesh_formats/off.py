@@ -17,6 +17,8 @@ from app.files.mesh_formats.reading import (
     check_memory,
     check_positions,
     check_text,
+    numbers_of,
+    whole_numbers_of,
 )
 from app.files.named_files import NamedFiles
 from core.records.arrays import Floats
@@ -47,7 +49,7 @@ class OffLines:
 
     def vertex(self, words: list[str]) -> None:
         """Add a line of position, normal and colour, as far as the kind of file has them."""
-        values = [float(word) for word in words]
+        values = numbers_of(words)
         color = 3 + self.normal_count
         least = color + 3 * self.has_colors
         if len(values) < least:
@@ -62,11 +64,11 @@ class OffLines:
 
     def face(self, words: list[str]) -> None:
         """Add a line of the number of corners, the corners, and maybe a colour."""
-        size = int(words[0])
+        (size,) = whole_numbers_of(words[:1])
         if size < 3 or len(words) < size + 1:
             raise ValueError(f"a face of {size} corners names {len(words) - 1}, it needs 3 or more")
         self.sizes.append(size)
-        self.corners += [int(word) for word in words[1 : size + 1]]
+        self.corners += whole_numbers_of(words[1 : size + 1])
         self.colored_faces += len(words) > size + 2
 
     def linear_colors(self) -> Floats | None:
@@ -122,7 +124,7 @@ def read_lines(path: Path, report: Report) -> OffLines:
     found = OffLines(normal_count=3 * bool(kind[3]), has_colors=bool(kind[2]))
     try:
         number, counts = (number, kind[4]) if kind[4] else next(lines)
-        vertex_count, face_count = (int(word) for word in counts.split()[:2])
+        vertex_count, face_count = counts_of(counts)
         for _ in range(vertex_count):
             number, line = next(lines)
             found.vertex(line.split())
@@ -134,6 +136,14 @@ def read_lines(path: Path, report: Report) -> OffLines:
     except ValueError as problem:
         raise MeshFileError(f"{path.name}, line {number}: {problem}") from problem
     return found
+
+
+def counts_of(line: str) -> tuple[int, int]:
+    """Return how many vertices and faces a line counts."""
+    if len(line.split()) < 2:
+        raise ValueError(f"the numbers of vertices and faces are needed, got {line}")
+    vertices, faces = whole_numbers_of(line.split()[:2])
+    return vertices, faces
 
 
 def content_lines(path: Path, report: Report) -> Iterator[tuple[int, str]]:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from app.files.input_files import open_input
-from app.files.mesh_formats.reading import MeshFileError, Report
+from app.files.mesh_formats.reading import MeshFileError, Report, numbers_of
 from core.records.arrays import Integers
 
 Cells = NDArray[Any]
@@ -127,22 +127,16 @@ def read_numbers(path: Path, start: int, report: Report) -> Cells:
         while lines := file.readlines(2**20):
             try:
                 pieces.append(np.array([float(word) for word in b" ".join(lines).split()]))
-            except ValueError as problem:
-                wrong = next(k for k, line in enumerate(lines, 1) if not is_numbers(line))
-                raise MeshFileError(
-                    f"{path.name}, line {number + wrong}: something other than numbers: {problem}"
-                ) from problem
+            except ValueError:
+                for line in lines:
+                    number += 1
+                    try:
+                        numbers_of(line.decode(errors="replace").split())
+                    except ValueError as problem:
+                        raise MeshFileError(f"{path.name}, line {number}: {problem}") from None
             number += len(lines)
             report(min(1.0, file.tell() / size), "reading numbers")
     return np.concatenate(pieces) if pieces else np.zeros(0)
-
-
-def is_numbers(line: bytes) -> bool:
-    """Return whether a line holds nothing but numbers."""
-    try:
-        return all(isinstance(float(word), float) for word in line.split())
-    except ValueError:
-        return False
 
 
 def read_element(

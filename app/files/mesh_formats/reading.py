@@ -1,8 +1,9 @@
 """What every reader shares: its result, its error, its progress and the limit on memory."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 
@@ -18,6 +19,10 @@ LARGEST = float(np.finfo(np.float32).max)
 
 MEMORY_LIMIT = 4 * 2**30
 """Most memory in bytes that opening a file may take, as estimated before it is read."""
+
+Number = TypeVar("Number", int, float)
+MOST_MESHES = 10_000
+"""Meshes that a file may have: each takes its own time, however few triangles it has."""
 
 Report = Callable[[float | None, str], None]
 """Told how far the work is, from 0 to 1 (``None``: cannot be said), and what is being done."""
@@ -88,6 +93,29 @@ def check_memory(path: Path, wanted: int) -> None:
         raise MeshFileError(
             f"{path.name} is too large: opening it would take about {text} of memory, the limit is {least}"
         )
+
+
+def check_mesh_count(path: Path, count: int, what: str) -> None:
+    """Raise MeshFileError for more than MOST_MESHES meshes; ``what`` they are in the file, in the plural."""
+    if count > MOST_MESHES:
+        raise MeshFileError(f"{path.name} has {count:,} {what}, and at most {MOST_MESHES:,} are opened")
+
+
+def numbers_of(words: Iterable[str]) -> list[float]:
+    """Return the numbers of words; ValueError names the first that is none."""
+    return [_number(float, word, "a number") for word in words]
+
+
+def whole_numbers_of(words: Iterable[str]) -> list[int]:
+    """Return the whole numbers of words; ValueError names the first that is none."""
+    return [_number(int, word, "a whole number") for word in words]
+
+
+def _number(read: Callable[[str], Number], word: str, what: str) -> Number:
+    try:
+        return read(word)
+    except ValueError:
+        raise ValueError(f"expected {what}, got {word[:40]}") from None
 
 
 def check_positions(path: Path, positions: Floats, first: int = 0) -> None:

@@ -19,11 +19,11 @@ from app.files.mesh_files import (
     load_meshes,
     open_mesh,
 )
-from app.files.mesh_formats import reading
+from app.files.mesh_formats import obj, reading
 from core.geometry.vertex_stage import transform_vertices
 from core.scene import Mesh
 from lessons.shapes import cube, knot, torus
-from tests.app.files.mesh_writing import SQUARE, stl_binary, write, write_image
+from tests.app.files.mesh_writing import SQUARE, GltfWriter, stl_binary, write, write_image
 
 
 def never():
@@ -134,6 +134,25 @@ def test_a_file_above_the_limit_of_memory_is_refused_before_it_is_read(tmp_path,
     monkeypatch.setattr(reading, "MEMORY_LIMIT", 100)
     with pytest.raises(MeshFileError, match=r"is too large: opening it would take about .* MiB of memory"):
         open_mesh(write(tmp_path / name, content))
+
+
+def test_a_file_of_too_many_meshes_is_refused_before_they_are_made(tmp_path, monkeypatch):
+    monkeypatch.setattr(reading, "MOST_MESHES", 5)
+    monkeypatch.setattr(obj, "share_vertices", lambda *parts: pytest.fail("a mesh is made"))
+    path = write(tmp_path / "a.obj", SQUARE + "usemtl a\nf 1 2 3\nusemtl b\nf 1 3 4\n" * 3)
+    with pytest.raises(MeshFileError, match=r"a\.obj has 6 runs of faces with one material, and at most 5"):
+        load_meshes(path)
+    writer = GltfWriter()
+    for _ in range(6):
+        writer.primitive([[0, 1, 2]], POSITION=np.float32([[0, 0, 0], [1, 0, 0], [0, 1, 0]]))
+    with pytest.raises(MeshFileError, match=r"b\.glb has 6 parts in its nodes, and at most 5 are opened"):
+        load_meshes(write(tmp_path / "b.glb", writer.glb()))
+
+
+def test_materials_that_no_face_names_are_passed_over(tmp_path):
+    write(tmp_path / "a.mtl", "newmtl a\nKd 1 0 0\n" + "newmtl b\nKd red\n" * 1000)
+    path = write(tmp_path / "a.obj", "mtllib a.mtl\n" + SQUARE + "usemtl a\nf 1 2 3\n")
+    assert load_meshes(path).warnings == ()
 
 
 def test_the_limit_lets_two_million_triangles_in():

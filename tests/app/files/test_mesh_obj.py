@@ -178,7 +178,7 @@ def test_corners_without_what_others_have_are_a_warning(tmp_path):
         ("f 1 2 3\nf 1 x 3\n", "line 6: x is not a corner of a face"),
         ("f 1 2 3/1/1/1\n", "line 5: 3/1/1/1 is not a corner of a face"),
         ("v 1 2\n", "line 5: a vertex needs 3 numbers, got 2"),
-        ("v 1 2 x\n", "line 5: could not convert string to float: 'x'"),
+        ("v 1 2 x\n", "line 5: expected a number, got x"),
         ("vn 1 2\n", "line 5"),
         ("v nan 0 0\nf 1 2 5\n", "vertex 5 is at [nan, 0.0, 0.0]"),
         ("v 1e999 0 0\nf 1 2 3\n", "vertex 5 is at [inf, 0.0, 0.0]"),
