@@ -71,6 +71,6 @@ def report(diagnosis: Diagnosis) -> list[str]:
     nearest = diagnosis.nearest
     return [
         "unknown: no mistake on the shelf and no method makes this picture",
-        f"nearest: {pixels_text(diagnosis.differing, nearest.name)}",
+        f"{'' if nearest.name == RIGHT else 'nearest: '}{pixels_text(diagnosis.differing, nearest.name)}",
         *([nearest.sentence] if nearest.sentence else []),
     ]

@@ -174,7 +174,7 @@ DIRECTIONS = {
 }
 SHIFTED = tuple(
     Twin(
-        f"one-pixel-{name}",
+        f"shifted-{name}",
         f"The picture lies one pixel too far {name.replace('-', ' ')}. Columns and rows are counted from 0.",
         Case(FREE),
         Case(EVERYWHERE),

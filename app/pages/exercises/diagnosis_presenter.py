@@ -206,9 +206,10 @@ def _verdict(diagnosis: Diagnosis) -> str:
     if diagnosis.found:
         count = counted(len(diagnosis.found), "run")
         verb = "makes" if len(diagnosis.found) == 1 else "make"
-        return f"{count} {verb} exactly this picture. {pixels_text(diagnosis.from_right, RIGHT)}."
+        return f"{count} {verb} this picture. {pixels_text(diagnosis.from_right, RIGHT)}."
     nearest = pixels_text(diagnosis.differing, _name(diagnosis.nearest))
-    return f"Unknown: no mistake on the shelf and no method makes this picture. The nearest: {nearest}."
+    said = "" if diagnosis.nearest.name == RIGHT else "The nearest: "
+    return f"Unknown: no mistake on the shelf and no method makes this picture. {said}{nearest}."
 
 
 def _name(candidate: Candidate) -> str:

@@ -176,9 +176,9 @@ def shifted(columns: int, rows: int) -> Diagnosis:
 
 NOISE = np.random.default_rng(1).random(SIZE[::-1])
 PLANTED |= {
-    "one-pixel-right": lambda: shifted(1, 0),
-    "one-pixel-up": lambda: moved(lambda c: (c[0], c[1] + 1, *c[2:])),
-    "one-pixel-down-and-left": lambda: shifted(-1, -1),
+    "shifted-right": lambda: shifted(1, 0),
+    "shifted-up": lambda: moved(lambda c: (c[0], c[1] + 1, *c[2:])),
+    "shifted-down-and-left": lambda: shifted(-1, -1),
     "red-and-blue-exchanged": lambda: each_pixel(lambda c, i, j: c[::-1]),
     "inclusive-without-depth": lambda: flat(
         covers=lambda e, owner: e >= 0, passes=lambda new, old: True, cleared=1.0
@@ -235,7 +235,7 @@ def test_homework_without_a_mistake_is_right(draw) -> None:
 
 @pytest.mark.parametrize(
     "name",
-    ["corner-for-center", "multiplied-by-w", "blended-in-srgb", "ties-step", "one-pixel-down-and-left"],
+    ["corner-for-center", "multiplied-by-w", "blended-in-srgb", "ties-step", "shifted-down-and-left"],
 )
 def test_a_planted_mistake_is_named(name: str) -> None:
     assert name in [each.name for each in PLANTED[name]().found if each.is_mistake]

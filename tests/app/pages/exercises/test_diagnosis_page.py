@@ -58,7 +58,7 @@ def test_the_mistake_of_a_picture_is_named_marked_and_stepped(
         "homework.png, compared with Mine, 16 x 12 pixels. Compared: the colours"
     )
     said = view.spoken_text()
-    assert "make exactly this picture" in said
+    assert "make this picture" in said
     assert "All edges inclusive. Every centre on an edge was counted" in said
     (marks,) = [each for each in view.grid.overlays() if isinstance(each, MaskOverlay)]
     assert (marks.mask == (right.primitive != wrong.primitive)).all()
