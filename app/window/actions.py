@@ -215,7 +215,8 @@ def _copy(w: ActionWindow) -> None:
 
 
 def _dismiss(w: ActionWindow) -> None:
-    """Close what is open on top, stop what runs, or else take the pin away."""
+    """Close what is open on top, stop what runs, or else take the pin away; a hint goes in any case."""
+    w.statusBar().clearMessage()
     if w.presenter.end_black() or w.overlays.close_top() or w.help.dismiss():
         return
     page, walk = w.pages.current, w.focus_walk

@@ -58,6 +58,8 @@ class MainWindow(ActionWindow):
         step_page = self.pages.page("step")
         assert isinstance(step_page, StepPage)
         self.page = step_page
+        self._raster = self.session.document.raster
+        """The one that is shown: another one is told, for pixels have other sizes and numbers then."""
         self._closes_unsaved = False
         self._offered = ""
         """Path of the state that the message bar offers to open."""
@@ -233,6 +235,9 @@ class MainWindow(ActionWindow):
         document = self.session.document
         self.setWindowTitle(f"{document.title} – Rasterscope" if document.title else "Rasterscope")
         self.menus.show_kind(document.scene.corner_count)
+        if document.raster != self._raster:
+            self._raster = document.raster
+            self.notices.tell(f"Raster: {document.raster.label.lower()}.")
         self._show_pointed()
 
     @Slot()

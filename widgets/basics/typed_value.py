@@ -3,12 +3,13 @@
 import math
 import re
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt, Signal, Slot
-from PySide6.QtGui import QFocusEvent, QFont, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QLineEdit, QSizePolicy, QWidget
+from PySide6.QtCore import QEvent, QObject, QSize, Qt, QTimer, Signal, Slot
+from PySide6.QtGui import QFocusEvent, QFont, QKeyEvent, QMouseEvent, QResizeEvent
+from PySide6.QtWidgets import QLineEdit, QSizePolicy, QToolTip, QWidget
 
 from core.explain.number_text import full_text, number_text, parse_number
 from core.records.words import counted
+from widgets.basics.accessible import announce
 from widgets.basics.controls import column_layout
 from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
@@ -22,6 +23,30 @@ def tabular_font(font: QFont) -> QFont:
     result = QFont(font)
     result.setFeature(QFont.Tag("tnum"), 1)
     return result
+
+
+class NumberEdit(QLineEdit):
+    """A field for a number, in figures of one width; a double-click takes all of it, past the point and the minus."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setFont(tabular_font(self.font()))
+        self._reason = ""
+
+    def tell(self, reason: str) -> None:
+        """Say below the field why its text is not taken, when the keyboard has gone where it goes."""
+        self._reason = reason
+        QTimer.singleShot(0, self._show_reason)
+
+    @Slot()
+    def _show_reason(self) -> None:
+        if self.isVisible():
+            QToolTip.showText(self.mapToGlobal(self.rect().bottomLeft()), self._reason, self)
+            announce(self, self._reason)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:
+        """Select the whole number."""
+        self.selectAll()
 
 
 class TypedValue(QWidget):
@@ -40,9 +65,8 @@ class TypedValue(QWidget):
         self._highest = math.inf
         self._most = 1
         self._is_compact = is_compact
-        self.edit = QLineEdit(self)
+        self.edit = NumberEdit(self)
         self.edit.setAccessibleName(name)
-        self.edit.setFont(tabular_font(self.edit.font()))
         self.edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.edit.installEventFilter(self)
         self.edit.editingFinished.connect(self._commit)
@@ -151,10 +175,10 @@ class TypedValue(QWidget):
 
     def _range_text(self) -> str:
         if math.isinf(self._highest):
-            return f"at least {number_text(self._lowest)}"
+            return f"expected at least {number_text(self._lowest)}"
         if math.isinf(self._lowest):
-            return f"at most {number_text(self._highest)}"
-        return f"between {number_text(self._lowest)} and {number_text(self._highest)}"
+            return f"expected at most {number_text(self._highest)}"
+        return f"expected a number between {number_text(self._lowest)} and {number_text(self._highest)}"
 
     def _show_text(self, is_full: bool = False) -> None:
         self.edit.setText(full_text(self._value) if is_full else self._fitting_text())
@@ -184,6 +208,8 @@ class TypedValue(QWidget):
         self.edit.setToolTip(f"{self._name}: {text}. Escape restores {full_text(self._value)}.")
         self.edit.setAccessibleDescription(text)
         self._follow_theme()
+        if self._is_compact:
+            self.edit.tell(self.edit.toolTip())
 
     @Slot()
     def _clear_error(self) -> None:

@@ -7,6 +7,7 @@ from PySide6.QtWidgets import QGridLayout, QLineEdit, QSlider, QWidget
 
 from widgets.basics.controls import column_layout
 from widgets.basics.labels import text_label
+from widgets.basics.typed_value import NumberEdit
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.records import AnswerMarks, DialForm
@@ -35,7 +36,7 @@ class DialAnswerView(AnswerView):
         rows = QGridLayout()
         rows.setHorizontalSpacing(8)
         for row, dial in enumerate(form.dials):
-            slider, field = QSlider(Qt.Orientation.Horizontal, self), QLineEdit(self)
+            slider, field = QSlider(Qt.Orientation.Horizontal, self), NumberEdit(self)
             slider.setRange(0, dial.count - 1)
             slider.setAccessibleName(dial.name)
             field.setAccessibleName(f"{dial.name} as a number")

@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QWidget
 
 from widgets.basics.focus_order import give_focus
 from widgets.basics.labels import text_label
-from widgets.basics.typed_value import tabular_font
+from widgets.basics.typed_value import NumberEdit
 from widgets.exercises.answer_view import show_mark
 from widgets.exercises.records import Cell
 
@@ -51,8 +51,7 @@ class EntryGrid(QWidget):
         for row, label in enumerate(labels):
             layout.addWidget(text_label(label, self), 1 + row, 0)
             for column, name in enumerate(columns):
-                field = QLineEdit(self)
-                field.setFont(tabular_font(field.font()))
+                field = NumberEdit(self)
                 field.setAccessibleName(" ".join(text for text in (name, label) if text))
                 field.setReadOnly(column in read_only)
                 field.setMaximumWidth(WIDEST if len(columns) == 1 else 16_777_215)

@@ -4,7 +4,7 @@ from typing import Any
 
 from PySide6.QtCore import QSize, Qt, Slot
 from PySide6.QtGui import QIcon, QKeyEvent
-from PySide6.QtWidgets import QLineEdit, QListWidget, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QListWidget, QPushButton, QSizePolicy, QWidget
 
 from widgets.basics.accessible import announce
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
@@ -12,6 +12,7 @@ from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import text_label
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme
+from widgets.basics.typed_value import NumberEdit
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.records import AnswerMarks, StepLine, StepsForm
@@ -49,7 +50,7 @@ class StepsAnswerView(AnswerView):
         self.list.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.prompt = text_label("", self, role="strong", wraps=True)
         self.how = text_label("", self, role="muted", wraps=True)
-        self.field = QLineEdit(self)
+        self.field = NumberEdit(self)
         self.field.setAccessibleName("This step")
         self.field.textEdited.connect(self._typed)
         self.field.returnPressed.connect(self._try_text)

@@ -162,7 +162,7 @@ class SegmentOverlay(NamedOverlay):
     title: str = field(default="lines", kw_only=True)
     is_polygon: bool = False
     """Whether they are the sides of one polygon in order, whose inside is tinted."""
-    label: str = ""
+    tag: str = ""
     """Written where they begin, at their upper left."""
 
     def __post_init__(self) -> None:

@@ -297,7 +297,7 @@ def _paint_segments(
     for edge in (-1, 0, 1, 2):
         color = QColor(theme.text if edge < 0 else theme.vertex[edge])
         _stroke(painter, [lines[index] for index in np.flatnonzero(edges == edge)], color, 1.5, theme, style)
-    if overlay.label and placement.cell >= _LABEL_CELL:
+    if overlay.tag and placement.cell >= _LABEL_CELL:
         _paint_label(painter, placement, overlay, theme)
 
 
@@ -309,9 +309,9 @@ def _paint_label(painter: QPainter, placement: GridPlacement, overlay: SegmentOv
     painter.save()
     painter.setFont(text_font(theme, theme.small_px))
     metrics = painter.fontMetrics()
-    box = QRectF(0, 0, metrics.horizontalAdvance(overlay.label) + 6, metrics.height())
+    box = QRectF(0, 0, metrics.horizontalAdvance(overlay.tag) + 6, metrics.height())
     box.moveTopLeft(placement.to_widget(float(x), float(y)) + QPointF(3, 3))
-    paint_chip(painter, moved_inside(box, QRectF(placement.viewport)), overlay.label, theme.text, theme)
+    paint_chip(painter, moved_inside(box, QRectF(placement.viewport)), overlay.tag, theme.text, theme)
     painter.restore()
 
 

@@ -1,13 +1,13 @@
 """The colour range of a buffer: two ends, typed or dragged over a histogram, and a button that fits them."""
 
-from math import isfinite
-
 from PySide6.QtCore import QPoint, Qt, Signal
-from PySide6.QtWidgets import QLineEdit, QWidget
+from PySide6.QtWidgets import QWidget
 
+from core.explain.number_text import parse_number
 from widgets.basics.controls import button_with_tip, row_layout
 from widgets.basics.image import fitted_range, value_range
 from widgets.basics.theme import current_theme, text_font, theme_notifier
+from widgets.basics.typed_value import NumberEdit
 from widgets.grid.buffer import GridBuffer, number_text
 from widgets.grid.histogram import Histogram
 
@@ -117,17 +117,18 @@ class RangeControl(QWidget):
         self.range_changed.emit(low, high)
 
     def _type_ends(self) -> None:
-        """Take typed ends; text that is not a number, or ends in the wrong order, are put back."""
+        """Take typed ends; text that is not a number, or ends in the wrong order, are put back, and it is said why."""
+        ends = (self._low_edit, self._low), (self._high_edit, self._high)
         try:
-            low = float(self._low_edit.text().replace("\u2212", "-").replace(",", "."))
-            high = float(self._high_edit.text().replace("\u2212", "-").replace(",", "."))
-        except ValueError:
-            self._show_ends()
-            return
-        # An end that was not touched keeps its full precision.
-        low = low if self._low_edit.isModified() else self._low
-        high = high if self._high_edit.isModified() else self._high
-        if isfinite(low) and isfinite(high) and low <= high:
+            # An end that was not touched keeps its full precision.
+            low, high = (parse_number(edit.text()) if edit.isModified() else end for edit, end in ends)
+            if low > high:
+                raise ValueError(
+                    f"expected the lower end first, got {number_text(low)} and {number_text(high)}"
+                )
+        except ValueError as problem:
+            next(edit for edit, _ in reversed(ends) if edit.isModified()).tell(str(problem))
+        else:
             self._choose(low, high)
             self._histogram.show_range(self._low, self._high)
         self._show_ends()
@@ -150,9 +151,9 @@ class RangeControl(QWidget):
             edit.setText(number_text(float(value)))
             edit.setToolTip(number_text(float(value), 0))
 
-    def _make_edit(self, name: str) -> QLineEdit:
+    def _make_edit(self, name: str) -> NumberEdit:
         """Return a field for one end."""
-        edit = QLineEdit(self)
+        edit = NumberEdit(self)
         edit.setAccessibleName(name)
         edit.setAlignment(Qt.AlignmentFlag.AlignRight)
         edit.editingFinished.connect(self._type_ends)

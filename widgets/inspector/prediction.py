@@ -1,7 +1,7 @@
 """Predict, then reveal: a question about the next step, an answer, and the verdict beside it."""
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QLabel, QLineEdit, QPushButton, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from core.explain.number_text import parse_number
 from core.explain.records import AnswerKind, Question, Verdict
@@ -10,6 +10,7 @@ from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.labels import set_role, text_label
 from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
+from widgets.basics.typed_value import NumberEdit
 
 
 class PredictionView(QWidget):
@@ -30,7 +31,7 @@ class PredictionView(QWidget):
         self._question: Question | None = None
         self._verdict: Verdict | None = None
         self.question = text_label("", self, wraps=True)
-        self.field = QLineEdit(self)
+        self.field = NumberEdit(self)
         self.field.setMaximumWidth(140)
         self.field.setAccessibleName("Your answer")
         self.field.setToolTip("Accepts decimals, fractions (3/256) and pi; Enter checks")

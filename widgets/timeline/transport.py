@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from PySide6.QtCore import QPointF, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QColor, QIcon, QKeyEvent, QPainter, QPixmap, QPolygonF
-from PySide6.QtWidgets import QButtonGroup, QComboBox, QLabel, QLineEdit, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QButtonGroup, QComboBox, QLabel, QSizePolicy, QToolButton, QWidget
 
 from core.records.steps import Level
 from widgets.basics.controls import column_layout, row_layout
@@ -12,7 +12,7 @@ from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.focus_order import ArrowGroup
 from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.basics.typed_value import tabular_font
+from widgets.basics.typed_value import NumberEdit
 from widgets.timeline.bar import TimelineBar
 from widgets.timeline.chapters import ChapterRow
 from widgets.timeline.run_picture import TimelineRun
@@ -79,12 +79,11 @@ class Timeline(QWidget):
         for level, button in self.level_buttons.items():
             self._level_group.addButton(button, int(level))
         self._level_group.idClicked.connect(self._choose_level)
-        self.position_box = QLineEdit(self)
+        self.position_box = NumberEdit(self)
         self.position_box.setAlignment(Qt.AlignmentFlag.AlignRight)
         self.position_box.setAccessibleName("Position")
         self.position_box.setToolTip("Steps done; type a number to go there")
         self.position_box.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self.position_box.setFont(tabular_font(self.position_box.font()))
         self.position_box.editingFinished.connect(self._request_position)
         self.position_box.returnPressed.connect(self.position_box.clearFocus)
         self.count_label = QLabel("/ 0", self)
@@ -308,6 +307,8 @@ class Timeline(QWidget):
         if not self.position_box.isModified():
             return
         text = self.position_box.text().replace(",", "").strip()
+        if not text.isdecimal():
+            self.position_box.tell(f"expected a number of steps from 0 to {self._count:,}, got {text[:20]!r}")
         position = min(int(text), self._count) if text.isdecimal() else self._position
         self.position_box.setText(str(position))
         if position != self._position:

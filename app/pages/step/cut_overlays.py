@@ -30,7 +30,7 @@ def clip_overlays(step: Step) -> list[Overlay]:
         return []
     borders = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1) - origin
     regions = SegmentOverlay(
-        "clip window", borders, extended=clip is not None, title="clip window", label="window"
+        "clip window", borders, extended=clip is not None, title="clip window", tag="window"
     )
     if clip is None:
         return [regions]

@@ -23,7 +23,7 @@ def polygon_overlays(step: Step) -> list[Overlay]:
     found: list[Overlay] = []
     if place <= STAGES.index("raster") and (clip is not None or vertices.clip_region is not None):
         lines = ring_sides(join_rings([region_in_pixels(vertices, source.raster.center)])) - origin
-        found.append(SegmentOverlay("clip window", lines, title="clip window", label="window"))
+        found.append(SegmentOverlay("clip window", lines, title="clip window", tag="window"))
     if clip is None:
         return found
     lines = clipped_lines(stage, step.rows_done) if stage.stage == "clip" else ring_sides(clip.rings)

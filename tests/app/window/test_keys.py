@@ -66,6 +66,7 @@ def test_menus_that_are_not_of_the_table(window: MainWindow) -> None:
     actions["16 × 12"].trigger()
     raster = window.session.document.raster
     assert (raster.columns, raster.rows) == (16, 12)
+    assert window.statusBar().currentMessage() == "Raster: whole view at 16×12."
     actions["Dark"].trigger()
     assert current_theme() == DARK
     assert window.memory.preferences.theme == "dark"
@@ -81,6 +82,9 @@ def test_the_page_of_keys_shows_the_table(window: MainWindow, qtbot: QtBot) -> N
             assert action.title in shown
     QTest.keyClick(window, Qt.Key.Key_Escape)
     assert not window.overlays.key_help.isVisible()
+    window.notices.tell("said beside the pages")
+    QTest.keyClick(window, Qt.Key.Key_Escape)
+    assert window.statusBar().currentMessage() == ""
 
 
 def test_what_controls_need_while_they_have_the_keyboard(qtbot: QtBot) -> None:

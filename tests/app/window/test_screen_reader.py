@@ -61,7 +61,7 @@ def description(widget: QWidget) -> str:
 def test_names_hold_the_text_and_views_have_roles(window: MainWindow) -> None:
     """Of all pages: no text is replaced by a name, and nothing that has a name or takes the keyboard is a filler."""
     window.session.set_pin((20, 20))
-    window.page.show_panes(["methods", "inspector", "thumbnails"])
+    window.page.show_panes(["methods", "overlays", "inspector", "thumbnails"])
     silent, fillers = [], []
     for page in PAGES:
         for widget in visible_widgets(window, page):

@@ -2,7 +2,8 @@ import math
 
 import pytest
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QVBoxLayout, QWidget
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolTip, QVBoxLayout, QWidget
 
 from core.explain.number_text import fraction_text, full_text, number_text, parse_number
 from tests.widgets.showing import shown
@@ -150,7 +151,7 @@ def test_a_value_out_of_range_is_refused(qtbot, field) -> None:
     field.set_range(0.0, 1.0)
     replace_text(qtbot, field, "2")
     qtbot.keyClick(field.edit, Qt.Key.Key_Return)
-    assert field.error_text() == "between 0 and 1"
+    assert field.error_text() == "expected a number between 0 and 1"
     assert field.value() == 0.25
 
 
@@ -200,3 +201,27 @@ def test_the_largest_number_allowed_is_shown_whole_however_little_room_there_is(
     qtbot.waitExposed(page)
     assert field.edit.text() == "199999"
     assert field.edit.fontMetrics().horizontalAdvance("199999") <= field.edit.width() - 10
+
+
+def test_a_double_click_takes_the_whole_number_and_a_narrow_field_says_why_it_refuses(qtbot) -> None:
+    """At once, below the field: it has no room for a line of its own."""
+    row = QWidget()
+    layout = QHBoxLayout(row)
+    first, second = (TypedValue(name, row, is_compact=True) for name in ("x", "y"))
+    for field in (first, second):
+        layout.addWidget(field)
+        field.set_range(-100, 100)
+        field.show_value(-12.75)
+    shown(qtbot, row)
+    QTest.mouseDClick(first.edit, Qt.MouseButton.LeftButton, pos=first.edit.rect().center())
+    assert first.edit.selectedText() == "−12.75"
+    row.activateWindow()
+    assert QTest.qWaitForWindowActive(row)
+    for leave in (Qt.Key.Key_Return, Qt.Key.Key_Tab):
+        first.edit.setFocus()
+        first.edit.selectAll()
+        qtbot.keyClicks(first.edit, "1000")
+        qtbot.keyClick(first.edit, leave)
+        qtbot.waitUntil(lambda: "expected a number between −100 and 100" in QToolTip.text())
+        QToolTip.hideText()
+        qtbot.waitUntil(lambda: not QToolTip.isVisible())

@@ -111,9 +111,7 @@ def test_spans_and_lines_are_drawn(qapp) -> None:
     whole = painted([SegmentOverlay("l", line[:1], (0,), extended=True)])
     assert cell(whole, 4, 0) != cell(painted([]), 4, 0)
     assert painted([SegmentOverlay("l", line)]) != painted([])
-    assert painted([SegmentOverlay("l", line[:1], label="window")]) != painted(
-        [SegmentOverlay("l", line[:1])]
-    )
+    assert painted([SegmentOverlay("l", line[:1], tag="window")]) != painted([SegmentOverlay("l", line[:1])])
 
 
 @pytest.mark.parametrize(

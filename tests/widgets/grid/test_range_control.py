@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLineEdit, QPushButton
+from PySide6.QtWidgets import QLineEdit, QPushButton, QToolTip
 
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.histogram import Histogram
@@ -106,6 +106,7 @@ def test_typed_ends(control: RangeControl, qtbot) -> None:
     for wrong in ("abc", "nan", "-5"):
         with qtbot.assertNotEmitted(control.range_changed):
             type_text(edits(control)[1], wrong)
+        qtbot.waitUntil(lambda: QToolTip.text().startswith("expected"))
         assert edits(control)[1].text() == "1000"
 
 
