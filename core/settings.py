@@ -47,7 +47,7 @@ class Settings:
     )
     coverage: str = choice(
         "snapped",
-        "Number format",
+        "Edge functions",
         "edges",
         "core.raster.number_formats.floats",
         "core.raster.number_formats.inverse",

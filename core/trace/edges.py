@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from core.fragments.interpolation import perspective
 from core.methods import table
 from core.raster.edges.edge_functions import edge_coefficients, edge_value
 from core.raster.edges.one_ended import anchored_coefficients, edge_left_out, given_directions
@@ -47,6 +48,16 @@ def half_plane(source: TraceSource, primitive: int, edge: int) -> Floats:
     a, b, c = (part[primitive, edge] for part in (edges.a, edges.b, edges.c))
     with np.errstate(over="ignore", invalid="ignore"):
         return edges.numbers.shown_values(edge_value(a, b, c, x, y[:, None]))
+
+
+def weights_everywhere(source: TraceSource, primitive: int) -> Floats:
+    """Return (3, H, W) float64, the perspective-correct weights of the corners at every pixel's centre."""
+    raster = source.raster
+    row, column = np.divmod(np.arange(raster.shape[0] * raster.shape[1]), raster.shape[1])
+    left, bottom, _, _ = raster.bounds
+    centers = raster.centers(column + left, row + bottom)
+    weights: Floats = perspective(source.geometry.planes, np.full(len(row), primitive), *centers, 0, 0)
+    return weights.T.reshape(3, *raster.shape)
 
 
 def _tie_label(rule: Listing) -> str | Labels:

@@ -64,7 +64,7 @@ def method_titles(methods: tuple[str, ...]) -> dict[str, str]:
 
 
 def _settings_text(method: str) -> str:
-    """Return a method's settings in words: ``Fill: spans, Number format: float32``."""
+    """Return a method's settings in words: ``Fill: spans, Edge functions: float32``."""
     parts = (part.split("=", 1) for part in method.split())
     return ", ".join(f"{family_title(family)}: {name}" for family, name in parts)
 

@@ -15,7 +15,7 @@ from core.records.arrays import Integers
 from core.records.primitives import own_corners
 from core.resolved import resolve
 from core.trace import BufferTrack, StageTrace, TraceSource
-from core.trace.edges import half_plane, known_edges
+from core.trace.edges import half_plane, known_edges, weights_everywhere
 from core.trace.geometry_progress import WINDOW, is_dropped, spaces_reached
 from core.trace.symbols import symbols_of
 from widgets.grid.buffer import BufferKind, GridBuffer
@@ -67,18 +67,28 @@ def buffers_of(step: Step) -> list[GridBuffer]:
 
 
 def half_planes(source: TraceSource, rows_done: int) -> list[GridBuffer]:
-    """Return the values of the edge functions that are set up of the triangle at hand, the latest one first."""
+    """Return the edge functions that are set up of the triangle at hand, the latest one first; of all, the weights."""
     primitive, count = known_edges(rows_done)
+    weights = weights_everywhere(source, primitive) if count == 3 else ()
     return [
         GridBuffer(
             f"edge {edge}",
             half_plane(source, primitive, edge),
             "signed",
-            unit="px²",
+            unit="" if source.geometry.edges.numbers.divides else "px²",
             description=f"Edge function {edge} at every pixel's centre: positive on the inner side of the edge.",
             origin=source.raster.bounds[:2],
         )
         for edge in reversed(range(count))
+    ] + [
+        GridBuffer(
+            f"weight {corner}",
+            values,
+            "signed",
+            description=f"Weight of corner {corner} at every pixel's centre: below 0 beyond edge {corner}.",
+            origin=source.raster.bounds[:2],
+        )
+        for corner, values in enumerate(weights)
     ]
 
 

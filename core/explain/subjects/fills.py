@@ -253,7 +253,9 @@ def _value_label(step: StepValues, k: int) -> str:
 
 def _value_meaning(step: StepValues, k: int) -> str:
     """Return the meaning of a decision value, with its bits in the number format."""
-    meaning = "Decision value: above 0 is inside."
+    meaning = (
+        "Decision value: above 0 is inside. Divided by the length of (a, b) it is the distance in pixels."
+    )
     layout, value = step.explanation.values.get("value_layout"), step.number(f"value_{k}")
     if layout and math.isfinite(value):
         meaning += f" Its bits in {layout}: {bit_pattern(value, str(layout))}."

@@ -140,7 +140,25 @@ def value(step: StepValues) -> Said:
     letter, found, corners = _component(step, step.corner_values(step.operation.removeprefix("value-")))
     terms = [(rf"\lambda_{k}", share) for k, share in enumerate(step.vector("weights"))]
     units = ((f"{letter}_{k}", corner) for k, corner in enumerate(corners))
-    return _value(step, how), linear(letter, found, terms, *units)
+    mixed = linear_parts(letter, found, terms, *units)
+    if step.kind != "perspective" or not step.operation.endswith("uv"):
+        return _value(step, how), equation(*mixed)
+    return _value(step, how), equation(*beside(mixed, _quotient_of_planes(step, letter, found, corners)))
+
+
+def _quotient_of_planes(step: StepValues, letter: str, found: float, corners: list[float]) -> list[Part]:
+    """Return a value as value/w over 1/w, both of which are linear in x and y."""
+    determinant = step.number("total") / step.number("inverse_w")
+    planes = [
+        [sum(a * of for a, of in zip(step.vector(name), values, strict=True)) / determinant for name in "abc"]
+        for values in (corners, [1.0] * 3)
+    ]
+    x, y = (number_latex(step.number(axis)) for axis in "xy")
+    above, below = (
+        rf"{number_latex(a)} \cdot {x} + {signed_latex(b)} \cdot {y} + {signed_latex(c)}"
+        for a, b, c in planes
+    )
+    return [(letter, found), "=", fraction((f"{letter}/w", above), ("1/w", below))]
 
 
 @explains("interpolate.line-perspective|line-affine.value")

@@ -12,6 +12,7 @@ from core.explain.equation import Part, beside, equation
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.methods import table
+from core.records.words import joined
 
 DETERMINANT = r"\det \begin{pmatrix} x_0 & y_0 & w_0 \\ x_1 & y_1 & w_1 \\ x_2 & y_2 & w_2 \end{pmatrix}"
 """The determinant of the corners in symbols."""
@@ -102,7 +103,33 @@ def inverse_coefficient(step: StepValues) -> Said:
         f"Edge {k} of triangle {step.triangle} is column {k} of the inverse: {name}, in row {row}, is "
         f"{spoken(value)}, {meaning}."
     )
-    return text, equation((f"{name}_{k}", value), "=", (rf"(M^{{-1}})_{{{row},{k}}}", number_latex(value)))
+    entry: list[Part] = [(f"{name}_{k}", value), "=", (rf"(M^{{-1}})_{{{row},{k}}}", number_latex(value))]
+    if name != "c":
+        return text, equation(*entry)
+    others = joined([str(i) for i in range(3) if i != k])
+    text = text.removesuffix(".") + f"; a x + b y + c w is 1 for corner {k}, and 0 for corners {others}."
+    return text, equation(*beside(entry, _column_of_inverse(step, k)))
+
+
+def _column_of_inverse(step: StepValues, k: int) -> list[Part]:
+    """Return the matrix of corners times column ``k`` of its inverse."""
+    corners = dict(
+        zip([k, (k + 1) % 3, (k + 2) % 3], map(step.vector, ("homogeneous", "start", "finish")), strict=True)
+    )
+
+    def matrix(rows: Sequence[Sequence[str]]) -> str:
+        lines = r" \\ ".join(" & ".join(row) for row in rows)
+        return rf"\begin{{pmatrix}} {lines} \end{{pmatrix}}"
+
+    symbols = [[rf"\vertex{{{i}}}{{{axis}_{i}}}" for axis in "xyw"] for i in range(3)]
+    column = [[name, number_latex(step.number(name))] for name in "abc"]
+    unit = matrix([["1" if i == k else "0"] for i in range(3)])
+    return [
+        (matrix(symbols), matrix([[number_latex(value) for value in corners[i]] for i in range(3)])),
+        (matrix([[f"{name}_{k}"] for name, _ in column]), matrix([[value] for _, value in column])),
+        ("=", r"\approx"),
+        unit,
+    ]
 
 
 def replaced_fill(fill: str, coverage: str) -> str:

@@ -57,7 +57,8 @@ def worked_out(cells: tuple[str, ...]) -> float:
     """Return the value of cells that hold numbers, products, sums and brackets."""
     text = " ".join(cells)
     text = re.sub(r"\{(\S+) \\cdot 10\^\{(-?\d+)\}\}", r"\1e\2", text).replace(r"\cdot", "*")
-    assert re.fullmatch(r"[-+*().\de\s]+", text), text
+    text = re.sub(r"\\frac\{([^{}]*)\}\{([^{}]*)\}", r"((\1) / (\2))", text)
+    assert re.fullmatch(r"[-+*/().\de\s]+", text), text
     return float(eval(text, {"__builtins__": {}}))
 
 

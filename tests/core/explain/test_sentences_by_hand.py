@@ -1,12 +1,13 @@
 """Sentences of a few steps whose numbers were worked out by hand."""
 
+import re
 from functools import cache
 
 import numpy as np
 import pytest
 
 from core import ClipScene, Settings, trace
-from core.explain import sentence
+from core.explain import formula, sentence
 from core.trace import Explanation, pixel_cuts
 from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import rare_trace
@@ -407,3 +408,34 @@ def test_a_shared_vertex_has_its_number_in_the_triangle_and_that_in_the_scene() 
     assert explanation is not None
     said = sentence(explanation, triangle, None)
     assert said.startswith(f"Vertex {corner} of triangle {triangle} (number {vertex} in the scene): ")
+
+
+def test_the_matrix_of_corners_times_a_column_of_its_inverse() -> None:
+    """One for the corner of the edge function, and zero for the others."""
+    settings = Settings(fill="bounding-box", coverage="inverse")
+    traced = trace(make_scene("single-triangle"), settings).stage("edges")
+    steps = [traced.explain(position) for position in range(1, traced.steps.count + 1)]
+    last = [e for e in steps if e is not None and e.key == "edges.inverse-edge.c"]
+    for k, explanation in enumerate(last):
+        made = formula(explanation)
+        assert made is not None
+        rows = [", ".join(row.split(" & ")) for row in matrices(made.substituted)[0]]
+        column, unit = (np.array(part, float) for part in matrices(made.substituted)[1:])
+        corners = np.array([row.split(", ") for row in rows], float)
+        assert np.allclose(corners @ column.ravel(), np.eye(3)[k], atol=0.03)
+        assert np.array_equal(unit.ravel(), np.eye(3)[k])
+    assert len(last) == 3
+
+
+def matrices(latex: str) -> list[list[str]]:
+    """Return the rows of every matrix in a formula."""
+    found = re.findall(r"\\begin\{pmatrix\} (.*?) \\end\{pmatrix\}", latex)
+    return [part.split(r" \\ ") for part in found]
+
+
+def test_texture_coordinates_are_a_quotient_of_planes() -> None:
+    traced = trace(make_scene("textured-floor"), Settings()).stage("interpolate")
+    steps = (traced.explain(position) for position in range(1, traced.steps.count + 1))
+    made = formula(next(e for e in steps if e is not None and e.key.endswith("value-uv")))
+    assert made is not None
+    assert made.symbolic.endswith(r"u & = & \frac{u/w}{1/w}")
