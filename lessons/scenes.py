@@ -393,7 +393,7 @@ CATALOGUE = (
         "Torus",
         "A ring that hides a part of itself.",
         of_mesh(torus, 3.6, "#E69F00"),
-        RunPlace("depth", "depth-failed", triangle=2141),
+        RunPlace("depth", "depth-failed", triangle=2264),
     ),
     BuiltInScene(
         "knot",

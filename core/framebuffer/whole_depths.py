@@ -1,7 +1,7 @@
 """Depths in whole numbers with infinities: what the depth buffer of a table of depths holds, and its tests."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, ClassVar
 
 import numpy as np
@@ -9,7 +9,7 @@ import numpy as np
 from core.framebuffer.depth import DepthFormat, DepthQuantity, Stored, as_float32
 from core.methods import Method
 from core.records.arrays import Flags, Floats
-from core.records.depth_table import DEPTH_TESTS
+from core.records.depth_table import DEPTH_TESTS, cleared_for
 
 WHOLE_STEPS = 2.0**14
 """Steps of window depth, each a whole number; the last one, z = 1, stands for infinity."""
@@ -26,6 +26,7 @@ def whole_depth(z: Floats, near: float, far: float) -> Floats:
 
 
 WHOLE_DEPTH = DepthQuantity("whole depth", "z", whole_depth)
+WHOLE_INVERSE_W = replace(WHOLE_DEPTH, name="whole 1/w")
 
 
 def less_passes(new: float, old: float) -> tuple[float, bool]:
@@ -92,11 +93,11 @@ class TableFormat(DepthFormat):
 def _depths_of_table(test: str) -> Method:
     """Return what stands in place of the chosen depth method where a scene is a table of depths."""
     is_smaller = test.startswith("less")
-    holds = "∞" if is_smaller else "−∞"
+    what, holds = ("depth", "∞") if is_smaller else ("1/w", "0")
     made = TableFormat(
-        WHOLE_DEPTH,
-        f"Whole numbers, {holds} where cleared: a fragment passes if its depth is {DEPTH_TESTS[test]} the buffer's.",
-        np.inf if is_smaller else -np.inf,
+        WHOLE_DEPTH if is_smaller else WHOLE_INVERSE_W,
+        f"Whole numbers, {holds} where cleared: a fragment passes if its {what} is {DEPTH_TESTS[test]} the buffer's.",
+        cleared_for(test),
         not is_smaller,
         as_float32,
         test=test,

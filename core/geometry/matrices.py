@@ -91,7 +91,10 @@ def world_to_camera(camera: Camera) -> Floats:
     axes = camera_axes(camera)
     matrix = np.eye(4)
     matrix[:3, :3] = axes
-    matrix[:3, 3] = -(axes @ camera.eye)
+    # Every point of the line of sight has the same x and y; that of the smaller numbers rounds least, a 0 not at all.
+    on_sight = min(camera.eye, camera.target, key=np.linalg.norm)
+    matrix[:2, 3] -= axes[:2] @ on_sight
+    matrix[2, 3] -= axes[2] @ camera.eye
     return matrix
 
 

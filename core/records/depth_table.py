@@ -36,7 +36,7 @@ class DepthTable:
     colors: Floats
     """(P, 4) float64, linear."""
     test: str = "less"
-    """One of `DEPTH_TESTS`. The buffer is cleared to infinity, to minus infinity where larger numbers pass."""
+    """One of `DEPTH_TESTS`. Where larger numbers pass, they stand for 1/w."""
 
     def __post_init__(self) -> None:
         depths = np.array(self.depths, float)
@@ -69,8 +69,13 @@ class DepthTable:
 
     @property
     def cleared(self) -> float:
-        """What the empty buffer holds: nothing is farther."""
-        return np.inf if self.test.startswith("less") else -np.inf
+        """What the empty buffer holds, see `cleared_for`."""
+        return cleared_for(self.test)
+
+
+def cleared_for(test: str) -> float:
+    """Return what the empty buffer of a depth test holds, so that nothing is farther: infinity, or 1/w = 0."""
+    return np.inf if test.startswith("less") else 0.0
 
 
 def depths_of_text(text: str) -> Floats:

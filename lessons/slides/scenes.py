@@ -33,9 +33,11 @@ def three_js_triangle(face: tuple[int, int, int] = (0, 2, 1)) -> Scene:
     return Scene((mesh,), camera, (), (64, 48))
 
 
-def segment(x0: float, y0: float, x1: float, y1: float) -> Callable[[], ClipScene]:
-    """Return the maker of a segment between the centres of two pixels of 16 x 12."""
-    return lambda: pixel_segments([((x0, y0), (x1, y1))], (16, 12))
+def segment(
+    x0: float, y0: float, x1: float, y1: float, size: tuple[int, int] = (16, 12)
+) -> Callable[[], ClipScene]:
+    """Return the maker of a segment between the centres of two pixels."""
+    return lambda: pixel_segments([((x0, y0), (x1, y1))], size)
 
 
 def clipped(x0: float, y0: float, x1: float, y1: float) -> Callable[[], ClipScene]:
@@ -128,9 +130,18 @@ LECTURE_SCENES = {
             "pellacini-line",
             "Line of slope 0.4",
             "The segment (0, 0)-(5, 2), where the printed Bresenham loop steps one column early.",
-            segment(0, 0, 5, 2),
+            segment(0, 0, 5, 2, (8, 4)),  # Powers of two: y = 0.4 x + 0, without a rounding error for the 0.
             RunPlace("raster", 'kind == "midpoint"', "round"),
             line="midpoint",
+        ),
+        _scene(
+            "pellacini-rectangle",
+            "Line as a rectangle",
+            "The segment (1, 1)-(13, 7) as a rectangle one pixel wide: its columns have one and two pixels in turn, 19 "
+            "in all, where midpoint has one in each.",
+            segment(1, 1, 13, 7),
+            RunPlace("raster", "column == 2 and covered"),
+            line="rectangle",
         ),
         _scene(
             "pellacini-frustum",
@@ -255,6 +266,7 @@ LECTURE_SCENES = {
             three_js_triangle,
             RunPlace("cull", 'kind == "facing"'),
             cull="back",
+            shading="unlit",
         ),
     ),
 }

@@ -8,6 +8,7 @@ import pytest
 from app.files.open_any import open_any
 from app.session.document import STEPPED
 from core import Settings, render, trace
+from core.explain import account, formula, variables
 from core.stages.declared import STAGES
 from lessons.printed.catalogue import printed_listing
 from lessons.slides.scenes import ALL_SCENES, LECTURE_SCENES, LECTURES
@@ -77,6 +78,21 @@ def test_clipped_segments_have_the_numbers_of_their_slide(name, method, column, 
     rows = trace(make(name), Settings(line_clipping=method)).stage("raster")
     found = rows.columns[column][np.isfinite(rows.columns[column])]
     assert found[-1] == pytest.approx(values, abs=1e-12)
+
+
+def test_a_buffer_of_inverse_w_is_cleared_to_0_and_says_so():
+    """1/w is 0 at infinity; every formula and every variable of it is named 1/w, as on the slide."""
+    opened = open_any("zwicker-z-buffer").document
+    depth = trace(opened.scene, opened.settings).stage("depth")
+    assert depth.columns["before"].min() == 0
+    for position in (2, 3):
+        step = depth.explain(position)
+        shown = formula(step)
+        assert shown is None or "z" not in shown.symbolic
+        assert not [each.name for each in variables(step) if "z" in each.name]
+    text, _ = account(depth.explain(2), 0, tuple(depth.pixel[0].tolist()))
+    assert "8 is > the buffer's 0" in text
+    assert opened.scene.table.cleared == 0
 
 
 def test_the_printed_clipper_keeps_a_parallel_segment_outside():

@@ -15,16 +15,27 @@ QUANTITIES = {
     "inverse-w": ("1/w", r"\frac{1}{w}", "inverse_w"),
     "reversed-z": ("reversed z", "r", "value"),
     "logarithm": ("logarithmic depth", "l", "value"),
-    "whole depth": ("depth", "d", "stored"),
+    "whole depth": ("depth", "z", "stored"),
+    "whole 1/w": ("1/w", r"\frac{1}{w}", "stored"),
 }
 """Quantity of the depth buffer to its name, its symbol and the variable that holds it."""
 
 
 def quantity_of(step: StepValues) -> tuple[str, str, str]:
     """Return the quantity of the depth buffer: its name, its symbol and its variable."""
-    known = "inverse-w" if step.flag("larger_is_nearer") else "z"
-    quantity = step.text("quantity") if step.has("quantity") else known
+    quantity = step.text("quantity")
     return QUANTITIES.get(quantity, (quantity.replace("-", " "), "q", "value"))
+
+
+def held_name(step: StepValues, where: str) -> tuple[str, str]:
+    """Return symbol and label of a stored depth: of the ``new`` one, or of that in the ``buffer``."""
+    if step.has("origin"):
+        return ("d", "d") if where == "new" else (r"d_{\mathrm{buffer}}", "d buffer")
+    name, symbol, _ = quantity_of(step)
+    below = rf"\mathrm{{{where}}}"
+    if name == "1/w":
+        return rf"\frac{{1}}{{w_{{{below}}}}}", f"1/w {where}"
+    return rf"{symbol}_{{{below}}}", f"{symbol} {where}"
 
 
 @explains("depth.*.value")
@@ -66,9 +77,9 @@ def stored(step: StepValues) -> Said:
     """What the depth format stores of a fragment."""
     value, (name, symbol, variable) = step.number("stored"), quantity_of(step)
     before = step.number(variable)
-    if name == "depth":
+    if variable == "stored":
         text = f"{step.pixel_name}: the cell of triangle {step.triangle} holds {spoken(value)}."
-        return text, equation((r"z_{\mathrm{new}}", value))
+        return text, equation((held_name(step, "new")[0], value))
     if name == "z":
         of_steps = f" of {step.whole('scale')} steps" if step.has("scale") else ""
         text = f"{step.pixel_name}: its depth z = {spoken(before)} is stored as {spoken(value)}{of_steps}."
@@ -87,7 +98,7 @@ def stored(step: StepValues) -> Said:
     elif name == "z" and step.has("scale"):
         symbols = rf"\mathrm{{round}}(\mathrm{{steps}} \cdot {symbol})"
         numbers = rf"\mathrm{{round}}({number_latex(step.number('scale'))} \cdot {number_latex(before)})"
-    return text, equation((r"z_{\mathrm{new}}", value), "=", (symbols, numbers))
+    return text, equation((held_name(step, "new")[0], value), "=", (symbols, numbers))
 
 
 def passes(step: StepValues) -> Asked:
@@ -130,9 +141,9 @@ def compared(step: StepValues) -> Said:
     if step.has("comparison"):
         wanted = {"≤": r"\le", "≥": r"\ge"}.get(step.text("comparison"), step.text("comparison"))
     return f"{step.pixel_name} {text}", equation(
-        (r"z_{\mathrm{new}}", new),
+        (held_name(step, "new")[0], new),
         (wanted, relation(new, old)),
-        (r"z_{\mathrm{buffer}}", old),
+        (held_name(step, "buffer")[0], old),
         *conclusion("passes", "passes" if step.flag("passes") else "fails"),
     )
 
@@ -208,15 +219,12 @@ shows(
         ),
         "inverse_w": VariableText("1/w", "One over w at the pixel.", "stored"),
         "stored": VariableText(
-            lambda step: "d" if step.has("origin") else "z new",
-            "What the depth format stores of the fragment.",
+            lambda step: held_name(step, "new")[1], "What the depth format stores of the fragment."
         ),
         "number": VariableText("number", "Number of the triangle; its key holds one more.", "key"),
         "key": VariableText("key", "Depth above, number plus one below, in one whole number.", is_key=True),
         "before_key": VariableText("key before", "Key in the buffer; the smaller one stays.", is_key=True),
-        "before": VariableText(
-            lambda step: "d buffer" if step.has("origin") else "z buffer", "What the depth buffer held."
-        ),
+        "before": VariableText(lambda step: held_name(step, "buffer")[1], "What the depth buffer held."),
         "passes": VariableText("passes", "Whether the fragment is kept."),
         "after": VariableText("depth buffer", "What the depth buffer holds.", previous="before"),
         "after_key": VariableText(

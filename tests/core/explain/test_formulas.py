@@ -148,11 +148,13 @@ def test_a_clipped_edge_with_its_numbers() -> None:
 def test_the_depth_test_compares_as_the_format_does() -> None:
     place = {"column": 0, "row": 0}
     values = {"stored": 0.5, "before": 0.25, "passes": True, "larger_is_nearer": True, **place}
-    made = formula(Explanation("depth.test.compare", values, (), (), None, 0))
-    assert made is not None
-    assert " ".join(split_cells(made.symbolic)) == (
-        r"z_{\mathrm{new}} > z_{\mathrm{buffer}} \Rightarrow \text{passes}"
-    )
+    for quantity in ("inverse-w", "whole 1/w"):
+        values["quantity"] = quantity
+        made = formula(Explanation("depth.test.compare", values, (), (), None, 0))
+        assert made is not None
+        assert " ".join(split_cells(made.symbolic)) == (
+            r"\frac{1}{w_{\mathrm{new}}} > \frac{1}{w_{\mathrm{buffer}}} \Rightarrow \text{passes}"
+        )
     assert " ".join(split_cells(made.substituted)) == r"0.5 > 0.25 \Rightarrow \text{passes}"
 
 

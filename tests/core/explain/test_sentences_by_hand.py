@@ -313,6 +313,7 @@ def depth_step(operation: str, **values: object) -> str:
         "passes": True,
         "writes": True,
         "larger_is_nearer": False,
+        "quantity": "inverse-w" if values.get("larger_is_nearer") else "z",
         **values,
     }
     made = Explanation(f"depth.{operation}", numbers, (), (), None, 0)  # type: ignore[arg-type]

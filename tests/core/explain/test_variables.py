@@ -102,7 +102,7 @@ def test_a_buffer_shows_what_it_held_before() -> None:
 
 def test_a_kept_depth_is_not_marked() -> None:
     values = {"after": 0.25, "before": 0.25, "stored": 0.5, "depth": 0.5, "passes": False}
-    values |= {"column": 0, "row": 0}
+    values |= {"column": 0, "row": 0, "quantity": "z"}
     known = ("depth", "stored", "before", "passes", "after")
     made = Explanation("depth.test.write", values, known, ("after",), None, 0)
     found = {variable.name: variable for variable in variables(made)}
