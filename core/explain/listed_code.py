@@ -88,6 +88,14 @@ def assignment(step: StepValues) -> tuple[list[Part], str, float]:
     return [(symbol, now), "=", *made], added, value
 
 
+def used_values(step: StepValues) -> Values:
+    """Return the numbers that a step's line computes with."""
+    code = code_of(step)
+    assert isinstance(code, ast.Assign | ast.AugAssign), f"{step.explanation.key} assigns nothing"
+    values, _ = _values(step, assigned_name(code))
+    return {node.id: values[node.id] for node in ast.walk(code.value) if isinstance(node, ast.Name)}
+
+
 def number_of(code: ast.expr, values: Values) -> float:
     """Return the number of an expression."""
     if isinstance(code, ast.BinOp):

@@ -15,7 +15,7 @@ from core.explain.equation import (
     relation,
     vector_latex,
 )
-from core.explain.records import Formula
+from core.explain.records import Asked, Formula, choice
 from core.explain.rows import REMARKS, Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import PIXEL, VariableText, hides, shows
@@ -55,7 +55,29 @@ def is_point(step: StepValues) -> bool:
     return step.vector("window_start") == step.vector("window_end")
 
 
-@explains("raster.clip-enter|clip-leave|clip-parallel|clip-outside.room", decides=True)
+WAYS = {
+    "clip-enter": "it runs inwards",
+    "clip-leave": "it runs outwards",
+    "clip-parallel": "it is parallel and not dropped",
+    "clip-outside": "it is parallel and dropped",
+}
+"""Kind of row to what an edge does at a border."""
+
+
+def way_of_edge(step: StepValues) -> Asked:
+    """Ask what an edge does at a border."""
+    symbol = "N · D" if uses_normals(step) else "p"
+    start = f"{edge_name(step).capitalize()}: {symbol} is {spoken(step.number('approach'))}"
+    found = WAYS[step.kind]
+    return choice(
+        f"{start} at the {step.text('border')} border. What does the edge do there?",
+        list(WAYS).index(step.kind),
+        f"{symbol} is {spoken(step.number('approach'))}, so {found}.",
+        tuple(WAYS.values()),
+    )
+
+
+@explains("raster.clip-enter|clip-leave|clip-parallel|clip-outside.room", asks=way_of_edge, decides=True)
 def room(step: StepValues) -> Said:
     """How fast an edge runs outwards, and how much room its first end has."""
     border, along, distance = step.text("border"), step.number("approach"), step.number("room")
@@ -195,7 +217,26 @@ def _codes(step: StepValues) -> tuple[int, int]:
     return step.whole("code_start"), step.whole("code_end")
 
 
-@explains("raster.outcodes-accept|outcodes-reject|outcodes-cut.codes", decides=True)
+OUTCODE_VERDICTS = {
+    "outcodes-accept": "it is drawn",
+    "outcodes-reject": "it is dropped",
+    "outcodes-cut": "it is cut",
+}
+"""Kind of row to what becomes of an edge."""
+
+
+def verdict_of_codes(step: StepValues) -> Asked:
+    """Ask what the outcodes decide."""
+    first, second = (code_text(code) for code in _codes(step))
+    return choice(
+        f"{edge_name(step).capitalize()}: its ends have the outcodes {first} and {second}. What becomes of it?",
+        list(OUTCODE_VERDICTS).index(step.kind),
+        f"With {first} and {second} {OUTCODE_VERDICTS[step.kind]}.",
+        tuple(OUTCODE_VERDICTS.values()),
+    )
+
+
+@explains("raster.outcodes-accept|outcodes-reject|outcodes-cut.codes", asks=verdict_of_codes, decides=True)
 def codes(step: StepValues) -> Said:
     """The outcodes of both ends, and what they have in common."""
     first, second = _codes(step)

@@ -23,6 +23,7 @@ from core.explain.listed_code import (
     number_of,
     symbols,
     symbols_latex,
+    used_values,
 )
 from core.explain.listed_code import tested as tested_by
 from core.explain.records import Asked, choice, number
@@ -31,7 +32,7 @@ from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, given, hides, shows
 from core.methods import table
 from core.raster.lines.traits import line_of_kind, line_traits
-from core.records.words import counted
+from core.records.words import counted, joined
 
 
 def line_method(step: StepValues) -> str:
@@ -182,7 +183,20 @@ def started(step: StepValues) -> Said:
     )
 
 
-@explains("raster.*.first-sum")
+def starting_sum(step: StepValues) -> Asked | None:
+    """Ask for the first value of the sum, where it is computed."""
+    name, (made, computed, value) = sum_name(step), assignment(step)
+    if len(made) == 3:
+        return None
+    known = joined([f"{symbol} = {spoken(number)}" for symbol, number in used_values(step).items()])
+    return number(
+        f"With {known}, what is the first {name}?",
+        value,
+        f"The first {name} is {computed} = {spoken(value)}.",
+    )
+
+
+@explains("raster.*.first-sum", asks=starting_sum)
 def first_sum(step: StepValues) -> Said:
     """The first value of the sum that decides."""
     name, (made, computed, value) = sum_name(step), assignment(step)
@@ -329,7 +343,19 @@ def evaluated(step: StepValues) -> Said:
     return text, linear(MINOR, value, terms, (MAJOR, at))
 
 
-@explains("raster.*.round", decides=True)
+def nearest_pixel(step: StepValues) -> Asked | None:
+    """Ask for the pixel that a column or row gets."""
+    (major, minor), at, nearest = axes(step), step.number("major"), step.number("minor")
+    line = step.number("decision") + (nearest if line_method(step) == "diamond-exit" else 0.0)
+    word = "column" if step.flag("is_steep") else "row"
+    return number(
+        f"At {major} = {spoken(at)} the line has {minor} = {spoken(line)}. In which {word} is the pixel?",
+        nearest,
+        f"{word.capitalize()} {spoken(nearest)} is nearest to {spoken(line)}.",
+    )
+
+
+@explains("raster.*.round", asks=nearest_pixel, decides=True)
 def rounded(step: StepValues) -> Said:
     """The nearest pixel centre."""
     (_, minor), value, nearest = axes(step), step.number("decision"), step.number("minor")
@@ -344,7 +370,7 @@ def rounded(step: StepValues) -> Said:
     return text, equation(("Y", nearest), "=", (symbols, numbers))
 
 
-@explains("raster.diamond-exit|diamond-exit-start.round", decides=True)
+@explains("raster.diamond-exit|diamond-exit-start.round", asks=nearest_pixel, decides=True)
 def nearest_centre(step: StepValues) -> Said:
     """How far the line passes from the centre of the nearest pixel (diamond exit)."""
     height, is_steep = step.number("decision"), step.flag("is_steep")

@@ -96,7 +96,19 @@ def follow(step: StepValues) -> Said:
     return f"Along the {along} to {what}, {vector_text(step.vector('point'))}."
 
 
-@explains("clip.wa-switch.switch", decides=True)
+def goes_on(step: StepValues) -> Asked:
+    """Ask which polygon a walk follows behind a crossing."""
+    on_region = step.flag("on_region")
+    came, found = ("clip window", "polygon") if on_region else ("polygon", "clip window")
+    return choice(
+        f"The walk reaches crossing {step.whole('crossing')} along the {came}. What does it follow next?",
+        int(not on_region),
+        f"It changes to the {found}.",
+        ("the polygon", "the clip window"),
+    )
+
+
+@explains("clip.wa-switch.switch", asks=goes_on, decides=True)
 def switch(step: StepValues) -> Said:
     """From one polygon to the other."""
     if step.flag("on_region"):
@@ -114,7 +126,24 @@ def close(step: StepValues) -> Said:
     )
 
 
-@explains(f"clip.{SH}.sides", decides=True)
+OUTPUTS = ("nothing", "the crossing", "the end", "the crossing, then the end")
+"""What an edge puts out."""
+
+
+def output_of(step: StepValues) -> Asked:
+    """Ask what an edge puts out, by the sides of its ends."""
+    first, last = step.number("start_side"), step.number("end_side")
+    found = 2 * (last >= 0) + ((first >= 0) != (last >= 0))
+    return choice(
+        f"An edge has d0 = {spoken(first)} at its start and d1 = {spoken(last)} at its end, 0 or more is inside. "
+        "What does it put out?",
+        found,
+        f"It puts out {OUTPUTS[found]}.",
+        OUTPUTS,
+    )
+
+
+@explains(f"clip.{SH}.sides", asks=output_of, decides=True)
 def sides(step: StepValues) -> Said:
     """On which side of a window's edge both ends of an edge lie."""
     first, last = step.number("start_side"), step.number("end_side")

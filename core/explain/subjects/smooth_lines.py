@@ -2,6 +2,7 @@
 
 from core.explain.digits import number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import Part, beside, difference, equation, fraction
+from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.lines import MAJOR, MINOR, axes
@@ -28,7 +29,17 @@ def rectangle_length(step: StepValues) -> Said:
     return text, equation(("L", length), "=", (r"\sqrt{dx^2 + dy^2}", rf"\sqrt{{{x}^2 + {y}^2}}"))
 
 
-@explains("raster.rectangle|rectangle-start.across", decides=True)
+def away(step: StepValues) -> Asked | None:
+    """Ask how far a centre is from the line."""
+    found = abs(step.number("decision"))
+    return number(
+        f"How many pixels is the centre of {_name(step)} away from the line?",
+        found,
+        f"It is {spoken(found)} px away, not more than 0.5: inside the rectangle.",
+    )
+
+
+@explains("raster.rectangle|rectangle-start.across", asks=away, decides=True)
 def across(step: StepValues) -> Said:
     """The distance from the line, between the long sides."""
     away, length = step.number("decision"), step.number("length")
@@ -74,7 +85,21 @@ def share(step: StepValues) -> Said:
     return text, equation(("g", part), "=", (symbols, numbers))
 
 
-@explains("raster.*.divide", decides=True)
+def intensity(step: StepValues) -> Asked | None:
+    """Ask for the intensity of a pixel by Wu."""
+    line, part, found = step.number("decision"), step.number("share"), step.number("intensity")
+    (major, minor), at = axes(step), step.number("major")
+    word = "row" if step.flag("is_steep") else "column"
+    spans = "" if part == 1 else f" and spans {spoken(part)} of the {word}"
+    return number(
+        f"At {major} = {spoken(at)} the line has {minor} = {spoken(line)}{spans}. "
+        f"Which intensity does {_name(step)} get?",
+        found,
+        f"The intensity is {spoken(found)}.",
+    )
+
+
+@explains("raster.*.divide", asks=intensity, decides=True)
 def divided(step: StepValues) -> Said:
     """The intensity by Wu."""
     (_, axis), minor, part = axes(step), step.whole("minor"), step.number("fraction")
@@ -118,7 +143,18 @@ def distance(step: StepValues) -> Said:
     return text, equation(("d", found), "=", apart, r"\cdot", ("c", step.number("cosine")))
 
 
-@explains("raster.*.filter")
+def nearest_entry(step: StepValues) -> Asked | None:
+    """Ask for the entry of the filter's table."""
+    entry, found = step.number("entry"), step.number("line_distance")
+    return number(
+        f"The centre of {_name(step)} is {spoken(found)} px from the line. At how many sixteenths of a pixel does the "
+        "filter's table have its value?",
+        entry,
+        f"The nearest entry is at {counted(int(entry), 'sixteenth')}.",
+    )
+
+
+@explains("raster.*.filter", asks=nearest_entry)
 def filtered(step: StepValues) -> Said:
     """The intensity by the filter's table."""
     entry, value = counted(step.whole("entry"), "sixteenth"), step.number("filtered")

@@ -5,13 +5,14 @@ import re
 import numpy as np
 import pytest
 
-from core import STAGES
+from core import STAGES, Settings
 from core.explain import question
 from core.explain.rows import ROWS, explains
 from core.explain.step_values import row_key
 from core.explain.steps import load_subjects, row_of
+from core.methods import table
 from lessons.printed.catalogue import PRINTED
-from tests.core.explain.explained_steps import all_steps, traces
+from tests.core.explain.explained_steps import all_steps, line_trace, traces
 
 
 def declared_keys() -> set[str]:
@@ -46,7 +47,7 @@ ANSWERS = {
     "transform": lambda values: values["after"][0],
     "edges": lambda values: values["a"],
     "bin": lambda values: {"outside": 0, "inside": 1}.get(values["verdict"], 2),
-    "raster": lambda values: 1 - values["has_stepped" if "has_stepped" in values else "covered"],
+    "raster": lambda values: 1 - values["covered"],
     "interpolate": lambda values: values["weights"][0] if "s" not in values else values["s"],
     "depth": lambda values: 1 - values["passes"],
     "blend": lambda values: values["after"][0],
@@ -72,10 +73,40 @@ def test_questions_are_finished_and_have_the_right_answer() -> None:
                 assert re.fullmatch(r".*[^.]\.", asked.reveal), asked
                 assert not re.search(r"nan|None|array|-\d|_", asked.text + asked.reveal), asked
                 values = stage.variables(row)
-                if name in ANSWERS:
+                if name in ANSWERS and "has_stepped" not in values:
                     assert asked.answer == float(np.asarray(ANSWERS[name](values))), (asked, values)
                 assert not asked.choices or asked.answer in range(len(asked.choices)), asked
     assert asked_about == set(STAGES) - {"cull", "shade"}
+
+
+@pytest.mark.parametrize("line", table.names("line"))
+def test_every_pixel_of_a_line_asks_for_what_decides_it(line: str) -> None:
+    stage = line_trace(Settings(polygon_mode="wireframe", line=line)).stage("raster")
+    answers = set()
+    for row in range(stage.steps.row_count):
+        asked, values = question(stage, row), stage.variables(row)
+        is_first, line_of_row = stage.kind_of(row).endswith("-start"), values["minor"]
+        if asked is None:
+            assert (line, is_first) == ("bresenham-float", True)  # Its first e is 0.
+            continue
+        wanted = {
+            "rectangle": abs(values["decision"]),
+            "wu": values["intensity"],
+            "gupta-sproull": values.get("entry"),
+        }.get(line, line_of_row)
+        if line.startswith("bresenham"):
+            wanted = 2 * values["rise"] - values["run"] if is_first else 1 - values["has_stepped"]
+            assert bool(asked.choices) != is_first
+        assert asked.answer == wanted
+        answers.add(asked.answer)
+    assert len(answers) > 1
+
+
+def test_every_kind_of_row_that_decides_can_be_asked_about() -> None:
+    load_subjects()
+    kinds = {key.rpartition(".")[0] for key, row in ROWS.items() if row.decides}
+    asking = {key.rpartition(".")[0] for key, row in ROWS.items() if row.asks is not None}
+    assert kinds - asking == set()
 
 
 UNMARKED = {
