@@ -141,8 +141,8 @@ def sum_areas(pieces: ColoredPieces, pixel_count: int) -> Singles:
 def piece_sum(areas: Sequence[float], values: Sequence[float]) -> float:
     """Return one channel of a pixel (listing of `sum_areas`)."""
     result = 0.0
-    for area, value in zip(areas, values, strict=True):
-        result += area * value  #: sum
+    for area, value in zip(areas, values, strict=True):  #: samples
+        result += area * value
     return float(np.float32(result))  #: store
 
 

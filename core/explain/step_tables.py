@@ -187,7 +187,7 @@ def _cells(
     def cell(column: FilledColumn) -> TableCell | None:
         done = len(operations)
         if column.after != WHOLE:
-            done = next((k for k, one in enumerate(operations, start=1) if column.after in one.sets), 0)
+            done = next((k for k, one in enumerate(operations, start=1) if column.after in one.shows), 0)
         if done == 0:
             return NONE if position >= end else None
         if position < start + done:

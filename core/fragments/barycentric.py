@@ -23,7 +23,7 @@ from core.records.operation import Operation
 NO_AREA = "no-area"
 """Kind of row of a triangle whose corners lie on one line."""
 _EVERY_THIRD = {NO_AREA: (Operation("weights", "no-area", ("weights",)),)}
-_WEIGHTS = Operation("weights", "weights", ("weights", "inverse_w"))
+_WEIGHTS = Operation("weights", "weights", ("weights",), ("inverse_w",))
 
 Numbers = dict[str, Floats]
 """What a way computes of F fragments by name; ``weights`` is (F, 3)."""
@@ -71,12 +71,10 @@ def solve_equations(corner: Floats, x: Floats, y: Floats) -> Numbers:
 def solve_equations_at(corners: Floats, x: float, y: float, values: Floats) -> tuple[list[float], float]:
     """Listing of weights by elimination: corners in the window (3, 2), corner values (3,)."""
     (x0, y0), (x1, y1), (x2, y2) = corners
-    p1, p2, p = x1 - x0, x2 - x0, x - x0  #: system
-    q1, q2, q = y1 - y0, y2 - y0, y - y0
-    if abs(q1) > abs(p1):  #: pivot
-        p1, p2, p, q1, q2, q = q1, q2, q, p1, p2, p
-    f = q1 / p1 if p1 != 0 else 0.0  #: eliminate
-    e2, e = q2 - f * p2, q - f * p
+    in_x, in_y = (x1 - x0, x2 - x0, x - x0), (y1 - y0, y2 - y0, y - y0)  #: system
+    (p1, p2, p), (q1, q2, q) = (in_y, in_x) if abs(in_y[0]) > abs(in_x[0]) else (in_x, in_y)  #: pivot
+    f = q1 / p1 if p1 != 0 else 0.0  #: factor
+    e2, e = q2 - f * p2, q - f * p  #: eliminate
     if p1 == 0 or e2 == 0:
         weights = [1 / 3, 1 / 3, 1 / 3]  #: no-area
     else:
@@ -111,13 +109,11 @@ def divide_areas_at(corners: Floats, x: float, y: float, values: Floats) -> tupl
     p0, p1, p2 = corners
     p = x, y
     area = doubled_area(p0, p1, p2)  #: whole
-    area0 = doubled_area(p, p1, p2)  #: areas
-    area1 = doubled_area(p, p2, p0)
-    area2 = doubled_area(p, p0, p1)
+    areas = [doubled_area(p, p1, p2), doubled_area(p, p2, p0), doubled_area(p, p0, p1)]  #: areas
     if area == 0:
         weights = [1 / 3, 1 / 3, 1 / 3]  #: no-area
     else:
-        weights = [area0 / area, area1 / area, area2 / area]  #: weights
+        weights = [areas[k] / area for k in range(3)]  #: weights
     value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]  #: value
     return weights, value
 
@@ -184,11 +180,12 @@ def numbers_at(way: str, planes: Planes, primitive: Integers, x: Floats, y: Floa
     listing=solve_equations_at,
     operations={
         "affine-equations": (
-            Operation("system", "system", ("system",)),
-            Operation("pivot", "pivot", ("is_swapped", "chosen", "other")),
-            Operation("eliminate", "eliminate", ("factor", "reduced")),
-            Operation("last", "last", ("weight_2",)),
-            Operation("first", "first", ("weight_1",)),
+            Operation("system", "system", {"system": "in_x in_y"}),
+            Operation("pivot", "pivot", {"chosen": "p1 p2 p", "other": "q1 q2 q"}, ("is_swapped",)),
+            Operation("factor", "factor", {"factor": "f"}),
+            Operation("eliminate", "eliminate", {"reduced": "e2 e"}),
+            Operation("last", "last", {"weight_2": "weight2"}),
+            Operation("first", "first", {"weight_1": "weight1"}),
             _WEIGHTS,
         ),
         **_EVERY_THIRD,
@@ -214,7 +211,7 @@ def affine_by_equations(
     listing=divide_areas_at,
     operations={
         "affine-areas": (
-            Operation("whole", "whole", ("whole_area",)),
+            Operation("whole", "whole", {"whole_area": "area"}),
             Operation("areas", "areas", ("areas",)),
             _WEIGHTS,
         ),
@@ -241,7 +238,7 @@ def affine_by_areas(
     listing=divide_distances_at,
     operations={
         "affine-distances": (
-            Operation("lines", "lines", ("line_a", "line_b", "line_c")),
+            Operation("lines", "lines", {"line_a": "a", "line_b": "b", "line_c": "c"}),
             Operation("functions", "functions", ("at_pixel",)),
             Operation("opposite", "opposite", ("at_corner",)),
             _WEIGHTS,

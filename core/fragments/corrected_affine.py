@@ -72,21 +72,20 @@ def interpolate_corrected_at(
     a: Floats, b: Floats, c: Floats, determinant: float, x: float, y: float, interval: int, values: Floats
 ) -> tuple[list[float], float]:
     """Listing of affine interpolation corrected every ``interval`` pixels: adjugate (3,) each, corner values (3,)."""
-    row_left, row_right = -inf, inf
+    ends = [-inf, inf]
     for k in range(3):
         rest = b[k] * y + c[k]
         if a[k] * determinant > 0:
-            row_left = max(row_left, -rest / a[k])  #: row
+            ends[0] = max(ends[0], -rest / a[k])  #: row
         if a[k] * determinant < 0:
-            row_right = min(row_right, -rest / a[k])
+            ends[1] = min(ends[1], -rest / a[k])
     column = floor(x)
     grid = floor(column / interval) * interval + (x - column)  #: grid
-    left, right = max(grid, row_left), min(grid + interval, row_right)  #: anchors
-    if not row_left <= x <= row_right:
+    left, right = max(grid, ends[0]), min(grid + interval, ends[1])  #: anchors
+    if not ends[0] <= x <= ends[1]:
         left = right = x
     t = (x - left) / (right - left) if right > left else 0.0  #: fraction
-    first = weights_at(a, b, c, left, y)  #: corrected
-    second = weights_at(a, b, c, right, y)
+    first, second = weights_at(a, b, c, left, y), weights_at(a, b, c, right, y)  #: corrected
     weights = []
     for k in range(3):
         weights.append(first[k] * (1 - t) + second[k] * t)  #: weights
@@ -106,11 +105,12 @@ def interpolate_corrected_at(
     listing=interpolate_corrected_at,
     operations={
         "affine-n": (
-            Operation("row", "row", ("row_ends",)),
-            Operation("anchors", "anchors", ("grid", "anchor_x")),
-            Operation("fraction", "fraction", ("fraction",)),
-            Operation("corrected", "corrected", ("anchor_weights",)),
-            Operation("weights", "weights", ("inverse_w", "weights")),
+            Operation("row", "row", {"row_ends": "ends"}),
+            Operation("grid", "grid", ("grid",)),
+            Operation("anchors", "anchors", {"anchor_x": "left right"}),
+            Operation("fraction", "fraction", {"fraction": "t"}),
+            Operation("corrected", "corrected", {"anchor_weights": "first second"}),
+            Operation("weights", "weights", ("weights",), ("inverse_w",)),
         )
     },
     traits="perspective",

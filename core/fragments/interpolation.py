@@ -29,8 +29,8 @@ CORRECTION_INTERVAL = 16
 """Columns between corrections, as Quake has them."""
 
 _SUMMED = (
-    Operation("numerators", "numerators", ("numerators",)),
-    Operation("total", "total", ("total", "inverse_w")),
+    Operation("numerators", "numerators", {"numerators": "n"}),
+    Operation("total", "total", ("total",), ("inverse_w",)),
     Operation("weights", "weights", ("weights",)),
 )
 
@@ -222,7 +222,8 @@ def affine(
 def take_provoking_value(provoking: int, values: Floats) -> tuple[list[float], float]:
     """Listing of flat interpolation."""
     weights = [1.0 if k == provoking else 0.0 for k in range(len(values))]  #: weights
-    return weights, values[provoking]  #: value
+    value = values[provoking]  #: value
+    return weights, value
 
 
 @method(

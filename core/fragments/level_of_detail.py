@@ -21,14 +21,16 @@ from numpy import log2 as binary_logarithm
 from core.fragments.textures import bilinear_color, uses_mipmaps
 from core.methods import method, table
 from core.records.arrays import Floats, Integers
+from core.records.listing import RETURN
 from core.records.operation import Operation
 
 _CHOICE = (
-    Operation("slopes", "slopes", ("uv_slopes",)),
-    Operation("lod", "lod", ("lengths", "lod")),
-    Operation("levels", "levels", ("level", "levels", "level_sizes", "level_fraction")),
+    Operation("slopes", "slopes", {"uv_slopes": "slopes"}),
+    Operation("lengths", "lengths", {"lengths": "right up"}),
+    Operation("lod", "lod", ("lod",)),
+    Operation("level", "level", ("level",)),
 )
-_NEAR = ("near_position", "near_texels", "near_colors", "near_shares", "near_color")
+_NEAR = ("near_position", "near_texels", "near_colors", "near_shares")
 _FAR = tuple(name.replace("near", "far") for name in _NEAR)
 
 
@@ -55,9 +57,8 @@ def mipmap_color(
 ) -> tuple[float, ...]:
     """Return the mix of two levels ``levels[k][row][column]`` at (u, v) (listing of trilinear)."""
     level = min(lod, len(levels) - 1) if lod > 0 else 0.0  #: level
-    near = floor(level)  #: levels
-    far = min(near + 1, len(levels) - 1)
-    fraction = level - near
+    near, far = floor(level), min(floor(level) + 1, len(levels) - 1)  #: levels
+    fraction = level - near  #: fraction
     fine = bilinear_color(levels[near], u, v, wrap)  #: near
     coarse = bilinear_color(levels[far], u, v, wrap)  #: far
     return tuple(c * (1 - fraction) + d * fraction for c, d in zip(fine, coarse, strict=True))  #: color
@@ -75,9 +76,11 @@ def mipmap_color(
     operations={
         "texture": (
             *_CHOICE,
-            Operation("near", "near", _NEAR),
-            Operation("far", "far", _FAR),
-            Operation("mix", "color", ("texture_color",)),
+            Operation("levels", "levels", {"levels": "near far"}, ("level_sizes",)),
+            Operation("fraction", "fraction", {"level_fraction": "fraction"}),
+            Operation("near", "near", {"near_color": "fine"}, _NEAR),
+            Operation("far", "far", {"far_color": "coarse"}, _FAR),
+            Operation("mix", "color", {"texture_color": RETURN}),
         )
     },
 )
@@ -108,7 +111,7 @@ def nearest_mipmap_color(
     level = min(lod, len(levels) - 1) if lod > 0 else 0.0  #: level
     nearest = ceil(level + 0.5) - 1  #: levels
     color = bilinear_color(levels[nearest], u, v, wrap)  #: near
-    return color  #: color
+    return color
 
 
 @method(
@@ -120,7 +123,13 @@ def nearest_mipmap_color(
     breaks_where="changes of the mipmap level: a line is visible. Long and narrow footprints, as with trilinear",
     needs=("mipmaps",),
     listing=nearest_mipmap_color,
-    operations={"texture": (*_CHOICE, Operation("near", "near", (*_NEAR, "texture_color")))},
+    operations={
+        "texture": (
+            *_CHOICE,
+            Operation("levels", "levels", {"levels": "nearest"}, ("level_sizes", "level_fraction")),
+            Operation("near", "near", {"near_color": "color", "texture_color": "color"}, _NEAR),
+        )
+    },
 )
 def mipmap_nearest(level: Floats, top: int) -> tuple[Integers, Integers, Floats]:
     """Choose the level nearest to each level of detail, halfway the finer one; see `trilinear`."""
@@ -176,6 +185,6 @@ def level_of_detail(
     """Listing of the level of detail: how far a pixel to the right and one up lead, in texels, and lambda."""
     right_u, right_v = du_dx * width, dv_dx * height
     up_u, up_v = du_dy * width, dv_dy * height
-    right = sqrt(right_u * right_u + right_v * right_v)  #: lengths
-    up = sqrt(up_u * up_u + up_v * up_v)
-    return right, up, binary_logarithm(max(right, up))  #: lod
+    right, up = sqrt(right_u * right_u + right_v * right_v), sqrt(up_u * up_u + up_v * up_v)  #: lengths
+    lod = binary_logarithm(max(right, up))  #: lod
+    return right, up, lod

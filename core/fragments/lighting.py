@@ -329,16 +329,14 @@ def blinn_phong(
     two_sided: bool,
 ) -> tuple[list[float], list[float]]:
     """Return diffuse and specular light of one point (listing of the rule)."""
-    n = _scalar_unit(normal)  #: normal
-    v = _direction(position, eye)  #: to-eye
+    n, v = _scalar_unit(normal), _direction(position, eye)  #: normal
     if two_sided and _scalar_dot(n, v) < 0:
-        n = (-n[0], -n[1], -n[2])  #: turn
+        n = (-n[0], -n[1], -n[2])
     diffuse_light, specular_light = [material.ambient] * 3, [0.0] * 3  #: ambient
     for light in lights:
-        to_light = _direction_to(light, position)  #: to-light
-        h = _halfway(to_light, v)  #: half
-        n_dot_l = _scalar_dot(n, to_light)  #: cosines
-        n_dot_h = _scalar_dot(n, h)
+        to_light = _direction_to(light, position)
+        h = _halfway(to_light, v)
+        n_dot_l, n_dot_h = _scalar_dot(n, to_light), _scalar_dot(n, h)  #: cosines
         power = max(n_dot_h, 0.0) ** material.shininess if n_dot_l > 0 else 0.0  #: power
         for k, color in enumerate(light.color):
             diffuse_light[k] += material.diffuse * max(n_dot_l, 0.0) * color  #: diffuse

@@ -169,7 +169,12 @@ def shaded_color(
 ) -> tuple[float, ...]:
     """Return the colour of one fragment (listing of `shade`)."""
     red, green, blue = (albedo[k] * diffuse_light[k] + specular_light[k] for k in range(3))  #: color
-    return red, green, blue, albedo[3]  #: alpha
+    return red, green, blue, albedo[3]
+
+
+def textured_albedo(texture_color: Sequence[float], color: Sequence[float]) -> list[float]:
+    """Return the albedo of one fragment: the texture's colour times the interpolated one (listing of `shade`)."""
+    return [texture_color[k] * color[k] for k in range(4)]  #: albedo
 
 
 def face_normals(position: Floats, corners: Integers) -> Floats:

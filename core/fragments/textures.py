@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from core.methods import method, table
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
+from core.records.listing import RETURN
 from core.records.operation import Operation
 from core.scene import Texture
 
@@ -115,15 +116,12 @@ class Footprint:
     """(2, F) float64: w_u of the right column, w_v of the top row; 0 for nearest."""
 
 
-def texel_operations(label: str) -> dict[str, tuple[Operation, ...]]:
-    """Return what a row does to find a texture's colour; the texels are chosen in the listing's line ``label``."""
-    return {
-        "texture": (
-            Operation("position", "position", ("texel_position",)),
-            Operation("texels", label, ("texels", "texel_colors")),
-            Operation("filter", "color", ("mix", "shares", "texture_color")),
-        )
-    }
+_POSITION = Operation("position", "position", {"texel_position": "x y"})
+
+
+def wrapped_pair(index: int, size: int, wrap: str) -> tuple[int, int]:
+    """Return the texels that ``index`` and the next one mean."""
+    return wrapped_index(index, size, wrap), wrapped_index(index + 1, size, wrap)
 
 
 def bilinear_color(
@@ -131,18 +129,15 @@ def bilinear_color(
 ) -> tuple[float, ...]:
     """Return the mean of the four texels of ``pixels[row][column]`` around (u, v) (listing of bilinear)."""
     width, height = len(pixels[0]), len(pixels)
-    x, y = u * width - 0.5, v * height - 0.5  #: position
-    i, j = floor(x), floor(y)
-    w_u, w_v = x - i, y - j  #: weights
-    left = wrapped_index(i, width, wrap)  #: columns
-    right = wrapped_index(i + 1, width, wrap)
-    bottom = wrapped_index(j, height, wrap)  #: rows
-    top = wrapped_index(j + 1, height, wrap)
+    x, y = u * width, v * height  #: position
+    i, j = floor(x - 0.5), floor(y - 0.5)
+    (left, right), (bottom, top) = wrapped_pair(i, width, wrap), wrapped_pair(j, height, wrap)  #: texels
+    w_u, w_v = x - 0.5 - i, y - 0.5 - j  #: fractions
     low, high = pixels[bottom], pixels[top]
     color = []
     for k in range(len(pixels[0][0])):
-        c_b = low[left][k] * (1 - w_u) + low[right][k] * w_u  #: bottom
-        c_t = high[left][k] * (1 - w_u) + high[right][k] * w_u  #: top
+        c_b = low[left][k] * (1 - w_u) + low[right][k] * w_u
+        c_t = high[left][k] * (1 - w_u) + high[right][k] * w_u
         color.append(c_b * (1 - w_v) + c_t * w_v)  #: color
     return tuple(color)
 
@@ -155,7 +150,14 @@ def bilinear_color(
     exact_for="textures that are linear between texel centres",
     breaks_where="minification: aliasing. Strong magnification: creases at texel centres",
     listing=bilinear_color,
-    operations=texel_operations("columns"),
+    operations={
+        "texture": (
+            _POSITION,
+            Operation("texels", "texels", {"texels": "left right bottom top"}, ("texel_colors",)),
+            Operation("fractions", "fractions", {"mix": "w_u w_v"}),
+            Operation("filter", "color", {"texture_color": "color"}, ("shares",)),
+        )
+    },
 )
 def bilinear(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
     """Read the four texels whose centres surround each position, weighted by nearness.
@@ -183,8 +185,8 @@ def nearest_color(
 ) -> tuple[float, ...]:
     """Return the texel of ``pixels[row][column]`` at (u, v) (listing of nearest)."""
     x, y = u * len(pixels[0]), v * len(pixels)  #: position
-    column = wrapped_index(floor(x), len(pixels[0]), wrap)  #: column
-    row = wrapped_index(floor(y), len(pixels), wrap)  #: row
+    across, up = len(pixels[0]), len(pixels)
+    column, row = wrapped_index(floor(x), across, wrap), wrapped_index(floor(y), up, wrap)  #: texels
     return tuple(pixels[row][column])  #: color
 
 
@@ -196,7 +198,13 @@ def nearest_color(
     exact_for="textures that are constant over each texel",
     breaks_where="minification: aliasing. Magnification: blocks",
     listing=nearest_color,
-    operations=texel_operations("column"),
+    operations={
+        "texture": (
+            _POSITION,
+            Operation("texels", "texels", {"texels": "column row"}, ("texel_colors",)),
+            Operation("filter", "color", {"texture_color": RETURN}, ("shares",)),
+        )
+    },
 )
 def nearest(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
     """Read the texel that contains each position, on a border the right or upper one; see `bilinear`."""

@@ -90,18 +90,18 @@ def slope_numerators(
 
 def slopes_at(
     a: Floats, b: Floats, n: Floats, u: float, v: float, us: Floats, vs: Floats
-) -> tuple[float, float, float, float]:
+) -> list[float]:
     """Listing of the slopes: changes and values of the three numerators (3,) each, and u, v at the corners (3,)."""
-    total = n[0] + n[1] + n[2]  #: total
-    du = [us[k] - u for k in range(3)]  #: draw
+    total = n[0] + n[1] + n[2]
+    du = [us[k] - u for k in range(3)]
     dv = [vs[k] - v for k in range(3)]
-    du_dx = (a[0] * du[0] + a[1] * du[1] + a[2] * du[2]) / total  #: slopes
-    dv_dx = (a[0] * dv[0] + a[1] * dv[1] + a[2] * dv[2]) / total
-    du_dy = (b[0] * du[0] + b[1] * du[1] + b[2] * du[2]) / total
-    dv_dy = (b[0] * dv[0] + b[1] * dv[1] + b[2] * dv[2]) / total
-    return du_dx, dv_dx, du_dy, dv_dy
+    slopes = []
+    for rise, draw in ((a, du), (a, dv), (b, du), (b, dv)):
+        slopes.append((rise[0] * draw[0] + rise[1] * draw[1] + rise[2] * draw[2]) / total)  #: slopes
+    return slopes
 
 
-def slopes_of_one_value() -> tuple[float, float, float, float]:
+def slopes_of_one_value() -> list[float]:
     """Listing of the slopes where a triangle has the value of one corner."""
-    return 0.0, 0.0, 0.0, 0.0  #: slopes
+    slopes = [0.0, 0.0, 0.0, 0.0]  #: slopes
+    return slopes

@@ -24,12 +24,13 @@ import numpy as np
 from core.framebuffer.stacks import PixelStacks
 from core.methods import method, table
 from core.records.arrays import Flags, Floats, Integers, Singles
+from core.records.listing import RETURN
 from core.records.operation import Operation
 
 MIXED = (
-    Operation("source", "color", ("source", "before")),
-    Operation("color", "color", ("after",)),
-    Operation("write", "store", ("after",)),
+    Operation("source", "", (), ("source", "before")),
+    Operation("color", "color", {"after": "result"}),
+    Operation("write", "store", {"after": RETURN}),
 )
 """What a fragment that is mixed with what is there does."""
 
@@ -63,7 +64,7 @@ def opaque_pixel(source: Sequence[float]) -> list[np.float32]:
     exact_for="opaque surfaces",
     breaks_where="alpha below 1: it is stored, but the surface hides everything behind it",
     listing=opaque_pixel,
-    operations={"opaque": (Operation("write", "store", ("source", "before", "after")),)},
+    operations={"opaque": (Operation("write", "store", {"after": RETURN}, ("source", "before")),)},
     traits=BlendTraits(False, lambda alpha: np.ones(alpha.shape, bool)),
 )
 def opaque(source: Floats, destination: Singles) -> Singles:

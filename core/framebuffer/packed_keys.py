@@ -12,13 +12,13 @@ def packed_depth_test(
     """Listing of the test where depth is an integer plane; ``old`` is the key in the buffer."""
     depth = min(max(origin + column * across + row * up, LEAST), GREATEST)  #: depth
     key = ((depth + SLACK) << NUMBER_BITS) | (number + 1)  #: key
-    new = min(key, old)  #: minimum
-    return new, new != old  #: store
+    passes = key < old  #: minimum
+    return min(key, old), passes  #: store
 
 
 def rounded_depth_test(z: float, number: int, old: int, writes: bool = True) -> tuple[int, bool]:
     """Listing of the test where a triangle or line has no such plane: z in [0, 1] is rounded at every pixel."""
     depth = round(z * SCALE)  #: depth
     key = ((depth + SLACK) << NUMBER_BITS) | (number + 1)  #: key
-    new = min(key, old)  #: minimum
-    return new if writes else old, new != old  #: store
+    passes = key < old  #: minimum
+    return min(key, old) if writes else old, passes  #: store

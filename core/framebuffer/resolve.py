@@ -119,7 +119,7 @@ def weighted_mean(samples: Sequence[float], weights: Sequence[float]) -> float:
     """Return one channel of a pixel (listing of `resolve_samples`); samples beyond the border are left out."""
     total = 0.0
     result = 0.0
-    for value, weight in zip(samples, weights, strict=True):
-        result += weight * value  #: sum
-        total += weight  #: total
+    for value, weight in zip(samples, weights, strict=True):  #: samples
+        result += weight * value
+        total += weight
     return float(np.float32(result / total))  #: divide

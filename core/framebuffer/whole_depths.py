@@ -31,28 +31,32 @@ WHOLE_INVERSE_W = replace(WHOLE_DEPTH, name="whole 1/w")
 
 def less_passes(new: float, old: float) -> tuple[float, bool]:
     """Listing of the depth test of a table where smaller depths pass: what the buffer holds then, and whether."""
-    if new < old:  #: compare
+    passes = new < old  #: compare
+    if passes:
         return new, True  #: store
     return old, False  #: reject
 
 
 def less_equal_passes(new: float, old: float) -> tuple[float, bool]:
     """Listing of the depth test of a table where smaller depths and equal ones pass."""
-    if new <= old:  #: compare
+    passes = new <= old  #: compare
+    if passes:
         return new, True  #: store
     return old, False  #: reject
 
 
 def greater_passes(new: float, old: float) -> tuple[float, bool]:
     """Listing of the depth test of a table where larger depths pass."""
-    if new > old:  #: compare
+    passes = new > old  #: compare
+    if passes:
         return new, True  #: store
     return old, False  #: reject
 
 
 def greater_equal_passes(new: float, old: float) -> tuple[float, bool]:
     """Listing of the depth test of a table where larger depths and equal ones pass."""
-    if new >= old:  #: compare
+    passes = new >= old  #: compare
+    if passes:
         return new, True  #: store
     return old, False  #: reject
 

@@ -28,6 +28,7 @@ import numpy as np
 from core.geometry.vertex_stage import VertexStage
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
+from core.records.listing import RETURN
 from core.records.operation import Operation
 
 AXIS = (0.0, 0.0, -1.0)
@@ -191,10 +192,11 @@ def _dot(a: Sequence[float], b: Sequence[float]) -> float:
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
+_NORMAL = Operation("normal", "normal", {"normal": "n"})
 _TESTS = (
     Operation("view", "view", ("view",)),
     Operation("product", "product", ("product",)),
-    Operation("test", "test", ("applies", "verdict")),
+    Operation("test", "test", {"applies": RETURN, "verdict": RETURN}),
 )
 
 
@@ -206,7 +208,7 @@ _TESTS = (
     exact_for="closed surfaces seen from outside; the same faces as by the determinant of (x, y, w)",
     breaks_where="thin triangles that snapping turns over; a mirroring transform turns N over with the corners",
     listing=turns_away,
-    operations={"back-normal": (Operation("normal", "normal", ("normal",)), *_TESTS)},
+    operations={"back-normal": (_NORMAL, *_TESTS)},
     traits=by_corners,
 )
 def cull_by_normal(facing: Floats) -> Flags:
@@ -223,7 +225,7 @@ def cull_by_normal(facing: Floats) -> Flags:
     breaks_where="perspective: faces beside the centre that turn between the axis and their own ray are dropped or "
     "kept wrongly",
     listing=turns_away,
-    operations={"back-axis": (Operation("normal", "normal", ("normal",)), *_TESTS)},
+    operations={"back-axis": (_NORMAL, *_TESTS)},
     traits=by_axis,
 )
 def cull_by_axis(facing: Floats) -> Flags:
@@ -241,8 +243,9 @@ def cull_by_axis(facing: Floats) -> Flags:
     listing=stored_turns_away,
     operations={
         "back-stored-normal": (
-            Operation("stored", "stored", ("stored",)),
-            Operation("carried", "carried", ("determinant", "normal")),
+            Operation("stored", "stored", {"stored": "n"}),
+            Operation("determinant", "determinant", ("determinant",)),
+            Operation("carried", "carried", {"normal": "n"}),
             *_TESTS,
         )
     },

@@ -6,23 +6,96 @@ A line of the function is named by a comment at its end, ``#: name``; a step say
 import ast
 import inspect
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cache
 from textwrap import dedent
 from typing import Any
 
+from core.records.cached import cached_property
+
 _LABEL = re.compile(r"\s*#: (?P<name>[\w-]+)\s*$")
+_CHANGING = frozenset({"append", "remove", "sort"})
+"""Methods that change the list that they are called on."""
+RETURN = "return"
+"""Name of the value of the function, which a line gives that returns what no other line has computed."""
 
 
 @dataclass(frozen=True, eq=False)
 class Listing:
-    """Source of a scalar function without labels and types, and the line each label stands on."""
+    """Source of a scalar function without docstring, labels and types, and the line each label stands on."""
 
     function: Callable[..., Any]
     source: str
     lines: dict[str, int]
     """Label to line number, counted from 1."""
+    purpose: str
+    """Its docstring, in one line."""
+
+    @property
+    def name(self) -> str:
+        """Name of the function."""
+        return self.function.__name__
+
+    def assigned(self, line: int) -> frozenset[str]:
+        """Return the names that the statement on a line gives a value; ``RETURN`` where it computes what is returned.
+
+        A loop gives its variables a value, a call of ``append`` the list. What has a value already is not given one by
+        returning it.
+        """
+        return self._assigned.get(line, frozenset())
+
+    def decides(self, line: int) -> bool:
+        """Return whether the statement on a line gives nothing a value: it tests, goes on, breaks or returns."""
+        kinds = (ast.If, ast.While, ast.For, ast.Return, ast.Break, ast.Continue)
+        return isinstance(self._statements.get(line), kinds)
+
+    @cached_property
+    def everywhere(self) -> frozenset[str]:
+        """All names that some line gives a value."""
+        return frozenset().union(*self._assigned.values())
+
+    @cached_property
+    def _statements(self) -> dict[int, ast.stmt]:
+        """The statement of every line; of a compound one, of the lines before its body."""
+        found = {}
+        for node in ast.walk(ast.parse(self.source)):
+            if isinstance(node, ast.stmt):
+                body = getattr(node, "body", None)
+                end = body[0].lineno if body else (node.end_lineno or node.lineno) + 1
+                found |= {line: node for line in range(node.lineno, end)}
+        return found
+
+    @cached_property
+    def _assigned(self) -> dict[int, frozenset[str]]:
+        names = {line: set(_stored(node)) for line, node in self._statements.items()}
+        made: set[str] = set().union(*names.values())
+        for line, node in self._statements.items():
+            if isinstance(node, ast.Return) and node.value is not None:
+                parts = node.value.elts if isinstance(node.value, ast.Tuple) else [node.value]
+                if not all(isinstance(part, ast.Name) and part.id in made for part in parts):
+                    names[line].add(RETURN)
+        return {line: frozenset(found) for line, found in names.items()}
+
+
+def _stored(node: ast.stmt) -> Iterator[str]:
+    """Yield the names that a statement gives a value, without those of its body."""
+    targets: list[ast.expr] = []
+    if isinstance(node, ast.Assign):
+        targets = node.targets
+    elif isinstance(node, ast.AugAssign | ast.For):
+        targets = [node.target]
+    elif isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
+        called = node.value.func
+        if isinstance(called, ast.Attribute) and called.attr in _CHANGING:
+            targets = [called.value]
+    for target in targets:
+        # Of what stands in brackets, only the list is given a value.
+        while isinstance(target, ast.Subscript):
+            target = target.value
+        for part in ast.walk(target):
+            if isinstance(part, ast.Name):
+                yield part.id
 
 
 _PRINTED: dict[Callable[..., Any], str] = {}
@@ -51,29 +124,30 @@ def listing(function: Callable[..., Any]) -> Listing:
 
 @cache
 def source_listing(function: Callable[..., Any]) -> Listing:
-    """Read the source of ``function`` as a textbook prints it: its labels and types are taken out."""
+    """Read the source of ``function`` as a textbook prints it: docstring, labels and types are taken out."""
     lines, labels = [], {}
-    for number, line in enumerate(_untyped(dedent(inspect.getsource(function))), start=1):
+    for number, line in enumerate(_plain_lines(dedent(inspect.getsource(function))), start=1):
         label = _LABEL.search(line)
         if label:
             labels[label["name"]] = number
             line = line[: label.start()]
         lines.append(line)
-    return Listing(function, "\n".join(lines), labels)
+    return Listing(function, "\n".join(lines), labels, " ".join((inspect.getdoc(function) or "").split()))
 
 
-def _untyped(source: str) -> list[str]:
-    """Return the lines of a function: signatures in one line and without types, every indent half as wide."""
+def _plain_lines(source: str) -> list[str]:
+    """Return the lines of a function: signatures in one line, no docstring, no types, every indent half as wide."""
     lines = source.splitlines()
-    typed = [
-        node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.FunctionDef | ast.AnnAssign)
-    ]
+    tree = ast.parse(source)
+    typed = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.AnnAssign)]
     for node in sorted(typed, key=lambda node: -node.lineno):
         first, indent = node.lineno - 1, " " * node.col_offset
         if isinstance(node, ast.AnnAssign):
             line, end = lines[first], node.annotation.end_col_offset
             lines[first] = line[: node.target.end_col_offset] + line[end:]
             continue
+        if ast.get_docstring(node) is not None:
+            del lines[node.body[0].lineno - 1 : node.body[0].end_lineno]
         for argument in ast.walk(node.args):
             if isinstance(argument, ast.arg):
                 argument.annotation = None

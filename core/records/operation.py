@@ -11,6 +11,8 @@ Columns = Mapping[str, NDArray[Any]]
 """Every number of a trace: name to (R, ...) array."""
 Labels = Callable[[Columns, Any], NDArray[np.str_]]
 """Takes columns and rows (C,) int64 or a slice; returns (C,) labels, where the outcome decides which line ran."""
+Variables = tuple[str, ...] | Mapping[str, str]
+"""Columns of the trace; or each column and what the listing calls it, where that is another name."""
 
 
 @dataclass(frozen=True)
@@ -21,8 +23,15 @@ class Operation:
     """Key of its sentence and formula, within the kind of its row."""
     label: str | Labels
     """Label of the line of the listing that ran; empty where no line of it did."""
-    sets: tuple[str, ...] = ()
-    """Variables that it gives a value."""
+    sets: Variables = ()
+    """Variables that its line gives a value."""
+    takes: Variables = ()
+    """Variables that are shown from now on, though no line of the listing gives them a value."""
+
+    @property
+    def shows(self) -> tuple[str, ...]:
+        """Columns that have a value once it is done."""
+        return *self.sets, *self.takes
 
     def label_at(self, columns: Columns, row: int) -> str:
         """Return the label of the line that ran in one row."""

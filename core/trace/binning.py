@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 
 from core.raster.binning import block_verdict
 from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT
-from core.records.listing import listing
+from core.records.listing import RETURN, listing
 from core.records.operation import Columns, Operation
 from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
@@ -27,10 +27,9 @@ def bounding_box(
     x: np.ndarray, y: np.ndarray, center: float, bounds: tuple[int, int, int, int]
 ) -> tuple[int, int, int, int]:
     """Listing of the box: corners (3,) in pixels; bounds and result are column, row, end column, end row."""
-    column = max(ceil(min(x) - center), bounds[0])  #: column
-    row = max(ceil(min(y) - center), bounds[1])  #: row
-    column_end = min(floor(max(x) - center) + 1, bounds[2])  #: column-end
-    row_end = min(floor(max(y) - center) + 1, bounds[3])  #: row-end
+    column, row = max(ceil(min(x) - center), bounds[0]), max(ceil(min(y) - center), bounds[1])  #: low
+    right, top = floor(max(x) - center) + 1, floor(max(y) - center) + 1
+    column_end, row_end = min(right, bounds[2]), min(top, bounds[3])  #: high
     return column, row, column_end, row_end
 
 
@@ -38,12 +37,10 @@ def outer_box(
     x: np.ndarray, y: np.ndarray, center: float, bounds: tuple[int, int, int, int]
 ) -> tuple[int, int, int, int]:
     """Listing of the box around corners (3,) that are not snapped: outward to whole pixels, then as every box."""
-    left, bottom = floor(min(x)), floor(min(y))  #: low
-    right, top = ceil(max(x)), ceil(max(y))  #: high
-    column = max(ceil(left - center), bounds[0])  #: column
-    row = max(ceil(bottom - center), bounds[1])
-    column_end = min(floor(right - center) + 1, bounds[2])  #: column-end
-    row_end = min(floor(top - center) + 1, bounds[3])
+    left, bottom = floor(min(x)), floor(min(y))
+    column, row = max(ceil(left - center), bounds[0]), max(ceil(bottom - center), bounds[1])  #: low
+    right, top = floor(ceil(max(x)) - center) + 1, floor(ceil(max(y)) - center) + 1
+    column_end, row_end = min(right, bounds[2]), min(top, bounds[3])  #: high
     return column, row, column_end, row_end
 
 
@@ -103,19 +100,19 @@ def trace_bin(source: TraceSource) -> StageTrace:
         kind=kind,
         operations={
             "box": (
-                Operation("low", "column", ("corners", "column", "row")),
-                Operation("high", "column-end", ("column_end", "row_end")),
+                Operation("low", "low", ("column", "row"), ("corners",)),
+                Operation("high", "high", ("column_end", "row_end")),
             ),
             "outer-box": (
-                Operation("low", "column", ("corners", "column", "row")),
-                Operation("high", "column-end", ("column_end", "row_end")),
+                Operation("low", "low", ("column", "row"), ("corners",)),
+                Operation("high", "high", ("column_end", "row_end")),
             ),
             "behind": (Operation("drop", ""),),
-            "whole-image": (Operation("keep", "", ("column", "row", "column_end", "row_end")),),
+            "whole-image": (Operation("keep", "", (), ("column", "row", "column_end", "row_end")),),
             "block": (
-                Operation("high", "high", ("high", "rejected_by")),
+                Operation("high", "high", ("high",), ("rejected_by",)),
                 Operation("low", "low", ("low",)),
-                Operation("verdict", _verdict_label, ("verdict",)),
+                Operation("verdict", _verdict_label, {"verdict": RETURN}),
             ),
         },
         triangle_ends=ends_of(geometry.primitives.triangle[owner]),
@@ -132,8 +129,6 @@ def trace_bin(source: TraceSource) -> StageTrace:
         listings={
             "outer-box": listing(outer_box),
             "box": box,
-            "behind": box,
-            "whole-image": box,
             "block": block,
         },
         marks={"rejected": is_block & (verdict == OUTSIDE), "covered": is_block & (verdict == INSIDE)},

@@ -4,7 +4,7 @@ import numpy as np
 
 from core.geometry.culling import PLANES
 from core.geometry.polygon_clipping.sutherland_hodgman import CASES, clip_edge, clip_edge_in_order
-from core.records.listing import listing
+from core.records.listing import RETURN, listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
 from core.resolved import resolve
@@ -15,8 +15,8 @@ from core.trace.stage_trace import StageTrace, no_pixels
 
 KINDS = (*CASES, "untouched")
 CROSSING = (
-    (Operation("t", "t-out", ("t",)), Operation("corner", "leave", ("corner",))),
-    (Operation("t", "t-in", ("t",)), Operation("corner", "enter", ("corner",))),
+    (Operation("t", "t-out", ("t",)), Operation("corner", "leave", {"corner": RETURN})),
+    (Operation("t", "t-in", ("t",)), Operation("corner", "enter", {"corner": RETURN})),
 )
 """What an edge that leaves does, and one that enters, where new corners are computed from the inside end."""
 CROSSING_IN_ORDER = (
@@ -65,7 +65,8 @@ def trace_clip(source: TraceSource) -> StageTrace:
         "t": numbers("t"),
         "corner": numbers("corner", 4),
     }
-    distances = Operation("distances", "in-in", ("plane", "start", "end", "start_distance", "end_distance"))
+    given = "plane", "start", "end", "start_distance", "end_distance"
+    distances = Operation("distances", "in-in", (), given)
     clipping = resolve(source.settings).clipping
     is_canonical = clipping.is_canonical or bool(geometry.clipping_inserted)
     crossing = CROSSING if is_canonical else (CROSSING_IN_ORDER, CROSSING_IN_ORDER)
@@ -73,11 +74,11 @@ def trace_clip(source: TraceSource) -> StageTrace:
         kinds=KINDS,
         kind=kind,
         operations={
-            "in-in": (distances, Operation("keep", "in-in")),
+            "in-in": (distances, Operation("keep", "keep")),
             "out-out": (distances, Operation("drop", "out-out")),
             "in-out": (distances, *crossing[0]),
             "out-in": (distances, *crossing[1]),
-            "untouched": (Operation("keep", "in-in"),),
+            "untouched": (Operation("keep", ""),),
         },
         triangle_ends=ends_of(polygon[order]),
         group_ends=ends_of(polygon[order], plane),

@@ -7,7 +7,7 @@ from core.geometry.normal_view import NormalView, cofactors, face_normals
 from core.methods import table
 from core.raster.edges.snapping import place_corners
 from core.records.arrays import Integers
-from core.records.listing import listing
+from core.records.listing import RETURN, listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
@@ -69,11 +69,11 @@ def trace_cull(source: TraceSource) -> StageTrace:
         kind=kind,
         operations=dict(method.operations)
         | {
-            "behind": (Operation("test", "behind", ("w", "applies")),),
-            "plane": (Operation("test", "outside", ("plane", "distances", "applies")),),
-            "degenerate": (Operation("test", "degenerate", ("facing", "applies")),),
-            "facing": (Operation("test", "facing", ("facing", "applies", "verdict")),),
-            "kept": (Operation("verdict", "kept", ("verdict",)),),
+            "behind": (Operation("test", "behind", (), ("w", "applies")),),
+            "plane": (Operation("test", "outside", (), ("plane", "distances", "applies")),),
+            "degenerate": (Operation("test", "degenerate", (), ("facing", "applies")),),
+            "facing": (Operation("test", "facing", (), ("facing", "applies", "verdict")),),
+            "kept": (Operation("verdict", "kept", {"verdict": RETURN}),),
         },
         triangle_ends=ends_of(which),
         group_ends=ends_of(which, kind),

@@ -5,7 +5,7 @@ import numpy as np
 from core.framebuffer.depth import depth_in_range, depth_test, store_depth
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.records.arrays import Flags, Integers
-from core.records.listing import Listing, listing
+from core.records.listing import RETURN, Listing, listing
 from core.records.operation import Either, Operation
 from core.records.steps import Steps, ends_of
 from core.trace.depth_keys import PLANAR_OPERATIONS, key_columns, plane_columns
@@ -16,21 +16,21 @@ from core.trace.stage_trace import BufferTrack, StageTrace
 
 OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "test": (
-        Operation("depth", "", ("depth", "stored")),
-        Operation("compare", "compare", ("before", "passes")),
-        Operation("write", Either("passes", "store", "reject"), ("after",)),
+        Operation("depth", "", (), ("depth", "stored")),
+        Operation("compare", "compare", {"passes": "nearer"}, ("before",)),
+        Operation("write", Either("passes", "store", "reject"), {"after": RETURN}),
     ),
-    "out-of-range": (Operation("range", "range", ("depth", "passes")),),
+    "out-of-range": (Operation("range", "range", {"passes": RETURN}, ("depth",)),),
     "store": (
-        Operation("depth", "", ("depth", "stored")),
-        Operation("write", "store", ("before", "after", "passes")),
+        Operation("depth", "", (), ("depth", "stored")),
+        Operation("write", "store", {"after": RETURN}, ("before", "passes")),
     ),
 }
 """Kind of row to what it does."""
 CELL = (
-    Operation("depth", "", ("stored",)),
-    Operation("compare", "compare", ("before", "passes")),
-    Operation("write", Either("passes", "store", "reject"), ("after",)),
+    Operation("depth", "", (), ("stored",)),
+    Operation("compare", "compare", ("passes",), ("before",)),
+    Operation("write", Either("passes", "store", "reject"), {"after": RETURN}),
 )
 """What a row of a table of depths does, which is of the kind ``cell``."""
 

@@ -7,20 +7,23 @@ from core.framebuffer.packed_keys import NUMBER_BITS
 from core.framebuffer.stacks import stack_fragments
 from core.raster.lines.wireframe import LineFragments
 from core.records.arrays import Integers
+from core.records.listing import RETURN
 from core.records.operation import Operation
 from core.trace.source import TraceSource
 
+_DEPTH = {"depth": "depth", "stored": "depth"}
+_PLANE = Operation("plane", "depth", _DEPTH)
 _KEY = (
     Operation("key", "key", ("key",)),
-    Operation("minimum", "minimum", ("before", "before_key", "passes")),
-    Operation("write", "store", ("after", "after_key")),
+    Operation("minimum", "minimum", ("passes",), ("before", "before_key")),
+    Operation("write", "store", dict.fromkeys(("after", "after_key"), RETURN)),
 )
 PLANAR_OPERATIONS: dict[str, tuple[Operation, ...]] = {
-    "test": (Operation("plane", "depth", ("depth", "stored")), *_KEY),
-    "rounded": (Operation("depth", "depth", ("depth", "stored")), *_KEY),
+    "test": (_PLANE, *_KEY),
+    "rounded": (Operation("depth", "depth", _DEPTH), *_KEY),
     "plane": (
-        Operation("plane", "depth", ("depth", "stored")),
-        Operation("write", "store", ("before", "after", "passes")),
+        _PLANE,
+        Operation("write", "store", {"after": RETURN}, ("before",)),
     ),
 }
 """Kinds of rows that only depth on integer planes has; ``rounded``: tested, but the triangle has no plane."""

@@ -7,13 +7,16 @@ import numpy as np
 
 from core.methods import table
 from core.raster.lines.wireframe import LineFragments, line_parameter
-from core.records.listing import Listing, listing
+from core.records.listing import RETURN, Listing, listing
 from core.records.operation import Operation
 from core.stages.fragment_depth import fragment_quantity, logarithm_range, outlines_of, reversed_ends
 from core.trace.source import TraceSource
 
-_ROUND = Operation("depth", "round", ("depth", "stored"))
-_VALUE = (Operation("value", "value", ("depth", "value")), Operation("depth", "round", ("stored",)))
+_ROUND = Operation("depth", "round", {"stored": RETURN}, ("depth",))
+_VALUE = (
+    Operation("value", "value", {"value": RETURN}, ("depth",)),
+    Operation("depth", "round", {"stored": RETURN}),
+)
 
 
 def value_operations(source: TraceSource) -> tuple[Operation, ...]:

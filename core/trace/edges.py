@@ -1,6 +1,9 @@
 """Trace of the edge set-up: corners snapped, the area's sign, and the three edge functions."""
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 from core.fragments.interpolation import perspective
 from core.methods import table
@@ -10,8 +13,8 @@ from core.raster.edges.snapping import snap_one
 from core.raster.number_formats.floats import rounded_corner
 from core.raster.number_formats.inverse import inverse_coefficients
 from core.records.arrays import Floats
-from core.records.listing import Listing, listing
-from core.records.operation import Labels, Operation
+from core.records.listing import RETURN, Listing, listing
+from core.records.operation import Columns, Labels, Operation
 from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
@@ -67,9 +70,9 @@ def _tie_label(rule: Listing) -> str | Labels:
     return lambda columns, rows: np.where(columns["a"][rows] != 0, "right", "up")
 
 
-def _unless_singular(label: str) -> Labels:
-    """Return a line of the inverse's listing; of a matrix without one the line that finds this out."""
-    return lambda columns, rows: np.where(columns["doubled_area"][rows] == 0, "singular", label)
+def _inverse_label(columns: Columns, rows: Any) -> NDArray[np.str_]:
+    """Return the line of the inverse's listing that returns: of a matrix without one, zeros."""
+    return np.where(columns["doubled_area"][rows] == 0, "singular", "inverse")
 
 
 def trace_edges(source: TraceSource) -> StageTrace:
@@ -124,24 +127,29 @@ def trace_edges(source: TraceSource) -> StageTrace:
     fill_rule = listing(rule)
     coefficients = (
         *(Operation(name, name, (name,)) for name in "abc"),
-        Operation("tie", _tie_label(fill_rule), ("owns_tie",)),
+        Operation("tie", _tie_label(fill_rule), {"owns_tie": RETURN}),
     )
     steps = Steps(
         kinds=KINDS,
         kind=kind,
         operations={
-            "snapped": (Operation("window", "snap", ("window",)), Operation("snap", "back", ("snapped",))),
-            "homogeneous": (Operation("keep", "", ("homogeneous",)),),
-            "orientation": (Operation("area", "", ("doubled_area",)),),
+            "snapped": (
+                Operation("window", "", (), ("window",)),
+                Operation("snap", "snap", {"snapped": RETURN}),
+            ),
+            "homogeneous": (Operation("keep", "", (), ("homogeneous",)),),
+            "orientation": (Operation("area", "", (), ("doubled_area",)),),
             "edge": coefficients,
             "anchored-edge": coefficients,
-            "left-out-edge": (Operation("leave-out", "left-out", ("a", "b", "c", "owns_tie")),),
-            "rounded": (Operation("round", "round", ("rounded",)),),
+            "left-out-edge": (
+                Operation("leave-out", "left-out", dict.fromkeys("abc", RETURN), ("owns_tie",)),
+            ),
+            "rounded": (Operation("round", "round", {"rounded": RETURN}),),
             "inverse-edge": (
-                *(Operation(done.name, _unless_singular("inverse"), done.sets) for done in coefficients[:3]),
+                *(Operation(name, _inverse_label, {name: RETURN}) for name in "abc"),
                 coefficients[3],
             ),
-            "determinant": (Operation("area", _unless_singular("determinant"), ("doubled_area",)),),
+            "determinant": (Operation("area", "determinant", {"doubled_area": "determinant"}),),
         },
         triangle_ends=ends_of(geometry.primitives.triangle[primitive]),
         group_ends=ends_of(primitive, np.array([0, 0, 0, 1, 2, 2, 2])[place]),
@@ -156,8 +164,6 @@ def trace_edges(source: TraceSource) -> StageTrace:
         pixel=no_pixels(len(primitive)),
         listings={
             "snapped": snapping,
-            "homogeneous": snapping,
-            "orientation": cross_product,
             "edge": cross_product,
             "anchored-edge": listing(anchored_coefficients),
             "left-out-edge": listing(edge_left_out),

@@ -31,12 +31,12 @@ ALONG_LINES: dict[str, tuple[Callable[..., Any], tuple[Operation, ...]]] = {
     "line-perspective": (
         interpolate_along,
         (
-            Operation("parts", "parts", ("t", "end_w", "parts")),
-            Operation("total", "total", ("total", "inverse_w")),
+            Operation("parts", "parts", {"parts": "start end"}, ("t", "end_w")),
+            Operation("total", "total", ("total",), ("inverse_w",)),
             Operation("weight", "weight", ("s",)),
         ),
     ),
-    "line-affine": (interpolate_affine_along, (Operation("weight", "weight", ("t", "s")),)),
+    "line-affine": (interpolate_affine_along, (Operation("weight", "weight", ("s",), ("t",)),)),
     "point": (take_point_value, ()),
 }
 """Kind of row of lines and points to its listing and to what it does before the values."""
@@ -48,7 +48,7 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
     outline_kind = _outline_kind(source)
     rows = source.rows_of("interpolate", _rows)
     values_of_layout = tuple(
-        Operation(f"value-{name}", "value", (name,)) for name in geometry.primitives.layout
+        Operation(f"value-{name}", "value", {name: "value"}) for name in geometry.primitives.layout
     )
     of_layout = {name: source.interpolated[1][:, part] for name, part in geometry.primitives.layout.items()}
     triangle = source.triangle_of_fragment

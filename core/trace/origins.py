@@ -185,5 +185,5 @@ def origin(
 def _done_at(stage: StageTrace, row: int, variable: str) -> int:
     """Return the position at which a row's variable is known: after the operation that sets it, else after the row."""
     start, end = (int(place) for place in stage.steps.starts[row : row + 2])
-    sets = [variable in operation.sets for operation in stage.steps.operations[stage.kind_of(row)]]
+    sets = [variable in operation.shows for operation in stage.steps.operations[stage.kind_of(row)]]
     return start + sets.index(True) + 1 if True in sets else end

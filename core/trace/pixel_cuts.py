@@ -16,7 +16,7 @@ from core.antialiasing.exact_area import DrawnLayer, PiecePainter
 from core.antialiasing.pixel_pieces import ON_LINE, Pieces, area_of, join_pieces, split_pieces, whole_pixels
 from core.antialiasing.polygon_cut import cut_polygon, polygon_area, shown_areas
 from core.records.arrays import Flags, Floats, Integers
-from core.records.listing import listing
+from core.records.listing import RETURN, listing
 from core.records.operation import Columns, Labels, Operation
 from core.trace.inserted_rows import InsertedRows, empty_like, insert_rows
 from core.trace.stage_trace import BufferTrack, StageTrace
@@ -43,13 +43,17 @@ def _area_label(name: str) -> Labels:
 
 OPERATIONS = {
     "cut": (
-        Operation("distances", "distances", ("edge", "a", "b", "value", "before", "corner_distance")),
-        Operation("cut", _cut_label, ("polygon", "corner_count")),
+        Operation(
+            "distances", "distances", {"corner_distance": "distance"}, ("edge", "a", "b", "value", "before")
+        ),
+        Operation("cut", _cut_label, {"polygon": RETURN}, ("corner_count",)),
     ),
     "piece": (
-        Operation("area", "area", ("polygon", "corner_count", "piece_area")),
-        Operation("seen", _area_label("seen"), ("part_area", "part_primitive", "primitive", "seen_area")),
-        Operation("cover", _area_label("cover"), ("covered_area",)),
+        Operation("area", "area", {"piece_area": RETURN}, ("polygon", "corner_count")),
+        Operation(
+            "seen", _area_label("seen"), {"seen_area": "front"}, ("part_area", "part_primitive", "primitive")
+        ),
+        Operation("cover", _area_label("cover"), {"covered_area": "covered"}),
     ),
 }
 

@@ -25,7 +25,7 @@ from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
 KINDS = tuple(OPERATIONS)
-EDGE, LEVEL, LEAVE, ADVANCE, ENTER, INTERVAL, PIXEL = range(len(KINDS))
+EDGE, LEVEL, LEAVE, ADVANCE, ENTER, OUTSIDE, INSIDE, PIXEL = range(len(KINDS))
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +83,7 @@ def fill_rows(table: EdgeTable, found: Crossings, raster: Raster) -> FillRows:
             np.full(len(edge), -1),
         ),
         (
-            np.full(len(intervals), INTERVAL),
+            np.where(found.is_inside[intervals], INSIDE, OUTSIDE),
             polygon[intervals],
             row[intervals],
             intervals,
@@ -104,7 +104,7 @@ def fill_rows(table: EdgeTable, found: Crossings, raster: Raster) -> FillRows:
     kind, owner, line, order, its_edge, its_crossing, column = (
         np.concatenate([part[k] for part in parts]) for k in range(7)
     )
-    phase = np.array([0, 0, 1, 2, 2, 3, 3])[kind]
+    phase = np.array([0, 0, 1, 2, 2, 3, 3, 3])[kind]
     sort = np.lexsort((column, order, phase, line, owner))
     return FillRows(*(values[sort] for values in (kind, owner, line, its_edge, its_crossing, column)))
 

@@ -2,31 +2,35 @@
 
 import numpy as np
 
-from core.framebuffer.depth import depth_test
-from core.records.listing import Listing, listing
+from core.framebuffer.depth import depth_in_range
+from core.records.listing import RETURN, Listing, listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
-from core.visibility.ray_casting import BY_FLOATS, EXACTLY, FIRST, RayTests, hit_is_nearer
+from core.visibility.ray_casting import BY_FLOATS, EXACTLY, FIRST, RayTests, depth_of_nearest, hit_is_nearer
 from core.visibility.ray_planes import hit_value
 
-_HIT = Operation("hit", "value", ("depth", "nearness", "error"))
+_HIT = (
+    Operation("hit", "value", {"nearness": "value"}, ("depth",)),
+    Operation("bound", "bound", {"error": "bound"}),
+)
+_WRITE = Operation("write", "store", {"after": RETURN}, ("stored", "before"))
 _OTHER = ("nearest", "nearest_nearness", "nearest_error")
 RAY_OPERATIONS: dict[str, tuple[Operation, ...]] = {
-    "ray-first": (_HIT, Operation("keep", "first", ("passes", "stored", "after"))),
+    "ray-first": (*_HIT, Operation("keep", "first", {"passes": RETURN}, ("stored", "after"))),
     "ray": (
-        _HIT,
-        Operation("compare", "floats", (*_OTHER, "sign", "passes")),
-        Operation("write", "floats", ("stored", "before", "after")),
+        *_HIT,
+        Operation("compare", "floats", {"passes": RETURN}, (*_OTHER, "sign")),
+        _WRITE,
     ),
     "ray-exact": (
-        _HIT,
-        Operation("doubt", "margin", _OTHER),
-        Operation("exact", "exact", ("sign", "passes")),
-        Operation("write", "exact", ("stored", "before", "after")),
+        *_HIT,
+        Operation("doubt", "margin", (), _OTHER),
+        Operation("exact", "exact", {"passes": RETURN}, ("sign",)),
+        _WRITE,
     ),
-    "out-of-range": (Operation("range", "compare", ("depth", "passes")),),
+    "out-of-range": (Operation("range", "range", {"passes": RETURN}, ("depth",)),),
 }
 """Kind of row to what it does: a first hit, one that float64 tells from the nearest, and one that it does not."""
 
@@ -110,10 +114,10 @@ def _hits(source: TraceSource, rays: RayTests, keeps: np.ndarray) -> dict[str, n
 
 
 def _listings() -> dict[str, Listing]:
-    compared, hit = listing(hit_is_nearer), listing(hit_value)
+    compared, hit, write = listing(hit_is_nearer), listing(hit_value), listing(depth_of_nearest)
     kinds = ("ray-first", "ray", "ray-exact")
     return (
         dict.fromkeys(kinds, compared)
-        | dict.fromkeys([f"{kind}.hit" for kind in kinds], hit)
-        | {"out-of-range": listing(depth_test)}
+        | dict.fromkeys([f"{kind}.{name}" for kind in kinds for name in ("hit", "bound")], hit)
+        | {"ray.write": write, "ray-exact.write": write, "out-of-range": listing(depth_in_range)}
     )

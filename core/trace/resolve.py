@@ -12,7 +12,7 @@ from core.framebuffer.resolve import AROUND, filter_weights, reach_of, weighted_
 from core.pipeline import draw
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.records.frame import StageCount
-from core.records.listing import Listing, listing
+from core.records.listing import RETURN, Listing, listing
 from core.records.operation import Columns, Operation
 from core.records.steps import Steps, ends_of
 from core.resolved import resolve
@@ -31,20 +31,20 @@ def _curve_label(columns: Columns, rows: Any) -> NDArray[np.str_]:
 
 
 ENCODE = (
-    Operation("clip", "clip", ("linear", "clipped")),
+    Operation("clip", "clip", ("clipped",), ("linear",)),
     Operation("encode", _curve_label, ("encoded",)),
-    Operation("round", "round", ("bytes",)),
+    Operation("round", "round", {"bytes": RETURN}),
 )
 OPERATIONS: dict[str, tuple[Operation, ...]] = {
     "encode": ENCODE,
     "average": (
-        Operation("samples", "sum", ("samples", "sample_weights")),
-        Operation("divide", "divide", ("linear",)),
+        Operation("samples", "samples", (), ("samples", "sample_weights")),
+        Operation("divide", "divide", {"linear": RETURN}),
         *ENCODE,
     ),
     "areas": (
-        Operation("samples", "sum", ("samples", "sample_weights")),
-        Operation("divide", "store", ("linear",)),
+        Operation("samples", "samples", (), ("samples", "sample_weights")),
+        Operation("divide", "store", {"linear": RETURN}),
         *ENCODE,
     ),
 }

@@ -7,11 +7,11 @@ import numpy as np
 
 from core.fragments.level_of_detail import level_of_detail
 from core.fragments.lighting import Lighting, blinn_phong, trace_lighting
-from core.fragments.shading import shaded_color, unlit_color
+from core.fragments.shading import shaded_color, textured_albedo, unlit_color
 from core.fragments.textures import uses_mipmaps
 from core.methods import table
 from core.records.arrays import Floats, Integers
-from core.records.listing import Listing, listing
+from core.records.listing import RETURN, Listing, listing
 from core.records.operation import Labels, Operation
 from core.records.steps import Steps, ends_of
 from core.scene import ClipScene, Scene, Texture
@@ -140,29 +140,32 @@ def _lighting(source: TraceSource, mesh: Integers) -> Lighting | None:
     return trace_lighting(position, values[:, layout["normal"]], eye, source.scene.lights, material, False)
 
 
-def _of_lights(label: str) -> Labels:
-    """Return a line of the loop over the lights; without lights the line before it."""
+def _of_lights(label: str, otherwise: str) -> Labels:
+    """Return a line of the loop over the lights, and the one without lights."""
     return lambda columns, rows: np.full(
-        len(columns["n_dot_l"][rows]), label if columns["n_dot_l"].shape[1] else "ambient"
+        len(columns["n_dot_l"][rows]), label if columns["n_dot_l"].shape[1] else otherwise
     )
 
 
 def _operations(source: TraceSource, has_normals: bool) -> dict[str, tuple[Operation, ...]]:
     """Return what a row of each kind does."""
-    plain = (Operation("color", "color", ("albedo", "color")),)
-    texture = (*texture_operations(source.settings.texture_filter), Operation("albedo", "color", ("albedo",)))
-    light: tuple[Operation, ...] = (Operation("interpolated", "color", ("diffuse_light", "specular_light")),)
+    color = Operation("color", "color", {"color": RETURN}, ("albedo",))
+    albedo = Operation("albedo", "albedo", {"albedo": RETURN})
+    texture = (*texture_operations(source.settings.texture_filter), albedo)
+    light: tuple[Operation, ...] = (Operation("interpolated", "", (), ("diffuse_light", "specular_light")),)
     if has_normals:
         light = (
-            Operation("normal", "normal", ("normal", "to_eye")),
-            Operation("cosines", _of_lights("cosines"), ("n_dot_l", "n_dot_h")),
-            Operation("sums", _of_lights("specular"), ("power", "diffuse_light", "specular_light")),
+            Operation("normal", "normal", {"normal": "n", "to_eye": "v"}),
+            Operation("cosines", _of_lights("cosines", ""), ("n_dot_l", "n_dot_h")),
+            Operation("power", _of_lights("power", ""), ("power",)),
+            Operation("diffuse", _of_lights("diffuse", "ambient"), ("diffuse_light",)),
+            Operation("specular", _of_lights("specular", "ambient"), ("specular_light",)),
         )
-    product = (Operation("product", "color", ("color",)),)
+    product = (Operation("product", "color", {"color": "red green blue"}),)
     return {
-        "plain": plain,
-        "textured": (*texture, Operation("color", "color", ("color",))),
-        "lit": (Operation("albedo", "color", ("albedo",)), *light, *product),
+        "plain": (color,),
+        "textured": (*texture, color),
+        "lit": (Operation("albedo", "", (), ("albedo",)), *light, *product),
         "textured-lit": (*texture, *light, *product),
     }
 
@@ -174,18 +177,15 @@ def _listings(source: TraceSource, has_normals: bool) -> dict[str, Listing]:
     assert of_texture is not None, f"{texture_filter} has no listing"
     texture, product = listing(of_texture), listing(shaded_color)
     light = listing(blinn_phong) if has_normals else product
-    of_operation = {
-        "normal": light,
-        "cosines": light,
-        "sums": light,
-        "interpolated": light,
-        "product": product,
-    }
-    found = {"plain": listing(unlit_color), "textured": texture, "lit": product, "textured-lit": texture}
+    of_light = ("normal", "cosines", "power", "diffuse", "specular", "interpolated")
+    of_operation = {**dict.fromkeys(of_light, light), "product": product}
+    unlit, albedo = listing(unlit_color), listing(textured_albedo)
+    found = {"plain": unlit, "textured": texture, "lit": product, "textured-lit": texture}
+    found |= {"textured.color": unlit, "textured.albedo": albedo, "textured-lit.albedo": albedo}
     if uses_mipmaps(texture_filter):
         for kind in ("textured", "textured-lit"):
             found[f"{kind}.slopes"] = listing(SLOPE_LISTINGS[slope_kind(source)])
-            found[f"{kind}.lod"] = listing(level_of_detail)
+            found |= dict.fromkeys((f"{kind}.lengths", f"{kind}.lod"), listing(level_of_detail))
     for kind in ("lit", "textured-lit"):
         found |= {f"{kind}.{name}": chosen for name, chosen in of_operation.items()}
     return found

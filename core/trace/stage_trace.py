@@ -166,9 +166,9 @@ class StageTrace:
             known=(
                 *self.constants,
                 *self.given.get(kind, ()),
-                *(name for o in operations[: operation + 1] for name in o.sets),
+                *(name for o in operations[: operation + 1] for name in o.shows),
             ),
-            changed=done.sets,
+            changed=tuple(done.sets),
             listing=listing,
             line=listing.lines.get(done.label_at(self.columns, row), 0) if listing else 0,
             corner_count=self.corner_count,

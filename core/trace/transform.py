@@ -3,7 +3,7 @@
 import numpy as np
 
 from core.geometry.matrices import transform_component
-from core.records.listing import listing
+from core.records.listing import RETURN, listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
@@ -17,8 +17,8 @@ def divide_and_map(clip: np.ndarray, width: int, height: int) -> tuple[float, fl
     """Listing of the way from clip space to the window."""
     x, y, z, w = clip
     ndc_x, ndc_y, ndc_z = x / w, y / w, z / w  #: divide
-    window_x = (ndc_x + 1) * (width / 2)  #: window-x
-    window_y = (ndc_y + 1) * (height / 2)  #: window-y
+    window_x = (ndc_x + 1) * (width / 2)  #: window_x
+    window_y = (ndc_y + 1) * (height / 2)  #: window_y
     depth = (ndc_z + 1) * 0.5  #: depth
     return window_x, window_y, depth
 
@@ -58,11 +58,11 @@ def trace_transform(source: TraceSource) -> StageTrace:
         columns["before"][at], columns["after"][at] = before, after
         if matrix is not None:
             columns["matrix"][at] = matrix
-    by_matrix = tuple(Operation(axis, "fourth", (f"after_{axis}",)) for axis in AXES)
-    by_division = tuple(Operation(axis, "divide", (f"after_{axis}",)) for axis in AXES[:3])
+    by_matrix = tuple(Operation(axis, "fourth", {f"after_{axis}": RETURN}) for axis in AXES)
+    by_division = tuple(Operation(axis, "divide", {f"after_{axis}": f"ndc_{axis}"}) for axis in AXES[:3])
     to_window = tuple(
-        Operation(axis, label, (f"after_{axis}",))
-        for axis, label in zip(AXES, ("window-x", "window-y", "depth"), strict=False)
+        Operation(axis, label, {f"after_{axis}": label})
+        for axis, label in zip(AXES, ("window_x", "window_y", "depth"), strict=False)
     )
     for k, axis in enumerate(AXES):
         columns[f"before_{axis}"], columns[f"after_{axis}"] = columns["before"][:, k], columns["after"][:, k]

@@ -153,3 +153,8 @@ def hit_is_nearer(
     b = (new.b * old.d - old.b * new.d) * width
     c = (new.c * old.d - old.c * new.d) * width * height
     return a * m + b * n + c > 0  #: exact
+
+
+def depth_of_nearest(new: float, old: float, is_nearer: bool, writes: bool) -> float:
+    """Listing of the depth buffer after a hit: that of the nearest hit that is kept."""
+    return new if is_nearer and writes else old  #: store

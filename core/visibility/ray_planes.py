@@ -154,14 +154,12 @@ def hit_value(
     """Listing of where a ray meets a plane (a, b, c, d), and of a bound of the error; larger is nearer."""
     a, b, c, d = plane
     size_a, size_b, size_c, size_d = sizes
-    x, y = m / width, n / height  #: ray
+    x, y = m / width, n / height
     error_d = ROUNDING * size_d + UNDERFLOW
-    least = abs(d) - error_d  #: determinant
-    if least <= 0:
-        return 0.0, inf  #: edge-on
-    value = (a * x + (b * y + c)) / d  #: value
+    least = abs(d) - error_d
+    value = (a * x + (b * y + c)) / d if least > 0 else 0.0  #: value
     error = ROUNDING * (size_a * abs(x) + (size_b * abs(y) + size_c)) + UNDERFLOW
-    bound = (error + abs(value) * error_d) / least + ROUNDING * abs(value)  #: bound
+    bound = (error + abs(value) * error_d) / least + ROUNDING * abs(value) if least > 0 else inf  #: bound
     return (value, bound) if isfinite(bound) else (0.0, inf)
 
 

@@ -25,7 +25,7 @@ from PySide6.QtWidgets import QApplication, QFrame, QPlainTextEdit, QTextEdit, Q
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.marks import blended
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.inspector.listing_looks import color_tokens, docstring_lines
+from widgets.inspector.listing_looks import color_tokens
 from widgets.inspector.listing_margin import ListingMargin
 
 _COMMANDS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
@@ -46,6 +46,8 @@ class ListingText:
     """Name of the method, for the accessible name."""
     source: str
     """Python text; line numbers count from 1."""
+    purpose: str = ""
+    """What it is for, for the tooltip."""
 
 
 class ListingView(QPlainTextEdit):
@@ -99,20 +101,11 @@ class ListingView(QPlainTextEdit):
         self._title = listing.title if listing else ""
         self.setPlainText(listing.source.rstrip("\n") if listing else "")
         self.setAccessibleName(f"Listing of {self._title}" if self._title else "Listing")
+        self.setToolTip(listing.purpose if listing else "")
         color_tokens(self.document())
-        self._fold_docstring()
         self._place_margin()
         if self.toPlainText() not in self._in_turn:
             self.room_changed.emit()
-
-    def _fold_docstring(self) -> None:
-        """Leave the room to lines that run: what the function is for stands in the tooltip."""
-        source = self.toPlainText()
-        folded = docstring_lines(source)
-        for line in folded:
-            self.document().findBlockByNumber(line - 1).setVisible(False)
-        lines = source.split("\n")[folded.start - 1 : folded.stop - 1] if folded else []
-        self.setToolTip(" ".join(line.strip() for line in lines).strip(' "'))
 
     def keep_room_for(self, sources: Iterable[str]) -> None:
         """Be high enough for each of these listings, which are shown in turn: then none of them moves anything."""
@@ -308,12 +301,10 @@ class ListingView(QPlainTextEdit):
 @lru_cache(maxsize=1024)
 def _rows(source: str, lines: int, width: float, font: QFont, wrap: QTextOption.WrapMode) -> int:
     """Return how many rows so many successive lines of a source take at most in a width; at least one for each."""
-    folded = docstring_lines(source)
-    shown = [text for line, text in enumerate(source.split("\n"), 1) if line not in folded]
     option = QTextOption()
     option.setWrapMode(wrap)
     rows = []
-    for text in shown:
+    for text in source.split("\n"):
         layout = QTextLayout(text, font)
         layout.setTextOption(option)
         layout.beginLayout()

@@ -1,6 +1,5 @@
 """The looks of code: what each token of a listing is, and the colours of vertices 0, 1 and 2 in it."""
 
-import ast
 import io
 import keyword
 import re
@@ -13,19 +12,6 @@ from widgets.basics.theme import current_theme
 
 _VERTEX_NAME = re.compile(r"^[A-Za-z]+_?([012])$")
 _EDGE_NAMES = {"alpha": 0, "beta": 1, "gamma": 2}
-
-
-@lru_cache(maxsize=64)
-def docstring_lines(source: str) -> range:
-    """Return the lines (from 1) of the docstring of a function, which no step runs; none where there is none."""
-    try:
-        (function,) = ast.parse(source).body
-    except (SyntaxError, ValueError):
-        return range(0)
-    if not isinstance(function, ast.FunctionDef) or ast.get_docstring(function) is None:
-        return range(0)
-    first = function.body[0]
-    return range(first.lineno, (first.end_lineno or first.lineno) + 1)
 
 
 @lru_cache(maxsize=64)

@@ -106,7 +106,7 @@ def side_of(
         overlays=tuple(overlay for overlay in mask_overlays(place) if overlay.key in SHOWN_MARKS),
         geometry=geometry,
         step=step_mark(place),
-        listing=None if listing is None else ListingText(listing.function.__name__, listing.source),
+        listing=None if listing is None else ListingText(listing.name, listing.source, listing.purpose),
         line=explanation.line if explanation is not None else 0,
     )
 

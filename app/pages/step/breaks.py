@@ -61,7 +61,7 @@ def line_positions(trace: StageTrace, function: str, line: int) -> Integers:
     for number, kind in enumerate(steps.kinds):
         for place, operation in enumerate(steps.operations[kind]):
             listing = trace.listings.get(f"{kind}.{operation.name}", trace.listings.get(kind))
-            if listing is None or listing.function.__name__ != function:
+            if listing is None or listing.name != function:
                 continue
             rows = np.flatnonzero(steps.kind == number)
             if isinstance(operation.label, str):

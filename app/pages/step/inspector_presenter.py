@@ -89,11 +89,12 @@ class InspectorPresenter(QObject):
         self._listing.show_line(explanation.line or None)
 
     def _show_listing(self, listing: Listing | None) -> None:
-        function = listing.function.__name__ if listing else ""
+        function = listing.name if listing else ""
         if function == self._function:
             return
         self._function = function
-        self._listing.show_listing(ListingText(function, listing.source) if listing else None)
+        shown = ListingText(function, listing.source, listing.purpose) if listing else None
+        self._listing.show_listing(shown)
         lines = {line for name, line in self._stepping.breaks.lines if name == function}
         self._listing.show_breakpoints(lines)
 

@@ -45,6 +45,16 @@ def hit(step: StepValues) -> Said:
     return f"{step.pixel_name}: {text}", equation(("v", value), "=", quotient)
 
 
+@explains("depth.*.bound")
+def bound(step: StepValues) -> Said:
+    """How far rounding may have moved the hit."""
+    error = step.number("error")
+    text = f"rounding has moved this {_measure(step)} by at most {spoken(error)}."
+    if math.isinf(error):
+        text = "float64 cannot bound the rounding error of this hit."
+    return f"{step.pixel_name}: {text}", equation(("e", error))
+
+
 @explains("depth.ray-first.keep")
 def first(step: StepValues) -> Said:
     """The first hit of a ray."""

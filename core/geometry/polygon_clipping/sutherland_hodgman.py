@@ -234,11 +234,11 @@ def join_rows(parts: list[ClipRows], width: int) -> ClipRows:
 def clip_edge(start: Floats, end: Floats, d_start: float, d_end: float) -> list[Floats]:
     """Listing of one edge against one plane: the corners it hands on."""
     if d_start >= 0 and d_end >= 0:  #: in-in
-        return [end]
-    if d_start >= 0:  #: in-out
+        return [end]  #: keep
+    if d_start >= 0:
         t = d_start / (d_start - d_end)  #: t-out
         return [start + t * (end - start)]  #: leave
-    if d_end >= 0:  #: out-in
+    if d_end >= 0:
         t = d_end / (d_end - d_start)  #: t-in
         return [end + t * (start - end), end]  #: enter
     return []  #: out-out
@@ -247,9 +247,9 @@ def clip_edge(start: Floats, end: Floats, d_start: float, d_end: float) -> list[
 def clip_edge_in_order(start: Floats, end: Floats, d_start: float, d_end: float) -> list[Floats]:
     """Listing of one edge against one plane, new corners always computed from its start."""
     if d_start >= 0 and d_end >= 0:  #: in-in
-        return [end]
-    if d_start < 0 and d_end < 0:  #: out-out
-        return []
+        return [end]  #: keep
+    if d_start < 0 and d_end < 0:
+        return []  #: out-out
     t = d_start / (d_start - d_end)  #: t
     corner = start + t * (end - start)  #: corner
     return [corner] if d_end < 0 else [corner, end]

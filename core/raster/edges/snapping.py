@@ -102,5 +102,4 @@ def snap(window: Floats, limit: float = SNAP_LIMIT) -> tuple[Floats, Flags]:
 
 def snap_one(value: float) -> float:
     """Listing of one snapped coordinate."""
-    subpixels = np.rint(value * SUBPIXELS)  #: snap
-    return float(subpixels / SUBPIXELS)  #: back
+    return float(np.rint(value * SUBPIXELS) / SUBPIXELS)  #: snap

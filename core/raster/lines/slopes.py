@@ -48,10 +48,11 @@ def line_slopes_at(
     """Listing of the slope along a segment of ``length`` pixels between two ends with their values (K,)."""
     total = (1 - t) / w0 + t / w1  #: total
     per_pixel = 1 / length / (w0 * w1 * (total * total))  #: draw
-    slope = (second - first) * per_pixel  #: slopes
-    return total, slope
+    slopes = (second - first) * per_pixel  #: slopes
+    return total, slopes
 
 
 def affine_line_slopes_at(length: float, first: Floats, second: Floats) -> Floats:
     """Listing of the slope along a segment without perspective: (K,) per pixel."""
-    return (second - first) * (1 / length)  #: slopes
+    slopes = (second - first) * (1 / length)  #: slopes
+    return slopes

@@ -312,9 +312,11 @@ def interpolate_along(t: float, w0: float, w1: float, first: Floats, second: Flo
 def interpolate_affine_along(t: float, first: Floats, second: Floats) -> Floats:
     """Listing of affine interpolation along a segment: the value between two ends."""
     s = t  #: weight
-    return (1 - s) * first + s * second  #: value
+    value = (1 - s) * first + s * second  #: value
+    return value
 
 
-def take_point_value(value: Floats) -> Floats:
+def take_point_value(corner: Floats) -> Floats:
     """Listing of the values of a point: its pixel takes them."""
-    return value  #: value
+    value = corner  #: value
+    return value

@@ -70,10 +70,10 @@ def inverse_coefficients(matrix: list[list[float]]) -> tuple[list[list[float]], 
     for step in range(3):
         chosen = max(range(step, 3), key=lambda i: abs(rows[i][step]))  #: pivot
         pivot = rows[chosen][step]
-        if pivot == 0:  #: singular
-            return [[0.0] * 3] * 3, 0.0
         sign = -1 if chosen != step else 1
         determinant *= sign * pivot  #: determinant
+        if pivot == 0:
+            return [[0.0] * 3] * 3, 0.0  #: singular
         row = [v / pivot for v in rows[chosen]]  #: divide
         rows[chosen] = rows[step]
         rows[step] = row

@@ -172,48 +172,53 @@ def fill_listing(
         way = 1 if y1 > y0 else -1
         if way < 0:
             x0, y0, x1, y1 = x1, y1, x0, y0
-        first = max(ceil(y0 - center), rows.start)  #: rows
-        end = min(ceil(y1 - center), rows.stop)
+        first, end = max(ceil(y0 - center), rows.start), min(ceil(y1 - center), rows.stop)  #: rows
         if first >= end:
             continue  #: level
-        shift = (x1 - x0) / (y1 - y0)  #: crossing
-        x = x0 + (first + center - y0) * shift
+        shift = (x1 - x0) / (y1 - y0)  #: shift
+        x = x0 + (first + center - y0) * shift  #: crossing
         bucket = table.setdefault(first, [])
         bucket.append([x, shift, Fraction(end), Fraction(way)])  #: bucket
     spans: Listed = []
     active: list[list[Fraction]] = []
     for row in rows:
-        active = [e for e in active if row < e[2]]  #: leave
+        for e in list(active):
+            if row >= e[2]:  #: leave
+                active.remove(e)
         for e in active:
             e[0] += e[1]  #: advance
-        active += table.get(row, [])  #: enter
+        for e in table.get(row, []):  #: enter
+            active.append(e)
         active.sort(key=lambda e: e[0])
         winding = 0
         for k in range(len(active) - 1):
             winding += int(active[k][3])  #: count
             if is_inside(k + 1, winding):  #: decide
                 left, right = active[k][0], active[k + 1][0]
-                start = ceil(left - center)
-                stop = ceil(right - center)
-                spans.append((row, start, stop))
+                start, stop = ceil(left - center), ceil(right - center)  #: span
+                spans.append((row, start, stop))  #: draw
     return spans
 
 
+_ROWS = {"row_first": "first", "row_end": "end"}
+_INTERVAL = (
+    Operation("count", "count", ("winding",), ("crossed",)),
+    Operation("decide", "decide", (), ("is_inside",)),
+)
 OPERATIONS = {
     "table-edge": (
-        Operation("rows", "rows", ("row_first", "row_end")),
-        Operation("crossing", "crossing", ("shift", "crossing")),
+        Operation("rows", "rows", _ROWS),
+        Operation("shift", "shift", ("shift",)),
+        Operation("crossing", "crossing", {"crossing": "x"}),
         Operation("bucket", "bucket", ("bucket",)),
     ),
-    "table-level": (Operation("rows", "level", ("row_first", "row_end")),),
-    "active-leave": (Operation("leave", "leave", ("row_end",)),),
-    "active-advance": (Operation("advance", "advance", ("crossing",)),),
-    "active-enter": (Operation("enter", "enter", ("crossing",)),),
-    "active-interval": (
-        Operation("count", "count", ("crossed", "winding")),
-        Operation("decide", "decide", ("is_inside", "start", "stop")),
-    ),
-    "active-pixel": (Operation("draw", "decide", ("covered",)),),
+    "table-level": (Operation("rows", "rows", _ROWS), Operation("skip", "level")),
+    "active-leave": (Operation("leave", "leave", (), ("row_end",)),),
+    "active-advance": (Operation("advance", "advance", {"crossing": "e"}),),
+    "active-enter": (Operation("enter", "enter", {"crossing": "e"}),),
+    "active-interval": _INTERVAL,
+    "active-inside": (*_INTERVAL, Operation("span", "span", ("start", "stop"))),
+    "active-pixel": (Operation("draw", "draw", {"covered": "spans"}),),
 }
 """Kind of row to what it does: edges go into the table; in each row they leave, advance, enter; then intervals."""
 

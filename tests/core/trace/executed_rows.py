@@ -1,5 +1,6 @@
 """Which rows of a trace the tests execute the listings on, when two numbers are the same, and which lines ran."""
 
+import ast
 import inspect
 import sys
 from collections.abc import Callable, Iterator
@@ -7,6 +8,7 @@ from contextlib import contextmanager
 from functools import cache
 from itertools import pairwise
 from pathlib import Path
+from textwrap import dedent
 from types import CodeType, FrameType
 
 import numpy as np
@@ -43,9 +45,11 @@ def rows_of_kind(found: StageTrace, kind: str) -> Iterator[int]:
 
 @cache
 def _lines_joined(code: CodeType) -> int:
-    """Return how many lines a signature has beyond the one that it has in a listing."""
-    lines = inspect.getsource(code).splitlines()
-    return next((k for k, line in enumerate(lines) if line.endswith(":")), 0)
+    """Return how many lines signature and docstring have beyond the one of the signature in a listing."""
+    source = inspect.getsource(code)
+    (function,) = ast.parse(dedent(source)).body
+    assert isinstance(function, ast.FunctionDef)
+    return function.body[ast.get_docstring(function) is not None].lineno - 2
 
 
 @contextmanager
