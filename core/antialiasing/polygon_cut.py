@@ -49,9 +49,9 @@ def polygon_area(polygon: Polygon) -> float:
 def shown_areas(areas: Sequence[float], primitives: Sequence[int], new: int) -> tuple[float, float]:
     """Return how much of a pixel shows the ``new`` primitive, and how much any; -1 shows the background."""
     front, covered = 0.0, 0.0  #: none
-    for area, primitive in zip(areas, primitives, strict=True):
-        if primitive == new:
+    for area, number in zip(areas, primitives, strict=True):
+        if number == new:
             front += area  #: seen
-        if primitive >= 0:
+        if number >= 0:
             covered += area  #: cover
     return front, covered

@@ -95,13 +95,13 @@ def wrap_period(wrap: str) -> int:
 def wrapped_index(index: int, size: int, wrap: str) -> int:
     """Return the texel that ``index`` means (listing of the three wraps)."""
     if wrap == "repeat":
-        return index % size  #: repeat
+        return index % size
     if wrap == "clamp":
-        return min(max(index, 0), size - 1)  #: clamp
+        return min(max(index, 0), size - 1)
     if wrap != "mirror":
         raise ValueError(f"no listing of the wrap {wrap}")
-    there = index % (2 * size)  #: period
-    return there if there < size else 2 * size - 1 - there  #: mirror
+    there = index % (2 * size)
+    return there if there < size else 2 * size - 1 - there
 
 
 @dataclass(frozen=True, eq=False)

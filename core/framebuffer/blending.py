@@ -77,7 +77,7 @@ def over_pixel(source: Sequence[float], destination: Sequence[float]) -> list[np
     """Return the colour of a pixel after one fragment (listing of `over`)."""
     *color, alpha = source
     result = [color[k] * alpha + destination[k] * (1 - alpha) for k in range(3)]  #: color
-    result.append(alpha + destination[3] * (1 - alpha))  #: alpha
+    result.append(alpha + destination[3] * (1 - alpha))
     return [np.float32(value) for value in result]  #: store
 
 
@@ -125,7 +125,7 @@ def additive_pixel(source: Sequence[float], destination: Sequence[float]) -> lis
     """Return the colour of a pixel after one fragment (listing of `additive`)."""
     *color, alpha = source
     result = [color[k] * alpha + destination[k] for k in range(3)]  #: color
-    result.append(alpha + destination[3])  #: alpha
+    result.append(alpha + destination[3])
     return [np.float32(value) for value in result]  #: store
 
 

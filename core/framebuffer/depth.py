@@ -244,7 +244,7 @@ def replay_depths(stored: Stored, stacks: PixelStacks, initial: Stored, kept: Fl
 def depth_test(new: float, old: float, larger_is_nearer: bool, writes: bool = True) -> tuple[float, bool]:
     """Listing of the depth test at one pixel; ``writes`` is false for the pale pixels of lines."""
     nearer = new > old if larger_is_nearer else new < old  #: compare
-    if not nearer:  #: decide
+    if not nearer:
         return old, False  #: reject
     return new if writes else old, True  #: store
 
@@ -257,5 +257,5 @@ def store_depth(new: float, old: float, writes: bool = True) -> float:
 def depth_in_range(depth: float, is_in_range: bool) -> tuple[float, bool]:
     """Listing of the depth range: a triangle with all corners in range is clamped, any other loses fragments."""
     if is_in_range:
-        return min(max(depth, 0.0), 1.0), True  #: clamp
+        return min(max(depth, 0.0), 1.0), True
     return depth, 0 <= depth <= 1  #: range

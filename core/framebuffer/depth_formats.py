@@ -41,7 +41,7 @@ def unsigned_depth(z: float, steps: float) -> float:
 
 def share_of_depth(value: float) -> np.float32:
     """Listing of a depth from 0 to 1 kept as a float32."""
-    limited = min(max(value, 0.0), 1.0)  #: limit
+    limited = min(max(value, 0.0), 1.0)
     return np.float32(limited)  #: round
 
 
@@ -135,7 +135,7 @@ def logarithm_of_w(inverse_w: float, near: float, far: float) -> float:
     """Listing of the logarithmic depth at a pixel."""
     if not inverse_w > 0:
         return 1.0  #: behind
-    ratio = 1 / (inverse_w * near)  #: ratio
+    ratio = 1 / (inverse_w * near)
     return log2_of(ratio) / log2_of(far / near)  #: value
 
 

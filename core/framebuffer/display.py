@@ -63,7 +63,7 @@ def linear_light(encoded: Floats) -> Floats:
 def srgb_byte(linear: float) -> int:
     """Return the byte of one linear value (listing of `encode_srgb`)."""
     if isnan(linear):
-        return 0  #: undefined
+        return 0
     clipped = min(max(linear, 0.0), 1.0)  #: clip
     if clipped <= 0.0031308:
         encoded = 12.92 * clipped  #: straight-part

@@ -50,9 +50,9 @@ def transform(matrix: Floats, points: Floats) -> Floats:
 def transform_component(row: Floats, point: Floats) -> float:
     """Listing of one component of a transformed point."""
     x, y, z, w = point
-    first = row[0] * x  #: first
-    second = first + row[1] * y  #: second
-    third = second + row[2] * z  #: third
+    first = row[0] * x
+    second = first + row[1] * y
+    third = second + row[2] * z
     return float(third + row[3] * w)  #: fourth
 
 

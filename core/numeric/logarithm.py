@@ -37,11 +37,11 @@ def log2(value: Floats) -> Floats:
 
 def log2_of(value: float) -> float:
     """Listing of `log2` for one positive number."""
-    mantissa, exponent = frexp(value)  #: split
+    mantissa, exponent = frexp(value)
     if mantissa < SQUARE_ROOT:
-        mantissa, exponent = ldexp(mantissa, 1), exponent - 1  #: centre
-    s = (mantissa - 1) / (mantissa + 1)  #: quotient
+        mantissa, exponent = ldexp(mantissa, 1), exponent - 1
+    s = (mantissa - 1) / (mantissa + 1)
     total = 0.0
     for coefficient in reversed(SERIES):
-        total = total * (s * s) + coefficient  #: series
-    return exponent + PER_OCTAVE * (s * total)  #: sum
+        total = total * (s * s) + coefficient
+    return exponent + PER_OCTAVE * (s * total)

@@ -230,8 +230,17 @@ def block_verdict(
         x = left if a > 0 else right
         y = bottom if b > 0 else top
         low = a * x + (b * y + c)  #: low
-        if not (high > 0 or (high == 0 and owns_tie)):  #: reject
+        if not (high > 0 or (high == 0 and owns_tie)):
             return "outside"  #: outside
-        if not (low > 0 or (low == 0 and owns_tie)):  #: accept
+        if not (low > 0 or (low == 0 and owns_tie)):
             all_inside = False
     return "inside" if all_inside else "split"  #: verdict
+
+
+def pixels_of_block(columns: range, rows: range) -> list[tuple[int, int]]:
+    """Listing of a block inside all edges: its pixels, none of which is tested."""
+    pixels = []
+    for row in rows:
+        for column in columns:
+            pixels.append((column, row))  #: draw
+    return pixels

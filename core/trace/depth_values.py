@@ -4,25 +4,32 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core.methods import table
 from core.raster.lines.wireframe import LineFragments, line_parameter
 from core.records.listing import RETURN, Listing, listing
-from core.records.operation import Operation
+from core.records.operation import Columns, Operation
 from core.stages.fragment_depth import fragment_quantity, logarithm_range, outlines_of, reversed_ends
 from core.trace.source import TraceSource
 
+
+def _value_label(columns: Columns, rows: Any) -> NDArray[np.str_]:
+    """Return the line of the logarithm's listing that returns: behind the eye the farthest depth."""
+    return np.where(columns["inverse_w"][rows] > 0, "value", "behind")
+
+
 _ROUND = Operation("depth", "round", {"stored": RETURN}, ("depth",))
-_VALUE = (
-    Operation("value", "value", {"value": RETURN}, ("depth",)),
-    Operation("depth", "round", {"stored": RETURN}),
-)
+_STORED = Operation("depth", "round", {"stored": RETURN})
+_LOGARITHM = Operation("value", _value_label, {"value": RETURN}, ("depth",))
+_VALUE = Operation("value", "value", {"value": RETURN}, ("depth",))
 
 
 def value_operations(source: TraceSource) -> tuple[Operation, ...]:
     """Return the operations that make the value; none where z or 1/w is stored as it is."""
-    if source.depth_format.quantity.listing is not None:
-        return _VALUE
+    quantity = source.depth_format.quantity
+    if quantity.listing is not None:
+        return (_LOGARITHM if quantity.name == "logarithm" else _VALUE), _STORED
     return () if table.get("depth", source.settings.depth).listing is None else (_ROUND,)
 
 

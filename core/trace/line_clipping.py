@@ -15,8 +15,8 @@ from core.geometry.line_clipping.records import (
     ParameterRows,
 )
 from core.methods import table
-from core.records.listing import listing
-from core.records.operation import Labels, Operation
+from core.records.listing import RETURN, listing
+from core.records.operation import Columns, Labels, Operation
 from core.stages.clipped_outlines import OutlineClip
 from core.trace.inserted_rows import InsertedRows, insert_rows
 from core.trace.source import TraceSource
@@ -30,33 +30,59 @@ def _narrow_label(bound: str, changed: str, otherwise: str) -> Labels:
     )
 
 
-_ROOM = Operation("room", "edges", ("border", "approach", "room"))
-_CODES = Operation("codes", "outcodes", ("code_start", "code_end"))
+def _ends_label(columns: Columns, rows: Any) -> NDArray[np.str_]:
+    """Return the line that moves an end, or the one that begins with both where no border cuts the segment."""
+    is_cut = (columns["t_enter"][rows] > 0) | (columns["t_leave"][rows] < 1)
+    return np.where(is_cut, "ends", "uncut")
+
+
+def _by_parameter(
+    approach: str, room: str, enter: str, leave: str, ends: Operation
+) -> dict[str, tuple[Operation, ...]]:
+    """Return what rows of a clipper do that compares values of t, by the names of its listing."""
+    of_border = Operation("room", "edges", {"approach": approach, "room": room}, ("border",))
+    crossing = Operation("crossing", "t", {"crossing_t": "t"})
+    return {
+        "clip-enter": (
+            of_border,
+            crossing,
+            Operation("narrow", _narrow_label("t_enter", "enter", "entry"), {"t_enter": enter}),
+        ),
+        "clip-leave": (
+            of_border,
+            crossing,
+            Operation("narrow", _narrow_label("t_leave", "leave", "exit"), {"t_leave": leave}),
+        ),
+        "clip-parallel": (of_border, Operation("side", "parallel")),
+        "clip-outside": (of_border, Operation("drop", "outside")),
+        "clip-kept": (ends,),
+        "clip-empty": (Operation("drop", "empty"),),
+    }
+
+
+_CODES = Operation("codes", "outcodes", dict.fromkeys(("code_start", "code_end"), "codes"))
 _KEPT = ("kept_start", "kept_end")
-CLIP_OPERATIONS: dict[str, tuple[Operation, ...]] = {
-    "clip-enter": (
-        _ROOM,
-        Operation("crossing", "t", ("crossing_t",)),
-        Operation("narrow", _narrow_label("t_enter", "enter", "entry"), ("t_enter",)),
-    ),
-    "clip-leave": (
-        _ROOM,
-        Operation("crossing", "t", ("crossing_t",)),
-        Operation("narrow", _narrow_label("t_leave", "leave", "exit"), ("t_leave",)),
-    ),
-    "clip-parallel": (_ROOM, Operation("side", "parallel")),
-    "clip-outside": (_ROOM, Operation("drop", "outside")),
-    "clip-kept": (Operation("ends", "ends", _KEPT),),
-    "clip-empty": (Operation("drop", "empty"),),
-    "outcodes-accept": (_CODES, Operation("ends", "accept", _KEPT)),
+_BY_OUTCODES: dict[str, tuple[Operation, ...]] = {
+    "outcodes-accept": (_CODES, Operation("ends", "accept", dict.fromkeys(_KEPT, RETURN))),
     "outcodes-reject": (_CODES, Operation("drop", "reject")),
     "outcodes-cut": (
         _CODES,
-        Operation("edge", "edge", ("border", "moved_end")),
-        Operation("move", "move", ("moved_to",)),
+        Operation("end", "end", {"moved_end": "end"}),
+        Operation("edge", "edge", {"border": "edge"}),
+        Operation("move", "move", {"moved_to": "ends"}),
     ),
 }
-"""Kind of row to what it does."""
+_MOVED = Operation("ends", _ends_label, dict.fromkeys(_KEPT, "ends"))
+_BOTH = Operation("ends", "ends", {"kept_start": "first", "kept_end": "second"})
+CLIP_OPERATIONS: dict[str, dict[str, tuple[Operation, ...]]] = {
+    "cohen-sutherland": _BY_OUTCODES,
+    "liang-barsky": _by_parameter("p", "q", "t_enter", "t_leave", _MOVED),
+    "cyrus-beck": _by_parameter("along", "room", "t_e", "t_l", _BOTH),
+    "cyrus-beck-lecture": _by_parameter("along", "room", "t_e", "t_l", _BOTH),
+    "exact": _by_parameter("along", "room", "t_e", "t_l", _MOVED),
+}
+"""Line clipper to its kinds of rows and what they do."""
+CLIP_KINDS = tuple(dict.fromkeys(kind for kinds in CLIP_OPERATIONS.values() for kind in kinds))
 
 
 def with_line_clipping(found: StageTrace, source: TraceSource) -> StageTrace:
@@ -73,6 +99,7 @@ def with_line_clipping(found: StageTrace, source: TraceSource) -> StageTrace:
     algorithm = table.get("line_clipping", source.settings.line_clipping).listing
     assert algorithm is not None, f"{source.settings.line_clipping} has no listing"
     kinds = tuple(f"{prefix}-{case}" for case in cases)
+    operations = CLIP_OPERATIONS[source.settings.line_clipping]
     pixel_segment = clip.kept[found.columns["segment"]]
     segment, whole = rows.segment, clip.whole
     primitive = whole.primitive[segment]
@@ -90,7 +117,7 @@ def with_line_clipping(found: StageTrace, source: TraceSource) -> StageTrace:
         triangle=source.geometry.primitives.triangle[primitive],
         kinds=kinds,
         kind=rows.case,
-        operations={kind: CLIP_OPERATIONS[kind] for kind in kinds},
+        operations={kind: operations[kind] for kind in kinds},
         columns=columns,
         listings=dict.fromkeys(kinds, listing(algorithm)),
     )

@@ -5,10 +5,11 @@ from collections.abc import Mapping
 import numpy as np
 
 from core.fragments.interpolation import numerators
+from core.raster.binning import pixels_of_block
 from core.raster.edges.edge_functions import covers
 from core.raster.fills.incremental import step_covers
 from core.raster.fills.scanline import span
-from core.raster.fills.scanline_lecture import draw_triangle
+from core.raster.fills.scanline_lecture import draw_bottom, draw_top, drawn_columns
 from core.raster.fills.traits import fill_traits
 from core.raster.spans.lanes import tie_owners
 from core.raster.spans.order import SpanOrder, order_of_spans
@@ -17,8 +18,8 @@ from core.records.listing import Listing, listing
 from core.records.steps import Steps, ends_of
 from core.trace.lines import trace_lines
 from core.trace.polygon_fill import trace_polygon_fill
-from core.trace.raster_rows import FILL_OPERATIONS, overdraw_track
-from core.trace.row_table import RowTable, rows_of_runs
+from core.trace.raster_rows import FILL_OPERATIONS, PRINTED, overdraw_track
+from core.trace.row_table import RowTable, printed_columns, rows_of_runs
 from core.trace.source import TraceSource
 from core.trace.spans import pass_track, rows_of_spans, span_columns, span_constants, span_listings
 from core.trace.stage_rows import StageRows, is_last_of
@@ -72,7 +73,7 @@ def trace_raster(source: TraceSource) -> StageTrace:
         columns=columns,
         triangle=triangle,
         pixel=rows.pixel,
-        listings=_listings(),
+        listings=_listings(fill, source.runs.blocks is not None),
         marks=rows.marks,
         buffers=buffers,
         extra={
@@ -152,6 +153,8 @@ def _columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
     if source.runs.stepping is not None:
         before = of_pixel(tests.before, np.nan)
         columns |= {f"before_{k}": before[:, k] for k in range(3)}
+    if fill_traits(source.fill).adds_slopes:
+        columns |= printed_columns(source, table)
     return columns | {f"crossing_{k}": table.crossings[:, k] for k in range(3)}
 
 
@@ -176,18 +179,20 @@ def any_edge(flags: Flags) -> Flags:
     return found
 
 
-def _listings() -> dict[str, Listing]:
-    inside = listing(covers)
-    stepping = listing(step_covers)
-    fills = {
+def _listings(fill: str, has_blocks: bool) -> dict[str, Listing]:
+    stepping, of_row, printed = listing(step_covers), listing(span), listing(drawn_columns)
+    accepted = listing(pixels_of_block) if has_blocks else of_row
+    sides = {"top": listing(draw_top), "bottom": listing(draw_bottom)}
+    return {
         "climb": stepping,
         "step": stepping,
-        "test": inside,
-        "accept": inside,
-        "span": listing(span),
-        "line": listing(draw_triangle),
+        "test": listing(covers),
+        "accept": printed if fill_traits(fill).adds_slopes else accepted,
+        "span": of_row,
+        **{kind: sides[kind.removesuffix("-first")] for kind in PRINTED},
+        **{f"{kind}.round": printed for kind in PRINTED},
+        **span_listings(),
     }
-    return fills | span_listings()
 
 
 def _buffers(source: TraceSource, columns: Mapping[str, np.ndarray]) -> tuple[BufferTrack, ...]:

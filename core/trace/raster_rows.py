@@ -1,68 +1,75 @@
 """What rows of the raster stage are: pixels and spans of fills, pixels of lines; and how often pixels are covered."""
 
-from typing import Any
-
 import numpy as np
-from numpy.typing import NDArray
 
 from core.records.arrays import Integers
-from core.records.operation import Columns, Labels, Operation
+from core.records.listing import RETURN
+from core.records.operation import Labels, Operation
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack
 
 
-def _side_label(k: int) -> Labels:
-    """Return the line of `span` that edge ``k`` is looked at in: the loop of its side, or the test of a level edge."""
-
-    def label(columns: Columns, rows: Any) -> NDArray[np.str_]:
-        a = columns["a"][rows, k]
-        return np.select([a > 0, a < 0], ["left", "right"], "parallel")
-
-    return label
+def _crossing_label(rise: str, k: int) -> Labels:
+    """Return the line that edge ``k`` comes to: its crossing, or the test of a level edge, whose ``rise`` is 0."""
+    return lambda columns, rows: np.where(columns[rise][rows, k] == 0, "level", "crossing")
 
 
-def _crossing_label(k: int) -> Labels:
-    """Return the line of `span_of_row` that edge ``k`` comes to: its crossing, or nothing where it is level."""
-    return lambda columns, rows: np.where(columns["dy"][rows, k] == 0, "level", "crossing")
+def _tested(label: str) -> tuple[Operation, ...]:
+    """Return what a pixel's test does; ``label`` is the line that gives each edge function its value."""
+    return (
+        *(Operation(f"edge-{k}", label, {f"value_{k}": "value"}) for k in range(3)),
+        Operation("decide", "covered", {"covered": RETURN}, ("tie",)),
+    )
 
 
-_ADDITIONS = (
-    Operation("edge-0", "add", ("value_0",)),
-    Operation("edge-1", "add", ("value_1",)),
-    Operation("edge-2", "add", ("value_2",)),
-    Operation("decide", "covered", ("covered", "tie")),
+def _printed(*first: Operation) -> tuple[Operation, ...]:
+    """Return what a row of the printed scanline does: both sides, then their columns."""
+    return (*first, Operation("round", "round", ("start", "stop")))
+
+
+_ENDS = {"crossing_0": "x1", "crossing_1": "x2"}
+_FIRST = _printed(
+    *(Operation(f"slope-{k}", f"slope{k + 1}", {f"slope_{k}": f"slope{k + 1}"}) for k in range(2)),
+    Operation("ends", "first", _ENDS),
 )
+_NEXT = _printed(*(Operation(f"next-{k}", f"next{k + 1}", {f"crossing_{k}": f"x{k + 1}"}) for k in range(2)))
 FILL_OPERATIONS: dict[str, tuple[Operation, ...]] = {
-    "test": (
-        Operation("edge-0", "value", ("value_0",)),
-        Operation("edge-1", "value", ("value_1",)),
-        Operation("edge-2", "value", ("value_2",)),
-        Operation("decide", "covered", ("covered", "tie")),
-    ),
-    "accept": (Operation("accept", "", ("covered",)),),
+    "test": _tested("value"),
+    "accept": (Operation("accept", "draw", {"covered": "pixels"}),),
     "span": (
-        *(Operation(f"edge-{k}", _side_label(k), (f"crossing_{k}",)) for k in range(3)),
+        *(Operation(f"edge-{k}", _crossing_label("a", k), {f"crossing_{k}": "crossing"}) for k in range(3)),
         Operation("span", "span", ("start", "stop")),
     ),
-    "line": (
-        Operation("ends", "draw", ("crossing_0", "crossing_1")),
-        Operation("round", "draw", ("start", "stop")),
+    "top-first": _FIRST,
+    "top": _NEXT,
+    "bottom-first": _FIRST,
+    "bottom": _NEXT,
+    "lane": (
+        Operation("first", "first", {"first_row": "first"}),
+        Operation("rows", "count", {"row_count": "count"}),
+        Operation("lane", "place", {"lane": "before"}),
     ),
-    "lane": (Operation("rows", "count", ("first_row", "row_count")), Operation("lane", "place", ("lane",))),
     "lane-row": (
-        *(Operation(f"edge-{k}", _crossing_label(k), (f"numerator_{k}", f"quotient_{k}")) for k in range(3)),
-        Operation("start", "start", ("left", "start")),
-        Operation("stop", "stop", ("right", "stop")),
-        Operation("place", "place", ("length", "place")),
+        *(
+            Operation(
+                f"edge-{k}", _crossing_label("dy", k), {f"quotient_{k}": "crossing"}, (f"numerator_{k}",)
+            )
+            for k in range(3)
+        ),
+        Operation("start", "start", ("start",), ("left",)),
+        Operation("stop", "stop", ("stop",), ("right",)),
+        Operation("place", "place", {"place": "before"}, ("length",)),
     ),
     "pass": (
-        Operation("pass", "pass", ("pass_number", "pass_size")),
-        Operation("draw", "draw", ("rank", "covered")),
+        Operation("pass", "pass", {"pass_number": "k"}, ("pass_size",)),
+        Operation("draw", "draw", {"rank": "drawn", "covered": "drawn"}),
     ),
-    "climb": _ADDITIONS,
-    "step": _ADDITIONS,
+    "climb": _tested("add"),
+    "step": _tested("add"),
 }
 """Kind of row of a fill to what it does."""
+PRINTED = ("top-first", "top", "bottom-first", "bottom")
+"""Rows of the printed scanline: of the part above a level side and the part below, the first row and the others."""
 
 
 def overdraw_track(source: TraceSource, rows: Integers) -> BufferTrack:

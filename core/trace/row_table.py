@@ -7,7 +7,7 @@ import numpy as np
 from core.raster.fills.traits import fill_traits
 from core.raster.pixel_runs import EVALUATED
 from core.records.arrays import Floats, Integers
-from core.trace.raster_rows import FILL_OPERATIONS
+from core.trace.raster_rows import FILL_OPERATIONS, PRINTED
 from core.trace.source import TraceSource
 
 KIND = {name: number for number, name in enumerate(FILL_OPERATIONS)}
@@ -36,6 +36,8 @@ class RowTable:
     """(R,) int64, column after the last."""
     crossings: Floats
     """(R, 3) float64, x where the edges are crossed; NaN: not known or of no use."""
+    run: Integers
+    """(R,) int64, index of the run that the row is about or lies in, -1: none."""
     test: Integers
     """(R,) int64, index of the pixel test, -1: the row is about no pixel."""
 
@@ -49,7 +51,7 @@ def rows_of_runs(source: TraceSource) -> RowTable:
     test = np.concatenate([np.full(len(headers), -1), np.arange(len(tests.run))])
     order = np.argsort(run, kind="stable")
     run, test = run[order], test[order]
-    span_kind = KIND[fill_traits(source.fill).span_row]
+    span_kind = printed_kinds(source)[run] if fill_traits(source.fill).adds_slopes else KIND["span"]
     pixel_kind = np.where(
         runs.accepted[run], KIND["accept"], PIXEL_KINDS[np.append(tests.added, EVALUATED)[test]]
     )
@@ -61,5 +63,22 @@ def rows_of_runs(source: TraceSource) -> RowTable:
         start=runs.start[run],
         stop=runs.stop[run],
         crossings=runs.crossings[run] if runs.crossings is not None else np.full((len(run), 3), np.nan),
+        run=run,
         test=test,
     )
+
+
+def printed_kinds(source: TraceSource) -> Integers:
+    """Return (R,) int64, the kind of the row before every span of the printed scanline."""
+    walk = source.side_walk
+    return np.array([KIND[name] for name in PRINTED])[2 * ~walk.is_upper + ~walk.is_first]
+
+
+def printed_columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
+    """Return the numbers that the sides of the printed scanline are made from: slopes, and x in the row before."""
+    walk, run = source.side_walk, table.run
+    before = np.full_like(walk.sides, np.nan)
+    before[:, ~walk.is_first] = np.roll(walk.sides, 1, axis=1)[:, ~walk.is_first]
+    of_sides = {"crossing_before": before, "slope": walk.slope, "width": walk.width, "height": walk.height}
+    columns = {f"{name}_{k}": values[k][run] for name, values in of_sides.items() for k in range(2)}
+    return columns | {"corner_x": walk.corner[0][run], "corner_y": walk.corner[1][run]}

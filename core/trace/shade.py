@@ -93,6 +93,8 @@ def _rows(source: TraceSource) -> StageRows:
             "half": np.moveaxis(lighting.half, 0, 1),
             "ambient": np.broadcast_to(material_of(source.scene, mesh).ambient, count),
             "diffuse": np.broadcast_to(material_of(source.scene, mesh).diffuse, count),
+            "specular": np.broadcast_to(material_of(source.scene, mesh).specular, count),
+            "shininess": np.broadcast_to(material_of(source.scene, mesh).shininess, count),
             "light_colors": np.broadcast_to(
                 np.array([light.color for light in source.scene.lights]).reshape(-1, 3),
                 (count, len(source.scene.lights), 3),

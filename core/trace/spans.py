@@ -63,6 +63,7 @@ def rows_of_spans(source: TraceSource, order: SpanOrder) -> RowTable:
         start=of_line(start, -1),
         stop=of_line(stop, -1),
         crossings=of_line(crossings, np.nan),
+        run=np.full(len(line), -1),
         test=test[sorting],
     )
 

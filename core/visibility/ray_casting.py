@@ -144,10 +144,10 @@ def hit_is_nearer(
         return True  #: first
     if abs(value - nearest_value) > (error + nearest_error) * (1 + 2.0**-50):  #: margin
         return value > nearest_value  #: floats
-    new = exact_plane(corners, by_w)  #: planes
+    new = exact_plane(corners, by_w)
     old = exact_plane(nearest_corners, by_w)
     if new is None or old is None:
-        return new is not None and old is None  #: no-point
+        return new is not None and old is None
     (m, width), (n, height) = x, y
     a = (new.a * old.d - old.a * new.d) * height
     b = (new.b * old.d - old.b * new.d) * width

@@ -17,6 +17,7 @@ from core.resolved import resolve
 from core.trace import BufferTrack, StageTrace, TraceSource
 from core.trace.edges import half_plane, known_edges, weights_everywhere
 from core.trace.geometry_progress import WINDOW, is_dropped, spaces_reached
+from core.trace.raster_rows import PRINTED
 from core.trace.symbols import symbols_of
 from widgets.grid.buffer import BufferKind, GridBuffer
 from widgets.grid.geometry import GridGeometry
@@ -269,7 +270,7 @@ def span_overlays(step: Step) -> list[Overlay]:
     stage, done = step.stage_trace, step.rows_done
     if stage.stage != "raster" or "sample" in stage.columns:
         return []
-    kinds = np.array([kind in ("span", "lane-row", "line") for kind in stage.steps.kinds])
+    kinds = np.array([kind in ("span", "lane-row", *PRINTED) for kind in stage.steps.kinds])
     rows = np.flatnonzero(kinds[stage.steps.kind[:done]])
     if not len(rows):
         return []

@@ -60,6 +60,14 @@ def pivot(step: StepValues) -> Said:
     return text, equation(*beside(_row(("p_1", "p_2", "p"), chosen), _row(("q_1", "q_2", "q"), other)))
 
 
+@explains("interpolate.affine-equations.factor")
+def factor(step: StepValues) -> Said:
+    """How often the first equation is subtracted from the second."""
+    f, p, q = step.number("factor"), step.vector("chosen"), step.vector("other")
+    text = f"{step.pixel_name}: the second equation has {spoken(f)} times as much of λ1 as the first."
+    return text, equation(("f", f), "=", fraction(("q_1", q[0]), ("p_1", p[0])))
+
+
 @explains("interpolate.affine-equations.eliminate")
 def eliminate(step: StepValues) -> Said:
     """The first equation is subtracted so often that the first unknown leaves the second."""
@@ -73,7 +81,7 @@ def eliminate(step: StepValues) -> Said:
         f"{step.fragment_name}: with {spoken(f)} times the first equation subtracted from the second, λ1 disappears "
         f"and {spoken(e2)} λ2 = {spoken(e)} is left."
     )
-    made: list[list[Part]] = [[("f", f), "=", fraction(("q_1", q[0]), ("p_1", p[0]))]]
+    made: list[list[Part]] = []
     for name, value, above, below in (("e_2", e2, q[1], p[1]), ("e", e, q[2], p[2])):
         q_name, p_name = name.replace("e", "q"), name.replace("e", "p")
         made.append([(name, value), "=", (q_name, above), "-", ("f", f), r"\cdot", (p_name, below)])

@@ -13,6 +13,7 @@ from core.explain.equation import (
     comparison,
     conclusion,
     equation,
+    fraction,
     linear,
     linear_parts,
     relation,
@@ -28,6 +29,7 @@ from core.raster.edges.edge_functions import is_inside
 from core.raster.edges.snapping import SUBPIXELS
 from core.raster.number_formats.bit_patterns import bit_pattern
 from core.records.words import counted, joined
+from core.trace.raster_rows import PRINTED
 
 SNAP_DISTANCE = 1 / SUBPIXELS
 """Largest distance in pixels at which snapping can reverse a decision."""
@@ -215,18 +217,60 @@ def span(step: StepValues) -> Said:
     return text, equation(("n", float(stop - start)), "=", end, "-", (r"\mathrm{start}", float(start)))
 
 
-@explains("raster.line.ends")
-def line_ends(step: StepValues) -> Said:
-    """The two sides of the printed scanline fill, made by adding up inverse slopes."""
+_PRINTED = "|".join(PRINTED)
+_SIDES = ("first", "second")
+
+
+def _is_upper(step: StepValues) -> bool:
+    """Return whether a row is of the part above a level side, which is walked downwards."""
+    return step.kind.startswith("top")
+
+
+@explains("raster.top-first|bottom-first.slope-0|slope-1")
+def side_slope(step: StepValues) -> Said:
+    """How far a side of the printed scanline fill goes to the right from row to row."""
+    k = int(step.operation[-1])
+    slope, width, height = (step.number(f"{name}_{k}") for name in ("slope", "width", "height"))
+    part = "above" if _is_upper(step) else "below"
+    text = f"In the part {part} a level side, the {_SIDES[k]} side moves by {spoken(slope)} with each row upwards."
+    if height == 0:
+        text = f"The {_SIDES[k]} side has no height: its slope is taken as 0, where the printed program divides by 0."
+        return text, equation((f"m_{k + 1}", slope))
+    quotient = fraction((rf"\Delta x_{k + 1}", width), (rf"\Delta y_{k + 1}", height))
+    return text, equation((f"m_{k + 1}", slope), "=", quotient)
+
+
+@explains("raster.top-first|bottom-first.ends")
+def first_sides(step: StepValues) -> Said:
+    """Where both sides of a part are in its first row."""
+    row, x, y = step.whole("row"), step.number("corner_x"), step.number("corner_y")
     first, second = (step.number(f"crossing_{k}") for k in range(2))
     text = (
-        f"Row {step.whole('row')}: adding up the inverse slopes puts the two sides at "
+        f"Row {row}: the part begins at its corner {vector_text([x, y])}, so here the sides are at "
         f"x = {spoken(first)} and {spoken(second)}."
     )
-    return text, equation((r"x_{\mathrm{first}}", first), r"\quad", (r"x_{\mathrm{second}}", second))
+    sides: list[list[Part]] = [
+        [(f"x_{k + 1}", at), "=", ("x", x), "+", (f"m_{k + 1}", step.number(f"slope_{k}")), r"\cdot"]
+        + [(r"(\mathrm{row} - y)", f"({row} - {signed_latex(y)})")]
+        for k, at in enumerate((first, second))
+    ]
+    return text, equation(*beside(*sides))
 
 
-@explains("raster.line.round")
+@explains("raster.top|bottom.next-0|next-1")
+def next_side(step: StepValues) -> Said:
+    """One side in the next row: x of the row before and the slope."""
+    k = int(step.operation[-1])
+    x, before, slope = (step.number(f"{name}_{k}") for name in ("crossing", "crossing_before", "slope"))
+    sign = "-" if _is_upper(step) else "+"
+    text = f"Row {step.whole('row')}: the {_SIDES[k]} side moves on, from x = {spoken(before)} to {spoken(x)}."
+    name = f"x_{k + 1}"
+    return text, equation(
+        (name, x), "=", (rf"{name}^{{\mathrm{{before}}}}", before), sign, (f"m_{k + 1}", slope)
+    )
+
+
+@explains(f"raster.{_PRINTED}.round")
 def line_rounded(step: StepValues) -> Said:
     """The columns that the printed scanline fill draws: both sides rounded."""
     start, stop, row = step.whole("start"), step.whole("stop"), step.whole("row")
@@ -234,9 +278,9 @@ def line_rounded(step: StepValues) -> Said:
     if stop > start:
         text = f"Row {row}: the sides are rounded and both ends drawn, {_columns(start, stop)}."
     sides: list[list[Part]] = []
-    for k, name in enumerate(("first", "second")):
+    for k, name in enumerate(_SIDES):
         crossing = step.number(f"crossing_{k}")
-        symbols = rf"\lfloor x_{{\mathrm{{{name}}}}} + \frac{{1}}{{2}} \rfloor"
+        symbols = rf"\lfloor x_{k + 1} + \frac{{1}}{{2}} \rfloor"
         numbers = rf"\lfloor {number_latex(crossing)} + \frac{{1}}{{2}} \rfloor"
         column = rf"\mathrm{{column}}_{{\mathrm{{{name}}}}}"
         sides.append([(column, float(math.floor(crossing + 0.5))), "=", (symbols, numbers)])
@@ -244,7 +288,7 @@ def line_rounded(step: StepValues) -> Said:
 
 
 def _crossing_label(step: StepValues, k: int) -> str:
-    return f"x {('first', 'second', '')[k]}" if step.kind == "line" else f"x on edge {k}"
+    return f"x{k + 1}" if step.has(f"slope_{k}") else f"x on edge {k}"
 
 
 def _value_label(step: StepValues, k: int) -> str:
@@ -286,9 +330,16 @@ shows(
         ),
         **{
             f"crossing_{k}": VariableText(
-                partial(_crossing_label, k=k), "x where the row crosses the edge.", edge=k
+                partial(_crossing_label, k=k),
+                "x where the row crosses the edge.",
+                edge=k,
+                previous=f"crossing_before_{k}",
             )
             for k in range(3)
+        },
+        **{
+            f"slope_{k}": VariableText(f"m{k + 1}", f"How far the {side} side moves to the right a row upwards.")
+            for k, side in enumerate(_SIDES)
         },
         **CENTRE,
         **COEFFICIENTS,
@@ -299,7 +350,7 @@ _BEFORE = {f"before_{k}" for k in range(3)}
 hides("raster.test", OF_SPANS | _BEFORE)
 hides("raster.step|climb|accept", OF_SPANS)
 hides("raster.span", {"column", "x"} | OF_SPANS)
-hides("raster.line", {"column", "x", "y", "a", "b", "c", "owns_tie"})
+hides(f"raster.{_PRINTED}", {"column", "x", "y", "a", "b", "c", "owns_tie"})
 hides("raster.lane", {"column", "row", "x", "y", "a", "b", "c", "owns_tie"} | (OF_SPANS - OF_LANE))
 hides("raster.lane-row", {"column", "x", "a", "b", "c"} | OF_LANE | OF_PASS)
 hides("raster.pass", (OF_SPANS - OF_PASS) | {"owns_tie"})

@@ -205,19 +205,26 @@ def row(step: StepValues) -> Said:
     return text, equation(*beside(*sides))
 
 
+@explains("interpolate.affine-n.grid")
+def grid(step: StepValues) -> Said:
+    """The columns of the grid beside a pixel."""
+    before, behind = step.vector("grid")
+    text = f"{step.fragment_name}: the multiples of {step.whole('interval')} beside it are at x = {spoken(before)} "
+    return f"{text}and {spoken(behind)}.", equation(*beside([("g", before)], [("g + n", behind)]))
+
+
 @explains("interpolate.affine-n.anchors")
 def anchors(step: StepValues) -> Said:
     """The columns of the grid, moved to the ends of the row; a pixel beyond these is its own anchor."""
     (left, right), grid = step.vector("anchor_x"), step.vector("grid")
-    n, x = step.whole("interval"), step.number("x")
-    columns = f"the multiples of {n} beside it are at x = {spoken(grid[0])} and {spoken(grid[1])}"
+    x = step.number("x")
     if left == right:
         text = (
-            f"{step.fragment_name}: {columns}, but the centre is not between the ends of the triangle's row, "
+            f"{step.fragment_name}: its centre is not between the ends of the triangle's row, "
             f"so it is its own anchor, x = {spoken(x)}."
         )
         return text, equation(("l", left), "=", ("r", right), "=", ("x", x))
-    text = f"{step.fragment_name}: {columns}, so its anchors are x = {spoken(left)} and x = {spoken(right)}"
+    text = f"{step.fragment_name}: its anchors are x = {spoken(left)} and x = {spoken(right)}"
     moved = [
         name for name, at, of_grid in (("left", left, grid[0]), ("right", right, grid[1])) if at != of_grid
     ]

@@ -21,7 +21,7 @@ from core.explain.step_values import StepValues
 from core.explain.variable_text import PIXEL, VariableText, hides, shows
 from core.geometry.line_clipping.records import RECTANGLE_EDGES
 from core.records.words import joined
-from core.trace.line_clipping import CLIP_OPERATIONS
+from core.trace.line_clipping import CLIP_KINDS
 
 CODE_BITS = len(RECTANGLE_EDGES)
 """Digits of an outcode."""
@@ -273,11 +273,19 @@ def reject(step: StepValues) -> Said:
     return text, equation(*compared, *conclusion("drop", "drop"))
 
 
+@explains("raster.outcodes-cut.end")
+def chosen_end(step: StepValues) -> Said:
+    """The end that moves: the first one, unless it is inside."""
+    k = step.whole("moved_end")
+    text = f"The {('first', 'second')[k]} end is outside{', the first one is not' if k else ''}: it moves."
+    return text, equation(*comparison(f"c_{k}", r"\ne", float(_codes(step)[k])), *conclusion("moves", "moves"))
+
+
 @explains("raster.outcodes-cut.edge")
 def chosen_border(step: StepValues) -> Said:
     """The border that is cut at: the lowest bit of the outcode names it."""
     k, border = step.whole("moved_end"), step.text("border")
-    text = f"The {('first', 'second')[k]} end is outside, and {border} is the first border that its outcode names."
+    text = f"Of the borders that its outcode names, {border} is the first."
     code = rf"\mathrm{{{code_text(_codes(step)[k])}}}"
     return text, equation((f"c_{k}", code), *conclusion("lowest bit", border))
 
@@ -318,8 +326,8 @@ shows(
         "bound_before": VariableText(
             "bound before", "The latest entry, or earliest exit, of the previous borders."
         ),
-        "t_enter": VariableText("tE", "Latest entry so far."),
-        "t_leave": VariableText("tL", "Earliest exit so far."),
+        "t_enter": VariableText("tE", "Latest entry so far.", previous="bound_before"),
+        "t_leave": VariableText("tL", "Earliest exit so far.", previous="bound_before"),
         "pass_start": VariableText("first end now", "First end at the start of this pass.", "code_start"),
         "pass_end": VariableText("second end now", "Second end at the start of this pass.", "code_end"),
         "code_start": VariableText("c₀", "Outcode of the first end: 1 left + 2 right + 4 bottom + 8 top."),
@@ -330,4 +338,4 @@ shows(
         "kept_end": VariableText("drawn to", "Second end of the part that is drawn."),
     },
 )
-hides(f"raster.{'|'.join(CLIP_OPERATIONS)}", PIXEL)
+hides(f"raster.{'|'.join(CLIP_KINDS)}", PIXEL)

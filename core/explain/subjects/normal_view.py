@@ -38,6 +38,18 @@ def stored(step: StepValues) -> Said:
     return text, equation(*_cross("n", value, _sides(step, "object_corners"), "o"))
 
 
+@explains("cull.back-stored-normal.determinant")
+def determinant(step: StepValues) -> Said:
+    """Whether the matrix to camera space can carry a normal."""
+    value = step.number("determinant")
+    text = f"Triangle {step.triangle}: the matrix A to camera space has determinant {spoken(value)}"
+    if value < 0:
+        text += ", below 0: it mirrors"
+    elif value == 0:
+        text += ": it has no inverse"
+    return f"{text}.", equation((r"\det A", value))
+
+
 @explains("cull.back-stored-normal.carried")
 def carried(step: StepValues) -> Said:
     """Normals are carried by the inverse transpose; a mirror leaves them where they point."""

@@ -18,13 +18,17 @@ def _owner(step: StepValues) -> str:
 
 @explains("clip.wa-ring.direction")
 def direction(step: StepValues) -> Said:
-    """Whether a ring is a hole, and which way it runs."""
-    is_hole = step.flag("is_hole")
-    what = "a hole, inside an odd number of others" if is_hole else "an outline"
-    way = "clockwise" if is_hole else "counter-clockwise"
+    """Whether a ring is a hole."""
+    what = "a hole, inside an odd number of others" if step.flag("is_hole") else "an outline"
+    return f"Ring {step.whole('ring')} of the {_owner(step)} is {what}."
+
+
+@explains("clip.wa-ring.turn")
+def turn(step: StepValues) -> Said:
+    """Which way a ring runs."""
+    way = "clockwise" if step.flag("is_hole") else "counter-clockwise"
     turned = "is turned to run" if step.flag("is_turned") else "runs"
-    name = f"Ring {step.whole('ring')} of the {_owner(step)}"
-    return f"{name} is {what}; it {turned} {way}, so the interior lies to its left."
+    return f"It {turned} {way}, so the interior lies to its left."
 
 
 @explains("clip.wa-crossing.place")
@@ -32,10 +36,16 @@ def crossing(step: StepValues) -> Said:
     """Where two sides cross."""
     text = (
         f"Edge {step.whole('edge')} of ring {step.whole('ring')} crosses edge {step.whole('region_edge')} of ring "
-        f"{step.whole('region_ring')} of the clip window at {vector_text(step.vector('point'))}: at t = "
-        f"{spoken(step.number('t'))} of its length, and at {spoken(step.number('region_t'))} of the window's."
+        f"{step.whole('region_ring')} of the clip window: at t = {spoken(step.number('t'))} of its length, and at "
+        f"u = {spoken(step.number('region_t'))} of the window's."
     )
-    return text, _on_edge(step)
+    return text, equation(*beside([("t", step.number("t"))], [("u", step.number("region_t"))]))
+
+
+@explains("clip.wa-crossing.point")
+def crossing_point(step: StepValues) -> Said:
+    """The place of a crossing."""
+    return f"The crossing lies at {vector_text(step.vector('point'))}.", _on_edge(step)
 
 
 def _on_edge(step: StepValues) -> Formula:
@@ -88,7 +98,7 @@ def start(step: StepValues) -> Said:
     )
 
 
-@explains("clip.wa-corner|wa-switch.next")
+@explains(f"clip.{_WALK}.next")
 def follow(step: StepValues) -> Said:
     """One step along the polygon or the clip window."""
     along = "clip window" if step.flag("on_region") else "polygon"
@@ -119,11 +129,7 @@ def switch(step: StepValues) -> Said:
 @explains("clip.wa-close.close")
 def close(step: StepValues) -> Said:
     """The end of a walk."""
-    along = "clip window" if step.flag("on_region") else "polygon"
-    return (
-        f"Along the {along} back to the start: ring {step.whole('result_ring')} has "
-        f"{step.whole('corner_count')} corners."
-    )
+    return f"That is the start: ring {step.whole('result_ring')} is closed, with {step.whole('corner_count')} corners."
 
 
 OUTPUTS = ("nothing", "the crossing", "the end", "the crossing, then the end")
@@ -168,9 +174,15 @@ def _side(symbol: str, value: float, a: list[float], b: list[float], place: list
 @explains("clip.sh-in-out|sh-out-in.crossing")
 def corner(step: StepValues) -> Said:
     """The new corner where an edge crosses."""
+    return f"The new corner is {vector_text(step.vector('point'))}.", _on_edge(step)
+
+
+@explains("clip.sh-in-out|sh-out-in.t")
+def crosses(step: StepValues) -> Said:
+    """Where an edge crosses the line of the window's edge."""
     first, last, t = step.number("start_side"), step.number("end_side"), step.number("t")
     verb = "leaves" if step.kind == "sh-in-out" else "enters"
-    text = f"It {verb} at t = d0 / (d0 − d1) = {spoken(t)}: the new corner is {vector_text(step.vector('point'))}."
+    text = f"It {verb} at t = d0 / (d0 − d1) = {spoken(t)}."
     return text, equation(("t", t), "=", fraction(("d_0", first), difference(("d_0", first), ("d_1", last))))
 
 

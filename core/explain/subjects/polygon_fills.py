@@ -3,7 +3,7 @@
 import math
 
 from core.explain.digits import number_latex, signed_latex, spoken
-from core.explain.equation import Part, beside, conclusion, equation, relation
+from core.explain.equation import Part, beside, conclusion, difference, equation, fraction, relation
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -11,6 +11,7 @@ from core.explain.variable_text import PIXEL, VariableText, given, hides, shows
 
 _TABLE = "table-edge|table-level"
 _ACTIVE = "active-leave|active-advance|active-enter"
+_INTERVALS = "active-interval|active-inside"
 
 
 def edge_name(step: StepValues) -> str:
@@ -18,16 +19,17 @@ def edge_name(step: StepValues) -> str:
     return f"edge {step.whole('edge')} (corner {step.whole('edge_start')} to {step.whole('edge_end')})"
 
 
-@explains("raster.table-edge.rows")
+@explains("raster.table-edge|table-level.rows")
 def rows_of_edge(step: StepValues) -> Said:
     """In which rows an edge is active."""
     first, end = step.whole("row_first"), step.whole("row_end")
     lower, upper, center = step.vector("lower")[1], step.vector("upper")[1], step.number("center")
     rows = f"rows {first} to {end - 1}" if end - first > 1 else f"row {first}"
+    lies = f"the centres of {rows} lie on it" if end > first else "the centre of no row lies on it"
     way = "up" if step.whole("direction") > 0 else "down"
     text = (
         f"{edge_name(step).capitalize()} runs {way}, from y = {spoken(lower)} to y = {spoken(upper)} at its ends: "
-        f"the centres of {rows} lie on it."
+        f"{lies}."
     )
     parts = [
         found
@@ -45,22 +47,27 @@ def _row_of(symbol: str, row: int, y: float, center: float) -> list[Part]:
     return [(symbol, row), "=", (rf"\lceil y - {number_latex(center)} \rceil", numbers)]
 
 
-@explains("raster.table-level.rows")
+@explains("raster.table-level.skip")
 def level_edge(step: StepValues) -> Said:
     """An edge without a row."""
     lower, upper = step.vector("lower")[1], step.vector("upper")[1]
-    reason = "it is level" if lower == upper else "the centre of no row lies on it"
-    return f"{edge_name(step).capitalize()} goes into no bucket: from y = {spoken(lower)} to {spoken(upper)}, {reason}."
+    reason = "it is level" if lower == upper else "it lies between two rows"
+    return f"{edge_name(step).capitalize()} goes into no bucket: {reason}."
 
 
 @explains("raster.table-edge.crossing")
 def first_crossing(step: StepValues) -> Said:
-    """Where an edge crosses its first row, and how far it moves from row to row."""
-    row, x, shift = step.whole("row_first"), step.number("crossing"), step.number("shift")
-    text = (
-        f"It crosses row {row} at x = {spoken(x)}, and moves by {spoken(shift)} to the right from row to row."
-    )
-    return text, _crossing(step)
+    """Where an edge crosses its first row."""
+    return f"It crosses row {step.whole('row_first')} at x = {spoken(step.number('crossing'))}.", _crossing(step)
+
+
+@explains("raster.table-edge.shift")
+def shift_of_edge(step: StepValues) -> Said:
+    """How far an edge moves from row to row."""
+    shift, (x0, y0), (x1, y1) = step.number("shift"), step.vector("lower"), step.vector("upper")
+    above, below = difference(("x_1", x1), ("x_0", x0)), difference(("y_1", y1), ("y_0", y0))
+    text = f"From row to row it moves by {spoken(shift)} to the right."
+    return text, equation((r"\frac{\Delta x}{\Delta y}", shift), "=", fraction(above, below))
 
 
 def _crossing(step: StepValues) -> Formula:
@@ -111,7 +118,7 @@ def enters(step: StepValues) -> Said:
     ), _crossing(step)
 
 
-@explains("raster.active-interval.count")
+@explains(f"raster.{_INTERVALS}.count")
 def counts(step: StepValues) -> Said:
     """What lies to the left of an interval between two active edges."""
     crossed, winding = step.whole("crossed"), step.whole("winding")
@@ -144,15 +151,10 @@ def _reason(step: StepValues) -> str:
     return f"{crossed} is {'odd' if crossed % 2 else 'even'}"
 
 
-@explains("raster.active-interval.decide", asks=inside)
+@explains(f"raster.{_INTERVALS}.decide", asks=inside)
 def decides(step: StepValues) -> Said:
-    """Whether an interval is inside, and which pixels it has."""
-    is_inside, start, stop = step.flag("is_inside"), step.whole("start"), step.whole("stop")
-    found = "inside" if is_inside else "outside"
-    text = f"It is {found}, since {_reason(step)}"
-    if is_inside:
-        columns = f"columns {start} to {stop - 1}" if stop - start > 1 else f"column {start}"
-        text += f": the centres of {columns} lie there" if stop > start else ": no centre lies there"
+    """Whether an interval is inside."""
+    found = "inside" if step.flag("is_inside") else "outside"
     if step.text("polygon_fill") == "non-zero":
         winding = step.whole("winding")
         parts: list[Part] = [(r"\mathrm{winding}", winding), (r"\ne", r"\ne" if winding else "="), "0"]
@@ -160,7 +162,27 @@ def decides(step: StepValues) -> Said:
         crossed = step.whole("crossed")
         remainder = r"\; \mathrm{mod} \; 2"
         parts = [(rf"\mathrm{{crossed}} {remainder}", f"{crossed} {remainder}"), "=", ("1", crossed % 2)]
-    return f"{text}.", equation(*parts, *conclusion("inside", found))
+    return f"It is {found}, since {_reason(step)}.", equation(*parts, *conclusion("inside", found))
+
+
+@explains("raster.active-inside.span")
+def columns_inside(step: StepValues) -> Said:
+    """The pixels of an interval."""
+    start, stop, center = step.whole("start"), step.whole("stop"), step.number("center")
+    columns = f"columns {start} to {stop - 1}" if stop - start > 1 else f"column {start}"
+    text = f"The centres of {columns} lie there." if stop > start else "No centre lies there."
+    made: list[list[Part]] = [
+        [
+            (rf"\mathrm{{{name}}}", float(column)),
+            "=",
+            (rf"\lceil x_{{\mathrm{{{side}}}}} - c \rceil", rf"\lceil {number_latex(x)} - {number_latex(center)} \rceil"),
+        ]
+        for name, column, side, x in (
+            ("start", start, "left", step.number("interval_left")),
+            ("stop", stop, "right", step.number("interval_right")),
+        )
+    ]
+    return text, equation(*beside(*made))
 
 
 @explains("raster.active-pixel.draw")
@@ -203,5 +225,5 @@ _OF_EDGES = ("lower", "upper", "direction", "row_first", "row_end", "shift", "cr
 _OF_INTERVALS = ("interval_left", "interval_right", "crossed", "winding", "is_inside", "start", "stop")
 hides(f"raster.{_TABLE}", (*_OF_INTERVALS, *PIXEL))
 hides(f"raster.{_ACTIVE}", (*_OF_INTERVALS, "column"))
-hides("raster.active-interval", ("column", *(name for name in _OF_EDGES if name != "direction")))
+hides(f"raster.{_INTERVALS}", ("column", *(name for name in _OF_EDGES if name != "direction")))
 hides("raster.active-pixel", (*_OF_EDGES, "crossed", "winding", "is_inside"))

@@ -45,21 +45,22 @@ def edge_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
 
 
 _DOES = {"active-leave": "leaves", "active-advance": "moves on", "active-enter": "enters"}
+_INTERVALS = ("active-interval", "active-inside")
 
 
 def _of_edge(name: str) -> Callable[[StepValues], Value]:
     """Return what reads a number of an edge's row; an interval has none."""
-    return lambda step: None if step.kind in ("active-interval", "active-leave") else step.number(name)
+    return lambda step: None if step.kind in (*_INTERVALS, "active-leave") else step.number(name)
 
 
 def _of_interval(name: str) -> Callable[[StepValues], Value]:
     """Return what reads a whole number of an interval's row; an edge has none."""
-    return lambda step: step.whole(name) if step.kind == "active-interval" else None
+    return lambda step: step.whole(name) if step.kind in _INTERVALS else None
 
 
 def _columns_of(step: StepValues) -> Value:
     """Return the columns of an interval inside the polygon."""
-    if step.kind != "active-interval" or not step.flag("is_inside"):
+    if step.kind != "active-inside":
         return None
     return (
         f"{step.whole('start')} to {step.whole('stop') - 1}"
@@ -83,11 +84,11 @@ _ACTIVE = (
 )
 
 
-@tabulates("raster", (*_DOES, "active-interval"))
+@tabulates("raster", (*_DOES, *_INTERVALS))
 def active_edges(trace: StageTrace, rows: Integers, position: int) -> StepTable:
     """Return the active edges of a row of pixels, and the intervals between them: rows (R,) of a trace."""
     names = [
-        f"right of {edge}" if trace.kind_of(row) == "active-interval" else f"{edge}"
+        f"right of {edge}" if trace.kind_of(row) in _INTERVALS else f"{edge}"
         for edge, row in zip(_edges(trace, rows), rows.tolist(), strict=True)
     ]
     title = f"Active edges of row {int(trace.columns['row'][rows[0]])}"

@@ -106,20 +106,41 @@ def cosines(step: StepValues) -> Said:
     return f"{step.pixel_name}: {'; '.join(texts)}.", equation(*beside(*products))
 
 
-@explains("shade.*.sums")
-def light_sums(step: StepValues) -> Said:
-    """The sums over the lights."""
-    diffuse, specular, n_dot_l = (
-        step.vector(name) for name in ("diffuse_light", "specular_light", "n_dot_l")
-    )
-    powers = [f"{spoken(power)} (light {k})" for k, power in enumerate(step.vector("power"))]
+@explains("shade.*.power")
+def highlight(step: StepValues) -> Said:
+    """The cosines of the highlights to the power of the shininess; the formula has that of the brightest."""
+    powers, n_dot_h, n_dot_l = (step.vector(name) for name in ("power", "n_dot_h", "n_dot_l"))
+    if not powers:
+        return f"{step.pixel_name}: there is no light, so no highlight."
+    listed = joined([f"{spoken(power)} (light {k})" for k, power in enumerate(powers)])
+    text = f"{step.pixel_name}: {noun_of(len(powers), 'highlight')} {listed}, from N·H and the shininess."
+    k = max(range(len(powers)), key=powers.__getitem__)
+    if not n_dot_l[k] > 0:
+        return text, equation(("p", powers[k]))
+    base = (r"\max(N \cdot H, 0)^s", rf"{number_latex(max(n_dot_h[k], 0.0))}^{{{number_latex(step.number('shininess'))}}}")
+    return text, equation(("p", powers[k]), "=", base)
+
+
+@explains("shade.*.specular")
+def specular_sum(step: StepValues) -> Said:
+    """The mirrored light of all lights."""
+    specular, powers = step.vector("specular_light"), step.vector("power")
+    text = f"{step.pixel_name}: the specular light is {vector_text(specular)}."
+    channel = outstanding(specular)
+    parts: list[Part] = [(channel_symbol("specular", channel), specular[channel])]
+    for light, power in enumerate(powers):
+        parts += ["+" if light else "=", (r"k_{\mathrm{specular}}", step.number("specular")), r"\cdot", ("p", power)]
+        parts += [r"\cdot", (rf"l_{{{CHANNEL_LETTERS[channel]}}}", step.rows("light_colors")[light][channel])]
+    return text, equation(*parts)
+
+
+@explains("shade.*.diffuse")
+def diffuse_sum(step: StepValues) -> Said:
+    """The ambient light, and the diffuse light of all lights."""
+    diffuse, n_dot_l = step.vector("diffuse_light"), step.vector("n_dot_l")
     text = f"{step.pixel_name}: without lights, only the ambient light {vector_text(diffuse)} is left."
-    if powers:
-        text = (
-            f"{step.pixel_name}: over all lights the diffuse light is {vector_text(diffuse)}, ambient included, and "
-            f"the specular light {vector_text(specular)}, from {noun_of(len(powers), 'highlight power')} "
-            f"{joined(powers)}."
-        )
+    if n_dot_l:
+        text = f"{step.pixel_name}: over all lights the diffuse light is {vector_text(diffuse)}, ambient included."
     channel = outstanding(diffuse)
     parts: list[Part] = [(channel_symbol("diffuse", channel), diffuse[channel]), "="]
     parts.append((r"k_{\mathrm{ambient}}", step.number("ambient")))

@@ -13,10 +13,24 @@ from core.records.words import counted
 GUARD_LATEX = "2^{-35}"
 
 
+@explains("raster.lane.first")
+def first_lane_row(step: StepValues) -> Said:
+    """The first row of a triangle."""
+    heights, center, first = step.vector("corner_y"), step.number("center"), step.whole("first_row")
+    nominal, where = math.ceil(min(heights) - center), "whose centre lies above that"
+    symbols = r"\lceil \min(\vertex{0}{y_0}, \vertex{1}{y_1}, \vertex{2}{y_2}) - c \rceil"
+    numbers = rf"\lceil \min{vector_latex(heights)} - {number_latex(center)} \rceil"
+    if nominal != first:
+        symbols, numbers = rf"\max({symbols}, \mathrm{{bottom}})", rf"\max({nominal}, {first})"
+        where = "of the raster"
+    text = f"Triangle {step.triangle} begins at y = {spoken(min(heights))}: row {first} is the first {where}."
+    return text, equation((r"\mathrm{first}", float(first)), "=", (symbols, numbers))
+
+
 @explains("raster.lane.rows")
 def lane_rows(step: StepValues) -> Said:
     """The rows of a triangle."""
-    first, count, center = step.whole("first_row"), step.whole("row_count"), step.number("center")
+    first, count = step.whole("first_row"), step.whole("row_count")
     heights = step.vector("corner_y")
     rows = f"row {first}" if count == 1 else f"rows {first} to {first + count - 1}"
     low, high = pair_text(min(heights), max(heights))
@@ -24,15 +38,8 @@ def lane_rows(step: StepValues) -> Said:
         f"Triangle {step.triangle} reaches from y = {low} to {high}, and of the raster the centres of {rows} "
         f"lie between: {counted(count, 'row')}."
     )
-    nominal = math.ceil(min(heights) - center)
-    symbols = r"\lceil \min(\vertex{0}{y_0}, \vertex{1}{y_1}, \vertex{2}{y_2}) - c \rceil"
-    numbers = rf"\lceil \min{vector_latex(heights)} - {number_latex(center)} \rceil"
-    if nominal != first:
-        symbols, numbers = rf"\max({symbols}, \mathrm{{bottom}})", rf"\max({nominal}, {first})"
-    name: Part = (r"\mathrm{first}", float(first))
     end: Part = (r"\mathrm{end}", float(first + count))
-    rows_left: list[Part] = [(r"\mathrm{rows}", float(count)), "=", end, "-", name]
-    return text, equation(*beside([name, "=", (symbols, numbers)], rows_left))
+    return text, equation((r"\mathrm{count}", float(count)), "=", end, "-", (r"\mathrm{first}", float(first)))
 
 
 @explains("raster.lane.lane")

@@ -87,6 +87,22 @@ def texels(step: StepValues) -> Said:
     return text, equation(*beside(*indices))
 
 
+@explains("shade.*.fractions")
+def fractions(step: StepValues) -> Said:
+    """Where the place is between the centres of the four texels."""
+    place, shares = step.vector("texel_position"), step.vector("mix")
+    text = (
+        f"{step.pixel_name}: from the left to the right texels it is {spoken(shares[0])} of the way, from the lower to "
+        f"the upper ones {spoken(shares[1])}."
+    )
+    found: list[list[Part]] = []
+    for axis, letter, at, share in zip("xy", "uv", place, shares, strict=True):
+        centre = rf"{axis} - \frac{{1}}{{2}}"
+        numbers = rf"{number_latex(at)} - \frac{{1}}{{2}} - ({number_latex(math.floor(at - 0.5))})"
+        found.append([(f"w_{letter}", share), "=", (rf"{centre} - \lfloor {centre} \rfloor", numbers)])
+    return text, equation(*beside(*found))
+
+
 @explains("shade.*.filter")
 def filtered(step: StepValues) -> Said:
     """The texels times their weights."""
@@ -139,39 +155,58 @@ def _line_slope(step: StepValues, k: int) -> Formula:
     return equation((SLOPES[k], step.vector("uv_slopes")[k]), "=", fraction(above, (below, below_numbers)))
 
 
-@explains("shade.*.lod")
-def level_of_detail(step: StepValues) -> Said:
-    """The lengths of a pixel in texels, and the logarithm of the longer one."""
+@explains("shade.*.lengths")
+def pixel_lengths(step: StepValues) -> Said:
+    """The lengths of a pixel in texels; the formula has the longer one."""
     lengths, slope, size = step.vector("lengths"), step.vector("uv_slopes"), step.vector("texture_size")
-    lod = step.number("lod")
-    text = f"{step.pixel_name}: a pixel to the right is {spoken(lengths[0])} texels long, one up {spoken(lengths[1])}"
-    if math.isnan(lod):
-        text += ", so the level of detail λ is NaN, and level 0 is used"
-    elif lod == -math.inf:
-        text += ", so the level of detail λ is −∞: the place stays the same"
-    else:
-        text += f"; the logarithm of the longer length is the level of detail, λ = {spoken(lod)}"
-        text += ": a pixel is no larger than a texel" if lod <= 0 else ""
+    text = f"{step.pixel_name}: a pixel to the right is {spoken(lengths[0])} texels long, one up {spoken(lengths[1])}."
     longer = 1 if lengths[1] > lengths[0] else 0
     name = "xy"[longer]
     terms = [
         rf"({signed_latex(slope[2 * longer + axis])} \cdot {number_latex(size[axis])})^2" for axis in range(2)
     ]
     root: Part = (rf"\sqrt{{(u_{name} W)^2 + (v_{name} H)^2}}", rf"\sqrt{{{' + '.join(terms)}}}")
+    return text, equation((rf"\rho_{name}", lengths[longer]), "=", root)
+
+
+@explains("shade.*.lod")
+def level_of_detail(step: StepValues) -> Said:
+    """The logarithm of the longer length."""
+    lengths, lod = step.vector("lengths"), step.number("lod")
+    text = f"{step.pixel_name}: the logarithm of the longer length is the level of detail, λ = {spoken(lod)}"
+    if math.isnan(lod):
+        text = f"{step.pixel_name}: the level of detail λ is NaN, and level 0 is used"
+    elif lod == -math.inf:
+        text = f"{step.pixel_name}: the level of detail λ is −∞: the place stays the same"
+    elif lod <= 0:
+        text += ": a pixel is no larger than a texel"
     logarithm: Part = (
         rf"{_LOGARITHM} \max(\rho_x, \rho_y)",
         rf"{_LOGARITHM} \max({', '.join(map(number_latex, lengths))})",
     )
-    length: list[Part] = [(rf"\rho_{name}", lengths[longer]), "=", root]
     # Of a place that stays the same, 0 texels long, the logarithm has no value.
     sign: Part = ("=", r"\to") if lod == -math.inf else "="
-    return f"{text}.", equation(*beside(length, [(r"\lambda", lod), sign, logarithm]))
+    return f"{text}.", equation((r"\lambda", lod), sign, logarithm)
 
 
 def _level_name(step: StepValues, place: int) -> str:
     number = spoken(step.vector("levels")[place])
     width, height = step.vector("level_sizes")[2 * place : 2 * place + 2]
     return f"level {number} of {spoken(width)} × {spoken(height)} texels"
+
+
+@explains("shade.*.level")
+def clamped_level(step: StepValues) -> Said:
+    """Lambda within the levels that there are."""
+    lod, level = step.number("lod"), step.number("level")
+    text = f"{step.pixel_name}: λ = {spoken(lod)} is a level of the texture, l = {spoken(level)}."
+    if not lod > 0:
+        text = f"{step.pixel_name}: the texture is not reduced here, so l = {spoken(level)}."
+    elif lod > level:
+        text = f"{step.pixel_name}: λ = {spoken(lod)} is beyond the last level, so l = {spoken(level)}."
+    symbol = r"\mathrm{clamp}(\lambda)"
+    of_lod = rf"\mathrm{{clamp}}({number_latex(lod)})" if math.isfinite(lod) else symbol
+    return text, equation(("l", level), "=", (symbol, of_lod))
 
 
 @explains("shade.*.levels")
@@ -190,22 +225,25 @@ def levels(step: StepValues) -> Said:
         text = f"λ = {spoken(lod)} is {name} exactly"
     else:
         text = (
-            f"λ = {spoken(lod)} is between {name} and {_level_name(step, 1)}, "
-            f"and the second one has weight {spoken(part)}"
+            f"λ = {spoken(lod)} is between {name} and {_level_name(step, 1)}"
         )
-    symbol = r"\mathrm{clamp}(\lambda)"
-    of_lod = rf"\mathrm{{clamp}}({number_latex(lod)})" if math.isfinite(lod) else symbol
-    clamped: list[Part] = [("l", level), "=", (symbol, of_lod)]
     shown, first = number_latex(level), ("k", near)
     if not has_two:
         rounded: Part = (
             r"\lceil l + \frac{1}{2} \rceil - 1",
             rf"\lceil {shown} + \frac{{1}}{{2}} \rceil - 1",
         )
-        return f"{step.pixel_name}: {text}.", equation(*beside(clamped, [first, "=", rounded]))
-    floor: list[Part] = [first, "=", (r"\lfloor l \rfloor", rf"\lfloor {shown} \rfloor")]
-    rest: list[Part] = [("f", part), "=", ("l", level), "-", first]
-    return f"{step.pixel_name}: {text}.", equation(*beside(clamped, floor, rest))
+        return f"{step.pixel_name}: {text}.", equation(first, "=", rounded)
+    floor: Part = (r"\lfloor l \rfloor", rf"\lfloor {shown} \rfloor")
+    return f"{step.pixel_name}: {text}.", equation(first, "=", floor)
+
+
+@explains("shade.*.fraction")
+def level_share(step: StepValues) -> Said:
+    """How much of the coarser level is mixed in."""
+    part, level, near = step.number("level_fraction"), step.number("level"), step.vector("levels")[0]
+    text = f"{step.pixel_name}: the coarser level has weight {spoken(part)}."
+    return text, equation(("f", part), "=", ("l", level), "-", ("k", near))
 
 
 @explains("shade.*.near|far")

@@ -36,14 +36,14 @@ def cohen_sutherland_listing(
     x0: float, y0: float, x1: float, y1: float, left: float, bottom: float, right: float, top: float
 ) -> tuple[list[list[float]], Listed]:
     """Listing of Cohen-Sutherland on one segment: the ends that are left (none: nothing is), and the passes."""
-    ends, done = [[x0, y0], [x1, y1]], [0, 0]  #: whole
+    ends, done = [[x0, y0], [x1, y1]], [0, 0]
     passes: Listed = []
     while True:
         codes = [
             (x < left) | (x > right) << 1 | (y < bottom) << 2 | (y > top) << 3 for x, y in ends
         ]  #: outcodes
-        if codes[0] | codes[1] == 0:  #: accept
-            return ends, [*passes, (0, 0, -1, -1)]
+        if codes[0] | codes[1] == 0:
+            return ends, [*passes, (0, 0, -1, -1)]  #: accept
         if codes[0] & codes[1] != 0:  #: reject
             return [], [*passes, (codes[0], codes[1], -1, -1)]
         end = 0 if codes[0] != 0 else 1  #: end
@@ -51,12 +51,12 @@ def cohen_sutherland_listing(
         if edge < 2:
             border = left if edge == 0 else right
             t = (border - x0) / (x1 - x0)
-            x, y = border, y0 + (y1 - y0) * t  #: point-x
+            x, y = border, y0 + (y1 - y0) * t
         else:
             border = bottom if edge == 2 else top
             t = (border - y0) / (y1 - y0)
-            x, y = x0 + (x1 - x0) * t, border  #: point-y
-        x = max(x, left) if done[end] & 1 else min(x, right) if done[end] & 2 else x  #: hold
+            x, y = x0 + (x1 - x0) * t, border
+        x = max(x, left) if done[end] & 1 else min(x, right) if done[end] & 2 else x
         y = max(y, bottom) if done[end] & 4 else min(y, top) if done[end] & 8 else y
         ends[end] = [x, y]  #: move
         done[end] |= 1 << edge

@@ -31,14 +31,14 @@ def cyrus_beck_listing(
 
     With ``ignores_parallel`` as printed.
     """
-    d = p1 - p0  #: direction
-    is_point = d[0] == 0 and d[1] == 0  #: point
-    t_e, t_l, entry, exit = 0.0, 1.0, -1, -1  #: whole
+    d = p1 - p0
+    is_point = d[0] == 0 and d[1] == 0
+    t_e, t_l, entry, exit = 0.0, 1.0, -1, -1
     seen: Listed = []
     for k, (n, p_e) in enumerate(zip(normals, points, strict=True)):
         t = float("nan")
-        along = n[0] * d[0] + n[1] * d[1]  #: along
-        room = -(n[0] * (p0[0] - p_e[0]) + n[1] * (p0[1] - p_e[1]))  #: edges
+        to_start = p0[0] - p_e[0], p0[1] - p_e[1]
+        along, room = n[0] * d[0] + n[1] * d[1], -(n[0] * to_start[0] + n[1] * to_start[1])  #: edges
         if along == 0:
             if room < 0 and (is_point or not ignores_parallel):  #: parallel
                 return [], [*seen, (along, room, t, t_e, t_l)]  #: outside
@@ -51,8 +51,7 @@ def cyrus_beck_listing(
         seen.append((along, room, t, t_e, t_l))
     if t_e > t_l:
         return [], seen  #: empty
-    first = p0 + t_e * d if entry >= 0 else p0
-    second = p0 + t_l * d if exit >= 0 else p1  #: ends
+    first, second = p0 + t_e * d if entry >= 0 else p0, p0 + t_l * d if exit >= 0 else p1  #: ends
     return [np.asarray(first), np.asarray(second)], seen
 
 

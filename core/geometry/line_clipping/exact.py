@@ -32,19 +32,18 @@ def exact_listing(
     p0: list[float], p1: list[float], normals: list[list[Fraction]], points: list[list[float]]
 ) -> tuple[list[list[float]], Listed]:
     """Listing of exact clipping on one segment: the ends that are left (none: nothing is), and the numbers."""
-    x, y, x1, y1 = (Fraction(value) for value in (*p0, *p1))  #: whole
+    x, y, x1, y1 = (Fraction(value) for value in (*p0, *p1))
     dx, dy = x1 - x, y1 - y
     t_e, t_l, entry, exit = Fraction(0), Fraction(1), -1, -1
     seen: Listed = []
     for k, (nx, ny) in enumerate(normals):
         ex, ey = points[k]
         t = None
-        along = nx * dx + ny * dy  #: along
-        room = -(nx * (x - Fraction(ex)) + ny * (y - Fraction(ey)))  #: edges
+        along, room = nx * dx + ny * dy, -(nx * (x - Fraction(ex)) + ny * (y - Fraction(ey)))  #: edges
         if along == 0:
-            is_outside = room < 0  #: parallel
+            if room < 0:  #: parallel
+                return [], [*seen, (0.0, float(room), math.nan, float(t_e), float(t_l))]  #: outside
         else:
-            is_outside = False
             t = room / along  #: t
             if along < 0 and t > t_e:  #: entry
                 t_e, entry = t, k  #: enter
@@ -52,11 +51,9 @@ def exact_listing(
                 t_l, exit = t, k  #: leave
         crossing = math.nan if t is None else rounded_quotient(*t.as_integer_ratio())
         seen.append((float(along), float(room), crossing, float(t_e), float(t_l)))
-        if is_outside:
-            return [], seen  #: outside
         if t_e > t_l:
             return [], seen  #: empty
-    ends = [list(p0), list(p1)]
+    ends = [list(p0), list(p1)]  #: uncut
     for end, (at, k) in enumerate([(t_e, entry), (t_l, exit)]):
         if k >= 0:
             ends[end] = [float(x + at * dx), float(y + at * dy)]  #: ends

@@ -26,10 +26,10 @@ def liang_barsky_listing(
 ) -> tuple[list[list[float]], Listed]:
     """Listing of Liang-Barsky on one segment: the ends that are left (none: nothing is), and the numbers."""
     dx, dy = x1 - x0, y1 - y0
-    edges = [(-dx, x0 - left), (dx, right - x0), (-dy, y0 - bottom), (dy, top - y0)]  #: edges
-    t_enter, t_leave, entry, exit = 0.0, 1.0, -1, -1  #: whole
+    edges = [(-dx, x0 - left), (dx, right - x0), (-dy, y0 - bottom), (dy, top - y0)]
+    t_enter, t_leave, entry, exit = 0.0, 1.0, -1, -1
     seen: Listed = []
-    for k, (p, q) in enumerate(edges):
+    for k, (p, q) in enumerate(edges):  #: edges
         t = float("nan")
         if p == 0:
             if q < 0:  #: parallel
@@ -43,7 +43,7 @@ def liang_barsky_listing(
         seen.append((p, q, t, t_enter, t_leave))
         if t_enter > t_leave:
             return [], seen  #: empty
-    ends = [[x0, y0], [x1, y1]]
+    ends = [[x0, y0], [x1, y1]]  #: uncut
     for end, (t, k) in enumerate([(t_enter, entry), (t_leave, exit)]):
         if k >= 0:
             ends[end] = [x0 + t * dx, y0 + t * dy]  #: ends

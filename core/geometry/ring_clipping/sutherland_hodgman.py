@@ -36,16 +36,14 @@ def clip_side_listing(ring: Sequence[Place], a: Place, b: Place) -> list[Place]:
     left = []
     for k, end in enumerate(ring):
         start = ring[k - 1]
-        d0 = _side(a, b, start)  #: distances
-        d1 = _side(a, b, end)
+        d0, d1 = _side(a, b, start), _side(a, b, end)  #: distances
         if (d0 >= 0) != (d1 >= 0):
             t = d0 / (d0 - d1)  #: t
-            x = start[0] + t * (end[0] - start[0])
-            y = start[1] + t * (end[1] - start[1])
-            left.append((x, y))  #: corner
-        if d1 >= 0:
+            x, y = start[0] + t * (end[0] - start[0]), start[1] + t * (end[1] - start[1])  #: corner
+            left.append((x, y))
+        if d1 >= 0:  #: drop
             left.append(end)  #: keep
-    return left  #: drop
+    return left
 
 
 def _side(a: Place, b: Place, place: Place) -> Fraction:
@@ -53,8 +51,9 @@ def _side(a: Place, b: Place, place: Place) -> Fraction:
     return (b[0] - a[0]) * (place[1] - a[1]) - (b[1] - a[1]) * (place[0] - a[0])
 
 
-_DISTANCES = Operation("sides", "distances", ("start_side", "end_side"))
-_CORNER = Operation("crossing", "corner", ("t", "point"))
+_DISTANCES = Operation("sides", "distances", {"start_side": "d0", "end_side": "d1"})
+_CORNER = (Operation("t", "t", ("t",)), Operation("crossing", "corner", {"point": "x y"}))
+_KEEP = Operation("keep", "keep", {"is_kept": "left"})
 
 
 @method(
@@ -68,10 +67,10 @@ _CORNER = Operation("crossing", "corner", ("t", "point"))
     needs=("convex-window",),
     listing=clip_side_listing,
     operations={
-        "sh-in-in": (_DISTANCES, Operation("keep", "keep", ("is_kept",))),
-        "sh-out-out": (_DISTANCES, Operation("keep", "drop", ("is_kept",))),
-        "sh-in-out": (_DISTANCES, _CORNER),
-        "sh-out-in": (_DISTANCES, _CORNER, Operation("keep", "keep", ("is_kept",))),
+        "sh-in-in": (_DISTANCES, _KEEP),
+        "sh-out-out": (_DISTANCES, Operation("keep", "drop", (), ("is_kept",))),
+        "sh-in-out": (_DISTANCES, *_CORNER),
+        "sh-out-in": (_DISTANCES, *_CORNER, _KEEP),
     },
 )
 def sutherland_hodgman(rings: Sequence[Floats], region: Sequence[Floats]) -> ClippedPolygon:

@@ -40,6 +40,7 @@ from core.geometry.ring_clipping.exact import (
 from core.geometry.ring_clipping.records import ClippedPolygon, RingClipTraits, Row
 from core.methods import method
 from core.records.arrays import Floats
+from core.records.listing import RETURN
 from core.records.operation import Operation
 
 Place = tuple[Fraction, Fraction]
@@ -57,14 +58,14 @@ def walk_listing(
         first = node = left.pop(0)  #: start
         ring, on = [], SUBJECT
         while True:
-            ring.append(node)  #: corner
+            ring.append(node)
             node = after[on][node]  #: next
             if node in crossings:
                 on = 1 - on  #: switch
             if node in left:
                 left.remove(node)
-            if node == first:
-                break  #: close
+            if node == first:  #: close
+                break
         rings.append(ring)
     return rings
 
@@ -91,7 +92,7 @@ def turned(rings: list[Ring]) -> list[tuple[Ring, bool, bool]]:
     found = []
     for index, ring in enumerate(rings):
         is_hole = depth_of(index, rings) % 2 == 1  #: direction
-        is_turned = (doubled_area(ring) > 0) == is_hole
+        is_turned = (doubled_area(ring) > 0) == is_hole  #: turn
         found.append((ring[::-1] if is_turned else ring, is_hole, is_turned))
     return found
 
@@ -116,7 +117,7 @@ def find_crossings(rings: Sequence[Ring], region: Sequence[Ring]) -> list[Crossi
                     if is_above(first) == is_above(last):
                         continue
                     t, u = _share(start, end), _share(first, last)  #: place
-                    place = _between(p, q, t)
+                    place = _between(p, q, t)  #: point
                     entering = is_above(end)  #: way
                     found.append(Crossing((r, k), (s, m), t, u, entering, place))
     return found
@@ -147,6 +148,9 @@ def _linked(
     return after
 
 
+_NEXT = Operation("next", "next", {"next_node": "node"}, ("point",))
+
+
 @method(
     "polygon_clipping",
     "weiler-atherton",
@@ -158,19 +162,20 @@ def _linked(
     listing=walk_listing,
     traits=RingClipTraits({"wa-ring": turned, "wa-crossing": find_crossings, "wa-whole": is_in_region}),
     operations={
-        "wa-ring": (Operation("direction", "direction", ("is_hole", "is_turned")),),
+        "wa-ring": (
+            Operation("direction", "direction", ("is_hole",)),
+            Operation("turn", "turn", ("is_turned",)),
+        ),
         "wa-crossing": (
-            Operation("place", "place", ("t", "region_t", "point")),
-            Operation("way", "way", ("is_entering",)),
+            Operation("place", "place", {"t": "t", "region_t": "u"}),
+            Operation("point", "point", {"point": "place"}),
+            Operation("way", "way", {"is_entering": "entering"}),
         ),
-        "wa-whole": (Operation("verdict", "verdict", ("is_kept",)),),
-        "wa-start": (Operation("start", "start", ("node", "point")),),
-        "wa-corner": (Operation("next", "next", ("next_node", "point")),),
-        "wa-switch": (
-            Operation("next", "next", ("next_node", "point")),
-            Operation("switch", "switch", ("on_region",)),
-        ),
-        "wa-close": (Operation("close", "close", ("next_node", "corner_count")),),
+        "wa-whole": (Operation("verdict", "verdict", {"is_kept": RETURN}),),
+        "wa-start": (Operation("start", "start", ("node",), ("point",)),),
+        "wa-corner": (_NEXT,),
+        "wa-switch": (_NEXT, Operation("switch", "switch", {"on_region": "on"})),
+        "wa-close": (_NEXT, Operation("close", "close", (), ("corner_count",))),
     },
 )
 def weiler_atherton(rings: Sequence[Floats], region: Sequence[Floats]) -> ClippedPolygon:

@@ -222,14 +222,12 @@ def is_inside(value: FormatValue, owns_tie: Flags) -> Flags:
 
 def covers(a: Floats, b: Floats, c: Floats, owns_tie: Flags, x: float, y: float) -> tuple[list[float], bool]:
     """Listing of the inside test at one pixel: coefficients (3,) of the three edges."""
-    values = []
-    inside = True
+    values, inside = [], []
     for k in range(3):
         value = a[k] * x + (b[k] * y + c[k])  #: value
-        if not (value > 0 or (value == 0 and owns_tie[k])):  #: decide
-            inside = False  #: outside
         values.append(value)
-    return values, inside  #: covered
+        inside.append(bool(value > 0 or (value == 0 and owns_tie[k])))
+    return values, all(inside)  #: covered
 
 
 def edge_coefficients(

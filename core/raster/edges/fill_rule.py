@@ -17,7 +17,7 @@ from core.records.arrays import Flags, Floats
 
 def owns(a: float, b: float) -> bool:
     """Listing of the shared-edge rule for one edge."""
-    if a != 0:  #: slanted
+    if a != 0:
         return a > 0  #: right
     return b > 0  #: up
 

@@ -174,9 +174,9 @@ def anchored_coefficients(
     """Listing of an edge with a snapped end at (x, y), whose ends in clip space are (x, y, w)."""
     (x1, y1, w1), (x2, y2, w2) = start, finish
     width, height = size
-    a = height / 2 * difference_of_products(y1, w2, w1, y2)  #: direction
+    a = height / 2 * difference_of_products(y1, w2, w1, y2)
     b = width / 2 * difference_of_products(w1, x2, x1, w2)
-    a, b = whole_direction(a, b)  #: whole
+    a, b = whole_direction(a, b)
     a = sign * a  #: a
     b = sign * b  #: b
     c = -(a * x + b * y)  #: c
@@ -185,6 +185,6 @@ def anchored_coefficients(
 
 def edge_left_out(first_value: float, second_value: float, w: float) -> tuple[float, float, float] | None:
     """Listing of an edge between two snapped corners: values of the opposite edges there, w of the third corner."""
-    if first_value > 0 and second_value > 0:  #: keep
+    if first_value > 0 and second_value > 0:
         return None
     return 0.0, 0.0, -1.0 if w > 0 else 1.0  #: left-out

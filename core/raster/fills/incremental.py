@@ -98,11 +98,9 @@ def step_covers(
     before: list[float], increments: list[float], owns_tie: Flags | list[bool]
 ) -> tuple[list[float], bool]:
     """Listing of one pixel: values (3,) of the pixel it is reached from, and what is added to each of them."""
-    values = []
-    inside = True
+    values, inside = [], []
     for k in range(3):
         value = before[k] + increments[k]  #: add
-        if not (value > 0 or (value == 0 and owns_tie[k])):  #: decide
-            inside = False  #: outside
         values.append(value)
-    return values, inside  #: covered
+        inside.append(bool(value > 0 or (value == 0 and owns_tie[k])))
+    return values, all(inside)  #: covered

@@ -11,6 +11,7 @@ W. Newman, R. Sproull, *Principles of interactive computer graphics*, 1979.
 """
 
 from dataclasses import replace
+from math import ceil
 
 import numpy as np
 
@@ -94,22 +95,35 @@ def turning_column(
     return column, crossing
 
 
-def span(
-    edges: list[tuple[float, float, float, bool]], y: float, start: int, stop: int, center: float
-) -> tuple[int, int]:
-    """Listing of one row: coefficients (a, b, c, owns tie) of the three edges, columns from start to stop."""
-    for a, b, c, owns_tie in edges:
-        rest = b * y + c
-        if a == 0 and (rest < 0 or (rest == 0 and not owns_tie)):  #: parallel
-            stop = start  #: empty
-        while a > 0 and start < stop:  #: left
-            value = a * (start + center) + rest  #: left-value
-            if value > 0 or (value == 0 and owns_tie):  #: left-inside
-                break
-            start += 1  #: move-right
-        while a < 0 and start < stop:  #: right
-            value = a * (stop - 1 + center) + rest  #: right-value
-            if value > 0 or (value == 0 and owns_tie):  #: right-inside
-                break
-            stop -= 1  #: move-left
-    return start, stop  #: span
+Edge = tuple[float, float, float, bool]
+"""Coefficients a, b, c of an edge function, and whether the triangle owns pixel centres on the edge."""
+
+
+def span(edges: list[Edge], y: float, first: int, end: int, center: float) -> list[int]:
+    """Listing of one row: the three edges, columns from first to end; returns the columns inside."""
+    starts, stops = [first], [end]
+    for edge in edges:
+        a, b, c, _ = edge
+        if a == 0:  #: level
+            if not inside_at(edge, 0.0, y):
+                stops.append(first)
+            continue
+        crossing = -(b * y + c) / a  #: crossing
+        column = ceil(min(max(first, crossing - center), end))
+        while column > first and inside_at(edge, column - 1 + center, y) == (a > 0):
+            column -= 1
+        while column < end and inside_at(edge, column + center, y) != (a > 0):
+            column += 1
+        (starts if a > 0 else stops).append(column)
+    start, stop = max(starts), min(stops)  #: span
+    pixels = []
+    for column in range(start, stop):
+        pixels.append(column)  #: draw
+    return pixels
+
+
+def inside_at(edge: Edge, x: float, y: float) -> bool:
+    """Return whether a place is on the inner side of an edge."""
+    a, b, c, owns_tie = edge
+    value = a * x + (b * y + c)
+    return bool(value > 0 or (value == 0 and owns_tie))

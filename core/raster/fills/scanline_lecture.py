@@ -12,6 +12,9 @@ References
 LMU, *Computer Graphics 1*, tutorial 5 "Scan line algorithm for triangles", 2020.
 """
 
+from dataclasses import dataclass
+from math import floor
+
 import numpy as np
 
 from core.methods import method
@@ -33,20 +36,20 @@ def draw_triangle(
     v1: tuple[float, float], v2: tuple[float, float], v3: tuple[float, float], height: int
 ) -> list[tuple[int, float, float]]:
     """Listing as printed, corners at whole pixels: returns row, x1, x2 of every line in ``height`` rows."""
-    for order in SORTED:  #: sort
+    for order in SORTED:
         corners = [(v1, v2, v3)[k] for k in order]
         if corners[0][1] > corners[1][1] > corners[2][1]:
             v1, v2, v3 = corners
             break
     lines: list[tuple[int, float, float]] = []
-    if v2[1] == v3[1]:  #: flat-bottom
+    if v2[1] == v3[1]:
         lines = draw_bottom(v1, v2, v3, height)
-    elif v1[1] == v2[1]:  #: flat-top
+    elif v1[1] == v2[1]:
         lines = draw_top(v1, v2, v3, height)
-    elif v3[1] != v1[1]:  #: division-by-zero
-        v4 = (v1[0] + ((v2[1] - v1[1]) / (v3[1] - v1[1])) * (v3[0] - v1[0]), v2[1])  #: split
+    elif v3[1] != v1[1]:
+        v4 = (v1[0] + ((v2[1] - v1[1]) / (v3[1] - v1[1])) * (v3[0] - v1[0]), v2[1])
         lines = draw_top(v2, v4, v1, height) + draw_bottom(v3, v4, v2, height)
-    return lines  #: draw
+    return lines
 
 
 def draw_bottom(
@@ -56,11 +59,11 @@ def draw_bottom(
     height2, height3 = v2[1] - v1[1], v3[1] - v1[1]
     slope1 = (v2[0] - v1[0]) / height2 if height2 else 0.0  #: slope1
     slope2 = (v3[0] - v1[0]) / height3 if height3 else 0.0  #: slope2
-    row = max(v1[1], 0)  #: first-row
-    x1, x2 = v1[0] + slope1 * (row - v1[1]), v1[0] + slope2 * (row - v1[1])
+    row = max(v1[1], 0)
+    x1, x2 = v1[0] + slope1 * (row - v1[1]), v1[0] + slope2 * (row - v1[1])  #: first
     lines = []
-    while row <= v2[1] and row < height:  #: rows
-        lines.append((int(row), x1, x2))  #: line
+    while row <= v2[1] and row < height:
+        lines.append((int(row), x1, x2))
         x1 += slope1  #: next1
         x2 += slope2  #: next2
         row += 1
@@ -74,15 +77,24 @@ def draw_top(
     height1, height2 = v3[1] - v1[1], v3[1] - v2[1]
     slope1 = (v3[0] - v1[0]) / height1 if height1 else 0.0  #: slope1
     slope2 = (v3[0] - v2[0]) / height2 if height2 else 0.0  #: slope2
-    row = min(v3[1], height - 1)  #: first-row
-    x1, x2 = v3[0] - slope1 * (v3[1] - row), v3[0] - slope2 * (v3[1] - row)
+    row = min(v3[1], height - 1)
+    x1, x2 = v3[0] - slope1 * (v3[1] - row), v3[0] - slope2 * (v3[1] - row)  #: first
     lines = []
-    while row > v1[1] and row >= 0:  #: rows
-        lines.append((int(row), x1, x2))  #: line
+    while row > v1[1] and row >= 0:
+        lines.append((int(row), x1, x2))
         x1 -= slope1  #: next1
         x2 -= slope2  #: next2
         row -= 1
     return lines
+
+
+def drawn_columns(x1: float, x2: float) -> list[int]:
+    """Listing of one line: the columns from one rounded side to the other, both of them drawn."""
+    start, stop = floor(min(x1, x2) + 0.5), floor(max(x1, x2) + 0.5) + 1  #: round
+    pixels = []
+    for column in range(start, stop):
+        pixels.append(column)  #: draw
+    return pixels
 
 
 @method(
@@ -95,7 +107,7 @@ def draw_top(
     "(division by zero)",
     needs=("projected",),
     listing=draw_triangle,
-    traits=FillTraits(group_label="Span", span_row="line"),
+    traits=FillTraits(group_label="Span", adds_slopes=True),
 )
 def scanline_lecture(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Return the spans that the printed program draws, limited to the raster.
@@ -104,31 +116,78 @@ def scanline_lecture(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_s
     -----
     A triangle with a corner that cannot be projected is left out.
     """
-    first_column, first_row, end_column, end_row = raster.bounds
-    drawable = edges.corners.is_projected.all(axis=1) & (edges.doubled_area != 0)
-    index = np.flatnonzero(drawable)
-    corner = round_half_up(edges.corners.window[index] - raster.center)
-    x, y = sort_corners(corner[..., 0], corner[..., 1])
-    parts = [_part(index, raster.height, *half) for half in halves(x, y)]
-    triangle, row, left, right, step = (np.concatenate(column) for column in zip(*parts, strict=True))
-    half = np.repeat([0, 1], [len(part[0]) for part in parts])
-
-    # In the order in which the printed program draws: triangle, upper part before lower part, row after row.
-    order = np.lexsort((step, half, triangle))
-    triangle, row, left, right = triangle[order], row[order], left[order], right[order]
-    inside = (row >= first_row) & (row < end_row)
-    triangle, row, left, right = triangle[inside], row[inside], left[inside], right[inside]
-    ends = round_half_up(np.stack([left, right]))
+    first_column, _, end_column, _ = raster.bounds
+    walk = walk_sides(edges, raster)
+    ends = round_half_up(walk.sides)
     start = np.clip(ends.min(axis=0), first_column, end_column).astype(np.int64)
     stop = np.clip(ends.max(axis=0) + 1, first_column, end_column).astype(np.int64)
     return Runs(
-        triangle=triangle,
-        row=row,
+        triangle=walk.triangle,
+        row=walk.row,
         start=start,
         stop=np.maximum(start, stop),
-        accepted=np.ones(len(row), bool),
-        group=np.arange(len(row)),
-        crossings=np.stack([left, right, np.full(len(row), np.nan)], axis=1),
+        accepted=np.ones(len(walk), bool),
+        group=np.arange(len(walk)),
+        crossings=np.column_stack([*walk.sides, np.full(len(walk), np.nan)]),
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class SideWalk:
+    """R rows of pixels of triangles, in the order in which the printed program draws them."""
+
+    triangle: Integers
+    """(R,) int64, index among the triangles."""
+    row: Integers
+    """(R,) int64."""
+    sides: Floats
+    """(2, R) float64, x of both sides of the triangle in the row, at pixel centres."""
+    slope: Floats
+    """(2, R) float64, how far each side goes to the right from one row to the next one above."""
+    width: Floats
+    """(2, R) float64, of each side, from its lower to its upper end."""
+    height: Floats
+    """(2, R) float64."""
+    is_upper: Flags
+    """(R,) bool, the part above a level side, which is walked downwards; the other one is walked upwards."""
+    is_first: Flags
+    """(R,) bool, the first row of its part in the picture."""
+    corner: Floats
+    """(2, R) float64, x and y of the corner at which the part begins."""
+
+    def __len__(self) -> int:
+        return len(self.row)
+
+
+def walk_sides(edges: EdgeFunctions, raster: Raster) -> SideWalk:
+    """Return the rows that the printed program draws of all triangles, limited to the raster's rows."""
+    _, first_row, _, end_row = raster.bounds
+    index = np.flatnonzero(edges.corners.is_projected.all(axis=1) & (edges.doubled_area != 0))
+    corner = round_half_up(edges.corners.window[index] - raster.center)
+    x, y = sort_corners(corner[..., 0], corner[..., 1])
+    halves_of = halves(x, y)
+    parts = [_part(raster.height, half) for half in halves_of]
+    of, row, left, right, step = (np.concatenate(column) for column in zip(*parts, strict=True))
+    half = np.repeat([0, 1], [len(part[0]) for part in parts])
+
+    # In the order in which the printed program draws: triangle, upper part before lower part, row after row.
+    order = np.lexsort((step, half, of))
+    order = order[(row[order] >= first_row) & (row[order] < end_row)]
+    of, half = of[order], half[order]
+
+    def of_half(name: str) -> Floats:
+        return np.stack([getattr(each, name) for each in halves_of])[half, ..., of].T
+
+    return SideWalk(
+        triangle=index[of],
+        row=row[order],
+        sides=np.stack([left[order], right[order]]),
+        slope=of_half("slope"),
+        width=of_half("width"),
+        height=of_half("height"),
+        is_upper=half == 0,
+        is_first=step[order] == 0,
+        corner=of_half("corner"),
     )
 
 
@@ -141,8 +200,30 @@ def sort_corners(x: Floats, y: Floats) -> tuple[Floats, Floats]:
     return np.take_along_axis(x, order, axis=1), np.take_along_axis(y, order, axis=1)
 
 
-def halves(x: Floats, y: Floats) -> list[tuple[Floats, ...]]:
-    """Return for the upper and lower parts of triangles (T, 3): start row, direction, start x, both slopes, rows."""
+@dataclass(frozen=True, eq=False)
+class Half:
+    """The part of T triangles above, or below, a level side."""
+
+    corner: Floats
+    """(2, T) float64, x and y of the corner opposite to the level side, where the walk begins."""
+    width: Floats
+    """(2, T) float64, of both other sides, from the lower to the upper end."""
+    height: Floats
+    """(2, T) float64."""
+    count: Floats
+    """(T,) float64, how many rows are walked."""
+    direction: int
+    """From row to row: 1 upwards, -1 downwards."""
+
+    @property
+    def slope(self) -> Floats:
+        """(2, T) float64, how far a side goes to the right from one row to the next one above; 0: it has no height."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray(np.where(self.height != 0, self.width / self.height, 0.0))
+
+
+def halves(x: Floats, y: Floats) -> tuple[Half, Half]:
+    """Return the upper and the lower part of triangles whose corners (T, 3) are sorted."""
     x1, x2, x3 = x.T
     y1, y2, y3 = y.T
     flat_bottom = y2 == y3
@@ -150,63 +231,38 @@ def halves(x: Floats, y: Floats) -> list[tuple[Floats, ...]]:
     general = ~flat_bottom & ~flat_top & (y1 != y3)
     with np.errstate(divide="ignore", invalid="ignore"):
         x4 = x1 + ((y2 - y1) / (y3 - y1)) * (x3 - x1)
-        # drawTriangleTop(v2, v4, v1) or, where v1 and v2 are level, drawTriangleTop(v1, v2, v3).
-        upper = (
-            np.where(flat_top, y3, y1),
-            np.where(flat_top, y1, y2),
-            np.where(flat_top, x3, x1),
-            np.where(flat_top, _slope(x3 - x1, y3 - y1), _slope(x1 - x2, y1 - y2)),
-            np.where(flat_top, _slope(x3 - x2, y3 - y2), _slope(x1 - x4, y1 - y2)),
-            flat_top | general,
-        )
-        # drawTriangleBottom(v3, v4, v2) or, where v2 and v3 are level, drawTriangleBottom(v1, v2, v3).
-        lower = (
-            np.where(flat_bottom, y1, y3),
-            y2,
-            np.where(flat_bottom, x1, x3),
-            np.where(flat_bottom, _slope(x2 - x1, y2 - y1), _slope(x4 - x3, y2 - y3)),
-            np.where(flat_bottom, _slope(x3 - x1, y3 - y1), _slope(x2 - x3, y2 - y3)),
-            flat_bottom | general,
-        )
-    down = np.where(upper[5], np.maximum(upper[0] - upper[1], 0), 0)
-    up = np.where(lower[5], np.maximum(lower[1] - lower[0] + 1, 0), 0)
-    return [(*upper[:1], -np.ones(len(x)), *upper[2:5], down), (*lower[:1], np.ones(len(x)), *lower[2:5], up)]
+
+    # drawTriangleTop(v2, v4, v1) or, where v1 and v2 are level, drawTriangleTop(v1, v2, v3).
+    upper, level = np.where(flat_top, (x3, y3), (x1, y1)), np.where(flat_top, y1, y2)
+    down = np.where(flat_top | general, np.maximum(upper[1] - level, 0), 0)
+    width = np.where(flat_top, (x3 - x1, x3 - x2), (x1 - x2, x1 - x4))
+    height = np.where(flat_top, (y3 - y1, y3 - y2), (y1 - y2, y1 - y2))
+    above = Half(upper, width, height, down, -1)
+
+    # drawTriangleBottom(v3, v4, v2) or, where v2 and v3 are level, drawTriangleBottom(v1, v2, v3).
+    lower = np.where(flat_bottom, (x1, y1), (x3, y3))
+    up = np.where(flat_bottom | general, np.maximum(y2 - lower[1] + 1, 0), 0)
+    width = np.where(flat_bottom, (x2 - x1, x3 - x1), (x4 - x3, x2 - x3))
+    height = np.where(flat_bottom, (y2 - y1, y3 - y1), (y2 - y3, y2 - y3))
+    return above, Half(lower, width, height, up, 1)
 
 
-def _slope(width: Floats, height: Floats) -> Floats:
-    """Return how far a side goes to the right a row (T,); 0 where it has no height."""
-    return np.asarray(np.where(height != 0, width / height, 0.0))
-
-
-def _part(
-    index: Integers,
-    height: int,
-    row: Floats,
-    direction: Floats,
-    x: Floats,
-    slope1: Floats,
-    slope2: Floats,
-    count: Floats,
-) -> tuple[Integers, Integers, Floats, Floats, Integers]:
-    """Walk all triangles down their rows together: triangle, row, both x, step (the slopes are added up)."""
-    drawn = np.flatnonzero(count > 0)
-    index = index.take(drawn)
-    row, direction, x, slope1, slope2, count = (
-        values.take(drawn) for values in (row, direction, x, slope1, slope2, count)
-    )
-    slope1, slope2 = slope1 * direction, slope2 * direction
+def _part(height: int, half: Half) -> tuple[Integers, Integers, Floats, Floats, Integers]:
+    """Walk all triangles down their rows together: triangle, row, both x, step (slopes are added up)."""
+    drawn = np.flatnonzero(half.count > 0)
+    (x, row), count, direction = half.corner[:, drawn], half.count[drawn], half.direction
+    slope1, slope2 = half.slope[:, drawn] * direction
 
     # The rows before the picture in one step, those behind it not at all.
-    skipped = np.minimum(np.maximum(np.where(direction > 0, -row, row - (height - 1)), 0), count)
+    skipped = np.minimum(np.maximum(-row if direction > 0 else row - (height - 1), 0), count)
     row, left, right = row + direction * skipped, x + slope1 * skipped, x + slope2 * skipped
-    count = np.minimum(count - skipped, np.where(direction > 0, height - row, row + 1))
+    count = np.minimum(count - skipped, height - row if direction > 0 else row + 1)
 
     triangles, rows, lefts, rights, steps = [], [], [], [], []
-    active: Flags = np.ones(len(index), bool)
     for step in range(int(count.max(initial=0))):
         active = count > step
-        triangles.append(index[active])
-        rows.append((row[active] + direction[active] * step).astype(np.int64))
+        triangles.append(drawn[active])
+        rows.append((row[active] + direction * step).astype(np.int64))
         lefts.append(left[active])
         rights.append(right[active])
         steps.append(np.full(len(triangles[-1]), step))

@@ -15,8 +15,8 @@ class FillTraits:
     """Whether it sets all rows of a triangle up in one lane, and draws rows of the same length of all triangles."""
     group_label: str = "Row"
     """What a step between a pixel and a triangle is, on a button."""
-    span_row: str = "span"
-    """Kind of row in a trace that stands before the pixels of a span."""
+    adds_slopes: bool = False
+    """Whether it finds the sides of a span by adding their slopes from row to row."""
 
 
 def fill_traits(fill: str) -> FillTraits:

@@ -68,19 +68,19 @@ def inverse_coefficients(matrix: list[list[float]]) -> tuple[list[list[float]], 
     rows = [list(row) + [float(i == k) for k in range(3)] for i, row in enumerate(matrix)]
     determinant = 1.0
     for step in range(3):
-        chosen = max(range(step, 3), key=lambda i: abs(rows[i][step]))  #: pivot
+        chosen = max(range(step, 3), key=lambda i: abs(rows[i][step]))
         pivot = rows[chosen][step]
         sign = -1 if chosen != step else 1
         determinant *= sign * pivot  #: determinant
         if pivot == 0:
             return [[0.0] * 3] * 3, 0.0  #: singular
-        row = [v / pivot for v in rows[chosen]]  #: divide
+        row = [v / pivot for v in rows[chosen]]
         rows[chosen] = rows[step]
         rows[step] = row
         for other in range(3):
             if other != step:
                 factor = rows[other][step]
-                rows[other] = [v - factor * u for v, u in zip(rows[other], row, strict=True)]  #: subtract
+                rows[other] = [v - factor * u for v, u in zip(rows[other], row, strict=True)]
     return [row[3:] for row in rows], determinant  #: inverse
 
 

@@ -12,17 +12,16 @@ def rows_of_triangle(
     low = min(y) - center - (SUBPIXEL_GUARD if owns_bottom else -SUBPIXEL_GUARD)
     high = max(y) - center - (-SUBPIXEL_GUARD if owns_top else SUBPIXEL_GUARD)
     first = min(max(ceil(low), bounds[0]), bounds[1])  #: first
-    end = min(max(ceil(high), bounds[0]), bounds[1])  #: end
-    return first, max(end - first, 0)  #: count
+    count = max(min(max(ceil(high), bounds[0]), bounds[1]) - first, 0)  #: count
+    return first, count
 
 
 def place_by_size(sizes: list[int], number: int) -> int:
     """Listing of the order of lanes (sizes (L,) in rows) and spans (in pixels): largest first, equals as they came."""
-    place = 0
+    own, before = sizes[number], 0
     for other, size in enumerate(sizes):
-        if size > sizes[number] or (size == sizes[number] and other < number):  #: before
-            place += 1
-    return place  #: place
+        before += size > own or (size == own and other < number)  #: place
+    return before
 
 
 def span_of_row(
@@ -33,9 +32,8 @@ def span_of_row(
         dx, dy = x1 - x0, y1 - y0
         if dy == 0:  #: level
             continue
-        numerator = (x0 - center) * dy + (y - y0) * dx  #: numerator
-        crossing = numerator * (1 / dy)  #: crossing
-        is_left = dy < 0  #: side
+        crossing = ((x0 - center) * dy + (y - y0) * dx) * (1 / dy)  #: crossing
+        is_left = dy < 0
         guard = ROUNDING_MARGIN
         if owns_tie == is_left:
             guard = -guard
@@ -44,7 +42,7 @@ def span_of_row(
             start = max(start, column)  #: start
         else:
             stop = min(stop, column)  #: stop
-    return start, max(start, stop)  #: span
+    return start, max(start, stop)
 
 
 def order_of_pixels(spans: list[tuple[int, int, int]]) -> list[tuple[int, int]]:
@@ -53,7 +51,7 @@ def order_of_pixels(spans: list[tuple[int, int, int]]) -> list[tuple[int, int]]:
     longest = spans[0][2] - spans[0][1] if spans else 0
     for k in range(longest):  #: pass
         for row, start, stop in spans:
-            if start + k >= stop:  #: ended
+            if start + k >= stop:
                 break
             drawn.append((start + k, row))  #: draw
     return drawn

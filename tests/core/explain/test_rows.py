@@ -110,8 +110,11 @@ def test_every_kind_of_row_that_decides_can_be_asked_about() -> None:
 
 
 UNMARKED = {
-    *("edges.homogeneous.keep", "edges.orientation.area", "clip.untouched.keep", "bin.whole-image.keep"),
-    *("raster.accept.accept", "depth.cell.depth", "depth.store.depth"),
+    *("edges.homogeneous.keep", "edges.orientation.area", "edges.snapped.window"),
+    *("clip.untouched.keep", "bin.whole-image.keep"),
+    *("shade.lit.albedo", "shade.lit.interpolated", "shade.textured-lit.interpolated"),
+    *("depth.cell.depth", "depth.store.depth"),
+    *(f"blend.{kind}.source" for kind in ("over", "additive", "line-over", "line-additive")),
 }
 """Operations that no line of a listing does: what they do is to copy, or to take what is known already."""
 

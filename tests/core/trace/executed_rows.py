@@ -46,6 +46,8 @@ def rows_of_kind(found: StageTrace, kind: str) -> Iterator[int]:
 @cache
 def _lines_joined(code: CodeType) -> int:
     """Return how many lines signature and docstring have beyond the one of the signature in a listing."""
+    if code.co_name.startswith("<"):
+        return 0
     source = inspect.getsource(code)
     (function,) = ast.parse(dedent(source)).body
     assert isinstance(function, ast.FunctionDef)

@@ -6,11 +6,12 @@ from core.raster.binning import block_verdict
 from core.raster.edges.edge_functions import covers
 from core.raster.fills.incremental import increments, step_covers
 from core.raster.fills.scanline import span
-from core.raster.fills.scanline_lecture import draw_triangle, round_half_up
+from core.raster.fills.scanline_lecture import draw_triangle, drawn_columns, round_half_up
 from core.raster.spans.lanes import tie_owners
 from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
 from core.trace import StageTrace, Trace
 from core.trace.binning import bounding_box, outer_box
+from core.trace.raster_rows import PRINTED
 from tests.core.trace.executed_rows import ROW_LIMIT, check_marks, equal, lines_that_run, rows_of_kind
 from tests.core.trace.geometry_listings import coefficients_of
 
@@ -67,10 +68,10 @@ def check_raster(traced: Trace) -> None:
     for row in rows_of_kind(found, "span"):
         primitive = c["primitive"][row]
         y = c["row"][row] + raster.center
-        start, stop = int(boxes.column[primitive]), int(boxes.column_end[primitive])
-        start, stop = span(coefficients_of(edges, primitive), y, start, stop, raster.center)
-        if stop > start or c["stop"][row] > c["start"][row]:
-            assert (start, stop) == (c["start"][row], c["stop"][row])
+        first, end = int(boxes.column[primitive]), int(boxes.column_end[primitive])
+        with np.errstate(all="ignore"):
+            columns = span(coefficients_of(edges, primitive), y, first, end, raster.center)
+        assert columns == list(range(c["start"][row], c["stop"][row]))
     check_printed_lines(found, edges, raster)
     if found.extra.get("span_order") is not None:
         check_spans(traced)
@@ -140,8 +141,13 @@ def check_spans(traced: Trace) -> None:
 
 
 def check_printed_lines(found: StageTrace, edges, raster) -> None:
-    lines = np.flatnonzero(found.steps.kind == found.steps.kinds.index("line"))
-    c = found.columns
+    lines = np.flatnonzero(np.isin(found.steps.kind, [found.steps.kinds.index(kind) for kind in PRINTED]))
+    c, (first_column, _, end_column, _) = found.columns, raster.bounds
+    for row in lines[:: max(len(lines) // ROW_LIMIT, 1)].tolist():
+        columns = drawn_columns(c["crossing_0"][row], c["crossing_1"][row])
+        columns = [column for column in columns if first_column <= column < end_column]
+        assert columns == list(range(c["start"][row], c["stop"][row]))
+        assert np.isnan(c["crossing_before_0"][row]) == found.kind_of(row).endswith("first")
     for primitive in np.unique(c["primitive"][lines]).tolist():
         corners = round_half_up(edges.corners.window[primitive] - raster.center)
         with lines_that_run() as ran:

@@ -14,7 +14,7 @@ from core.methods import table
 from core.raster.lines.traits import line_traits
 from core.records.steps import Level
 from core.trace import StageTrace
-from core.trace.line_clipping import CLIP_OPERATIONS
+from core.trace.line_clipping import CLIP_KINDS
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.executed_rows import Ran, lines_that_run
 from tests.core.trace.test_line_trace import check_fold, check_values
@@ -31,7 +31,7 @@ def clipped_wireframe(clipper: str, **choices) -> Settings:
 
 
 def is_clip_row(found: StageTrace) -> np.ndarray:
-    return np.isin(np.array(found.steps.kinds)[found.steps.kind], list(CLIP_OPERATIONS))
+    return np.isin(np.array(found.steps.kinds)[found.steps.kind], list(CLIP_KINDS))
 
 
 @given(

@@ -5,10 +5,14 @@ from functools import cache
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from core import STAGES
+from core.explain.steps import load_subjects
+from core.explain.variable_text import VARIABLES
 from core.records.listing import Listing
 from core.records.operation import Operation, Variables
+from core.trace import StageTrace
 from tests.core.explain.explained_steps import traces
 
 
@@ -18,53 +22,65 @@ class Mark(NamedTuple):
     key: str
     operation: Operation
     listing: Listing
-    label: str
-
-    @property
-    def line(self) -> int:
-        return self.listing.lines[self.label]
+    line: int
+    changed: frozenset[str]
+    """What the listing calls the variables that get a value in any of the rows."""
 
     @property
     def name(self) -> str:
-        return f"{self.key} marks {self.listing.source.splitlines()[self.line - 1].strip()!r} of {self.listing.name}"
+        shown = self.listing.source.splitlines()[self.line - 1].strip()
+        return f"{self.key} marks {shown!r} of {self.listing.name}"
 
 
-def marks_of_traces() -> Iterator[Mark]:
-    """Yield what any row of any trace marks, by every outcome."""
-    for traced in (trace for group in traces().values() for trace in group):
-        for stage in map(traced.stage, STAGES):
-            for number, kind in enumerate(stage.steps.kinds):
-                rows = np.flatnonzero(stage.steps.kind == number)
-                for operation in stage.steps.operations[kind] if rows.size else ():
-                    listing = stage.listings.get(f"{kind}.{operation.name}", stage.listings.get(kind))
-                    label = operation.label
-                    labels = [label] if isinstance(label, str) else np.unique(label(stage.columns, rows)).tolist()
-                    for label in labels if listing is not None else ():
-                        if label:
-                            yield Mark(f"{stage.stage}.{kind}.{operation.name}", operation, listing, label)
+def names(variables: Variables) -> dict[str, str]:
+    """Return variables and what the listing calls them, one name or several."""
+    return {name: name for name in variables} if isinstance(variables, tuple) else dict(variables)
+
+
+def changes(stage: StageTrace, name: str, rows: NDArray[np.int64]) -> bool:
+    """Return whether a variable gets a value in any of these rows, another one than it had."""
+    text = VARIABLES[stage.stage].get(name)
+    values = stage.columns[name][rows]
+    if text is not None and text.previous in stage.columns:
+        return not np.array_equal(values, stage.columns[text.previous][rows], equal_nan=values.dtype.kind == "f")
+    return values.dtype.kind != "f" or not np.isnan(values).all()
+
+
+def marks_of(stage: StageTrace, kind: str, rows: NDArray[np.int64]) -> Iterator[Mark]:
+    """Yield what the rows of a kind mark, by every outcome."""
+    for operation in stage.steps.operations[kind]:
+        listing = stage.listings.get(f"{kind}.{operation.name}", stage.listings.get(kind))
+        ran = np.full(len(rows), operation.label) if isinstance(operation.label, str) else None
+        ran = operation.label(stage.columns, rows) if ran is None else ran
+        for label in np.unique(ran).tolist() if listing is not None else ():
+            if label:
+                found = names(operation.sets).items()
+                changed = [called.split() for name, called in found if changes(stage, name, rows[ran == label])]
+                line, key = listing.lines[label], f"{stage.stage}.{kind}.{operation.name}"
+                yield Mark(key, operation, listing, line, frozenset().union(*changed))
 
 
 @cache
 def all_marks() -> tuple[Mark, ...]:
+    """Return what any row of any trace marks."""
+    load_subjects()
     found = {}
-    for mark in marks_of_traces():
-        shown = tuple(mark.operation.shows)
-        found.setdefault((mark.key, mark.listing.function, mark.label, shown), mark)
+    for traced in (trace for group in traces().values() for trace in group):
+        for stage in map(traced.stage, STAGES):
+            for number, kind in enumerate(stage.steps.kinds):
+                rows = np.flatnonzero(stage.steps.kind == number)
+                for mark in marks_of(stage, kind, rows) if rows.size else ():
+                    found.setdefault((mark.key, mark.listing.function, mark.line, mark.changed), mark)
     return tuple(found.values())
 
 
-def names(variables: Variables) -> set[str]:
-    """Return what the listing calls variables."""
-    return set(variables if isinstance(variables, tuple) else variables.values())
-
-
 def test_a_marked_line_gives_each_changed_variable_its_value() -> None:
-    wrong = {
-        mark.name: names(mark.operation.sets) - mark.listing.assigned(mark.line)
+    wrong = [
+        (mark.name, sorted(mark.changed))
         for mark in all_marks()
-        if not names(mark.operation.sets) <= mark.listing.assigned(mark.line)
-    }
-    assert wrong == {}
+        if not mark.changed <= mark.listing.assigned(mark.line)
+    ]
+    assert wrong == []
 
 
 def test_a_step_that_changes_nothing_marks_a_decision() -> None:
@@ -77,9 +93,10 @@ def test_a_step_that_changes_nothing_marks_a_decision() -> None:
 
 
 def test_what_a_listing_computes_is_set_by_its_line() -> None:
-    wrong = {
-        mark.name: names(mark.operation.takes) & mark.listing.everywhere
+    wrong = [
+        (mark.name, taken)
         for mark in all_marks()
-        if names(mark.operation.takes) & mark.listing.everywhere
-    }
-    assert wrong == {}
+        for taken in names(mark.operation.takes).values()
+        if taken in mark.listing.everywhere
+    ]
+    assert wrong == []

@@ -17,8 +17,11 @@ from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settin
 from tests.covering import in_turn
 
 LEVELS = list(Level)
-WITHOUT_LISTING = {"clip.untouched.keep", "blend.opaque.write"}
-"""Steps that follow no algorithm: nothing is done, or the colour is stored as it is."""
+WITHOUT_LISTING = {
+    *("clip.untouched.keep", "blend.opaque.write", "bin.whole-image.keep", "bin.behind.drop"),
+    *("edges.homogeneous.keep", "edges.orientation.area"),
+}
+"""Steps without a listing: nothing is done, what is there is kept, or the colour is stored as it is."""
 
 
 def traces_of(name: str, choice: dict[str, str]) -> list[StageTrace]:
