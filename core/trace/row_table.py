@@ -81,4 +81,4 @@ def printed_columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarra
     before[:, ~walk.is_first] = np.roll(walk.sides, 1, axis=1)[:, ~walk.is_first]
     of_sides = {"crossing_before": before, "slope": walk.slope, "width": walk.width, "height": walk.height}
     columns = {f"{name}_{k}": values[k][run] for name, values in of_sides.items() for k in range(2)}
-    return columns | {"corner_x": walk.corner[0][run], "corner_y": walk.corner[1][run]}
+    return columns | {"part_x": walk.corner[0][run], "part_y": walk.corner[1][run]}

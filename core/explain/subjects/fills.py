@@ -243,7 +243,7 @@ def side_slope(step: StepValues) -> Said:
 @explains("raster.top-first|bottom-first.ends")
 def first_sides(step: StepValues) -> Said:
     """Where both sides of a part are in its first row."""
-    row, x, y = step.whole("row"), step.number("corner_x"), step.number("corner_y")
+    row, x, y = step.whole("row"), step.number("part_x"), step.number("part_y")
     first, second = (step.number(f"crossing_{k}") for k in range(2))
     text = (
         f"Row {row}: the part begins at its corner {vector_text([x, y])}, so here the sides are at "
