@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+from app.files.earlier_steps import position_now
 from app.files.file_writing import write_file
 from app.files.mesh_formats import Report
 from app.files.saved_records import SavedRecordError, read_record
@@ -182,13 +183,21 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
             settings_of(record.look.printed, document)
     with in_field("triangle and raster"):
         document.make_trace()
+    position, bookmarks = record.position, tuple(record.bookmarks)
+    if record.counted_by < VERSION:
+        run = document.make_trace()
+        position = position_now(run.stage(record.stage), position)
+        bookmarks = tuple(
+            mark.model_copy(update={"position": position_now(run.stage(mark.stage), mark.position)})
+            for mark in bookmarks
+        )
     return State(
         document=document,
         stage=record.stage,
-        position=record.position,
+        position=position,
         level=record.level,
         pin=record.pin,
-        bookmarks=tuple(record.bookmarks),
+        bookmarks=bookmarks,
         breakpoints=record.breakpoints,
         look=record.look,
     )

@@ -9,7 +9,7 @@ from app.session.document import VIEWS
 from core import STAGES
 from widgets.space.orbit import EXTENT_LIMITS
 
-VERSION: Literal[2] = 2
+VERSION: Literal[3] = 3
 """Of the format. Files of earlier versions are migrated, files of later ones are refused."""
 
 
@@ -265,7 +265,7 @@ class StateRecord(Record):
     """A whole state file."""
 
     program: Literal["rasterscope"]
-    version: Literal[2]
+    version: Literal[3]
     title: str
     scene: Annotated[MeshSceneRecord | ClipSceneRecord | TableSceneRecord, Field(discriminator="kind")]
     settings: dict[str, str | int]
@@ -281,6 +281,8 @@ class StateRecord(Record):
     bookmarks: list[Bookmark]
     breakpoints: Breakpoints = Breakpoints()
     look: Look = Look()
+    counted_by: Literal[2, 3] = 3
+    """The version by whose steps ``position`` and the bookmarks count."""
 
 
 def _from_version_1(record: dict[str, Any]) -> dict[str, Any]:
@@ -289,5 +291,23 @@ def _from_version_1(record: dict[str, Any]) -> dict[str, Any]:
     return rest | {"look": {"view": record["view"]} if "view" in record else {}}
 
 
-MIGRATIONS = (_from_version_1,)
+def _from_version_2(record: dict[str, Any]) -> dict[str, Any]:
+    """Return a record of version 2 as one of version 3: lines of listings were counted with their docstring."""
+    found = record | {"counted_by": 2}
+    breakpoints = record.get("breakpoints")
+    lines = breakpoints.get("lines") if isinstance(breakpoints, dict) else None
+    if isinstance(lines, list):
+        found["breakpoints"] = breakpoints | {"lines": [_without_docstring(line) for line in lines]}
+    return found
+
+
+def _without_docstring(line: Any) -> Any:
+    """Return a line of a listing's code by its number without the docstring; what is no such line stays."""
+    if not isinstance(line, list) or len(line) != 2 or type(line[1]) is not int:
+        return line
+    docstring = 4 if line[0] == "cyrus_beck_listing" else 1
+    return [line[0], max(line[1] - docstring, 1)]
+
+
+MIGRATIONS = (_from_version_1, _from_version_2)
 """What turns a record of each earlier version, from 1, into one of the next version."""

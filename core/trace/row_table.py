@@ -77,8 +77,6 @@ def printed_kinds(source: TraceSource) -> Integers:
 def printed_columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
     """Return the numbers that the sides of the printed scanline are made from: slopes, and x in the row before."""
     walk, run = source.side_walk, table.run
-    before = np.full_like(walk.sides, np.nan)
-    before[:, ~walk.is_first] = np.roll(walk.sides, 1, axis=1)[:, ~walk.is_first]
-    of_sides = {"crossing_before": before, "slope": walk.slope, "width": walk.width, "height": walk.height}
+    of_sides = {"crossing_before": walk.before, "slope": walk.slope, "width": walk.width, "height": walk.height}
     columns = {f"{name}_{k}": values[k][run] for name, values in of_sides.items() for k in range(2)}
     return columns | {"part_x": walk.corner[0][run], "part_y": walk.corner[1][run]}

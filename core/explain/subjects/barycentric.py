@@ -64,7 +64,7 @@ def pivot(step: StepValues) -> Said:
 def factor(step: StepValues) -> Said:
     """How often the first equation is subtracted from the second."""
     f, p, q = step.number("factor"), step.vector("chosen"), step.vector("other")
-    text = f"{step.pixel_name}: the second equation has {spoken(f)} times as much of λ1 as the first."
+    text = f"{step.fragment_name}: the second equation has {spoken(f)} times as much of λ1 as the first."
     return text, equation(("f", f), "=", fraction(("q_1", q[0]), ("p_1", p[0])))
 
 

@@ -222,7 +222,8 @@ def is_inside(value: FormatValue, owns_tie: Flags) -> Flags:
 
 def covers(a: Floats, b: Floats, c: Floats, owns_tie: Flags, x: float, y: float) -> tuple[list[float], bool]:
     """Listing of the inside test at one pixel: coefficients (3,) of the three edges."""
-    values, inside = [], []
+    values = []
+    inside = []
     for k in range(3):
         value = a[k] * x + (b[k] * y + c[k])  #: value
         values.append(value)

@@ -98,7 +98,8 @@ def step_covers(
     before: list[float], increments: list[float], owns_tie: Flags | list[bool]
 ) -> tuple[list[float], bool]:
     """Listing of one pixel: values (3,) of the pixel it is reached from, and what is added to each of them."""
-    values, inside = [], []
+    values = []
+    inside = []
     for k in range(3):
         value = before[k] + increments[k]  #: add
         values.append(value)

@@ -142,6 +142,8 @@ class SideWalk:
     """(R,) int64."""
     sides: Floats
     """(2, R) float64, x of both sides of the triangle in the row, at pixel centres."""
+    before: Floats
+    """(2, R) float64, the same in the row before, to which the slopes are added; NaN in a first row."""
     slope: Floats
     """(2, R) float64, how far each side goes to the right from one row to the next one above."""
     width: Floats
@@ -167,7 +169,7 @@ def walk_sides(edges: EdgeFunctions, raster: Raster) -> SideWalk:
     x, y = sort_corners(corner[..., 0], corner[..., 1])
     halves_of = halves(x, y)
     parts = [_part(raster.height, half) for half in halves_of]
-    of, row, left, right, step = (np.concatenate(column) for column in zip(*parts, strict=True))
+    of, row, sides, before, step = (np.concatenate(column, axis=-1) for column in zip(*parts, strict=True))
     half = np.repeat([0, 1], [len(part[0]) for part in parts])
 
     # In the order in which the printed program draws: triangle, upper part before lower part, row after row.
@@ -181,7 +183,8 @@ def walk_sides(edges: EdgeFunctions, raster: Raster) -> SideWalk:
     return SideWalk(
         triangle=index[of],
         row=row[order],
-        sides=np.stack([left[order], right[order]]),
+        sides=sides[:, order],
+        before=before[:, order],
         slope=of_half("slope"),
         width=of_half("width"),
         height=of_half("height"),
@@ -248,32 +251,22 @@ def halves(x: Floats, y: Floats) -> tuple[Half, Half]:
 
 
 def _part(height: int, half: Half) -> tuple[Integers, Integers, Floats, Floats, Integers]:
-    """Walk all triangles down their rows together: triangle, row, both x, step (slopes are added up)."""
+    """Walk all triangles down their rows together: triangle, row, x of both sides, the same a row before, step."""
     drawn = np.flatnonzero(half.count > 0)
     (x, row), count, direction = half.corner[:, drawn], half.count[drawn], half.direction
-    slope1, slope2 = half.slope[:, drawn] * direction
+    slope = half.slope[:, drawn] * direction
 
     # The rows before the picture in one step, those behind it not at all.
     skipped = np.minimum(np.maximum(-row if direction > 0 else row - (height - 1), 0), count)
-    row, left, right = row + direction * skipped, x + slope1 * skipped, x + slope2 * skipped
+    row, sides = row + direction * skipped, x + slope * skipped
     count = np.minimum(count - skipped, height - row if direction > 0 else row + 1)
 
-    triangles, rows, lefts, rights, steps = [], [], [], [], []
+    parts = [(drawn[:0], np.empty(0, np.int64), np.empty((2, 0)), np.empty((2, 0)), np.empty(0, np.int64))]
+    before = np.full_like(sides, np.nan)
     for step in range(int(count.max(initial=0))):
         active = count > step
-        triangles.append(drawn[active])
-        rows.append((row[active] + direction * step).astype(np.int64))
-        lefts.append(left[active])
-        rights.append(right[active])
-        steps.append(np.full(len(triangles[-1]), step))
-        left[active] += slope1[active]
-        right[active] += slope2[active]
-    if not triangles:
-        return np.empty(0, np.int64), np.empty(0, np.int64), np.empty(0), np.empty(0), np.empty(0, np.int64)
-    return (
-        np.concatenate(triangles),
-        np.concatenate(rows),
-        np.concatenate(lefts),
-        np.concatenate(rights),
-        np.concatenate(steps),
-    )
+        now = (row[active] + direction * step).astype(np.int64)
+        parts.append((drawn[active], now, sides[:, active], before[:, active], np.full(len(now), step)))
+        before, sides = sides, sides + slope
+    triangle, rows, x, x_before, steps = (np.concatenate(column, axis=-1) for column in zip(*parts, strict=True))
+    return triangle, rows, x, x_before, steps

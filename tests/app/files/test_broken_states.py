@@ -51,8 +51,8 @@ def drop(*where):
 @pytest.mark.parametrize(
     ("change", "wanted"),
     [
-        (put(3, "version"), "it is of version 3, and this Rasterscope opens versions 1 to 2"),
-        (put("1", "version"), "it is of version 1, and this Rasterscope opens versions 1 to 2"),
+        (put(4, "version"), "it is of version 4, and this Rasterscope opens versions 1 to 3"),
+        (put("1", "version"), "it is of version 1, and this Rasterscope opens versions 1 to 3"),
         (put(0, "version"), "it is of version 0"),
         (put(True, "version"), "it is of version True"),
         (drop("version"), "it is of version None"),

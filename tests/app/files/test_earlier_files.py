@@ -1,16 +1,21 @@
 """Files of earlier versions of the program open with all that they held."""
 
 import json
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from app.files.atlas_files import load_atlas
-from app.files.state_files import load_state
-from app.files.state_models import Breakpoints, Look
+from app.files.open_any import open_any
+from app.files.state_files import State, load_state, save_state
+from app.files.state_models import Bookmark, Breakpoints, Look
 from app.files.study_files import load_study
+from core import Settings
 from core.pipeline import render
+from core.raster.edges.edge_functions import covers
+from core.records.listing import listing
 
 EARLIER = Path(__file__).parent / "earlier"
 NEWER = {"polygon_clipping": "none", "polygon_fill": "even-odd"}
@@ -46,8 +51,28 @@ def test_version_2_keeps_marks_notes_and_look() -> None:
     written = json.loads((EARLIER / "noted-torus.rasterscope").read_text(encoding="utf-8"))
     state, _ = load_state(EARLIER / "noted-torus.rasterscope")
     assert [mark.note for mark in state.bookmarks] == ["the first tie", ""]
-    assert state.breakpoints.model_dump(mode="json") == written["breakpoints"]
+    # The line that computes an edge function; its number counted the docstring.
+    assert state.breakpoints.model_dump(mode="json") == written["breakpoints"] | {"lines": [["covers", 5]]}
+    assert listing(covers).source.splitlines()[4].strip().startswith("value = ")
     assert state.look.model_dump(mode="json", exclude_defaults=True) == written["look"]
+
+
+def test_a_step_of_version_2_opens_in_its_row(tmp_path: Path) -> None:
+    """A row of a printed span had two operations, and has three or four; a pixel of it has one."""
+    document = open_any("single-triangle").document
+    document = replace(document, settings=Settings(fill="scanline-lecture"))
+    stage = document.make_trace().stage("raster")
+    row = int(np.flatnonzero(stage.steps.kind == stage.steps.kinds.index("top"))[2])
+    counts = [1 if stage.kind_of(k) == "accept" else 2 for k in range(row)]
+    path = tmp_path / "state.rasterscope"
+    save_state(path, State(document, "raster", sum(counts) + 1, bookmarks=[Bookmark(stage="raster", position=0)]))
+    written = json.loads(path.read_text(encoding="utf-8"))
+    path.write_text(json.dumps(written | {"version": 2}), encoding="utf-8")
+    state, _ = load_state(path)
+    assert stage.steps.row_at(state.position) == (row, 0)
+    assert state.bookmarks[0].position == 0
+    save_state(path, state)
+    assert load_state(path)[0].position == state.position
 
 
 def test_a_study_opens() -> None:

@@ -82,7 +82,7 @@ def test_saving_where_it_is_not_possible_leaves_the_old_file(tmp_path):
 def test_the_file_can_be_read_by_people(tmp_path):
     again(tmp_path, State(open_any("single-triangle").document))
     lines = (tmp_path / f"state{EXTENSION}").read_text().splitlines()
-    assert ' "version": 2,' in lines
+    assert ' "version": 3,' in lines
     assert '  "fill_rule": "shared-edge",' in lines
     assert max(map(len, lines)) < 200
     assert len(lines) < 80
