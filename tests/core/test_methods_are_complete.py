@@ -61,7 +61,7 @@ def lacking(method: Method) -> list[str]:
         found += [
             f"no line #: {each.label} in its listing"
             for each in done
-            if isinstance(each.label, str) and each.label not in labels
+            if isinstance(each.label, str) and each.label and each.label not in labels
         ]
     return found
 
