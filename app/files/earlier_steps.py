@@ -16,7 +16,7 @@ FEWER = {
     **dict.fromkeys((f"raster.{name}-start" for name in ("dda", "dda-float32", "midpoint", "rectangle")), 5),
     **{"raster.diamond-exit-start": 4, "raster.wu-start": 6, "raster.gupta-sproull-start": 8},
 }
-"""Kind of row to its operations in version 2, where they were others; ``-step`` and ``-start`` of a line are as itself."""
+"""Kind of row to its operations in version 2, where they were others; those of a line stand for its other kinds."""
 ADDED = {
     "interpolate": frozenset({"factor", "grid"}),
     "shade": frozenset({"lengths", "level", "fraction", "fractions", "power", "specular"}),

@@ -295,9 +295,9 @@ def _from_version_2(record: dict[str, Any]) -> dict[str, Any]:
     """Return a record of version 2 as one of version 3: lines of listings were counted with their docstring."""
     found = record | {"counted_by": 2}
     breakpoints = record.get("breakpoints")
-    lines = breakpoints.get("lines") if isinstance(breakpoints, dict) else None
-    if isinstance(lines, list):
-        found["breakpoints"] = breakpoints | {"lines": [_without_docstring(line) for line in lines]}
+    if isinstance(breakpoints, dict) and isinstance(breakpoints.get("lines"), list):
+        lines = [_without_docstring(line) for line in breakpoints["lines"]]
+        found["breakpoints"] = breakpoints | {"lines": lines}
     return found
 
 

@@ -88,9 +88,7 @@ def slope_numerators(
     return across, up, n
 
 
-def slopes_at(
-    a: Floats, b: Floats, n: Floats, u: float, v: float, us: Floats, vs: Floats
-) -> list[float]:
+def slopes_at(a: Floats, b: Floats, n: Floats, u: float, v: float, us: Floats, vs: Floats) -> list[float]:
     """Listing of the slopes: changes and values of the three numerators (3,) each, and u, v at the corners (3,)."""
     total = n[0] + n[1] + n[2]
     du = [us[k] - u for k in range(3)]

@@ -58,12 +58,12 @@ class Listing:
     @cached_property
     def _statements(self) -> dict[int, ast.stmt]:
         """The statement of every line; of a compound one, of the lines before its body."""
-        found = {}
+        found: dict[int, ast.stmt] = {}
         for node in ast.walk(ast.parse(self.source)):
             if isinstance(node, ast.stmt):
                 body = getattr(node, "body", None)
                 end = body[0].lineno if body else (node.end_lineno or node.lineno) + 1
-                found |= {line: node for line in range(node.lineno, end)}
+                found |= dict.fromkeys(range(node.lineno, end), node)
         return found
 
     @cached_property

@@ -36,7 +36,10 @@ def trace_blend(source: TraceSource) -> StageTrace:
     if intensity is not None:
         # The fragment of a line is weighed before it is blended.
         name, weighed = f"line-{mode}", {"color": shaded, "intensity": intensity}
-        operations[name] = (Operation("weigh", "weigh", {"source": "alpha"}, ("color", "intensity")), *operations[mode])
+        operations[name] = (
+            Operation("weigh", "weigh", {"source": "alpha"}, ("color", "intensity")),
+            *operations[mode],
+        )
         listings = {name: listings[mode], f"{name}.weigh": listing(weighed_color)}
     return StageTrace(
         stage="blend",

@@ -71,12 +71,18 @@ def rows_of_runs(source: TraceSource) -> RowTable:
 def printed_kinds(source: TraceSource) -> Integers:
     """Return (R,) int64, the kind of the row before every span of the printed scanline."""
     walk = source.side_walk
-    return np.array([KIND[name] for name in PRINTED])[2 * ~walk.is_upper + ~walk.is_first]
+    found: Integers = np.array([KIND[name] for name in PRINTED])[2 * ~walk.is_upper + ~walk.is_first]
+    return found
 
 
 def printed_columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
     """Return the numbers that the sides of the printed scanline are made from: slopes, and x in the row before."""
     walk, run = source.side_walk, table.run
-    of_sides = {"crossing_before": walk.before, "slope": walk.slope, "width": walk.width, "height": walk.height}
+    of_sides = {
+        "crossing_before": walk.before,
+        "slope": walk.slope,
+        "width": walk.width,
+        "height": walk.height,
+    }
     columns = {f"{name}_{k}": values[k][run] for name, values in of_sides.items() for k in range(2)}
     return columns | {"part_x": walk.corner[0][run], "part_y": walk.corner[1][run]}

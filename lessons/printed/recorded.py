@@ -3,9 +3,7 @@
 import ast
 from collections.abc import Callable
 from functools import cache
-from inspect import getsource
 from math import nan
-from textwrap import dedent
 from typing import Any
 
 from core.records.listing import source_listing
@@ -43,9 +41,10 @@ class _Noting(ast.NodeTransformer):
 @cache
 def _noting(function: Callable[..., Any]) -> Any:
     """Return the code of a function that appends to a list ``_notes``."""
-    tree = ast.parse(dedent(getsource(function)))
-    labels = {number: label for label, number in source_listing(function).lines.items()}
-    return compile(ast.fix_missing_locations(_Noting(labels).visit(tree)), "<listing>", "exec")
+    shown = source_listing(function)
+    labels = {number: label for label, number in shown.lines.items()}
+    tree = _Noting(labels).visit(ast.parse(shown.source))
+    return compile(ast.fix_missing_locations(tree), "<listing>", "exec")
 
 
 def recorded(function: Callable[..., Any], *arguments: Any) -> tuple[Any, list[Sums]]:

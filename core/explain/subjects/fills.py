@@ -249,11 +249,11 @@ def first_sides(step: StepValues) -> Said:
         f"Row {row}: the part begins at its corner {vector_text([x, y])}, so here the sides are at "
         f"x = {spoken(first)} and {spoken(second)}."
     )
-    sides: list[list[Part]] = [
-        [(f"x_{k + 1}", at), "=", ("x", x), "+", (f"m_{k + 1}", step.number(f"slope_{k}")), r"\cdot"]
-        + [(r"(\mathrm{row} - y)", f"({row} - {signed_latex(y)})")]
-        for k, at in enumerate((first, second))
-    ]
+    height: Part = (r"(\mathrm{row} - y)", f"({row} - {signed_latex(y)})")
+    sides: list[list[Part]] = []
+    for k, at in enumerate((first, second)):
+        slope = (f"m_{k + 1}", step.number(f"slope_{k}"))
+        sides.append([(f"x_{k + 1}", at), "=", ("x", x), "+", slope, r"\cdot", height])
     return text, equation(*beside(*sides))
 
 
@@ -263,7 +263,9 @@ def next_side(step: StepValues) -> Said:
     k = int(step.operation[-1])
     x, before, slope = (step.number(f"{name}_{k}") for name in ("crossing", "crossing_before", "slope"))
     sign = "-" if _is_upper(step) else "+"
-    text = f"Row {step.whole('row')}: the {_SIDES[k]} side moves on, from x = {spoken(before)} to {spoken(x)}."
+    text = (
+        f"Row {step.whole('row')}: the {_SIDES[k]} side moves on, from x = {spoken(before)} to {spoken(x)}."
+    )
     name = f"x_{k + 1}"
     return text, equation(
         (name, x), "=", (rf"{name}^{{\mathrm{{before}}}}", before), sign, (f"m_{k + 1}", slope)
@@ -338,7 +340,9 @@ shows(
             for k in range(3)
         },
         **{
-            f"slope_{k}": VariableText(f"m{k + 1}", f"How far the {side} side moves to the right a row upwards.")
+            f"slope_{k}": VariableText(
+                f"m{k + 1}", f"How far the {side} side moves to the right a row upwards."
+            )
             for k, side in enumerate(_SIDES)
         },
         **CENTRE,

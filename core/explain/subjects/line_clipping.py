@@ -278,7 +278,9 @@ def chosen_end(step: StepValues) -> Said:
     """The end that moves: the first one, unless it is inside."""
     k = step.whole("moved_end")
     text = f"The {('first', 'second')[k]} end is outside{', the first one is not' if k else ''}: it moves."
-    return text, equation(*comparison(f"c_{k}", r"\ne", float(_codes(step)[k])), *conclusion("moves", "moves"))
+    return text, equation(
+        *comparison(f"c_{k}", r"\ne", float(_codes(step)[k])), *conclusion("moves", "moves")
+    )
 
 
 @explains("raster.outcodes-cut.edge")

@@ -58,7 +58,9 @@ def level_edge(step: StepValues) -> Said:
 @explains("raster.table-edge.crossing")
 def first_crossing(step: StepValues) -> Said:
     """Where an edge crosses its first row."""
-    return f"It crosses row {step.whole('row_first')} at x = {spoken(step.number('crossing'))}.", _crossing(step)
+    return f"It crosses row {step.whole('row_first')} at x = {spoken(step.number('crossing'))}.", _crossing(
+        step
+    )
 
 
 @explains("raster.table-edge.shift")
@@ -175,7 +177,10 @@ def columns_inside(step: StepValues) -> Said:
         [
             (rf"\mathrm{{{name}}}", float(column)),
             "=",
-            (rf"\lceil x_{{\mathrm{{{side}}}}} - c \rceil", rf"\lceil {number_latex(x)} - {number_latex(center)} \rceil"),
+            (
+                rf"\lceil x_{{\mathrm{{{side}}}}} - c \rceil",
+                rf"\lceil {number_latex(x)} - {number_latex(center)} \rceil",
+            ),
         ]
         for name, column, side, x in (
             ("start", start, "left", step.number("interval_left")),

@@ -117,7 +117,10 @@ def highlight(step: StepValues) -> Said:
     k = max(range(len(powers)), key=powers.__getitem__)
     if not n_dot_l[k] > 0:
         return text, equation(("p", powers[k]))
-    base = (r"\max(N \cdot H, 0)^s", rf"{number_latex(max(n_dot_h[k], 0.0))}^{{{number_latex(step.number('shininess'))}}}")
+    base = (
+        r"\max(N \cdot H, 0)^s",
+        rf"{number_latex(max(n_dot_h[k], 0.0))}^{{{number_latex(step.number('shininess'))}}}",
+    )
     return text, equation(("p", powers[k]), "=", base)
 
 
@@ -129,7 +132,12 @@ def specular_sum(step: StepValues) -> Said:
     channel = outstanding(specular)
     parts: list[Part] = [(channel_symbol("specular", channel), specular[channel])]
     for light, power in enumerate(powers):
-        parts += ["+" if light else "=", (r"k_{\mathrm{specular}}", step.number("specular")), r"\cdot", ("p", power)]
+        parts += [
+            "+" if light else "=",
+            (r"k_{\mathrm{specular}}", step.number("specular")),
+            r"\cdot",
+            ("p", power),
+        ]
         parts += [r"\cdot", (rf"l_{{{CHANNEL_LETTERS[channel]}}}", step.rows("light_colors")[light][channel])]
     return text, equation(*parts)
 

@@ -224,9 +224,7 @@ def levels(step: StepValues) -> Said:
     elif part == 0 or near == far:
         text = f"λ = {spoken(lod)} is {name} exactly"
     else:
-        text = (
-            f"λ = {spoken(lod)} is between {name} and {_level_name(step, 1)}"
-        )
+        text = f"λ = {spoken(lod)} is between {name} and {_level_name(step, 1)}"
     shown, first = number_latex(level), ("k", near)
     if not has_two:
         rounded: Part = (

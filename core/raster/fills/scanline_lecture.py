@@ -268,5 +268,7 @@ def _part(height: int, half: Half) -> tuple[Integers, Integers, Floats, Floats, 
         now = (row[active] + direction * step).astype(np.int64)
         parts.append((drawn[active], now, sides[:, active], before[:, active], np.full(len(now), step)))
         before, sides = sides, sides + slope
-    triangle, rows, x, x_before, steps = (np.concatenate(column, axis=-1) for column in zip(*parts, strict=True))
+    triangle, rows, x, x_before, steps = (
+        np.concatenate(column, axis=-1) for column in zip(*parts, strict=True)
+    )
     return triangle, rows, x, x_before, steps

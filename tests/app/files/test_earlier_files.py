@@ -65,7 +65,9 @@ def test_a_step_of_version_2_opens_in_its_row(tmp_path: Path) -> None:
     row = int(np.flatnonzero(stage.steps.kind == stage.steps.kinds.index("top"))[2])
     counts = [1 if stage.kind_of(k) == "accept" else 2 for k in range(row)]
     path = tmp_path / "state.rasterscope"
-    save_state(path, State(document, "raster", sum(counts) + 1, bookmarks=[Bookmark(stage="raster", position=0)]))
+    save_state(
+        path, State(document, "raster", sum(counts) + 1, bookmarks=[Bookmark(stage="raster", position=0)])
+    )
     written = json.loads(path.read_text(encoding="utf-8"))
     path.write_text(json.dumps(written | {"version": 2}), encoding="utf-8")
     state, _ = load_state(path)

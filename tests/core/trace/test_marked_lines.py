@@ -46,7 +46,9 @@ def changes(stage: StageTrace, name: str, rows: NDArray[np.int64]) -> bool:
     text = VARIABLES[stage.stage].get(name)
     values = stage.columns[name][rows]
     if text is not None and text.previous in stage.columns:
-        return not np.array_equal(values, stage.columns[text.previous][rows], equal_nan=values.dtype.kind == "f")
+        return not np.array_equal(
+            values, stage.columns[text.previous][rows], equal_nan=values.dtype.kind == "f"
+        )
     return values.dtype.kind != "f" or not np.isnan(values).all()
 
 
@@ -59,7 +61,9 @@ def marks_of(stage: StageTrace, kind: str, rows: NDArray[np.int64]) -> Iterator[
         for label in np.unique(ran).tolist() if listing is not None else ():
             if label and not listing.function.__module__.startswith(OF_LINES):
                 found = names(operation.sets).items()
-                changed = [called.split() for name, called in found if changes(stage, name, rows[ran == label])]
+                changed = [
+                    called.split() for name, called in found if changes(stage, name, rows[ran == label])
+                ]
                 line, key = listing.lines[label], f"{stage.stage}.{kind}.{operation.name}"
                 yield Mark(key, operation, listing, line, frozenset().union(*changed))
 
@@ -89,9 +93,7 @@ def test_a_marked_line_gives_each_changed_variable_its_value() -> None:
 
 def test_a_step_that_changes_nothing_marks_a_decision() -> None:
     wrong = [
-        mark.name
-        for mark in all_marks()
-        if not mark.operation.sets and not mark.listing.decides(mark.line)
+        mark.name for mark in all_marks() if not mark.operation.sets and not mark.listing.decides(mark.line)
     ]
     assert wrong == []
 
