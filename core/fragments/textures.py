@@ -116,7 +116,18 @@ class Footprint:
     """(2, F) float64: w_u of the right column, w_v of the top row; 0 for nearest."""
 
 
-_POSITION = Operation("position", "position", {"texel_position": "x y"})
+def texel_operations(texels: str, color: str, *others: Operation) -> dict[str, tuple[Operation, ...]]:
+    """Return what a row does to find a texture's colour, by what the listing calls the texels and the colour."""
+    position = Operation("position", "position", {"texel_position": "x y"})
+    chosen = Operation("texels", "texels", {"texels": texels}, ("texel_colors",))
+    return {
+        "texture": (
+            position,
+            chosen,
+            *others,
+            Operation("filter", "color", {"texture_color": color}, ("shares",)),
+        )
+    }
 
 
 def wrapped_pair(index: int, size: int, wrap: str) -> tuple[int, int]:
@@ -150,14 +161,9 @@ def bilinear_color(
     exact_for="textures that are linear between texel centres",
     breaks_where="minification: aliasing. Strong magnification: creases at texel centres",
     listing=bilinear_color,
-    operations={
-        "texture": (
-            _POSITION,
-            Operation("texels", "texels", {"texels": "left right bottom top"}, ("texel_colors",)),
-            Operation("fractions", "fractions", {"mix": "w_u w_v"}),
-            Operation("filter", "color", {"texture_color": "color"}, ("shares",)),
-        )
-    },
+    operations=texel_operations(
+        "left right bottom top", "color", Operation("fractions", "fractions", {"mix": "w_u w_v"})
+    ),
 )
 def bilinear(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
     """Read the four texels whose centres surround each position, weighted by nearness.
@@ -198,13 +204,7 @@ def nearest_color(
     exact_for="textures that are constant over each texel",
     breaks_where="minification: aliasing. Magnification: blocks",
     listing=nearest_color,
-    operations={
-        "texture": (
-            _POSITION,
-            Operation("texels", "texels", {"texels": "column row"}, ("texel_colors",)),
-            Operation("filter", "color", {"texture_color": RETURN}, ("shares",)),
-        )
-    },
+    operations=texel_operations("column row", RETURN),
 )
 def nearest(position: Floats, size: tuple[int, int], wrap: Wrap) -> Footprint:
     """Read the texel that contains each position, on a border the right or upper one; see `bilinear`."""
