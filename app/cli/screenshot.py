@@ -33,7 +33,7 @@ ONLY_OF = {
     "stage": ("step",),
     "step": ("step",),
     "view": ("step",),
-    "show": ("compare", "stability", "exercises"),
+    "show": ("step", "compare", "stability", "exercises"),
     "work": ("compare",),
     "rounds": ("compare",),
     "grow": ("compare",),
@@ -76,12 +76,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         type=whole_number(0),
         help="number of operations done in the stage; default: all, or without --stage as the scene opens",
     )
-    parser.add_argument("--view", metavar="NAME", help="main view, as pixels or compare")
+    parser.add_argument(
+        "--view",
+        metavar="NAME",
+        help="main view of the Step page: pixels, scene, clip, pyramid, texture, flow or compare",
+    )
     parser.add_argument("--page", choices=PAGES, help="page to show (step)")
     parser.add_argument(
         "--show",
         metavar="NAME",
-        help="family (page compare) or experiment (page stability) to run, or exercise to ask",
+        help="family (page compare) or experiment (page stability) to run, exercise to ask, or main view as --view",
     )
     parser.add_argument("--work", metavar="NAME", help="kind of work of the family")
     parser.add_argument(
@@ -131,8 +135,10 @@ def run(options: argparse.Namespace) -> int:
     load_qt()
     from app.window.start import grab_window
 
-    content = None
-    if options.page not in (None, "step"):
+    content, view = None, options.view
+    if options.page in (None, "step"):
+        view = view or options.show
+    else:
         from app.window.page_filling import PageContent  # All pages come along: not for the Step page alone.
 
         content = PageContent(
@@ -151,7 +157,7 @@ def run(options: argparse.Namespace) -> int:
             options.theme,
             options.stage,
             options.step,
-            options.view,
+            view,
             lambda settings: chosen_settings(settings, options.set),
             content,
             options.allow_outside,

@@ -30,6 +30,8 @@ class Preferences(BaseModel):
 
     recent_files: list[str] = []
     """Absolute paths, the last opened first."""
+    folder: str = ""
+    """Of the file that was chosen last."""
     theme: Literal["system", "light", "dark", "presenter"] = "system"
     text_size: TextSize = 0
     """Percent of the usual size of the text; 0: as large as the desktop's."""

@@ -265,6 +265,11 @@ class Pages(QWidget):
         """The page that is shown."""
         return self._made[self.current_name]
 
+    def file_stem(self) -> str:
+        """Return what a picture of the page is called: by the scene and its stage, or by the scene and the page."""
+        name, moment = self.current_name, self._session
+        return f"{moment.document.file_stem}-{moment.cursor.stage if name == 'step' else name}"
+
     @property
     def current_name(self) -> str:
         """Its name."""

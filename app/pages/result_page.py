@@ -12,9 +12,9 @@ from PySide6.QtWidgets import QPushButton, QScrollArea, QSplitter, QWidget
 from app.background.background_task import BackgroundTask
 from app.background.workers import JobGroup
 from app.export.views import copy_widget, export_widget
+from app.files.file_dialogs import SaveDialog
 from app.files.file_writing import write_file
 from app.files.kept_results import ENDING, KeptResults
-from app.files.save_dialog import SaveDialog
 from app.pages.page_bar import Page
 from app.pages.result_presenter import Result, ResultPresenter
 from app.pages.side_columns import SideColumns

@@ -1,6 +1,8 @@
 """What is open: a scene, its settings, what is traced and on which raster. A frozen value; an edit makes a new one."""
 
+import re
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 import numpy as np
 
@@ -72,6 +74,12 @@ class Document:
     title: str = ""
     path: str = ""
     """File that the scene came from; empty: built in or typed."""
+
+    @property
+    def file_stem(self) -> str:
+        """What a file made of it is called: as the file that it came from, else by its title."""
+        name = Path(self.path).name.split(".")[0] if self.path else self.title
+        return "-".join(re.findall(r"\w+", name)) or "scene"
 
     @property
     def triangle_count(self) -> int:

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 from app.export.view_sheet import ViewSheet
 from app.export.views import copy_widget, export_widget
-from app.files.save_dialog import SaveDialog
+from app.files.file_dialogs import SaveDialog
 from app.pages.page_bar import Pages
 from widgets.basics.message_bar import Message, MessageKind
 from widgets.basics.style_sheet import apply_theme
@@ -42,7 +42,8 @@ class ExportActions(QObject):
     def ask_export(self) -> None:
         """Ask where the view is to go, and export it."""
         kinds = "PNG picture (*.png);;SVG drawing (*.svg);;PDF page (*.pdf)"
-        path = SaveDialog(self._pages.window(), "Export view", "view.png", kinds).ask()
+        name = f"{self._pages.file_stem()}.png"
+        path = SaveDialog(self._pages.window(), "Export view", name, kinds).ask()
         if path:
             self.export_to(path)
 

@@ -4,14 +4,14 @@ from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal, Slot
-from PySide6.QtWidgets import QFileDialog, QWidget
+from PySide6.QtWidgets import QWidget
 
 from app.background.freeing import Freeing
 from app.background.workers import Job, Progress
+from app.files.file_dialogs import SaveDialog, ask_file
 from app.files.file_names import is_text
 from app.files.mesh_files import EXTENSIONS, OpeningCancelledError, OutsideMeshError
 from app.files.open_any import Opened, open_any
-from app.files.save_dialog import SaveDialog
 from app.files.state_files import EXTENSION, OutsideSourceError, State, StateFileError, save_state
 from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings
@@ -67,10 +67,8 @@ class FileActions(QObject):
     def ask_file(self) -> None:
         """Ask for a mesh or state file and open it."""
         endings = " ".join(f"*{ending}" for ending in (*EXTENSIONS, EXTENSION, *page_endings()))
-        folder = str(Path(self._session.document.path).parent) if self._session.document.path else ""
-        path, _ = QFileDialog.getOpenFileName(
-            self._page.window(), "Open", folder, f"Meshes, states and studies ({endings});;All files (*)"
-        )
+        kinds = f"Meshes, states and studies ({endings});;All files (*)"
+        path = ask_file(self._page.window(), "Open", kinds)
         if path:
             self.path_chosen.emit(path)
 
@@ -161,7 +159,7 @@ class FileActions(QObject):
 
     def ask_save(self) -> None:
         """Ask where the state is to be saved, and save it."""
-        name, kinds = f"state{EXTENSION}", f"States (*{EXTENSION})"
+        name, kinds = f"{self._session.document.file_stem}{EXTENSION}", f"States (*{EXTENSION})"
         path = SaveDialog(self._page.window(), "Save state", name, kinds).ask()
         if path:
             self.save_to(path)

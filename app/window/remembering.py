@@ -2,10 +2,12 @@
 
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 
 from PySide6.QtCore import QByteArray, QObject, Signal, Slot
 
 from app.files.autosave import Autosave
+from app.files.file_dialogs import keep_folder, last_folder
 from app.files.preferences import Preferences, save_preferences, with_recent_file
 from app.files.state_files import StateFileError
 from app.pages.page_bar import Page
@@ -32,6 +34,7 @@ class Remembering(QObject):
     def restore(self, window: WindowParts) -> None:
         """Put window and panes where they were left, and keep results from this start to the next."""
         self._keeps_results = True
+        keep_folder(self.preferences.folder)
         window.restoreGeometry(QByteArray.fromBase64(self.preferences.geometry.encode()))
         window.appearance.set_text_size(self.preferences.text_size)
         for page in window.pages.made:
@@ -83,8 +86,9 @@ class Remembering(QObject):
 
     @Slot(str)
     def remember_file(self, path: str) -> None:
-        """Keep a file among those that were open last."""
+        """Keep a file among those that were open last, and its folder for the next question."""
         self.preferences = with_recent_file(self.preferences, path)
+        keep_folder(str(Path(self.preferences.recent_files[0]).parent))
         self.recent_changed.emit(self.preferences.recent_files)
 
     def save_open(self, is_last_chance: bool) -> str:
@@ -119,6 +123,7 @@ class Remembering(QObject):
             update={
                 "geometry": window.saveGeometry().toBase64().toStdString(),
                 "layout": layout,
+                "folder": last_folder(),
                 "page": window.pages.current_name if window.pages.current_name != "start" else "step",
                 "shows_all_methods": window.page.settings_panel.more_button.isChecked(),
                 "shown_panes": window.page.shown_panes(),

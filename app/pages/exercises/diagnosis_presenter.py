@@ -5,10 +5,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal, Slot
-from PySide6.QtWidgets import QFileDialog
 
 from app.background.workers import Job, Progress
 from app.files.drawn_pictures import read_drawn
+from app.files.file_dialogs import ask_file
 from app.files.file_names import DRAWN_ENDINGS
 from app.pages.page_bar import COVERED, StepRequest
 from app.session.document import Document
@@ -86,9 +86,7 @@ class DiagnosisPresenter(QObject):
     @Slot()
     def ask_picture(self) -> None:
         """Ask for a picture of the open scene."""
-        path, _ = QFileDialog.getOpenFileName(
-            self._view.window(), "Which mistake makes this picture?", "", KINDS
-        )
+        path = ask_file(self._view.window(), "Which mistake makes this picture?", KINDS)
         if path:
             self.open(path)
 

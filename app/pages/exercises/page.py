@@ -5,8 +5,9 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication, Qt, QThread, Slot
 from PySide6.QtGui import QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QApplication, QFileDialog, QPushButton, QSplitter, QStackedWidget, QWidget
+from PySide6.QtWidgets import QApplication, QPushButton, QSplitter, QStackedWidget, QWidget
 
+from app.files.file_dialogs import ask_folder
 from app.files.file_names import DRAWN_ENDINGS
 from app.files.unfinished_answers import UnfinishedFile
 from app.pages.exercises.asked_scene import AskedScene
@@ -244,7 +245,7 @@ class ExercisesPage(Page):
     @Slot()
     def ask_folder(self) -> None:
         """Ask for a folder of own exercises, and take them into the catalogue."""
-        folder = QFileDialog.getExistingDirectory(self.window(), "Add a folder of exercises")
+        folder = ask_folder(self.window(), "Add a folder of exercises")
         if folder:
             self.exercises.add_folder(folder)
 

@@ -7,14 +7,13 @@ from operator import attrgetter
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal, Slot
-from PySide6.QtWidgets import QFileDialog
 
 from app.background.workers import Job, Progress
 from app.files.attempts import SIZE_LIMIT, attempt_file
 from app.files.exercise_folders import all_templates
+from app.files.file_dialogs import SaveDialog, ask_file
 from app.files.file_writing import write_file
 from app.files.input_files import read_input
-from app.files.save_dialog import SaveDialog
 from core import STAGES
 from core.records.words import counted
 from core.stages.declared import stage_of
@@ -109,7 +108,7 @@ class ProgressPresenter(QObject):
 
     @Slot()
     def _import(self) -> None:
-        path, _ = QFileDialog.getOpenFileName(self._view.window(), "Import answers", "", KINDS)
+        path = ask_file(self._view.window(), "Import answers", KINDS)
         if path:
             self.import_from(path)
 

@@ -22,7 +22,7 @@ SHOTS = {
     "dark": ["shared-edge", "--size", "1100x700", "--theme", "dark"],
     "first": ["shared-edge", "--stage", "raster", "--step", "1"],
     "last": ["shared-edge"],
-    "space": ["shared-edge", "--stage", "raster", "--view", "pyramid"],
+    "space": ["shared-edge", "--stage", "raster", "--show", "pyramid"],
     "plain": ["shared-edge", "--stage", "resolve"],
     "smooth": ["shared-edge", "--stage", "resolve", "--set", "antialiasing=ssaa-16"],
     "saved": ["../maps/atlas.json"],

@@ -8,7 +8,7 @@ from PySide6.QtPrintSupport import QPrintPreviewDialog
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from app.files.save_dialog import SaveDialog
+from app.files.file_dialogs import SaveDialog
 from app.window.main_window import MainWindow
 from core.records.steps import Level
 from tests.app.window.new_user import NewUser

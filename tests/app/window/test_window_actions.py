@@ -9,7 +9,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from app.files.save_dialog import SaveDialog
+from app.files.file_dialogs import SaveDialog
 from app.session.document import Document
 from app.window.actions import ACTIONS
 from app.window.main_window import MainWindow

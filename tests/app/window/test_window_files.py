@@ -11,8 +11,10 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.files.file_dialogs import SaveDialog
 from app.files.open_any import open_any
 from app.files.preferences import load_preferences
+from app.files.state_files import EXTENSION
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from app.window.reopening import reopen
@@ -315,3 +317,21 @@ def test_the_view_is_printed_on_one_page_and_light_and_its_text_stays_text(
 def test_an_export_that_fails_is_told(window: MainWindow, tmp_path: Path) -> None:
     window.exports.export_to(str(tmp_path / "nowhere" / "view.png"))
     assert window.messages.text.text().startswith("The view was not exported")
+
+
+def test_dialogs_suggest_the_scene_and_its_stage_and_the_folder_is_remembered(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    mesh = tmp_path / "my mesh.obj"
+    mesh.write_text(TETRAHEDRON)
+    with qtbot.waitSignal(window.files.file_used):
+        window.open_path(str(mesh))
+    suggested: list[str] = []
+    monkeypatch.setattr(SaveDialog, "ask", lambda dialog: suggested.append(dialog.selectedFiles()[0]) or "")
+    window.session.set_stage("clip", 0)
+    window.exports.ask_export()
+    window.files.ask_save()
+    names = ("my-mesh-clip.png", f"my-mesh{EXTENSION}")
+    assert suggested == [str(tmp_path / name) for name in names]
+    window.memory.save_preferences(window)
+    assert load_preferences()[0].folder == str(tmp_path)

@@ -11,7 +11,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.files.save_dialog import SaveDialog
+from app.files.file_dialogs import SaveDialog
 from app.files.study_files import load_study, study_json
 from app.pages.compare.charts import TIME
 from app.pages.compare.page import ComparePage

@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt, QTimer
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QLineEdit, QMessageBox
+from PySide6.QtWidgets import QApplication, QFileDialog, QLineEdit, QMessageBox
 from pytestqt.qtbot import QtBot
 
-from app.files.save_dialog import SaveDialog
+from app.files.file_dialogs import SaveDialog, ask_file, ask_folder, keep_folder, last_folder
 
 KINDS = "PNG picture (*.png);;SVG drawing (*.svg);;PDF page (*.pdf)"
 
@@ -60,3 +60,30 @@ def test_a_file_that_the_ending_leads_to_is_asked_about(qtbot: QtBot, tmp_path: 
     QTimer.singleShot(300, refuse)
     assert typed(dialog, "figure") == ""
     assert "figure.png" in asked[0]
+
+
+def test_the_next_question_begins_where_the_last_was_answered(
+    qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Whatever is asked for; a question that was not answered changes nothing, nor does a folder that is gone."""
+    begun: list[str] = []
+
+    def answers(path: str) -> None:
+        def ask(parent: object, title: str, folder: str, kinds: str) -> tuple[str, str]:
+            begun.append(folder)
+            return path, ""
+
+        monkeypatch.setattr(QFileDialog, "getOpenFileName", ask)
+
+    keep_folder("")
+    (tmp_path / "one").mkdir()
+    for path in (str(tmp_path / "one" / "a.obj"), "", str(tmp_path / "two" / "b.obj"), ""):
+        answers(path)
+        assert ask_file(None, "Open", KINDS) == path
+    assert begun == ["", str(tmp_path / "one"), str(tmp_path / "one"), ""]
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(tmp_path))
+    assert ask_folder(None, "Add a folder") == str(tmp_path)
+    dialog = SaveDialog(None, "Export view", "view.png", KINDS)
+    assert dialog.directory().absolutePath() == str(tmp_path)
+    assert typed(dialog, "one/figure") == str(tmp_path / "one" / "figure.png")
+    assert last_folder() == str(tmp_path / "one")
