@@ -122,7 +122,11 @@ def test_pages_are_filled_and_what_is_behind_a_mark_is_opened(tmp_path):
         (["cube", "--page", "plan", "--stage", "raster"], "--stage: it is for page step, got page plan"),
         (
             ["cube", "--show", "slivers"],
-            "--show: it is for page compare or stability or exercises, got page step",
+            "view must be one of pixels, scene, clip, pyramid, texture, flow, compare, got slivers",
+        ),
+        (
+            ["cube", "--page", "plan", "--show", "x"],
+            "--show: it is for page step or compare or stability or exercises, got page plan",
         ),
         (
             ["cube", "--page", "stability", "--work", "any"],
