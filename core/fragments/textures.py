@@ -120,14 +120,8 @@ def texel_operations(texels: str, color: str, *others: Operation) -> dict[str, t
     """Return what a row does to find a texture's colour, by what the listing calls the texels and the colour."""
     position = Operation("position", "position", {"texel_position": "x y"})
     chosen = Operation("texels", "texels", {"texels": texels}, ("texel_colors",))
-    return {
-        "texture": (
-            position,
-            chosen,
-            *others,
-            Operation("filter", "color", {"texture_color": color}, ("shares",)),
-        )
-    }
+    mixed = Operation("filter", "color", {"texture_color": color}, ("shares",))
+    return {"texture": (position, chosen, *others, mixed)}
 
 
 def wrapped_pair(index: int, size: int, wrap: str) -> tuple[int, int]:

@@ -4,7 +4,7 @@ A fill is a schedule; whether a pixel is covered is the same rule for all of the
 evaluates the runs in batches, the trace lists them one pixel at a time.
 """
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -162,6 +162,39 @@ class Stepping:
 
 
 @dataclass(frozen=True, eq=False)
+class SideWalk:
+    """R rows of pixels of triangles, in the order in which the printed program draws them."""
+
+    triangle: Integers
+    """(R,) int64, index among the triangles."""
+    row: Integers
+    """(R,) int64."""
+    sides: Floats
+    """(2, R) float64, x of both sides of the triangle in the row, at pixel centres."""
+    before: Floats
+    """(2, R) float64, the same in the row before, to which the slopes are added; NaN in a first row."""
+    slope: Floats
+    """(2, R) float64, how far each side goes to the right from one row to the next one above."""
+    width: Floats
+    """(2, R) float64, of each side, from its lower to its upper end."""
+    height: Floats
+    """(2, R) float64."""
+    is_upper: Flags
+    """(R,) bool, the part above a level side, which is walked downwards; the other one is walked upwards."""
+    is_first: Flags
+    """(R,) bool, the first row of its part in the picture."""
+    corner: Floats
+    """(2, R) float64, x and y of the corner at which the part begins."""
+
+    def __len__(self) -> int:
+        return len(self.row)
+
+    def take(self, at: Integers | slice) -> "SideWalk":
+        """Return chosen rows (C,)."""
+        return replace(self, **{field.name: getattr(self, field.name)[..., at] for field in fields(self)})
+
+
+@dataclass(frozen=True, eq=False)
 class Runs:
     """R stretches of pixels, each in one row of one triangle, in drawing order."""
 
@@ -184,6 +217,8 @@ class Runs:
     NaN in lanes of the fill ``spans``, which has them as fractions."""
     stepping: Stepping | None = None
     """Where the fill adds from pixel to pixel; ``None``: edge functions are evaluated at every pixel."""
+    walk: SideWalk | None = None
+    """Where the fill adds slopes from row to row."""
 
     def __len__(self) -> int:
         return len(self.triangle)
@@ -208,6 +243,7 @@ class Runs:
             self.group[at],
             crossings=None if self.crossings is None else self.crossings[at],
             stepping=None if self.stepping is None else self.stepping.take(at),
+            walk=None if self.walk is None else self.walk.take(at),
         )
 
 

@@ -11,6 +11,7 @@ from core.raster.fills.incremental import step_covers
 from core.raster.fills.scanline import span
 from core.raster.fills.scanline_lecture import draw_bottom, draw_top, drawn_columns
 from core.raster.fills.traits import fill_traits
+from core.raster.pixel_runs import Runs
 from core.raster.spans.lanes import tie_owners
 from core.raster.spans.order import SpanOrder, order_of_spans
 from core.records.arrays import Flags
@@ -73,7 +74,7 @@ def trace_raster(source: TraceSource) -> StageTrace:
         columns=columns,
         triangle=triangle,
         pixel=rows.pixel,
-        listings=_listings(fill, source.runs.blocks is not None),
+        listings=_listings(source.runs),
         marks=rows.marks,
         buffers=buffers,
         extra={
@@ -153,8 +154,8 @@ def _columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
     if source.runs.stepping is not None:
         before = of_pixel(tests.before, np.nan)
         columns |= {f"before_{k}": before[:, k] for k in range(3)}
-    if fill_traits(source.fill).adds_slopes:
-        columns |= printed_columns(source, table)
+    if source.runs.walk is not None:
+        columns |= printed_columns(source.runs.walk, table)
     return columns | {f"crossing_{k}": table.crossings[:, k] for k in range(3)}
 
 
@@ -179,15 +180,15 @@ def any_edge(flags: Flags) -> Flags:
     return found
 
 
-def _listings(fill: str, has_blocks: bool) -> dict[str, Listing]:
+def _listings(runs: Runs) -> dict[str, Listing]:
     stepping, of_row, printed = listing(step_covers), listing(span), listing(drawn_columns)
-    accepted = listing(pixels_of_block) if has_blocks else of_row
+    accepted = listing(pixels_of_block) if runs.blocks is not None else of_row
     sides = {"top": listing(draw_top), "bottom": listing(draw_bottom)}
     return {
         "climb": stepping,
         "step": stepping,
         "test": listing(covers),
-        "accept": printed if fill_traits(fill).adds_slopes else accepted,
+        "accept": accepted if runs.walk is None else printed,
         "span": of_row,
         **{kind: sides[kind.removesuffix("-first")] for kind in PRINTED},
         **{f"{kind}.round": printed for kind in PRINTED},

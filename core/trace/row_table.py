@@ -4,8 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.raster.fills.traits import fill_traits
-from core.raster.pixel_runs import EVALUATED
+from core.raster.pixel_runs import EVALUATED, SideWalk
 from core.records.arrays import Floats, Integers
 from core.trace.raster_rows import FILL_OPERATIONS, PRINTED
 from core.trace.source import TraceSource
@@ -51,7 +50,7 @@ def rows_of_runs(source: TraceSource) -> RowTable:
     test = np.concatenate([np.full(len(headers), -1), np.arange(len(tests.run))])
     order = np.argsort(run, kind="stable")
     run, test = run[order], test[order]
-    span_kind = printed_kinds(source)[run] if fill_traits(source.fill).adds_slopes else KIND["span"]
+    span_kind = KIND["span"] if runs.walk is None else _printed_kinds(runs.walk)[run]
     pixel_kind = np.where(
         runs.accepted[run], KIND["accept"], PIXEL_KINDS[np.append(tests.added, EVALUATED)[test]]
     )
@@ -68,16 +67,15 @@ def rows_of_runs(source: TraceSource) -> RowTable:
     )
 
 
-def printed_kinds(source: TraceSource) -> Integers:
+def _printed_kinds(walk: SideWalk) -> Integers:
     """Return (R,) int64, the kind of the row before every span of the printed scanline."""
-    walk = source.side_walk
     found: Integers = np.array([KIND[name] for name in PRINTED])[2 * ~walk.is_upper + ~walk.is_first]
     return found
 
 
-def printed_columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
+def printed_columns(walk: SideWalk, table: RowTable) -> dict[str, np.ndarray]:
     """Return the numbers that the sides of the printed scanline are made from: slopes, and x in the row before."""
-    walk, run = source.side_walk, table.run
+    run = table.run
     of_sides = {
         "crossing_before": walk.before,
         "slope": walk.slope,

@@ -12,7 +12,6 @@ from core.geometry.vertex_stage import transform_vertices
 from core.pipeline import draw
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
-from core.raster.fills.scanline_lecture import SideWalk, walk_sides
 from core.raster.lines.intensities import writes_depth
 from core.raster.lines.records import LineSteps
 from core.raster.lines.wireframe import LineFragments, draw_outlines, join_batches
@@ -103,11 +102,6 @@ class TraceSource:
     def runs(self) -> Runs:
         """What the fill looks at."""
         return self._schedule[1]
-
-    @cached_property
-    def side_walk(self) -> SideWalk:
-        """The rows of all triangles as the printed scanline walks along their sides."""
-        return walk_sides(self.geometry.edges, self.raster)
 
     @cached_property
     def tests(self) -> PixelTests:

@@ -20,8 +20,8 @@ import numpy as np
 from core.methods import method
 from core.raster.edges.edge_functions import EdgeFunctions
 from core.raster.fills.traits import FillTraits
-from core.raster.pixel_runs import Boxes, Raster, Runs
-from core.records.arrays import Flags, Floats, Integers
+from core.raster.pixel_runs import Boxes, Raster, Runs, SideWalk
+from core.records.arrays import Floats, Integers
 
 SORTED = ((0, 1, 2), (0, 2, 1), (2, 0, 1), (1, 0, 2), (1, 2, 0), (2, 1, 0))
 """Orders of the corners as the printed comparisons produce them; the first that is strictly falling is taken."""
@@ -107,7 +107,7 @@ def drawn_columns(x1: float, x2: float) -> list[int]:
     "(division by zero)",
     needs=("projected",),
     listing=draw_triangle,
-    traits=FillTraits(group_label="Span", adds_slopes=True),
+    traits=FillTraits(group_label="Span"),
 )
 def scanline_lecture(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_size: int) -> Runs:
     """Return the spans that the printed program draws, limited to the raster.
@@ -129,36 +129,8 @@ def scanline_lecture(edges: EdgeFunctions, boxes: Boxes, raster: Raster, block_s
         accepted=np.ones(len(walk), bool),
         group=np.arange(len(walk)),
         crossings=np.column_stack([*walk.sides, np.full(len(walk), np.nan)]),
+        walk=walk,
     )
-
-
-@dataclass(frozen=True, eq=False)
-class SideWalk:
-    """R rows of pixels of triangles, in the order in which the printed program draws them."""
-
-    triangle: Integers
-    """(R,) int64, index among the triangles."""
-    row: Integers
-    """(R,) int64."""
-    sides: Floats
-    """(2, R) float64, x of both sides of the triangle in the row, at pixel centres."""
-    before: Floats
-    """(2, R) float64, the same in the row before, to which the slopes are added; NaN in a first row."""
-    slope: Floats
-    """(2, R) float64, how far each side goes to the right from one row to the next one above."""
-    width: Floats
-    """(2, R) float64, of each side, from its lower to its upper end."""
-    height: Floats
-    """(2, R) float64."""
-    is_upper: Flags
-    """(R,) bool, the part above a level side, which is walked downwards; the other one is walked upwards."""
-    is_first: Flags
-    """(R,) bool, the first row of its part in the picture."""
-    corner: Floats
-    """(2, R) float64, x and y of the corner at which the part begins."""
-
-    def __len__(self) -> int:
-        return len(self.row)
 
 
 def walk_sides(edges: EdgeFunctions, raster: Raster) -> SideWalk:

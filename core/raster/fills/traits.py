@@ -15,8 +15,6 @@ class FillTraits:
     """Whether it sets all rows of a triangle up in one lane, and draws rows of the same length of all triangles."""
     group_label: str = "Row"
     """What a step between a pixel and a triangle is, on a button."""
-    adds_slopes: bool = False
-    """Whether it finds the sides of a span by adding their slopes from row to row."""
 
 
 def fill_traits(fill: str) -> FillTraits:
