@@ -249,7 +249,7 @@ LECTURE_SCENES = {
             lambda: triangles(
                 ((2.5, 12.5), (9.5, 7.5), (4.5, 1.5)), size=(16, 16), colors=RED_GREEN_BLUE[None]
             ),
-            RunPlace("raster", 'kind == "line"'),
+            RunPlace("raster", 'kind == "top-first"'),
             fill="scanline-lecture",
         ),
         _scene(

@@ -1,6 +1,7 @@
 """What comes next: the questions of Predict, asked of a run that is drawn from a seed."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -73,9 +74,12 @@ def _text(value: Value) -> str:
 
 
 def step_variables(stage: StageTrace, row: int) -> Sequence[Variable]:
-    """Return the variables of a row."""
+    """Return the variables of a row; all that its first operation is the first to show count as changed."""
     explanation = stage.explain(int(stage.steps.starts[row]) + 1)
-    return () if explanation is None else variables(explanation)
+    if explanation is None:
+        return ()
+    first = stage.steps.operations[stage.kind_of(row)][0]
+    return variables(replace(explanation, changed=first.shows))
 
 
 def known_text(shown: Sequence[Variable]) -> str:
