@@ -253,7 +253,8 @@ class ClipScene:
     segment's second end is drawn unless another segment begins at a corner of the same name.
 
     Polygons may be concave, have holes and cross themselves: a method of the family ``polygon_fill`` says what is
-    inside. Each has the colour of its corner 0, and lies in the plane of three of its corners.
+    inside. Each has the colour of its corner 0, and lies in the plane of three of its corners. A ring
+    whose corners lie on one line encloses nothing and draws nothing.
     """
 
     clip: Floats

@@ -2,11 +2,12 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.records.arrays import Floats, Integers, checked
+from core.records.arrays import Flags, Floats, Integers, checked
 
 RING_CORNERS = 3
 """Least number of corners of a ring."""
@@ -41,6 +42,16 @@ class Rings:
         away = self.corners - np.repeat(self.corners[self.starts[:-1]], np.diff(self.starts), axis=0)
         (x, y), (next_x, next_y) = away.T, away[self.following].T
         return np.add.reduceat(x * next_y - next_x * y, self.starts[:-1]) / 2
+
+    @property
+    def are_flat(self) -> Flags:
+        """(R,) bool, all corners lie on one line, or at one place: such a ring encloses nothing."""
+        first = np.repeat(np.arange(len(self.starts) - 1), np.diff(self.starts))
+        away = self.corners - self.corners[self.starts[:-1]][first]
+        length = (away**2).sum(axis=1)
+        farthest = np.array([at + int(length[at:end].argmax()) for at, end in pairwise(self.starts.tolist())])
+        x, y = away[farthest][first].T
+        return np.asarray(~np.logical_or.reduceat(x * away[:, 1] != y * away[:, 0], self.starts[:-1]))
 
     def moved(self, x: float, y: float) -> "Rings":
         """Return the rings ``x`` and ``y`` pixels further."""

@@ -56,6 +56,9 @@ def trace_cull(source: TraceSource) -> StageTrace:
         "applies": applies[which, test],
         "verdict": np.where(applies[which, test] | (test == 9), verdict[which], "undecided"),
     }
+    if vertices.rings is not None:
+        flat = vertices.rings_of(assembled.triangle).are_flat.reshape(count, -1)
+        columns["flat_ring"] = np.where(flat.any(axis=1), flat.argmax(axis=1), -1)[which]
     kinds, listings = KINDS, dict.fromkeys(KINDS, listing(cull_verdict))
     method = table.get("cull", source.settings.cull)
     sight = culled.sight

@@ -196,6 +196,16 @@ def test_a_polygon_that_cancels_is_drawn_and_one_without_area_is_not():
     assert "#" not in "".join(drawn(polygon([[1, 1], [5, 5], [3, 3], [7, 7]])))
 
 
+@pytest.mark.parametrize("flat", [[[2, 2], [9, 5], [9, 5]], [[2, 2]] * 3, [[2, 2], [5, 2], [9, 2], [3, 2]]])
+def test_a_ring_on_one_line_draws_nothing_and_is_named(flat):
+    scene = polygon(SQUARE, flat)
+    assert drawn(scene) == drawn(polygon(SQUARE))
+    stage = trace(scene).stage("cull")
+    text, _ = account(stage.explain(stage.steps.count), 0, None)
+    assert text.endswith("Ring 1 lies on one line: it encloses nothing.")
+    assert render(polygon(flat + flat[-1:])).primitive.max() == -1
+
+
 def test_a_polygon_of_the_other_side_is_culled_by_all_its_rings():
     assert "#" not in "".join(drawn(polygon(SQUARE[::-1], HOLE), cull="back"))
     assert "#" in "".join(drawn(polygon(SQUARE[::-1], HOLE), cull="front"))

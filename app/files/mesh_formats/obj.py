@@ -38,9 +38,9 @@ def read_obj(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     Each run of faces with one material is a mesh, so that triangles stay in the order of the file. Where the file names
     no material library and has texture coordinates, an image that stands beside it as ``<stem>_texture.png`` or
     ``<stem>.png`` (or ``.jpg``) is its texture. Vertex colours, ``v x y z r g b``, count as sRGB. Of a file without
-    faces, ``l`` lines are segments, and without those ``p`` lines are points. Raises MeshFileError if a line cannot be
-    read, a number names something that is not there, or there are no faces, lines and points; OSError if ``path``
-    cannot be read.
+    faces, ``l`` lines are segments, without those ``p`` lines are points, and without these all vertices are. Raises
+    MeshFileError if a line cannot be read, a number names something that is not there, or there are no vertices;
+    OSError if ``path`` cannot be read.
     """
     check_memory(path, path.stat().st_size * MEMORY_PER_BYTE)
     check_text(path, "OBJ")
@@ -51,7 +51,7 @@ def read_obj(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     points, segments = np.array(found.points, np.int64), np.array(found.segments, np.int64).reshape(-1, 2)
     if not found.sizes:
         if not len(points) and not len(segments):
-            raise MeshFileError(f"{path.name} has no faces")
+            points = np.arange(1, len(found.positions) // 3 + 1)
         return read_wires(path, found, points, segments)
     numbers = np.array(found.corners).reshape(-1, 3)
     check_numbers(path, found, numbers)

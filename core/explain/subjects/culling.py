@@ -98,7 +98,10 @@ def facing(step: StepValues) -> Said:
 @explains("cull.kept.verdict")
 def kept(step: StepValues) -> Said:
     """No test applied."""
-    return f"Triangle {step.triangle} is kept: none of the tests drops it."
+    text = f"Triangle {step.triangle} is kept: none of the tests drops it."
+    if step.has("flat_ring") and step.whole("flat_ring") >= 0:
+        text += f" Ring {step.whole('flat_ring')} lies on one line: it encloses nothing."
+    return text
 
 
 shows(

@@ -186,7 +186,6 @@ def test_corners_without_what_others_have_are_a_warning(tmp_path):
             "v 1e300 0 0\nf 1 2 5\n",
             "vertex 5 is at [1e+300, 0.0, 0.0], which is not a number or beyond 3.4e+38",
         ),
-        ("", "has no faces"),
         ("f 1 1 2\nf 3 3 3\n", "only degenerate faces"),
         ("f 1 2 99999999999999999999\n", "line 5: 99999999999999999999 is not a corner of a face"),
         ("vt\n", "line 5: a texture coordinate needs 1 number or more, got 0"),

@@ -28,6 +28,7 @@ EDGES = "element edge 2\nproperty int vertex1\nproperty int vertex2\n"
         ),
         ("a.obj", VERTICES + "p 1 3 # two\np 4\n", "points", [[0], [2], [3]], "3 points are drawn"),
         ("a.obj", VERTICES + "p 1\nl 1 2\n", "segments", [[0, 1]], "1 segment is drawn"),
+        ("a.obj", VERTICES, "points", [[0], [1], [2], [3]], "4 points are drawn"),
         ("a.ply", PLY.format("") + PLACES, "points", [[0], [1], [2]], "3 points are drawn"),
         (
             "a.ply",
@@ -76,7 +77,6 @@ def test_colours_go_along(tmp_path: Path) -> None:
         ("a.obj", VERTICES + "l 1\n", "a.obj, line 5: a line needs at least 2 vertices, got 1"),
         ("a.obj", VERTICES + "l 1 9\n", "a.obj: a line or point names vertex 9 of 4, counted from 1"),
         ("a.obj", VERTICES + "p x\n", "a.obj, line 5: x is not a corner of a face"),
-        ("a.obj", VERTICES, "a.obj has no faces"),
         ("a.ply", PLY.format(EDGES) + PLACES + "0 7\n0 1\n", "a line or point names vertex 8 of 3"),
         ("a.ply", PLY.format("") + "0 0 nan\n1 0 0\n0 1 0\n", "a.ply"),
     ],
