@@ -40,7 +40,6 @@ from core.geometry.ring_clipping.exact import (
 from core.geometry.ring_clipping.records import ClippedPolygon, RingClipTraits, Row
 from core.methods import method
 from core.records.arrays import Floats
-from core.records.listing import RETURN
 from core.records.operation import Operation
 
 Place = tuple[Fraction, Fraction]
@@ -171,7 +170,7 @@ _NEXT = Operation("next", "next", {"next_node": "node"}, ("point",))
             Operation("point", "point", {"point": "place"}),
             Operation("way", "way", {"is_entering": "entering"}),
         ),
-        "wa-whole": (Operation("verdict", "verdict", {"is_kept": RETURN}),),
+        "wa-whole": (Operation("verdict", "verdict", {"is_kept": "inside"}),),
         "wa-start": (Operation("start", "start", ("node",), ("point",)),),
         "wa-corner": (_NEXT,),
         "wa-switch": (_NEXT, Operation("switch", "switch", {"on_region": "on"})),

@@ -1,19 +1,29 @@
 """The law of the marked line: it gives a value to every variable that the step changes, or it decides."""
 
 from collections.abc import Iterator
+from dataclasses import replace
 from functools import cache
+from itertools import chain
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core import STAGES
+from core import STAGES, ClipScene, Settings, Trace, trace
+from core.assembly.depth_tables import table_scene
 from core.explain.steps import load_subjects
 from core.explain.variable_text import VARIABLES
+from core.fragments.barycentric import WAYS
+from core.records.depth_table import DEPTH_TESTS, DepthTable
 from core.records.listing import Listing
 from core.records.operation import Operation, Variables
 from core.trace import StageTrace
+from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import traces
+from tests.core.listings import listings_of_the_program
+from tests.core.one_ended import one_ended_triangles
+from tests.core.strategies import clip_of_window
+from tests.core.trace.trace_cases import SCENES
 
 
 class Mark(NamedTuple):
@@ -68,12 +78,35 @@ def marks_of(stage: StageTrace, kind: str, rows: NDArray[np.int64]) -> Iterator[
                 yield Mark(key, operation, listing, line, frozenset().union(*changed))
 
 
+def rare_traces() -> Iterator[Trace]:
+    """Yield traces with the listings and lines that the usual ones do without."""
+    for filters in ("nearest", "mipmap-nearest", "bilinear"):
+        yield trace(SCENES["textured-clip"], Settings(texture_filter=filters))
+    yield trace(SCENES["textured-clip"], Settings(texture_filter="trilinear", interpolation="flat"))
+    yield trace(replace(SCENES["lit"], lights=()))
+    depths = np.array([[[1.0, 3, 2]], [[1.0, 2, 3]]])
+    for test in DEPTH_TESTS:
+        yield trace(table_scene(DepthTable(depths, np.ones((2, 4)), test)))
+    polygon = replace(make_scene("weiler-atherton"), clip_region=[0, 0, 1, 1], region_rings=None)
+    yield trace(polygon, Settings(polygon_clipping="weiler-atherton"))
+    # Corners that lie on a line before snapping, and beside it afterwards.
+    line = np.array([[(5434, 4434), (5664, 3453), (6124, 1491)]]) / 1024
+    for way in WAYS:
+        yield trace(ClipScene(clip_of_window(line, (8, 8)), size=(8, 8)), Settings(interpolation=way))
+    one_ended = one_ended_triangles(6, 30, (17, 13), gaps=(0.01, 10.0), sizes=(0.0001, 0.1))
+    yield trace(ClipScene(one_ended, size=(17, 13)))
+    yield trace(ClipScene(one_ended, size=(17, 13)), Settings(depth="logarithmic"))
+    yield trace(SCENES["clip"], Settings(antialiasing="area"))
+    yield trace(ClipScene(clip_of_window(line, (8, 8)), size=(8, 8)), Settings(coverage="inverse"))
+
+
 @cache
 def all_marks() -> tuple[Mark, ...]:
     """Return what any row of any trace marks."""
     load_subjects()
     found = {}
-    for traced in (trace for group in traces().values() for trace in group):
+    usual = (each for group in traces().values() for each in group)
+    for traced in chain(usual, rare_traces()):
         for stage in map(traced.stage, STAGES):
             for number, kind in enumerate(stage.steps.kinds):
                 rows = np.flatnonzero(stage.steps.kind == number)
@@ -106,3 +139,19 @@ def test_what_a_listing_computes_is_set_by_its_line() -> None:
         if taken in mark.listing.everywhere
     ]
     assert wrong == []
+
+
+NOT_MET = {("logarithm_of_w", "behind"), ("inverse_coefficients", "singular")}
+"""Lines for pixels behind the eye that snapping has covered, and for triangles that culling drops by their area 0."""
+
+
+def test_every_listing_is_stepped_and_every_label_is_marked() -> None:
+    marked = {(mark.listing.function, mark.line) for mark in all_marks()}
+    unmarked = {
+        (found.name, label)
+        for found in listings_of_the_program()
+        if not found.function.__module__.startswith(OF_LINES)
+        for label, line in found.lines.items()
+        if (found.function, line) not in marked
+    }
+    assert unmarked == NOT_MET

@@ -1,10 +1,5 @@
 """The picture comes first: how much of the window the main view has, and what may not move it."""
 
-import inspect
-from collections.abc import Iterator
-from importlib import import_module
-from pathlib import Path
-
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
@@ -23,14 +18,13 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-import core
 from app.files.preferences import Preferences
 from app.pages.step.inspector_column import InspectorColumn
 from app.session.document import open_document
 from app.window.main_window import MainWindow
-from core.records.listing import Listing, listing
 from core.stages.declared import STAGES
 from lessons.scenes import make_scene
+from tests.core.listings import listings_of_the_program
 from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.message_bar import Message, MessageKind
 from widgets.basics.settings_panel import SettingsPanel
@@ -241,19 +235,6 @@ def test_every_method_can_be_read_whole_in_its_box(window: MainWindow) -> None:
                 assert len(rows) * box.fontMetrics().lineSpacing() < box.height()
     finally:
         panel.show_more(False)
-
-
-def listings_of_the_program() -> Iterator[Listing]:
-    """Return every function of core that is shown line by line."""
-    for file in sorted(Path(core.__file__).parent.rglob("*.py")):
-        if "#:" not in file.read_text(encoding="utf-8"):
-            continue
-        module = import_module(
-            ".".join(["core", *file.relative_to(Path(core.__file__).parent).with_suffix("").parts])
-        )
-        for function in vars(module).values():
-            if inspect.isfunction(function) and function.__module__ == module.__name__:
-                yield from [found] if (found := listing(function)).lines else []
 
 
 @pytest.mark.own_window
