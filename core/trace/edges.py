@@ -154,7 +154,7 @@ def trace_edges(source: TraceSource) -> StageTrace:
         triangle_ends=ends_of(geometry.primitives.triangle[primitive]),
         group_ends=ends_of(primitive, np.array([0, 0, 0, 1, 2, 2, 2])[place]),
     )
-    snapping, cross_product = listing(snap_one), listing(edge_coefficients)
+    cross_product = listing(edge_coefficients)
     return StageTrace(
         stage="edges",
         method=f"coverage={source.settings.coverage}",
@@ -163,7 +163,7 @@ def trace_edges(source: TraceSource) -> StageTrace:
         triangle=geometry.primitives.triangle[primitive],
         pixel=no_pixels(len(primitive)),
         listings={
-            "snapped": snapping,
+            "snapped": listing(snap_one),
             "edge": cross_product,
             "anchored-edge": listing(anchored_coefficients),
             "left-out-edge": listing(edge_left_out),

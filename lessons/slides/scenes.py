@@ -8,8 +8,8 @@ import numpy as np
 from core.scene import Camera, ClipScene, Mesh, Scene
 from lessons.depth_tables import equal_depths, larger_is_nearer, two_triangles, two_triangles_turned
 from lessons.run_place import RunPlace
-from lessons.scenes import CATALOGUE, RED_GREEN_BLUE, BuiltInScene
-from lessons.shapes import cube, linear_color
+from lessons.scenes import CATALOGUE, RED_GREEN_BLUE, TEACHING_SIZE, BuiltInScene, window_triangle
+from lessons.shapes import checkerboard, cube, linear_color
 from lessons.slides.small_scenes import SPLIT_SQUARE, triangles
 from lessons.small_scenes import pixel_segments, segment_scene
 
@@ -62,6 +62,15 @@ def two_cubes() -> Scene:
         meshes.append(replace(cube(), transform=model, name=name))
     camera = Camera(np.array([0.0, 2.0, 5.0]), np.array([0.0, 0.6, 0.0]), field_of_view=np.radians(75.0))
     return Scene(tuple(meshes), camera, (), (64, 48))
+
+
+def quad_in_perspective() -> ClipScene:
+    """A checkered square that leans back: two triangles whose w are all above 0, so nothing needs to be clipped."""
+    x, y, w = np.array([6, 58, 45, 19]), np.array([5, 5, 42, 42]), np.array([1, 1, 2, 2])
+    uv = np.array([[0.0, 0.0], [2.0, 0.0], [2.0, 2.0], [0.0, 2.0]])
+    corners = np.array([[0, 1, 2], [0, 2, 3]])
+    clip = np.stack([window_triangle(x[k], y[k], np.full(3, 0.5), w[k], TEACHING_SIZE) for k in corners])
+    return ClipScene(clip, uv[corners], TEACHING_SIZE, checkerboard(), shared=corners)
 
 
 def degenerate() -> ClipScene:
@@ -123,6 +132,13 @@ LECTURE_SCENES = {
             "Three patches of 1/w in whole numbers: a pixel is updated only if the new value is larger.",
             larger_is_nearer,
             RunPlace("depth", "depth-failed"),
+        ),
+        _scene(
+            "zwicker-perspective",
+            "Attributes in perspective",
+            "Affine interpolation bends the lines of this leaning checkerboard at the diagonal of its two triangles.",
+            quad_in_perspective,
+            RunPlace("interpolate", "column == 32 and row == 18", "weights", (32, 18)),
         ),
     ),
     "Pellacini": (

@@ -107,6 +107,11 @@ CLAIMS = {
         is_clear_of(s, 0)
         and (s.frame().depth == np.nan_to_num(s.document.scene.table.depths).max(axis=0)).all()
     ),
+    "zwicker-perspective": lambda s: (
+        unlike(s, interpolation="affine") > 300
+        and (s.document.scene.clip[..., 3] > 0).all()
+        and s.kinds("clip") == {"untouched"}
+    ),
     "pellacini-line": lambda s: s.pixels() == [(0, 0), (1, 0), (2, 1), (3, 1), (4, 2), (5, 2)],
     "pellacini-rectangle": lambda s: (
         np.bincount([x for x, _ in s.pixels()]).tolist() == [0, *[1, 2] * 6, 1]

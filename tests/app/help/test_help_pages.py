@@ -17,7 +17,7 @@ from core.stages.declared import STAGES
 from core.study.accuracy.families import study_families
 from core.study.stability import experiments
 from lessons.glossary import find_terms, glossary
-from lessons.scenes import scene_names
+from lessons.slides.scenes import ALL_SCENES
 
 
 @cache
@@ -48,7 +48,7 @@ def test_no_link_is_dead() -> None:
         "action": {action.name for action in ACTIONS},
         "stage": set(STAGES),
         "view": {view.name for view in VIEWS},
-        "scene": set(scene_names()),
+        "scene": set(ALL_SCENES),
         "use": {f"{method.family}/{method.name}" for method in table},
         "compare": {family.name for family in study_families()},
         "stability": {experiment.info.name for experiment in experiments},
