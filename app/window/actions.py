@@ -373,7 +373,7 @@ ACTIONS: tuple[Action, ...] = (
     *_rows("step", VIEWING, "View", _window)(
         Row("divergence", "D", "First divergence of A and B", lambda w: w.page.comparing.go_to_divergence()),
         _pane("navigator", "G", "Navigator"),
-        _pane("details", "H", "Variables and pixel history"),
+        _pane("details", "H", "Variables"),
         _pane("run", "R", "Run: stages and timeline", ends_group=True),
         Row(
             "predict",

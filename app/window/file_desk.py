@@ -117,11 +117,13 @@ class FileActions(QObject):
             page.show_own_view()
             page.grid.fit()
             page.views.look_from({})
+            page.column.show_step()
             return
         session.open(opened.document, trace, Cursor(state.stage, state.position, Level(state.level)))
         page.stepping.set_places(state.bookmarks, state.breakpoints)
         session.set_pin(state.pin)
         show_look(page, state.look)
+        page.column.show_step()
         self._appearance.grow_text_to(state.look.text_size)
 
     @Slot(object)

@@ -1,6 +1,6 @@
 """How one event of a pixel's history is drawn: mark and title, three swatches with depth, the reason."""
 
-from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPointF, QRect, QRectF, QSize, Qt
+from PySide6.QtCore import QModelIndex, QPersistentModelIndex, QPoint, QPointF, QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication, QPainter, QPaintEvent, QPen, QPolygonF
 from PySide6.QtWidgets import QListView, QStyle, QStyledItemDelegate, QStyleOptionViewItem, QWidget
 
@@ -14,14 +14,13 @@ class EntryDelegate(QStyledItemDelegate):
     """Draws an entry in two lines: title and three swatches with depth, then mark and reason."""
 
     def sizeHint(self, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex) -> QSize:
-        """Two lines, or three where the row is narrow; one less without a reason."""
+        """Title and values, below each other where the row is narrow, and as many lines as the reason takes."""
         entry: HistoryEntry = index.data(ENTRY_ROLE)
-        metrics = QFontMetrics(_small_font())
         lines = QFontMetrics(_text_font()).height() + 10
         has_values = any(value is not None for value in (entry.before, entry.out, entry.after))
         if has_values and is_stacked(option.rect.width()):
             lines += QFontMetrics(_text_font()).height() + 2
-        return QSize(200, lines + (metrics.height() + 3 if entry.reason else 0))
+        return QSize(200, lines + (_reason_room(option.rect, entry).height() + 3 if entry.reason else 0))
 
     def paint(
         self, painter: QPainter, option: QStyleOptionViewItem, index: QModelIndex | QPersistentModelIndex
@@ -60,12 +59,11 @@ class EntryDelegate(QStyledItemDelegate):
                 place = QRect(cell.left(), values_top, cell.width(), text_height)
                 self._paint_value(painter, place, value)
         if entry.reason:
-            metrics = QFontMetrics(_small_font())
-            bottom = box.bottom() - 4 - metrics.height()
-            line = QRect(title.left(), bottom, box.right() - title.left() - 8, metrics.height())
+            room = _reason_room(box, entry)
+            room.moveTopLeft(QPoint(title.left(), box.bottom() - 4 - room.height()))
             painter.setFont(_small_font())
             painter.setPen(QColor(theme.muted_text))
-            painter.drawText(line, _LEFT, metrics.elidedText(entry.reason, _ELIDE, line.width()))
+            painter.drawText(room, Qt.TextFlag.TextWordWrap, entry.reason)
         painter.restore()
 
     @staticmethod
@@ -99,6 +97,14 @@ class EntryDelegate(QStyledItemDelegate):
 
 _LEFT = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
 _ELIDE = Qt.TextElideMode.ElideRight
+
+
+def _reason_room(box: QRect, entry: HistoryEntry) -> QRect:
+    """Return how much of a row's box its reason takes, wrapped."""
+    width = box.width() - QFontMetrics(_text_font()).height() - 18
+    metrics = QFontMetrics(_small_font())
+    wrapped = metrics.boundingRect(QRect(0, 0, width, 10_000), Qt.TextFlag.TextWordWrap, entry.reason)
+    return QRect(0, 0, width, wrapped.height())
 
 
 def is_stacked(width: int) -> bool:

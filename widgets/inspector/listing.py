@@ -10,6 +10,7 @@ from PySide6.QtGui import (
     QColor,
     QFont,
     QFontDatabase,
+    QFontMetricsF,
     QKeyEvent,
     QMouseEvent,
     QPalette,
@@ -179,7 +180,7 @@ class ListingView(QPlainTextEdit):
 
     def height_of(self, lines: int, is_wrapped: bool = True) -> int:
         """Return the height of any so many lines of every listing shown in turn, wrapped, or of so many rows."""
-        row, rows = self.fontMetrics().lineSpacing(), lines
+        row, rows = math.ceil(QFontMetricsF(self.font()).lineSpacing()), lines
         if is_wrapped:
             # Beside a scroll bar.
             bar = self.verticalScrollBar().sizeHint().width()
@@ -303,9 +304,11 @@ def _rows(source: str, lines: int, width: float, font: QFont, wrap: QTextOption.
     """Return how many rows so many successive lines of a source take at most in a width; at least one for each."""
     option = QTextOption()
     option.setWrapMode(wrap)
+    bold = QFont(font)
+    bold.setBold(True)  # As the keywords of a line: no row is wider.
     rows = []
     for text in source.split("\n"):
-        layout = QTextLayout(text, font)
+        layout = QTextLayout(text, bold)
         layout.setTextOption(option)
         layout.beginLayout()
         while (line := layout.createLine()).isValid():

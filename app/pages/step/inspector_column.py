@@ -1,10 +1,10 @@
-"""The inspector's column: the step in words, formula, listing and variables, and the pixel's history."""
+"""The inspector's column: the step in words, formula, listing and variables; or the history of a pixel."""
 
-from PySide6.QtCore import Qt, Slot
-from PySide6.QtGui import QResizeEvent
+from PySide6.QtCore import QEvent, QObject, Qt, Slot
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QTabWidget, QWidget
 
 from app.session.moment import Moment
+from core.explain.records import Formula
 from widgets.basics.controls import column_layout
 from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.theme import current_theme, theme_notifier
@@ -17,21 +17,27 @@ from widgets.timeline.stage_card import StageCardView
 
 LISTING_LINES, PRESENTED_LINES = 10, 4
 """Lines of the listing that are seen whole, and the same while presenting: the formula goes before it."""
-SENTENCE_LINES, FORMULA_LINES = 3, 6.5
-"""Height of the sentence, and of the formula, in which two fractions stand one below the other, in lines of text."""
-DETAIL_LINES = 7
-"""Height of variables and history, in lines, for which the listing wraps onto fewer rows."""
+SENTENCE_LINES = 3
+"""Height of the sentence, in lines of text."""
+VARIABLE_LINES = 6
+"""Height of the variables, in lines, for which the listing wraps onto fewer rows."""
 
 
-class InspectorColumn(QScrollArea):
-    """Everything about the step just done, one below the other; it scrolls where the window is low.
+class InspectorColumn(QTabWidget):
+    """Everything about the step just done, one below the other, where the window is low in a pane that scrolls.
 
-    What it says changes its own parts only: the column keeps its width, and so the picture its place.
+    A click on a pixel puts its history in the place of the step, and the next step puts the step back, unless the
+    user has chosen the history. What the step says changes its own parts only: the column keeps its width, and so the
+    picture its place; the listing moves only for a formula that is the tallest of its stage.
     """
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self._listing_lines = LISTING_LINES
+        self._tallest = 0
+        """Height of the tallest formula of the stage so far."""
+        self._is_history_chosen = False
+        """Whether the user wants to see histories while stepping."""
         self.card, self.formula, self.listing = StageCardView(self), FormulaView(self), ListingView(self)
         self.variables, self.history = VariablesView(self), PixelHistory(self)
         self.prediction = PredictionView(self)
@@ -48,13 +54,8 @@ class InspectorColumn(QScrollArea):
         for widget in (self.sentence, self.formula):
             layout.addWidget(widget)
         layout.addStretch(1)
-        self.detail_tabs = QTabWidget(self)
-        self.detail_tabs.setDocumentMode(True)
-        self.detail_tabs.tabBar().setDrawBase(False)
-        self.detail_tabs.addTab(self.variables, "Variables")
-        self.detail_tabs.addTab(self.history, "Pixel history")
         self.rows = PaneSplitter(Qt.Orientation.Vertical, self)
-        for part in (self.listing, self.detail_tabs):
+        for part in (self.listing, self.variables):
             self.rows.addWidget(part)
         self.rows.setChildrenCollapsible(False)
         self.rows.setStretchFactor(1, 1)
@@ -63,21 +64,46 @@ class InspectorColumn(QScrollArea):
         for pane in (self.card, self.prediction, self._step_pane):
             self._parts.addWidget(pane)
         self._parts.addWidget(self.rows, 1)
-        self.setWidget(content)
-        self.setWidgetResizable(True)
-        self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.step = QScrollArea(self)
+        self.step.setWidget(content)
+        self.step.setWidgetResizable(True)
+        self.step.setFrameShape(QFrame.Shape.NoFrame)
+        self.step.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self.step.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.step.viewport().installEventFilter(self)
+        self.setDocumentMode(True)
+        self.tabBar().setDrawBase(False)
+        self.addTab(self.step, "This step")
+        self.addTab(self.history, "Pixel history")
+        self.tabBarClicked.connect(self._choose)
         self.listing.room_changed.connect(self.fit)
-        theme_notifier().theme_changed.connect(self.fit)
+        theme_notifier().theme_changed.connect(self._forget_heights)
         self.fit()
 
-    def resizeEvent(self, event: QResizeEvent) -> None:
+    @Slot(int)
+    def _choose(self, index: int) -> None:
+        self._is_history_chosen = self.widget(index) is self.history
+
+    def show_step(self, moment: Moment | None = None) -> None:
+        """Show the step just done from its sentence on, unless the user has chosen to see histories."""
+        if not self._is_history_chosen:
+            self.setCurrentWidget(self.step)
+        self.step.verticalScrollBar().setValue(0)
+
+    def show_history(self, moment: Moment) -> None:
+        """Show the history of a pixel that is pinned, and the step again when none is."""
+        if moment.pin is None or moment.is_predicting:
+            self.show_step()
+        else:
+            self.setCurrentWidget(self.history)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Give the listing what room there is now; beside a bar or without one, everything is as wide."""
-        super().resizeEvent(event)
-        bar = self.verticalScrollBar()
-        self._parts.setContentsMargins(0, 0, 0 if bar.isVisible() else bar.sizeHint().width(), 0)
-        self.fit()
+        if watched is self.step.viewport() and event.type() == QEvent.Type.Resize:
+            bar = self.step.verticalScrollBar()
+            self._parts.setContentsMargins(0, 0, 0 if bar.isVisible() else bar.sizeHint().width(), 0)
+            self._forget_heights()
+        return super().eventFilter(watched, event)
 
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave out the stage's card, or bring it back."""
@@ -85,15 +111,32 @@ class InspectorColumn(QScrollArea):
         self._listing_lines = PRESENTED_LINES if is_presenting else LISTING_LINES
         self.fit()
 
+    def show_formula(self, formula: Formula | None, is_new_stage: bool) -> None:
+        """Show the formula of a step; one that is the tallest of its stage so far moves what is below."""
+        self.formula.show_formula(formula)
+        tallest = self._tallest
+        self._tallest = max(self._wanted_height(), 0 if is_new_stage else tallest)
+        if self._tallest != tallest:
+            self.fit()
+
+    def _wanted_height(self) -> int:
+        return self.formula.heightForWidth(max(self.formula.width(), 1))
+
+    @Slot()
+    def _forget_heights(self) -> None:
+        """Find the room of the formula anew, in another width or type."""
+        self._tallest = self._wanted_height()
+        self.fit()
+
     @Slot()
     def fit(self) -> None:
-        """Keep room for sentence, formula and some of the listing, in any type, whatever the present step has."""
+        """Keep room for the sentence, the tallest formula and some of the listing, in any type."""
         line = round(1.25 * current_theme().text_px)
         self.sentence.setMinimumHeight(SENTENCE_LINES * line)
-        step, details = round((SENTENCE_LINES + FORMULA_LINES) * line), DETAIL_LINES * (line + 6)
+        step, details = SENTENCE_LINES * line + 4 + self._tallest, VARIABLE_LINES * (line + 6)
         self._parts.activate()  # What has just come or gone above has moved the pane.
         above = self._step_pane.y() + step
-        seen = self.viewport().height() - above - 2 * self.rows.handleWidth()
+        seen = self.step.viewport().height() - above - 2 * self.rows.handleWidth()
         rows, lines = (
             self.listing.height_of(self._listing_lines, is_wrapped) for is_wrapped in (False, True)
         )
@@ -101,17 +144,17 @@ class InspectorColumn(QScrollArea):
         if code > seen:
             # In large type or a low window: it scrolls to the line of the step, which else would be out of sight.
             code = max(self.listing.height_of(PRESENTED_LINES, False), seen)
-        for widget, height in ((self._step_pane, step), (self.listing, code), (self.detail_tabs, details)):
+        for widget, height in (
+            (self._step_pane, step),
+            (self.listing, code),
+            (self.variables, details),
+        ):
             if widget.minimumHeight() != height:
                 widget.setMinimumHeight(height)
         if self.listing.height() > max(code, seen):
             self.rows.setSizes([code, max(self.rows.height() - code - self.rows.handleWidth(), details)])
 
-    def show_history(self, moment: Moment) -> None:
-        """Bring the history of a pixel forward when one is pinned."""
-        if moment.pin is not None and not moment.is_predicting:
-            self.detail_tabs.setCurrentWidget(self.history)
-
     def show_prediction(self, is_shown: bool) -> None:
         """Ask in place of telling: above the sentence."""
         self.prediction.setVisible(is_shown)
+        self.show_step()

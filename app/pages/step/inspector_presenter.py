@@ -36,7 +36,7 @@ class InspectorPresenter(QObject):
         parent: QObject | None = None,
     ) -> None:
         super().__init__(parent)
-        self._session, self._stepping = session, stepping
+        self._session, self._stepping, self._column = session, stepping, column
         self._sentence, self._card, self._formula = column.sentence, column.card, column.formula
         self._listing, self._variables, self._history = column.listing, column.variables, column.history
         self._function = ""
@@ -65,7 +65,8 @@ class InspectorPresenter(QObject):
     def refresh_step(self, moment: Moment) -> None:
         """Show the step just done."""
         trace, cursor = moment.stage_trace, moment.cursor
-        if cursor.stage != self._stage:
+        is_new_stage = cursor.stage != self._stage
+        if is_new_stage:
             self._stage = cursor.stage
             self._card.show_card(stage_card(cursor.stage, trace.method, trace.corner_count))
             self._card.show_folded(cursor.stage in self._folded)
@@ -74,7 +75,7 @@ class InspectorPresenter(QObject):
         explanation = moment.explanation
         if explanation is None:
             self._formula.show_hint("The formula of each step appears here.")
-            self._formula.show_formula(None)
+            self._column.show_formula(None, is_new_stage)
             self._variables.show_variables([])
             first = None if moment.is_predicting else trace.explain(1)
             self._listing.show_hint(HINT if first is None else NO_LISTING)
@@ -82,7 +83,7 @@ class InspectorPresenter(QObject):
             self._listing.show_line(None)
             return
         self._formula.show_hint(NO_FORMULA)
-        self._formula.show_formula(formula(explanation))
+        self._column.show_formula(formula(explanation), is_new_stage)
         self._variables.show_variables(variables(explanation))
         self._listing.show_hint(NO_LISTING)
         self._show_listing(explanation.listing)

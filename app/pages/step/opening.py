@@ -76,6 +76,7 @@ class StepOpening(QObject):
             self._page.show_view("compare")
             if pixel is not None:
                 self._page.comparing.meet_at(pixel)
+        self._page.column.show_step()
         self.opened.emit()
 
     @Slot(object)

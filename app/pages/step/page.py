@@ -68,7 +68,7 @@ class StepPage(Page):
         self.column = column = InspectorColumn(self)
         self.card, self.sentence, self.formula = column.card, column.sentence, column.formula
         self.listing, self.variables, self.history = column.listing, column.variables, column.history
-        self.prediction, self.detail_tabs = column.prediction, column.detail_tabs
+        self.prediction = column.prediction
 
         self.stepping = SteppingPresenter(session, self.timeline, self)
         self.events = EventChoice(self.stepping, self.timeline, self)
@@ -127,6 +127,7 @@ class StepPage(Page):
             (step | pin, self.stepping.end_message),
             (run, self.inspector.refresh_run),
             (cursor, self.inspector.refresh_step),
+            (cursor, self.column.show_step),
             (pointing, self.inspector.refresh_history),
             (pin, self.column.show_history),
             (step, self.inspector.ahead.begin),
@@ -211,7 +212,7 @@ class StepPage(Page):
         is_shown = {
             side: True,
             "inspector": not self.column.isHidden(),
-            "details": not self.detail_tabs.isHidden(),
+            "details": not self.column.variables.isHidden(),
             "thumbnails": self.main_area.thumbnails_button.isChecked(),
             "navigator": self.navigation.is_wanted,
             "run": not self.timeline.isHidden(),
@@ -228,7 +229,7 @@ class StepPage(Page):
         self.side_panes.setVisible(bool(side))
         self.side_tabs.show_open(side)
         self.column.setVisible("inspector" in names)
-        self.detail_tabs.setVisible("details" in names)
+        self.column.variables.setVisible("details" in names)
         self.timeline.setVisible("run" in names)
         self.main_area.show_thumbnails("thumbnails" in names)
         self.navigation.set_wanted("navigator" in names)

@@ -73,7 +73,7 @@ def test_the_formulas_of_a_run_are_not_shrunk(window: MainWindow) -> None:
 def test_only_what_the_step_needs_is_shown_and_the_rest_comes_by_key(window: MainWindow) -> None:
     page = window.page
     present(window, (1920, 1080))
-    rest = {Qt.Key.Key_R: page.timeline, Qt.Key.Key_T: page.strip, Qt.Key.Key_H: page.detail_tabs}
+    rest = {Qt.Key.Key_R: page.timeline, Qt.Key.Key_T: page.strip, Qt.Key.Key_H: page.column.variables}
     rest[Qt.Key.Key_S] = page.outline
     assert page.sentence.isVisible()
     assert not any(
@@ -135,7 +135,7 @@ def test_leaving_brings_the_window_back(window: MainWindow, qtbot: QtBot, theme:
             window.windowState(),
             window.appearance.name,
             page.shown_panes(),
-            [part.geometry() for part in (page.main_area, page.column, page.listing, page.detail_tabs)],
+            [part.geometry() for part in (page.main_area, page.column, page.listing, page.column.variables)],
             [widget.isVisible() for widget in shown],
         )
 

@@ -70,7 +70,7 @@ def test_shared_corners_split_and_join(window: MainWindow) -> None:
 def test_a_click_pins_and_shows_the_history(window: MainWindow, qtbot: QtBot) -> None:
     QTest.mouseClick(window.page.grid, Qt.MouseButton.LeftButton, pos=place_of(window, 20, 20))
     assert window.session.pin == (20, 20)
-    assert window.page.detail_tabs.currentWidget() is window.page.history
+    assert window.page.column.currentWidget() is window.page.history
     assert "20" in window.page.history.place.text()
     assert "(20, 20)" in window.pointed.text()
 

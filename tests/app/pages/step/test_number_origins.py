@@ -40,7 +40,7 @@ def place_of(window: MainWindow, symbol: str) -> QPoint:
 
 def click_variable(window: MainWindow, qtbot: QtBot, name: str) -> None:
     table = window.page.variables
-    window.page.column.detail_tabs.setCurrentWidget(table)
+    window.page.column.setCurrentWidget(window.page.column.step)
     item = table.findItems(name, Qt.MatchFlag.MatchExactly)[0]
     table.scrollToItem(item)
     where = table.visualItemRect(item)
@@ -134,7 +134,7 @@ def test_a_click_on_the_history_goes_to_the_test_of_that_triangle(window: MainWi
     session, history = window.session, window.page.history
     column, row = session.stage_trace.pixel[np.flatnonzero(session.stage_trace.marks["covered"])[30]].tolist()
     session.set_pin((column, row))
-    window.page.column.detail_tabs.setCurrentWidget(history)
+    window.page.column.setCurrentWidget(history)
     rows = history.view.model()
     visited = []
     for number in range(rows.rowCount()):

@@ -33,14 +33,14 @@ def counted(window: MainWindow, do: Callable[[], object]) -> Counter[str]:
 
 def test_a_change_refreshes_each_part_once(window: MainWindow) -> None:
     session = window.session
-    session.set_pin((3, 3))
     session.set_stage("raster", 400)
+    session.set_pin((3, 3))
+    assert max(counted(window, lambda: session.set_pin((5, 5))).values()) == 1, "where its history is shown"
     ways: list[Callable[[], object]] = [
         lambda: session.open(open_document(make_scene("cube"), "cube")),
         lambda: session.set_setting("fill", "scanline"),
         lambda: session.set_stage("depth", 5),
         lambda: session.step(1),
-        lambda: session.set_pin((5, 5)),
         lambda: window.page.set_predicting(True),
         session.undo,
     ]

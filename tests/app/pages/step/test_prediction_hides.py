@@ -84,6 +84,8 @@ def test_two_answers_look_alike(
     for position in {0, int(traces[0].steps.starts[row])}:
         shown = []
         for document in documents:
+            # From the same place: the room of the formula is that of the tallest one seen in the stage.
+            window.session.set_stage("transform", 0)
             window.session.open(document)
             window.session.set_level(Level.PIXEL)
             window.session.set_stage(stage, position)
