@@ -74,6 +74,8 @@ def held_values(step: StepValues) -> list[Held]:
         needed = name if text.after == "itself" else text.after
         if name not in values or name in hidden or (needed != GIVEN and needed not in order):
             continue
+        if name.endswith("_before") and values[name] != values[name]:
+            continue  # Nothing was there before.
         label = text.label if isinstance(text.label, str) else text.label(step)
         found.setdefault(label, []).append((order.get(name, -1), name, text))
     held = []

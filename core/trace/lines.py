@@ -5,7 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from core.methods import table
-from core.raster.lines.records import LineSteps, check_segments
+from core.raster.lines.records import check_segments
 from core.raster.lines.traits import line_set_up, line_traits
 from core.raster.lines.wireframe import line_parameter
 from core.records.arrays import Flags, Floats, Integers
@@ -71,7 +71,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
         method=f"line={line}",
         steps=Steps(
             kinds=kinds,
-            kind=len(FILL_OPERATIONS) + _kind(steps, len(operations)),
+            kind=len(FILL_OPERATIONS) + _kind(columns, tuple(operations), line_traits(line).pixels_in_column),
             operations={**FILL_OPERATIONS, **operations},
             triangle_ends=ends_of(triangle),
             group_ends=ends_of(segment),
@@ -108,19 +108,26 @@ def trace_lines(source: TraceSource) -> StageTrace:
     return with_line_clipping(found, source)
 
 
-def _kind(steps: LineSteps, count: int) -> Integers:
-    """Return which of ``count`` kinds the rows (R,) are: a line's first pixel, another one, one after a step."""
-    return np.where(steps.index == 0, 0, np.minimum(1 + steps.has_stepped, count - 1))
+def _kind(columns: Columns, kinds: tuple[str, ...], in_column: int) -> Integers:
+    """Return which of the ``kinds`` of a method, with so many pixels ``in_column``, each row (R,) is of."""
+    index, segment = columns["index"], columns["segment"]
+    is_beside = np.zeros(len(index), bool)
+    is_beside[1:] = (segment[1:] == segment[:-1]) & (np.diff(index // in_column) == 0)
+    is_other = columns["has_stepped"] if kinds[-1].endswith("-step") else is_beside
+    return np.where(index == 0, 0, np.minimum(1 + is_other, len(kinds) - 1))
 
 
 def _given(operations: Mapping[str, tuple[Operation, ...]], columns: Columns) -> dict[str, tuple[str, ...]]:
-    """Return what a line's first row has set for the later ones of each kind, and what the row before has left."""
-    first, *later = operations
-    again = {name for kind in later for done in operations[kind] for name in done.sets}
-    once = [name for done in operations[first] for name in done.sets if name not in again]
-    left = [f"{name}_before" for name in ("major", "minor") if name in again]
-    left += ["sum_before"] * bool(np.isfinite(columns["sum_before"]).any())
-    return dict.fromkeys(later, (*once, *left))
+    """Return what the rows before have left for each kind of row but a line's first: of this pixel, line or column."""
+    shown = {
+        kind: dict.fromkeys(name for done in operations[kind] for name in done.shows) for kind in operations
+    }
+    first, *later = shown
+    before = [
+        name for name in ("major_before", "minor_before", "sum_before") if np.isfinite(columns[name]).any()
+    ]
+    held = shown[first] | shown[later[0]]
+    return {kind: (*before, *(name for name in held if name not in shown[kind])) for kind in later}
 
 
 def _pixel_before(columns: Columns, is_first: Flags) -> dict[str, Floats]:

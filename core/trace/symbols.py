@@ -8,7 +8,7 @@ import re
 
 import numpy as np
 
-from core.raster.lines.traits import line_traits
+from core.raster.lines.traits import minor_name
 from core.trace.stage_trace import StageTrace, Value
 
 OF_FILLS = {f"value_{k}": f"E{k}" for k in range(3)}
@@ -17,8 +17,6 @@ OF_LINES = {
     **{"cosine": "c", "share": "g", "fraction": "f", "line_distance": "d", "filtered": "T"},
 }
 """Column of the raster stage to its symbol, where triangles are filled and where lines are drawn."""
-OF_PIXELS = {"column": "x", "row": "y"}
-"""The same of line methods; those that have a y between pixels call the pixel Y."""
 OF_STAGES = {
     "interpolate": {"total": "n", "fraction": "t"},
     "shade": {"lod": "λ", "level": "l", "level_fraction": "f"},
@@ -41,7 +39,7 @@ def symbols_of(trace: StageTrace) -> dict[str, str]:
     if trace.stage == "raster":
         found = OF_FILLS if family == "fill" else OF_LINES
     if family == "line":
-        found = found | OF_PIXELS | ({} if line_traits(method).takes_pixels else {"row": "Y"})
+        found = found | {"column": "x", "row": minor_name(method)}
         named = {"decision": DECISIONS.get(method), "sum_before": SUMS.get(method)}
         found = found | {column: symbol for column, symbol in named.items() if symbol}
     return {name: symbol for name, symbol in found.items() if name in trace.columns}

@@ -6,10 +6,10 @@ from functools import partial
 from math import nan
 
 from core.methods import table
-from core.raster.lines.bresenham import CORRECT, LENGTHS, STEP
 from core.raster.lines.bresenham import ERROR_TEST as TEST
+from core.raster.lines.bresenham import LENGTHS, STEP
 from core.raster.lines.bresenham import TEST as SUM_TEST
-from core.raster.lines.traits import ADVANCE, FIRST_SUM, NEXT, PLOT, SLOPE, START
+from core.raster.lines.traits import NEXT, PLOT, SLOPE, START, advance, correct, first_sum
 from lessons.printed.records import Listed, ListedLines, Operations, PrintedListing, SlideNumber
 
 SLIDE = "Draw A Line from(x0, y0) to (x1, y1), 0<= slope <=1"
@@ -311,20 +311,20 @@ for (let x = x0, y = y0; x <= x1; x++) {  #: start next
     }
     D -= 2*dy  #: advance
 }"""
-_SLOPE_ROW, _LENGTHS_ROW = (FIRST_SUM, SLOPE, START, PLOT), (FIRST_SUM, LENGTHS, START, PLOT)
+_SLOPE_ROW, _LENGTHS_ROW = (first_sum("e"), SLOPE, START, PLOT), (first_sum("e"), LENGTHS, START, PLOT)
 NAIVE_ROWS = (
     _SLOPE_ROW,
-    (TEST, NEXT, ADVANCE, PLOT),
-    (TEST, replace(NEXT, label="next-step"), STEP, replace(ADVANCE, label="advance-step"), PLOT),
+    (TEST, NEXT, advance("e"), PLOT),
+    (TEST, replace(NEXT, label="next-step"), STEP, replace(advance("e"), label="advance-step"), PLOT),
 )
 ERROR_ROWS, DIVIDED_ROWS = (
-    (first, (TEST, ADVANCE, NEXT, PLOT), (TEST, STEP, CORRECT, ADVANCE, NEXT, PLOT))
+    (first, (TEST, advance("e"), NEXT, PLOT), (TEST, STEP, correct("e"), advance("e"), NEXT, PLOT))
     for first in (_SLOPE_ROW, _LENGTHS_ROW)
 )
 D_ROWS = (
-    (LENGTHS, FIRST_SUM, START, PLOT),
-    (SUM_TEST, ADVANCE, NEXT, PLOT),
-    (SUM_TEST, STEP, CORRECT, ADVANCE, NEXT, PLOT),
+    (LENGTHS, first_sum("D"), START, PLOT),
+    (SUM_TEST, advance("D"), NEXT, PLOT),
+    (SUM_TEST, STEP, correct("D"), advance("D"), NEXT, PLOT),
 )
 """What the rows of the versions do."""
 AS_Y = ("v +=", "y +=")

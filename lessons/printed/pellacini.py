@@ -3,16 +3,17 @@
 from dataclasses import replace
 from math import ceil, floor, nan
 
-from core.raster.lines.bresenham import CORRECT, STEP, TEST
+from core.raster.lines.bresenham import STEP, TEST
 from core.raster.lines.traits import (
-    ADVANCE,
     EVALUATE,
     FIRST_COLUMN,
-    FIRST_SUM,
     INTERCEPT,
     NEXT,
     PLOT,
     SLOPE,
+    advance,
+    correct,
+    first_sum,
 )
 from core.records.operation import Operation
 from lessons.printed.records import (
@@ -166,7 +167,10 @@ while x < floor(x1)
         ),
     ),
     rule=ListedLines(dda, None, takes_pixels=False),
-    rows=((*_LINE, FIRST_COLUMN, EVALUATE, PLOT), (replace(ADVANCE, sets=("decision",)), NEXT, PLOT)),
+    rows=(
+        (*_LINE, FIRST_COLUMN, EVALUATE, PLOT),
+        (replace(advance("y"), sets={"decision": "y"}), NEXT, PLOT),
+    ),
     like="dda",
 )
 
@@ -218,9 +222,9 @@ while x < floor(x1)
     ),
     rule=ListedLines(bresenham, 0.5, takes_pixels=False),
     rows=(
-        (*_LINE, FIRST_COLUMN, Operation("first-y", "first-y", ("minor",)), FIRST_SUM, PLOT),
-        (NEXT, ADVANCE, TEST, PLOT),
-        (NEXT, ADVANCE, TEST, STEP, CORRECT, PLOT),
+        (*_LINE, FIRST_COLUMN, Operation("first-y", "first-y", {"minor": "y"}), first_sum("d"), PLOT),
+        (NEXT, advance("d"), TEST, PLOT),
+        (NEXT, advance("d"), TEST, STEP, correct("d"), PLOT),
     ),
     like="bresenham-float",
     beside="bresenham-float",

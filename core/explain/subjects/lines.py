@@ -1,6 +1,7 @@
 """Lines of a wireframe: how each method chooses its pixels, and interpolation along them."""
 
 import ast
+import math
 from fractions import Fraction
 
 from core.explain.digits import number_latex, signed_latex, spoken, vector_text
@@ -17,6 +18,7 @@ from core.explain.equation import (
     relation,
 )
 from core.explain.listed_code import (
+    BEFORE,
     assigned_name,
     assignment,
     code_of,
@@ -31,7 +33,7 @@ from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, given, hides, shows
 from core.methods import table
-from core.raster.lines.traits import line_of_kind, line_traits
+from core.raster.lines.traits import line_of_kind, line_traits, minor_name
 from core.records.words import counted, joined
 
 
@@ -306,6 +308,24 @@ def stepped(step: StepValues) -> Said:
     return f"{why} {minor} steps to {spoken(now)}{_though(near)}.", equation(*assignment(step)[0])
 
 
+@explains("raster.*.column")
+def next_column(step: StepValues) -> Said:
+    """The next column, or row of a steep line, that the line reaches."""
+    (major, _), now = axes(step), step.number("major")
+    word, before = "row" if step.flag("is_steep") else "column", step.number("major_before")
+    if step.kind.endswith("-start") and line_method(step) == "diamond-exit":
+        return f"The line's first pixel is in the {word} {major} = {spoken(now)}."
+    if math.isnan(before) or step.kind.endswith("-start"):
+        low = number_latex(min(end[0] for end in listed_ends(step)))
+        symbols, numbers = (
+            rf"\lfloor {text} + \frac{{1}}{{2}} \rfloor" for text in (rf"{MAJOR}_{{\min}}", low)
+        )
+        text = f"The first {word} that the line reaches is {major} = {spoken(now)}."
+        return text, equation((MAJOR, now), "=", (symbols, numbers))
+    made: list[Part] = [(MAJOR, now), "=", (MAJOR + BEFORE, before), "+", ("sx", step.number("sx"))]
+    return f"The next {word} is {major} = {spoken(now)}.", equation(*made)
+
+
 @explains("raster.*.first-y")
 def first_pixel(step: StepValues) -> Said:
     """The first pixel on the minor axis."""
@@ -498,8 +518,9 @@ def _major_name(step: StepValues) -> str:
 
 def _minor_name(step: StepValues) -> str:
     line = line_method(step)
-    takes_pixels = line in table.names("line") and line_traits(line).takes_pixels
-    return "column" if is_swapped(step) else MINOR if takes_pixels else "Y"
+    if line not in table.names("line"):
+        return MINOR
+    return "column" if is_swapped(step) else minor_name(line)
 
 
 for _line in table.names("line"):

@@ -1,11 +1,13 @@
 """Lines with intensities (Wu, Gupta-Sproull), rectangles, and the blending of both."""
 
+import math
+
 from core.explain.digits import number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import Part, beside, difference, equation, fraction
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
-from core.explain.subjects.lines import MAJOR, MINOR, axes
+from core.explain.subjects.lines import MAJOR, MINOR, axes, line_method
 from core.explain.variable_text import VariableText, shows
 from core.records.words import counted
 
@@ -99,26 +101,45 @@ def intensity(step: StepValues) -> Asked | None:
     )
 
 
+@explains("raster.*.pixel")
+def pixel_of_column(step: StepValues) -> Said:
+    """Which pixel of the column is looked at."""
+    minor, line, is_wu = step.number("minor"), step.number("decision"), line_method(step) == "wu"
+    first = math.floor(line) if is_wu else math.floor(line) + (line - math.floor(line) >= 0.5)
+    sides = ("to the left of", "to the right of") if step.flag("is_steep") else ("below", "above")
+    what = f"the next one {sides[minor > first]}" if minor != first else "the nearest to the line"
+    if is_wu:
+        what = f"{sides[minor > first]} the line" if minor != line else "on the line"
+    half = "" if is_wu else f" + {_HALF}"
+    symbols, numbers = (rf"\lfloor {text}{half} \rfloor" for text in (MINOR, number_latex(line)))
+    more: list[Part] = [] if minor == first else ["+" if minor > first else "-", "1"]
+    text = f"{_name(step).capitalize()} is {what}."
+    return text, equation(("Y", minor), "=", (symbols, numbers), *more)
+
+
+@explains("raster.*.fraction")
+def fraction_of_way(step: StepValues) -> Said:
+    """How far the line passes from the lower pixel to the upper one."""
+    (_, axis), line, part = axes(step), step.number("decision"), step.number("fraction")
+    below = math.floor(line)
+    text = f"The line passes {spoken(part)} of the way from {axis} = {spoken(below)} to {axis} = {spoken(below + 1)}."
+    shown = number_latex(line)
+    made: Part = (rf"{MINOR} - \lfloor {MINOR} \rfloor", rf"{shown} - \lfloor {shown} \rfloor")
+    return text, equation(("f", part), "=", made)
+
+
 @explains("raster.*.divide", asks=intensity, decides=True)
 def divided(step: StepValues) -> Said:
     """The intensity by Wu."""
-    (_, axis), minor, part = axes(step), step.whole("minor"), step.number("fraction")
-    intensity, of_column = step.number("intensity"), step.number("share")
+    part, found, of_column = step.number("fraction"), step.number("intensity"), step.number("share")
     # The lower (steep: left) one of the two pixels that the line passes between.
-    is_lower = minor <= step.number("decision")
-    below = minor if is_lower else minor - 1
+    is_lower = step.number("minor") <= step.number("decision")
     law = f"1 − {spoken(part)}" if is_lower else spoken(part)
     scaled = "" if of_column == 1 else f" times the weight {spoken(of_column)}"
-    result = "" if not is_lower and not scaled else f" = {spoken(intensity)}"
-    text = (
-        f"The line passes {spoken(part)} of the way from {axis} = {spoken(below)} to {axis} = {spoken(below + 1)}, "
-        f"so {_name(step)} gets the intensity {law}{scaled}{result}."
-    )
+    result = "" if not is_lower and not scaled else f" = {spoken(found)}"
+    text = f"{_name(step).capitalize()} gets the intensity {law}{scaled}{result}."
     shown: Part = ("(1 - f)", f"(1 - {number_latex(part)})") if is_lower else ("f", part)
-    line = number_latex(step.number("decision"))
-    of_fraction: Part = (rf"{MINOR} - \lfloor {MINOR} \rfloor", rf"{line} - \lfloor {line} \rfloor")
-    made: list[Part] = [("I", intensity), "=", shown, r"\cdot", ("g", of_column)]
-    return text, equation(*beside([("f", part), "=", of_fraction], made))
+    return text, equation(("I", found), "=", shown, r"\cdot", ("g", of_column))
 
 
 @explains("raster.*.cosine")
@@ -139,7 +160,7 @@ def distance(step: StepValues) -> Said:
         f"The centre of {_name(step)} is {spoken(abs(minor - line))} from the line along {axis}, which gives a "
         f"distance of {spoken(found)} px."
     )
-    apart = (rf"|{MINOR}_{{\mathrm{{pixel}}}} - {MINOR}|", f"|{number_latex(minor)} - {signed_latex(line)}|")
+    apart = (rf"|Y - {MINOR}|", f"|{number_latex(minor)} - {signed_latex(line)}|")
     return text, equation(("d", found), "=", apart, r"\cdot", ("c", step.number("cosine")))
 
 
@@ -154,18 +175,30 @@ def nearest_entry(step: StepValues) -> Asked | None:
     )
 
 
-@explains("raster.*.filter", asks=nearest_entry)
+@explains("raster.*.entry", asks=nearest_entry)
+def entry_of_table(step: StepValues) -> Said:
+    """Where the filter's table is looked up."""
+    entry, found = step.number("entry"), step.number("line_distance")
+    text = f"The nearest entry of the filter's table is at {counted(int(entry), 'sixteenth')} of a pixel."
+    made = (rf"\lfloor 16 d + {_HALF} \rfloor", rf"\lfloor 16 \cdot {number_latex(found)} + {_HALF} \rfloor")
+    return text, equation((r"\mathrm{entry}", entry), "=", made)
+
+
+@explains("raster.*.look-up")
+def looked_up(step: StepValues) -> Said:
+    """The value in the filter's table."""
+    value = step.number("filtered")
+    return f"There the filter's table has {spoken(value)}.", equation(("T", value))
+
+
+@explains("raster.*.filter")
 def filtered(step: StepValues) -> Said:
     """The intensity by the filter's table."""
-    entry, value = counted(step.whole("entry"), "sixteenth"), step.number("filtered")
-    of_column, intensity = step.number("share"), step.number("intensity")
-    text = f"The filter's table has {spoken(value)} at {entry} of a pixel, the entry nearest to d"
-    if of_column == 1:
-        text += f": this is the intensity of {_name(step)}."
-    else:
-        text += f": {spoken(of_column)} of it is {spoken(intensity)}, the intensity of {_name(step)}."
-    entry_value = (rf"T_{{\lfloor 16 d + {_HALF} \rfloor}}", value)
-    return text, equation(("I", intensity), "=", entry_value, r"\cdot", ("g", of_column))
+    value, of_column, found = (step.number(name) for name in ("filtered", "share", "intensity"))
+    text = f"{_name(step).capitalize()} gets the intensity {spoken(found)}, the value of the table."
+    if of_column != 1:
+        text = f"{_name(step).capitalize()} gets {spoken(of_column)} of it, the intensity {spoken(found)}."
+    return text, equation(("I", found), "=", ("T", value), r"\cdot", ("g", of_column))
 
 
 @explains("blend.*.weigh")

@@ -13,6 +13,7 @@ J. E. Bresenham, "Algorithm for computer control of a digital plotter", IBM Syst
 LMU, *Computer Graphics 1*, tutorial "Rasterization", Bresenham Algorithm and Task 1 g).
 """
 
+from collections.abc import Mapping
 from math import nan
 
 import numpy as np
@@ -28,15 +29,17 @@ from core.raster.lines.records import (
     visible_range,
 )
 from core.raster.lines.traits import (
-    ADVANCE,
     DIRECTIONS,
-    FIRST_SUM,
     NEXT,
     OCTANT,
     PLOT,
+    SLOPE,
     START,
     Coefficients,
     LineTraits,
+    advance,
+    correct,
+    first_sum,
     line_rows,
 )
 from core.raster.spans.lines import find_line_pixels
@@ -47,13 +50,19 @@ Listed = list[tuple[int, int, float]]
 """Column and row of each pixel, and D or e when it is drawn, from a listing."""
 
 LENGTHS = Operation("lengths", "lengths", ("dx", "dy"))
-STEP = Operation("step", "step", ("minor",))
-CORRECT = Operation("correct", "correct", ("sum_corrected",))
-TEST = Operation("test", "test", ("is_tie", "has_stepped"))
-ERROR_TEST = Operation("test", "test", ("decision", "is_tie", "has_stepped"))
-_MOVED = (ADVANCE, NEXT, PLOT)
+STEP = Operation("step", "step", {"minor": "y"})
+TEST = Operation("test", "test", takes=("is_tie", "has_stepped"))
+ERROR_TEST = Operation("test", "test", takes=("decision", "is_tie", "has_stepped"))
 _SET_UP = (OCTANT, LENGTHS, DIRECTIONS)
-_STEPPED = (STEP, CORRECT)
+
+
+def _rows(
+    line: str, first: tuple[Operation, ...], test: Operation, name: str
+) -> Mapping[str, tuple[Operation, ...]]:
+    """Return the rows of a version, whose sum the listing calls ``name``."""
+    moved = (advance(name), NEXT, PLOT)
+    start = (*first, START, first_sum(name), PLOT)
+    return line_rows(line, start, (test, *moved), (test, STEP, correct(name), *moved))
 
 
 def no_coefficients(ends: Floats) -> Coefficients:
@@ -146,9 +155,7 @@ def bresenham_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> L
     exact_for="ends on pixel centres: always the nearest pixel. A tie takes the diagonal step",
     breaks_where="other ends: they move to the centre of their pixel. Drawn backwards, a tie takes the other pixel",
     listing=bresenham_listing,
-    operations=line_rows(
-        "bresenham", (*_SET_UP, START, FIRST_SUM, PLOT), (TEST, *_MOVED), (TEST, *_STEPPED, *_MOVED)
-    ),
+    operations=_rows("bresenham", _SET_UP, TEST, "D"),
     traits=LineTraits(takes_pixels=True, coefficients=no_coefficients, find_pixels=find_line_pixels),
 )
 def bresenham(segments: Segments, last_pixel: bool) -> LineRun:
@@ -191,9 +198,7 @@ def bresenham_lecture_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bo
     "straight step (D > 0), so the line is not the mirror image. Lines that share an end: the last "
     "pixel is always drawn, so both draw it",
     listing=bresenham_lecture_listing,
-    operations=line_rows(
-        "bresenham-lecture", (*_SET_UP, START, FIRST_SUM, PLOT), (TEST, *_MOVED), (TEST, *_STEPPED, *_MOVED)
-    ),
+    operations=_rows("bresenham-lecture", _SET_UP, TEST, "D"),
     traits=LineTraits(
         takes_pixels=True, is_diagonal_steep=True, swaps_ends=True, coefficients=no_coefficients
     ),
@@ -242,12 +247,7 @@ def bresenham_float_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool
     breaks_where="ties: e accumulates rounding errors, so a tie may go either way. Other ends move to the centre "
     f"of their pixel. More than {STEP_LIMIT} steps are refused",
     listing=bresenham_float_listing,
-    operations=line_rows(
-        "bresenham-float",
-        (*_SET_UP, Operation("slope", "slope", ("slope",)), START, FIRST_SUM, PLOT),
-        (ERROR_TEST, *_MOVED),
-        (ERROR_TEST, *_STEPPED, *_MOVED),
-    ),
+    operations=_rows("bresenham-float", (*_SET_UP, SLOPE), ERROR_TEST, "e"),
     traits=LineTraits(takes_pixels=True, coefficients=error_slope),
 )
 def bresenham_float(segments: Segments, last_pixel: bool) -> LineRun:

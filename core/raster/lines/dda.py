@@ -11,7 +11,7 @@ F. Pellacini, *Computer Graphics*, lecture "Graphics pipeline": midpoint line ra
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import ceil, floor
 
 import numpy as np
@@ -29,6 +29,7 @@ from core.raster.lines.records import (
     visible_range,
 )
 from core.raster.lines.traits import (
+    DIRECTION,
     EVALUATE,
     FIRST_COLUMN,
     INTERCEPT,
@@ -38,6 +39,7 @@ from core.raster.lines.traits import (
     ROUND,
     SLOPE,
     LineTraits,
+    advance,
     line_coefficients,
     line_rows,
 )
@@ -50,11 +52,10 @@ BATCH = 2**20
 Listed = list[tuple[int, int, float]]
 """Column, row and minor coordinate of each pixel, from a listing."""
 
-_DIRECTION = Operation("directions", "directions", ("sx",))
-SET_UP = (OCTANT, SLOPE, INTERCEPT, _DIRECTION, FIRST_COLUMN)
+SET_UP = (OCTANT, SLOPE, INTERCEPT, DIRECTION, FIRST_COLUMN)
 """What the first row of a line does that any ends are given of."""
 _ADDED = Operation("sy", "sy", ("sy",))
-_ADVANCED = (Operation("advance", "advance", ("decision",)), NEXT, ROUND, PLOT)
+_ADVANCED = (replace(advance("y"), sets={"decision": "y"}), NEXT, ROUND, PLOT)
 
 FLOAT32_ROUNDING = 2.0**-23
 """Most that one sum in float32 is off by, as a share of it, with room for the sums before it."""

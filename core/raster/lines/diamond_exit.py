@@ -24,7 +24,7 @@ import numpy as np
 from core.methods import method
 from core.raster.edges.snapping import SUBPIXELS
 from core.raster.lines.records import LineRun, Segments, enumerate_steps, major_first, visible_range
-from core.raster.lines.traits import OCTANT, PLOT, line_rows
+from core.raster.lines.traits import COLUMN, OCTANT, PLOT, line_rows
 from core.records.arrays import Flags, Floats, Integers
 from core.records.operation import Operation
 
@@ -35,8 +35,9 @@ Listed = list[tuple[int, int, float]]
 """Column, row, and the line's height above the pixel's centre, from a listing."""
 
 _EXIT = (
-    Operation("round", "round", ("decision", "is_tie", "has_stepped")),
-    Operation("leaves", "leaves", ("exit_start", "exit_end")),
+    COLUMN,
+    Operation("round", "round", {"minor": "y"}, ("decision", "is_tie", "has_stepped")),
+    Operation("leaves", "leaves", takes=("exit_start", "exit_end")),
     PLOT,
 )
 
@@ -164,40 +165,39 @@ def _rounded(number: float, parts: int) -> Fraction:
 def diamond_exit_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
     """List the pixels of ``diamond-exit`` on one segment, exactly; pixel centres are whole numbers."""
     ends = (x0, y0, x1, y1)
-    u0, v0, u1, v1 = [_rounded(end, END_SUBPIXELS) for end in ends]  #: exact
-    a, b, c, d = [_rounded(end, SUBPIXELS) for end in ends]  #: snap
+    u0, v0, u1, v1 = [_rounded(end, END_SUBPIXELS) for end in ends]
+    a, b, c, d = [_rounded(end, SUBPIXELS) for end in ends]
     is_steep = abs(v1 - v0) > abs(u1 - u0)  #: octant
     if is_steep:
         u0, v0, u1, v1 = v0, u0, v1, u1  #: swap-axes
         a, b, c, d = b, a, d, c
-    s = -1 if u1 < u0 else 1  #: directions
+    s = -1 if u1 < u0 else 1
     m, half = Fraction(0), Fraction(1, 2)
     if c != a:
-        m = min(max((d - b) / (c - a), Fraction(-1)), Fraction(1))  #: slope
+        m = min(max((d - b) / (c - a), Fraction(-1)), Fraction(1))
 
     def is_through(u: Fraction, v: Fraction) -> bool:
-        through = s * (u - x) + abs(v - y)  #: through
+        through = s * (u - x) + abs(v - y)
         if through == half:
-            return v <= y if is_steep else s < 0  #: move
+            return v <= y if is_steep else s < 0
         return through > half
 
     def is_reached(u: Fraction, v: Fraction) -> bool:
-        reach = abs(v - y) - s * (u - x)  #: reach
+        reach = abs(v - y) - s * (u - x)
         if reach == half:
             return v > y if is_steep else s < 0
         return reach < half
 
     pixels = []
     first, last = ceil(min(u0, u1) - half), floor(max(u0, u1) + half)
-    for x in range(first, last + 1)[::s]:  #: columns
-        height = b + (x - a) * m  #: evaluate
-        y = floor(height + half)  #: round
-        if height + half == y and (is_steep or m <= 0):
-            y -= 1  #: tie
+    for x in range(first, last + 1)[::s]:  #: column
+        height = b + (x - a) * m
+        is_lower = height + half == floor(height + half) and (is_steep or m <= 0)
+        y = floor(height + half) - is_lower  #: round
         begins = not is_through(u0, v0)
-        leaves = begins and is_through(u1, v1)  #: leaves
-        ends_here = last_pixel and begins and is_reached(u1, v1)  #: ends
-        if leaves or ends_here:
+        leaves = begins and is_through(u1, v1)
+        ends_here = last_pixel and begins and is_reached(u1, v1)
+        if leaves or ends_here:  #: leaves
             place = (y, x) if is_steep else (x, y)
             pixels.append((*place, float(height - y)))  #: draw
     return pixels

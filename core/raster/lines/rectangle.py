@@ -41,8 +41,8 @@ Listed = list[tuple[int, int, float]]
 """Column, row and distance across the line, from a listing."""
 
 _INSIDE = (
-    Operation("across", "inside", ("decision", "is_tie", "has_stepped")),
-    Operation("along", "along", ("along",)),
+    Operation("across", "inside", takes=("decision", "is_tie")),
+    Operation("along", "along", takes=("along",)),
     PLOT,
 )
 
@@ -199,23 +199,23 @@ def _judge(rectangles: _Rectangles, owner: Integers, k: Integers, last_pixel: bo
 
 def rectangle_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
     """List the pixels of ``rectangle`` on one segment, exactly; pixel centres are whole numbers."""
-    a, b, c, d = (round(end * SUBPIXELS) for end in (x0, y0, x1, y1))  #: snap
-    dx, dy = c - a, d - b  #: directions
+    x0, y0, x1, y1 = (round(end * SUBPIXELS) for end in (x0, y0, x1, y1))  # in 1/256 pixel
+    dx, dy = x1 - x0, y1 - y0
+    is_steep = abs(dy) > abs(dx)  #: octant
     squared = dx * dx + dy * dy
     if squared == 0:
         dx = 1
     half_squared = (SUBPIXELS // 2) ** 2 * (dx * dx + dy * dy)
-    half = isqrt(half_squared)  #: width
-    pixel = SUBPIXELS * sqrt(dx * dx + dy * dy)
+    half = isqrt(half_squared)
+    L = sqrt(dx * dx + dy * dy) / SUBPIXELS  #: length
     is_below = dy < 0 or (dy == 0 and dx > 0)
 
-    is_steep = abs(dy) > abs(dx)  #: octant
-    low, high = sorted((b, d) if is_steep else (a, c))
+    low, high = sorted((y0, y1) if is_steep else (x0, x1))
     first, last = ceil(low / SUBPIXELS - 0.5), floor(high / SUBPIXELS + 0.5)
-    columns = range(first, last + 1)  #: columns
-    du, dv, u0, v0 = dx, dy, a, b
+    columns = range(first, last + 1)
+    du, dv, u0, v0 = dx, dy, x0, y0
     if is_steep:
-        du, dv, u0, v0 = dy, dx, b, a
+        du, dv, u0, v0 = dy, dx, y0, x0
 
     pixels = []
     for u in columns[::-1] if du < 0 else columns:
@@ -223,17 +223,18 @@ def rectangle_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bo
         nearest = floor(place / SUBPIXELS + 0.5)
         for v in range(nearest - 1, nearest + 2):
             column, row = (v, u) if is_steep else (u, v)
-            x = SUBPIXELS * column - a
-            y = SUBPIXELS * row - b
-            cross = dx * y - dy * x  #: across
+            x = SUBPIXELS * column - x0
+            y = SUBPIXELS * row - y0
+            cross = dx * y - dy * x
             dot = dx * x + dy * y
-            is_inside = abs(cross) <= half  #: inside
+            is_inside = abs(cross) <= half
             if cross * cross == half_squared:
                 is_inside = (cross < 0) == is_below
-            if dot < 0 or dot > squared:  #: along
+            if not is_inside:  #: inside
                 continue
-            if is_inside and (dot < squared or last_pixel):
-                pixels.append((column, row, cross / pixel))  #: draw
+            if dot < 0 or dot > squared or (dot == squared and not last_pixel):  #: along
+                continue
+            pixels.append((column, row, cross / (SUBPIXELS * SUBPIXELS * L)))  #: draw
     return pixels
 
 
@@ -252,7 +253,7 @@ def _ends_in_pixels(segments: Segments) -> Floats:
     "inside tests",
     listing=rectangle_listing,
     operations=line_rows(
-        "rectangle", (OCTANT, Operation("length", "width", ("run", "rise", "length")), *_INSIDE), _INSIDE
+        "rectangle", (OCTANT, Operation("length", "length", {"length": "L"}), *_INSIDE), _INSIDE
     ),
     traits=LineTraits(ends=_ends_in_pixels, swaps_axes=False),
 )

@@ -26,8 +26,12 @@ from core.methods import method
 from core.raster.lines.dda import LineColumns, ends_by_column, line_equation
 from core.raster.lines.records import BLENDING, LineRun, Segments, enumerate_steps, round_half_up
 from core.raster.lines.traits import (
+    COLUMN,
+    DIRECTION,
     EVALUATE,
+    INTERCEPT,
     OCTANT,
+    PIXEL,
     PLOT,
     SHARE,
     SLOPE,
@@ -47,17 +51,16 @@ FILTER_REACH = 1.5
 Listed = list[tuple[int, int, float, float]]
 """Column, row, minor coordinate of the line and intensity of each pixel, from a listing."""
 
-_DIVIDED = (
-    EVALUATE,
-    SHARE,
-    Operation("divide", "intensity", ("fraction", "intensity", "is_tie", "has_stepped")),
-    PLOT,
-)
+_SET_UP = (OCTANT, SLOPE, INTERCEPT, DIRECTION)
+_COLUMN = (COLUMN, EVALUATE, SHARE)
+_FRACTION = Operation("fraction", "fraction", {"fraction": "f"}, ("is_tie",))
+_DIVIDED = (PIXEL, Operation("divide", "intensity", {"intensity": "I"}), PLOT)
 _FILTERED = (
-    EVALUATE,
-    SHARE,
-    Operation("distance", "distance", ("line_distance", "is_tie", "has_stepped")),
-    Operation("filter", "intensity", ("entry", "filtered", "intensity")),
+    PIXEL,
+    Operation("distance", "distance", {"line_distance": "d"}, ("is_tie",)),
+    Operation("entry", "entry", ("entry",)),
+    Operation("look-up", "look-up", {"filtered": "T"}),
+    Operation("filter", "intensity", {"intensity": "I"}),
     PLOT,
 )
 
@@ -180,7 +183,22 @@ def _run(
         line_distance=None if distance is None else distance[drawn],
         share=passage.share[drawn],
         intensity=intensity[drawn],
+        sum_before=np.where(passage.k == 0, np.nan, passage.v_before)[drawn],
     )
+
+
+def _pixel_before(columns: Columns, last: Floats | Integers, order: Integers) -> dict[str, Floats | Integers]:
+    """Return the minor coordinate (P,) that was looked at before each pixel.
+
+    ``last`` (P,) is the last one in the column before, ``order`` (n,) the way back from each pixel of a column to the
+    one before.
+    """
+    which = columns["index"] % len(order)
+    return {"minor_before": np.where(which == 0, last, columns["minor"] + order[which]).astype(float)}
+
+
+def _before_divided(columns: Columns) -> dict[str, Floats | Integers]:
+    return _pixel_before(columns, np.floor(columns["sum_before"]) + 1, np.array([0, -1]))
 
 
 def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
@@ -196,15 +214,14 @@ def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> 
     first = floor(low) + (low - floor(low) >= 0.5)  #: start
     last = ceil(high) - (ceil(high) - high >= 0.5)
     pixels = []
-    for x in range(first, last + 1)[::sx]:
+    for x in range(first, last + 1)[::sx]:  #: column
         y = m * x + b  #: evaluate
-        share = max(min(x + 0.5, high) - max(x - 0.5, low), 0.0)  #: share
-        fraction = y - floor(y)  #: fraction
-        for row, part in ((floor(y), 1 - fraction), (floor(y) + 1, fraction)):
-            intensity = part * share  #: intensity
-            if intensity > 0:
-                place = (row, x) if is_steep else (x, row)
-                pixels.append((*place, y, intensity))  #: draw
+        g = max(min(x + 0.5, high) - max(x - 0.5, low), 0.0)  #: share
+        f = y - floor(y)  #: fraction
+        for Y, part in ((floor(y), 1 - f), (floor(y) + 1, f)):  #: pixel
+            I = part * g  #: intensity
+            if I > 0:
+                pixels.append((Y, x, y, I) if is_steep else (x, Y, y, I))  #: draw
     return pixels
 
 
@@ -219,7 +236,13 @@ def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> 
     "and thinner. Horizontal lines look sharp or blurred, depending on their position between pixels",
     needs=(BLENDING,),
     listing=wu_listing,
-    operations=line_rows("wu", (OCTANT, SLOPE, *_DIVIDED), _DIVIDED),
+    operations=line_rows(
+        "wu",
+        (*_SET_UP, *_COLUMN, _FRACTION, *_DIVIDED),
+        (*_COLUMN, _FRACTION, *_DIVIDED),
+        beside=_DIVIDED,
+    ),
+    traits=LineTraits(pixels_in_column=2, columns=_before_divided),
 )
 def wu(segments: Segments, last_pixel: bool) -> LineRun:
     """Divide the line between the two pixels of a column; ``decision`` is its minor coordinate (centres whole).
@@ -251,25 +274,24 @@ def gupta_sproull_listing(x0: float, y0: float, x1: float, y1: float, last_pixel
         x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
-    cosine = 1 / sqrt(1 + m * m)  #: cosine
+    c = 1 / sqrt(1 + m * m)  #: cosine
     sx = -1 if x1 < x0 else 1  #: directions
     low, high = min(x0, x1), max(x0, x1)
     first = floor(low) + (low - floor(low) >= 0.5)  #: start
     last = ceil(high) - (ceil(high) - high >= 0.5)
     pixels = []
-    for x in range(first, last + 1)[::sx]:
+    for x in range(first, last + 1)[::sx]:  #: column
         y = m * x + b  #: evaluate
         left, right = max(x - 0.5, low), min(x + 0.5, high)
-        share = max(right - left, 0.0)  #: share
-        near = floor(y) + (y - floor(y) >= 0.5)  #: round
-        for row in (near, near + 1, near - 1):
-            distance = abs(row - y) * cosine  #: distance
-            entry = floor(distance * TABLE_STEPS + 0.5)  #: entry
-            weight = float(FILTER_TABLE[entry])
-            intensity = weight * share  #: intensity
-            if intensity > 0:
-                place = (row, x) if is_steep else (x, row)
-                pixels.append((*place, y, intensity))  #: draw
+        g = max(right - left, 0.0)  #: share
+        near = floor(y) + (y - floor(y) >= 0.5)
+        for Y in (near, near + 1, near - 1):  #: pixel
+            d = abs(Y - y) * c  #: distance
+            entry = floor(d * TABLE_STEPS + 0.5)  #: entry
+            T = float(FILTER_TABLE[entry])  #: look-up
+            I = T * g  #: intensity
+            if I > 0:
+                pixels.append((Y, x, y, I) if is_steep else (x, Y, y, I))  #: draw
     return pixels
 
 
@@ -280,7 +302,10 @@ def filter_entry(distance: Floats) -> Integers:
 
 def _filter_columns(columns: Columns) -> dict[str, Floats | Integers]:
     entry = filter_entry(columns["line_distance"])
-    return {"entry": entry, "filtered": FILTER_TABLE.take(entry)}
+    found: dict[str, Floats | Integers] = {"entry": entry, "filtered": FILTER_TABLE.take(entry)}
+    return found | _pixel_before(
+        columns, round_half_up(np.nan_to_num(columns["sum_before"])) - 1, np.array([0, -1, 2])
+    )
 
 
 @method(
@@ -295,9 +320,20 @@ def _filter_columns(columns: Columns) -> dict[str, Floats | Integers]:
     needs=(BLENDING,),
     listing=gupta_sproull_listing,
     operations=line_rows(
-        "gupta-sproull", (OCTANT, SLOPE, Operation("cosine", "cosine", ("cosine",)), *_FILTERED), _FILTERED
+        "gupta-sproull",
+        (
+            OCTANT,
+            SLOPE,
+            INTERCEPT,
+            Operation("cosine", "cosine", {"cosine": "c"}),
+            DIRECTION,
+            *_COLUMN,
+            *_FILTERED,
+        ),
+        (*_COLUMN, *_FILTERED),
+        beside=_FILTERED,
     ),
-    traits=LineTraits(columns=_filter_columns),
+    traits=LineTraits(pixels_in_column=3, columns=_filter_columns),
 )
 def gupta_sproull(segments: Segments, last_pixel: bool) -> LineRun:
     """Look up the distances of the three nearest pixels of a column; ``decision`` is the line's minor coordinate.

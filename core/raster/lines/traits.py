@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -10,19 +11,36 @@ from core.raster.lines.records import BLENDING, Segments, major_first
 from core.records.arrays import Floats, Integers
 from core.records.operation import Columns, Operation
 
-OCTANT = Operation("octant", "octant", ("first_end", "second_end", "is_steep"))
+OCTANT = Operation("octant", "octant", ("is_steep",), ("first_end", "second_end"))
 DIRECTIONS = Operation("directions", "directions", ("sx", "sy"))
-SLOPE = Operation("slope", "slope", ("slope",))
-INTERCEPT = Operation("intercept", "intercept", ("intercept",))
-START = Operation("start", "start", ("major", "minor"))
-FIRST_COLUMN = Operation("start", "start", ("major",))
-FIRST_SUM = Operation("first-sum", "first-sum", ("sum_advanced",))
-ADVANCE = Operation("advance", "advance", ("sum_advanced",))
-NEXT = Operation("next", "next", ("major",))
-EVALUATE = Operation("evaluate", "evaluate", ("decision",))
-ROUND = Operation("round", "round", ("minor", "is_tie", "has_stepped"))
-SHARE = Operation("share", "share", ("share",))
-PLOT = Operation("plot", "draw", ("covered", "t"))
+DIRECTION = Operation("directions", "directions", ("sx",))
+SLOPE = Operation("slope", "slope", {"slope": "m"})
+INTERCEPT = Operation("intercept", "intercept", {"intercept": "b"})
+START = Operation("start", "start", {"major": "x", "minor": "y"})
+FIRST_COLUMN = Operation("start", "start", {"major": "x"})
+COLUMN = Operation("column", "column", {"major": "x"})
+NEXT = Operation("next", "next", {"major": "x"})
+PIXEL = Operation("pixel", "pixel", {"minor": "Y"})
+EVALUATE = Operation("evaluate", "evaluate", {"decision": "y"})
+ROUND = Operation("round", "round", {"minor": "Y"}, ("is_tie", "has_stepped"))
+SHARE = Operation("share", "share", {"share": "g"})
+PLOT = Operation("plot", "draw", {"covered": "pixels"}, ("t",))
+
+
+def first_sum(name: str) -> Operation:
+    """Return the operation that gives the sum that decides, called ``name`` by the listing, its first value."""
+    return Operation("first-sum", "first-sum", {"sum_advanced": name})
+
+
+def advance(name: str) -> Operation:
+    """Return the operation that takes this sum to the next pixel."""
+    return Operation("advance", "advance", {"sum_advanced": name})
+
+
+def correct(name: str) -> Operation:
+    """Return the operation that takes off it what a step of the minor coordinate has done."""
+    return Operation("correct", "correct", {"sum_corrected": name})
+
 
 Coefficients = tuple[Floats, Floats]
 """Slope m and intercept b (L,) of v = m u + b, NaN where a method has none."""
@@ -67,6 +85,8 @@ class LineTraits:
     """Whether a segment that is as long in x as in y runs along y."""
     coefficients: Callable[[Floats], Coefficients] = line_coefficients
     """Slope and intercept that it uses, of ends (L, 2, 2), the major axis first."""
+    pixels_in_column: int = 1
+    """How many numbers it counts for every column: the most pixels that it looks at in one."""
     columns: Callable[[Columns], dict[str, Floats | Integers]] = _no_columns
     """Further columns (P,) of its trace, from those that all methods have."""
     find_pixels: LineFinder | None = None
@@ -77,19 +97,29 @@ def line_rows(
     line: str,
     first: tuple[Operation, ...],
     later: tuple[Operation, ...],
-    stepped: tuple[Operation, ...] | None = None,
+    stepped: tuple[Operation, ...] = (),
+    beside: tuple[Operation, ...] = (),
 ) -> Mapping[str, tuple[Operation, ...]]:
     """Return the kinds of rows of a line method: ``<line>-start`` for a line's first pixel, ``<line>`` for the others.
 
-    Where ``stepped`` is given, ``<line>-step`` is one to which the minor coordinate has stepped.
+    Where they are given, ``<line>-step`` is one to which the minor coordinate has ``stepped``, and ``<line>-beside``
+    one ``beside`` another pixel of the same column.
     """
-    rows = {f"{line}-start": first, line: later}
-    return rows if stepped is None else rows | {f"{line}-step": stepped}
+    others = {f"{line}-step": stepped, f"{line}-beside": beside}
+    return {f"{line}-start": first, line: later, **{kind: rows for kind, rows in others.items() if rows}}
 
 
 def line_of_kind(kind: str) -> str:
     """Return the line method of a kind of row."""
-    return kind.removesuffix("-start").removesuffix("-step")
+    return kind.removesuffix("-start").removesuffix("-step").removesuffix("-beside")
+
+
+@cache
+def minor_name(line: str) -> str:
+    """Return what the listing of a method of the family ``line`` calls the pixel along the shorter axis."""
+    done = (one for rows in table.get("line", line).operations.values() for one in rows)
+    found = [one.sets["minor"] for one in done if isinstance(one.sets, Mapping) and "minor" in one.sets]
+    return found[0] if found else "y"
 
 
 def line_traits(line: str) -> LineTraits:

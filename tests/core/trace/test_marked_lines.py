@@ -42,10 +42,6 @@ class Mark(NamedTuple):
         return f"{self.key} marks {shown!r} of {self.listing.name}"
 
 
-OF_LINES = "core.raster.lines."
-"""Where listings stand whose variables are not named yet as their steps name them."""
-
-
 def names(variables: Variables) -> dict[str, str]:
     """Return variables and what the listing calls them, one name or several."""
     return {name: name for name in variables} if isinstance(variables, tuple) else dict(variables)
@@ -69,7 +65,7 @@ def marks_of(stage: StageTrace, kind: str, rows: NDArray[np.int64]) -> Iterator[
         ran = np.full(len(rows), operation.label) if isinstance(operation.label, str) else None
         ran = operation.label(stage.columns, rows) if ran is None else ran
         for label in np.unique(ran).tolist() if listing is not None else ():
-            if label and not listing.function.__module__.startswith(OF_LINES):
+            if label:
                 found = names(operation.sets).items()
                 changed = [
                     called.split() for name, called in found if changes(stage, name, rows[ran == label])
