@@ -2,6 +2,7 @@
 
 import numpy as np
 
+from core.raster.lines.traits import line_of_kind
 from core.trace import StageTrace
 
 FEWER = {
@@ -31,7 +32,7 @@ def position_now(stage: StageTrace, position: int) -> int:
     for number, kind in enumerate(steps.kinds):
         names = [operation.name for operation in steps.operations[kind]]
         counts[number] -= sum(name in added for name in names)
-        line = kind.removesuffix("-start").removesuffix("-step")
+        line = line_of_kind(kind)
         known = (f"{stage.stage}.{name}" for name in (kind, line))
         counts[number] = next((FEWER[name] for name in known if name in FEWER), counts[number])
     starts = np.concatenate([[0], np.cumsum(counts[steps.kind])])

@@ -123,9 +123,9 @@ def _given(operations: Mapping[str, tuple[Operation, ...]], columns: Columns) ->
         kind: dict.fromkeys(name for done in operations[kind] for name in done.shows) for kind in operations
     }
     first, *later = shown
-    before = [
-        name for name in ("major_before", "minor_before", "sum_before") if np.isfinite(columns[name]).any()
-    ]
+    left = {"major_before": "major", "minor_before": "minor", "sum_before": "decision"}
+    every = set().union(*shown.values()) | ({"decision"} if "sum_advanced" in shown[first] else set())
+    before = [name for name, now in left.items() if now in every and np.isfinite(columns[name]).any()]
     held = shown[first] | shown[later[0]]
     return {kind: (*before, *(name for name in held if name not in shown[kind])) for kind in later}
 

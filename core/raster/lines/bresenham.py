@@ -131,7 +131,7 @@ def bresenham_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool) -> L
     """List the pixels of ``bresenham`` between two pixels."""
     is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
     if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+        x0, y0, x1, y1 = y0, x0, y1, x1
     dx, dy = abs(x1 - x0), abs(y1 - y0)  #: lengths
     sx, sy = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
     x, y = x0, y0  #: start
@@ -170,9 +170,9 @@ def bresenham_lecture_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bo
     """List the pixels of ``bresenham-lecture`` between two pixels; the last one is always drawn."""
     is_steep = not abs(y1 - y0) < abs(x1 - x0)  #: octant
     if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
-    if x0 > x1:  #: order
-        x0, y0, x1, y1 = x1, y1, x0, y0  #: swap-ends
+        x0, y0, x1, y1 = y0, x0, y1, x1
+    if x0 > x1:
+        x0, y0, x1, y1 = x1, y1, x0, y0
     dx, dy = x1 - x0, abs(y1 - y0)  #: lengths
     sx, sy = 1, (-1 if y1 < y0 else 1)  #: directions
     x, y = x0, y0  #: start
@@ -221,7 +221,7 @@ def bresenham_float_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bool
     """List the pixels of ``bresenham-float`` between two pixels."""
     is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
     if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+        x0, y0, x1, y1 = y0, x0, y1, x1
     dx, dy = abs(x1 - x0), abs(y1 - y0)  #: lengths
     sx, sy = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)  #: directions
     m = dy / max(dx, 1)  #: slope

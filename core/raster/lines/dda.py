@@ -168,7 +168,7 @@ def midpoint_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: boo
     """List the pixels of ``midpoint`` on one segment; pixel centres are whole numbers."""
     is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
     if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+        x0, y0, x1, y1 = y0, x0, y1, x1
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
     sx = -1 if x1 < x0 else 1  #: directions
@@ -202,7 +202,7 @@ def dda_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) ->
     """List the pixels of ``dda`` on one segment; pixel centres are whole numbers."""
     is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
     if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+        x0, y0, x1, y1 = y0, x0, y1, x1
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
     sx = -1 if x1 < x0 else 1  #: directions
@@ -248,7 +248,7 @@ def dda_float32_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: 
     """List the pixels of ``dda-float32`` on one segment; pixel centres are whole numbers."""
     is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
     if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+        x0, y0, x1, y1 = y0, x0, y1, x1
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
     sx = -1 if x1 < x0 else 1  #: directions

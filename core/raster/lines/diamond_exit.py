@@ -169,7 +169,7 @@ def diamond_exit_listing(x0: float, y0: float, x1: float, y1: float, last_pixel:
     a, b, c, d = [_rounded(end, SUBPIXELS) for end in ends]
     is_steep = abs(v1 - v0) > abs(u1 - u0)  #: octant
     if is_steep:
-        u0, v0, u1, v1 = v0, u0, v1, u1  #: swap-axes
+        u0, v0, u1, v1 = v0, u0, v1, u1
         a, b, c, d = b, a, d, c
     s = -1 if u1 < u0 else 1
     m, half = Fraction(0), Fraction(1, 2)

@@ -46,8 +46,8 @@ def line_slopes_at(
     t: float, w0: float, w1: float, length: float, first: Floats, second: Floats
 ) -> tuple[float, Floats]:
     """Listing of the slope along a segment of ``length`` pixels between two ends with their values (K,)."""
-    total = (1 - t) / w0 + t / w1  #: total
-    per_pixel = 1 / length / (w0 * w1 * (total * total))  #: draw
+    total = (1 - t) / w0 + t / w1
+    per_pixel = 1 / length / (w0 * w1 * (total * total))
     slopes = (second - first) * per_pixel  #: slopes
     return total, slopes
 

@@ -206,12 +206,12 @@ def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> 
     del last_pixel
     is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
     if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+        x0, y0, x1, y1 = y0, x0, y1, x1
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
     sx = -1 if x1 < x0 else 1  #: directions
     low, high = min(x0, x1), max(x0, x1)
-    first = floor(low) + (low - floor(low) >= 0.5)  #: start
+    first = floor(low) + (low - floor(low) >= 0.5)
     last = ceil(high) - (ceil(high) - high >= 0.5)
     pixels = []
     for x in range(first, last + 1)[::sx]:  #: column
@@ -271,13 +271,13 @@ def gupta_sproull_listing(x0: float, y0: float, x1: float, y1: float, last_pixel
     del last_pixel
     is_steep = abs(y1 - y0) > abs(x1 - x0)  #: octant
     if is_steep:
-        x0, y0, x1, y1 = y0, x0, y1, x1  #: swap-axes
+        x0, y0, x1, y1 = y0, x0, y1, x1
     m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0  #: slope
     b = y0 - m * x0  #: intercept
     c = 1 / sqrt(1 + m * m)  #: cosine
     sx = -1 if x1 < x0 else 1  #: directions
     low, high = min(x0, x1), max(x0, x1)
-    first = floor(low) + (low - floor(low) >= 0.5)  #: start
+    first = floor(low) + (low - floor(low) >= 0.5)
     last = ceil(high) - (ceil(high) - high >= 0.5)
     pixels = []
     for x in range(first, last + 1)[::sx]:  #: column

@@ -79,6 +79,9 @@ def rare_traces() -> Iterator[Trace]:
     for filters in ("nearest", "mipmap-nearest", "bilinear"):
         yield trace(SCENES["textured-clip"], Settings(texture_filter=filters))
     yield trace(SCENES["textured-clip"], Settings(texture_filter="trilinear", interpolation="flat"))
+    for way in ("perspective", "affine"):
+        outlined = Settings(texture_filter="trilinear", polygon_mode="wireframe", interpolation=way)
+        yield trace(SCENES["textured-clip"], outlined)
     yield trace(replace(SCENES["lit"], lights=()))
     depths = np.array([[[1.0, 3, 2]], [[1.0, 2, 3]]])
     for test in DEPTH_TESTS:
@@ -146,7 +149,6 @@ def test_every_listing_is_stepped_and_every_label_is_marked() -> None:
     unmarked = {
         (found.name, label)
         for found in listings_of_the_program()
-        if not found.function.__module__.startswith(OF_LINES)
         for label, line in found.lines.items()
         if (found.function, line) not in marked
     }
