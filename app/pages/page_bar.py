@@ -89,6 +89,18 @@ class Page(QWidget):
     action_requested = Signal(str)
     """Name of an action of ``app.window.actions.ACTIONS`` that is another page's, or shows another page."""
 
+    def tell(self, text: str) -> None:
+        """Tell the user something; nothing is wrong."""
+        self.message_sent.emit(text)
+
+    def refuse(self, text: str) -> None:
+        """Say why what was asked for came to nothing."""
+        self.edit_refused.emit(text)
+
+    def step_to(self, request: StepRequest) -> None:
+        """Show something on the Step page."""
+        self.step_requested.emit(request)
+
     def undo(self) -> bool:
         """Take an edit of the page itself back; return whether it has a history of its own."""
         return False

@@ -9,12 +9,12 @@ from typing import Any, Protocol
 from PySide6.QtCore import QEvent, Qt, Slot
 from PySide6.QtWidgets import QPushButton, QScrollArea, QSplitter, QWidget
 
-from app.background.background_task import BackgroundTask
 from app.background.workers import JobGroup
 from app.export.views import copy_widget, export_widget
 from app.files.file_dialogs import SaveDialog
 from app.files.file_writing import write_file
 from app.files.kept_results import ENDING, KeptResults
+from app.pages.background_task import BackgroundTask
 from app.pages.page_bar import Page
 from app.pages.result_presenter import Result, ResultPresenter
 from app.pages.side_columns import SideColumns
@@ -28,10 +28,6 @@ from widgets.charts.family_list import FamilyList
 class Opened(Protocol):
     """Shows what a choice in a result opens."""
 
-    message_sent: Any
-    refused: Any
-    step_requested: Any
-
     def dismiss(self) -> bool:
         """Close it; return whether there was anything."""
 
@@ -40,13 +36,8 @@ class WorkPage(Page):
     """A page around one job and what its result opens."""
 
     def join(self, jobs: JobGroup, work: BackgroundTask, opened: Opened) -> None:
-        """Connect the presenters with the page."""
+        """Let Escape and the end of the window reach what the page does."""
         self._jobs, self._work, self._opened = jobs, work, opened
-        for presenter in (work, opened):
-            presenter.message_sent.connect(self.message_sent)
-            presenter.refused.connect(self.edit_refused)
-        opened.step_requested.connect(self.step_requested)
-        work.progressed.connect(self.work_progressed)
 
     def lay_out(
         self, left: QWidget, above: Sequence[tuple[QWidget, int]], below: QWidget, spacing: int = 4
@@ -201,7 +192,7 @@ class ResultPage(WorkPage):
         try:
             self.results.take_saved(self._load(Path(path)), Path(path).name)
         except ValueError as error:
-            self.edit_refused.emit(f"{error}. The page is unchanged.")
+            self.refuse(f"{error}. The page is unchanged.")
         else:
             self.went_well.emit()
 
@@ -245,14 +236,14 @@ class ResultPage(WorkPage):
         try:
             write()
         except (OSError, ValueError) as error:
-            self.edit_refused.emit(f"The {noun} was not {done}: {problem_text(error)}")
+            self.refuse(f"The {noun} was not {done}: {problem_text(error)}")
         else:
             self.went_well.emit()
-            self.message_sent.emit(f"{done.capitalize()} {Path(path).name}.")
+            self.tell(f"{done.capitalize()} {Path(path).name}.")
 
     def _is_finished(self) -> bool:
         if self.finished is None:
-            self.message_sent.emit(f"There is nothing to export yet: {self._words.nothing}.")
+            self.tell(f"There is nothing to export yet: {self._words.nothing}.")
             return False
         return True
 
@@ -267,4 +258,4 @@ class ResultPage(WorkPage):
     def copy(self) -> None:
         """Put the view on the clipboard as a picture."""
         copy_widget(self.main_view())
-        self.message_sent.emit(f"Copied the {self._words.view}.")
+        self.tell(f"Copied the {self._words.view}.")

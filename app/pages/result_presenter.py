@@ -5,10 +5,10 @@ from dataclasses import dataclass
 from typing import Any, Generic, Protocol, TypeVar
 
 from PySide6.QtCore import Signal, Slot
-from PySide6.QtWidgets import QWidget
 
-from app.background.background_task import BackgroundTask, PacedDrawing, WorkWords
 from app.background.workers import Job
+from app.pages.background_task import BackgroundTask, PacedDrawing, WorkWords
+from app.pages.page_bar import Page
 from app.pages.words import machine_words
 from widgets.basics.labels import Readout
 from widgets.basics.message_bar import Progress
@@ -113,7 +113,7 @@ class ResultPresenter(BackgroundTask, Generic[ChoiceType]):
         entries: FamilyList,
         controls: RunControls,
         readout: Readout,
-        page: QWidget,
+        page: Page,
         first: str = "",
     ) -> None:
         super().__init__(job, controls, words, page)
@@ -200,11 +200,11 @@ class ResultPresenter(BackgroundTask, Generic[ChoiceType]):
     def start(self) -> None:
         """Start the chosen work."""
         if not self.choice.can_run:
-            self.refused.emit(self._run_words.unknown)
+            self._page.refuse(self._run_words.unknown)
             return
         if self._running:
             title = self._choices[self._running].title
-            self.message_sent.emit(
+            self._page.tell(
                 f"{title} {self._run_words.running}. Wait until it is done, or cancel it first (Shift+F5)."
             )
             return
@@ -232,7 +232,7 @@ class ResultPresenter(BackgroundTask, Generic[ChoiceType]):
     def _take_result(self, result: Any) -> None:
         self._choices[result.name].take(result)
         self.refresh()
-        self.message_sent.emit(self._done_text(result))
+        self._page.tell(self._done_text(result))
         self.result_taken.emit(result)
 
     def _put_back(self) -> None:

@@ -114,6 +114,6 @@ class ComparePage(ResultPage):
         """Put the charts on the clipboard as a picture, or the numbers as text."""
         if self.tabs.currentIndex():
             self.table.copy()
-            self.message_sent.emit("Copied the numbers.")
+            self.tell("Copied the numbers.")
         else:
             super().copy()

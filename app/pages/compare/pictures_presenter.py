@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
 from app.export.views import copy_widget
 from app.pages.compare.charts import title_of
 from app.pages.compare.jobs import PointsShown, StudyJobs
 from app.pages.compare.presenter import StudyPresenter
-from app.pages.page_bar import StepRequest
+from app.pages.page_bar import Page, StepRequest
 from core.study.accuracy.record import Pictures
 from widgets.charts.chart import Chart
 from widgets.charts.legend import ChartLegend
@@ -25,11 +25,6 @@ HINT = "Click a mark for its pictures; Ctrl+click another one to compare the two
 class StudyPicturesPresenter(QObject):
     """Keeps the one or two chosen points and shows what they drew."""
 
-    step_requested = Signal(object)
-    """A ``StepRequest``."""
-    message_sent = Signal(str)
-    refused = Signal(str)
-
     def __init__(
         self,
         studies: StudyPresenter,
@@ -37,9 +32,10 @@ class StudyPicturesPresenter(QObject):
         charts: tuple[Chart | ChartLegend, ...],
         numbers: StudyTable,
         view: StudyPictures,
-        parent: QObject | None = None,
+        page: Page,
     ) -> None:
-        super().__init__(parent)
+        super().__init__(page)
+        self._page = page
         self._studies, self._jobs, self._charts, self._view = studies, jobs, charts, view
         self._chosen: tuple[str, ...] = ()
         self._shown: PointsShown | None = None
@@ -67,7 +63,7 @@ class StudyPicturesPresenter(QObject):
         """Open the pictures of a point; ``is_added``: beside the one that is open."""
         result, point = self._studies.result, self._studies.point(method)
         if self._studies.is_partial or result is None or point is None:
-            self.message_sent.emit("Pictures are available when the measurement is finished.")
+            self._page.tell("Pictures are available when the measurement is finished.")
             return
         if is_added and self._chosen and method != self._chosen[0]:
             self._chosen = (self._chosen[0], method)
@@ -141,16 +137,16 @@ class StudyPicturesPresenter(QObject):
     def step(self) -> None:
         """Open the run on the Step page, at the pinned pixel or where it is wrong first."""
         if self._shown is None:
-            self.message_sent.emit("Click a point first: its run opens in the stepper.")
+            self._page.tell("Click a point first: its run opens in the stepper.")
             return
         shown = self._shown
         opening, pictures, point = shown.openings[-1], shown.pictures[-1], shown.points[-1]
         if opening is None:
-            self.message_sent.emit(f"{point.title} cannot be stepped: it is not a stage of the pipeline.")
+            self._page.tell(f"{point.title} cannot be stepped: it is not a stage of the pipeline.")
             return
         if self._view.pin is not None and self._is_of_scene(pictures, opening.scene.size):
             opening = replace(opening, pixel=self._view.pin)
-        self.step_requested.emit(StepRequest(opening, self._title(point.method)))
+        self._page.step_to(StepRequest(opening, self._title(point.method)))
 
     @staticmethod
     def _is_of_scene(pictures: Pictures, size: tuple[int, int]) -> bool:
@@ -161,7 +157,7 @@ class StudyPicturesPresenter(QObject):
     def step_to_divergence(self) -> None:
         """Open both runs on the Step page, where they first part ways."""
         if self._shown is None or len(self._shown.points) < 2:
-            self.message_sent.emit("Select two points first: click one, then Ctrl+click another.")
+            self._page.tell("Select two points first: click one, then Ctrl+click another.")
             return
         self._view.show_busy("Searching for the first divergence …")
         self._jobs.find_divergence(self._shown)
@@ -171,22 +167,22 @@ class StudyPicturesPresenter(QObject):
         if self._shown is not None:
             self._show_pictures(self._shown)
         if isinstance(found, str):
-            self.message_sent.emit(found)
+            self._page.tell(found)
         else:
-            self.step_requested.emit(found)
+            self._page.step_to(found)
 
     @Slot(object)
     def _tell_no_divergence(self, error: Exception) -> None:
         if self._shown is not None:
             self._show_pictures(self._shown)
-        self.refused.emit(f"They cannot be traced: {error}")
+        self._page.refuse(f"They cannot be traced: {error}")
 
     @Slot()
     def copy(self) -> None:
         """Put the three pictures on the clipboard."""
         if self._shown is not None:
             copy_widget(self._view.linked)
-            self.message_sent.emit("Copied the pictures.")
+            self._page.tell("Copied the pictures.")
 
 
 def _one(shown: PointsShown, title: str) -> PicturesRecord:

@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 from functools import partial
 
 from PySide6.QtCore import Slot
-from PySide6.QtWidgets import QWidget
 
 from app.pages.compare.charts import growth_of, numbers_of, scatter_of
 from app.pages.compare.choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of
 from app.pages.compare.figures import point_text, study_text, table_of
 from app.pages.compare.jobs import StudyJobs, StudyOrder, StudyResult, chosen_points, plan_candidates
+from app.pages.page_bar import Page
 from app.pages.result_presenter import ResultPresenter, ResultWords
 from app.pages.words import work_sentence
 from app.session.moment import Change
@@ -74,7 +74,7 @@ class StudyPresenter(ResultPresenter[FamilyChoice]):
         legend: ChartLegend,
         numbers: StudyTable,
         readout: Readout,
-        page: QWidget,
+        page: Page,
     ) -> None:
         super().__init__(
             jobs.measuring, WORK_WORDS, choices_of_all(), families, controls, readout, page, FIRST

@@ -48,7 +48,7 @@ class PlanPage(WorkPage):
     def show_on_chart(self) -> None:
         """Measure the choice among all others of the scene, on the Compare page."""
         if self.plans.shown is None or self.plans.shown.report is None or self.plans.is_stale:
-            self.message_sent.emit("There is no plan for this scene yet. Run the analysis first (F5).")
+            self.tell("There is no plan for this scene yet. Run the analysis first (F5).")
             return
         self.action_requested.emit("page_compare")
         self.action_requested.emit("measure_scene")

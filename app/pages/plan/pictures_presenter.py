@@ -1,10 +1,10 @@
 """What the difference buttons of a plan open: the chosen picture, the reference settings, and where they differ."""
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
 from app.export.views import copy_widget
-from app.pages.page_bar import StepRequest
+from app.pages.page_bar import Page, StepRequest
 from app.pages.plan.jobs import PlanJobs, PlanPictures
 from app.pages.plan.presenter import PlanPresenter
 from core.explain.stage_texts import family_title
@@ -18,15 +18,9 @@ from widgets.grid.buffer import GridBuffer
 class PlanPicturesPresenter(QObject):
     """Keeps the pictures of one choice, or of all together."""
 
-    step_requested = Signal(object)
-    """A ``StepRequest``."""
-    message_sent = Signal(str)
-    refused = Signal(str)
-
-    def __init__(
-        self, plans: PlanPresenter, jobs: PlanJobs, view: StudyPictures, parent: QObject | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, plans: PlanPresenter, jobs: PlanJobs, view: StudyPictures, page: Page) -> None:
+        super().__init__(page)
+        self._page = page
         self._plans, self._jobs, self._view = plans, jobs, view
         self._drawn: PlanPictures | None = None
         plans.shown_changed.connect(self.close)
@@ -50,7 +44,7 @@ class PlanPicturesPresenter(QObject):
     def _draw(self, setting: str) -> None:
         shown = self._plans.shown
         if shown is None or shown.report is None:
-            self.message_sent.emit("There is no difference to show yet. Run the analysis first (F5).")
+            self._page.tell("There is no difference to show yet. Run the analysis first (F5).")
             return
         self._drawn = None
         self._view.show()
@@ -121,11 +115,11 @@ class PlanPicturesPresenter(QObject):
             row, column = np.unravel_index(int(drawn.difference.argmax()), drawn.difference.shape)
             pixel = int(column), int(row)
         opening = Opening(shown.order.scene, drawn.settings, "resolve", pixel)
-        self.step_requested.emit(StepRequest(opening, self._title(drawn), drawn.before))
+        self._page.step_to(StepRequest(opening, self._title(drawn), drawn.before))
 
     @Slot()
     def copy(self) -> None:
         """Put the three pictures on the clipboard."""
         if self._drawn is not None:
             copy_widget(self._view.linked)
-            self.message_sent.emit("Copied the pictures.")
+            self._page.tell("Copied the pictures.")

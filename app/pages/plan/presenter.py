@@ -2,9 +2,10 @@
 
 from dataclasses import dataclass, replace
 
-from PySide6.QtCore import QObject, Slot
+from PySide6.QtCore import Slot
 
-from app.background.background_task import BackgroundTask, WorkWords
+from app.pages.background_task import BackgroundTask, WorkWords
+from app.pages.page_bar import Page
 from app.pages.plan.jobs import PlanJobs, PlanOrder
 from app.pages.plan.words import (
     EMPTY,
@@ -50,9 +51,9 @@ class PlanPresenter(BackgroundTask):
         controls: PlanControls,
         summaries: tuple[PlanSummary, PlanFindings],
         rows: PlanRows,
-        parent: QObject | None = None,
+        page: Page,
     ) -> None:
-        super().__init__(jobs.analysing, controls, WORDS, parent)
+        super().__init__(jobs.analysing, controls, WORDS, page)
         self._session, self._jobs = session, jobs
         self._controls, self._summaries, self._rows = controls, summaries, rows
         self._order: PlanOrder | None = None
@@ -122,7 +123,7 @@ class PlanPresenter(BackgroundTask):
         assert self._asked is not None
         self._show(PlanShown(self._asked, report.plan, report))
         self._session.set_plan(report)
-        self.message_sent.emit(f"Analysed {self._asked.title}.")
+        self._page.tell(f"Analysed {self._asked.title}.")
 
     def _put_back(self) -> None:
         """Show what was found before."""
@@ -183,24 +184,24 @@ class PlanPresenter(BackgroundTask):
         """Take the chosen settings over, in one step that undo takes back."""
         shown = self.shown
         if shown is None or shown.report is None:
-            self.message_sent.emit("There is nothing to apply yet. Run the analysis first (F5).")
+            self._page.tell("There is nothing to apply yet. Run the analysis first (F5).")
             return
         if self.is_stale:
-            self.refused.emit("The scene has changed. Run the analysis again (F5).")
+            self._page.refuse("The scene has changed. Run the analysis again (F5).")
             return
         document = self._session.latest
         if document.settings == shown.plan.settings:
-            self.message_sent.emit("The scene has these settings already.")
+            self._page.tell("The scene has these settings already.")
             return
         try:
             self._session.edit(replace(document, settings=shown.plan.settings))
         except (ValueError, MemoryError) as error:
-            self.refused.emit(f"The plan cannot be stepped: {error} The settings are unchanged.")
+            self._page.refuse(f"The plan cannot be stepped: {error} The settings are unchanged.")
         else:
             self._replaced = document.settings
             self.refresh()
             # What has changed stands in the summary: the hint must fit beside the names of the pages.
-            self.message_sent.emit("Applied the plan. Ctrl+Z restores the old settings.")
+            self._page.tell("Applied the plan. Ctrl+Z restores the old settings.")
 
     @Slot()
     def take_back(self) -> None:
@@ -208,5 +209,5 @@ class PlanPresenter(BackgroundTask):
         before, self._replaced = self._replaced, None
         if before is not None:
             self._session.edit(replace(self._session.latest, settings=before))
-            self.message_sent.emit("The settings from before the plan are back.")
+            self._page.tell("The settings from before the plan are back.")
             self.refresh()

@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
-from app.pages.page_bar import StepRequest
+from app.pages.page_bar import Page, StepRequest
 from app.pages.stability.format_probe_words import dial_rows, dial_sentence
 from app.pages.stability.jobs import CaseFound, CaseOrder, ShrunkFound, StabilityJobs, wanted_cover
 from app.pages.stability.presenter import StabilityPresenter
@@ -35,11 +35,6 @@ DIAL = "precision-dial"
 class StabilityCasePresenter(QObject):
     """Keeps the case of the chosen cell and what it was shrunk to."""
 
-    step_requested = Signal(object)
-    """A ``StepRequest``."""
-    message_sent = Signal(str)
-    refused = Signal(str)
-
     def __init__(
         self,
         results: StabilityPresenter,
@@ -47,9 +42,10 @@ class StabilityCasePresenter(QObject):
         maps: AtlasView,
         curves: tuple[Chart, ChartLegend],
         view: CaseView,
-        parent: QObject | None = None,
+        page: Page,
     ) -> None:
-        super().__init__(parent)
+        super().__init__(page)
+        self._page = page
         self._results, self._jobs, self._view = results, jobs, view
         self._found: CaseFound | None = None
         self._shrunk: ShrunkFound | None = None
@@ -108,7 +104,7 @@ class StabilityCasePresenter(QObject):
         """Show the first cell, row by row, at which a method fails."""
         place = first_failure(self._results.cells, method)
         if place is None:
-            self.message_sent.emit(f"No cell of {method} fails here.")
+            self._page.tell(f"No cell of {method} fails here.")
         else:
             self.choose(place)
 
@@ -191,7 +187,7 @@ class StabilityCasePresenter(QObject):
 
     @Slot(object)
     def _tell_no_dial(self, error: Exception) -> None:
-        self.refused.emit(f"The pixel could not be tested in every number format: {error}")
+        self._page.refuse(f"The pixel could not be tested in every number format: {error}")
 
     # To the stepper.
 
@@ -199,18 +195,18 @@ class StabilityCasePresenter(QObject):
     def step(self) -> None:
         """Open the case that is shown on the Step page, at the pinned pixel."""
         if self._found is None:
-            self.message_sent.emit("Click a cell first: its run opens in the stepper.")
+            self._page.tell("Click a cell first: its run opens in the stepper.")
             return
         opening: Opening | None = self._found.opening
         title = f"{self._found.order.experiment.info.title}: {self._found.order.place.key}"
         if self._shrunk is not None:
             opening, title = self._shrunk.shrunk.opening, f"{title}, smallest case"
         if opening is None:
-            self.message_sent.emit("This run cannot be stepped: it is not a stage of the pipeline.")
+            self._page.tell("This run cannot be stepped: it is not a stage of the pipeline.")
             return
         if self._view.pin is not None:
             opening = replace(opening, pixel=self._view.pin)
-        self.step_requested.emit(StepRequest(opening, title))
+        self._page.step_to(StepRequest(opening, title))
 
     # Shrinking.
 
@@ -219,7 +215,7 @@ class StabilityCasePresenter(QObject):
         """Make the case small."""
         found = self._found
         if found is None or not case_record(found).can_shrink:
-            self.message_sent.emit("Only a failing cell can be shrunk.")
+            self._page.tell("Only a failing cell can be shrunk.")
             return
         self._view.show_waiting("Shrinking …", "Removing parts, pixels and digits while it still fails.")
         self._jobs.shrink(found.order)
@@ -235,7 +231,7 @@ class StabilityCasePresenter(QObject):
     def _tell_no_shrinking(self, error: Exception) -> None:
         if self._found is not None:
             self._view.show_case(case_record(self._found))
-        self.refused.emit(f"The case could not be shrunk: {error}")
+        self._page.refuse(f"The case could not be shrunk: {error}")
 
 
 def _no_experiment(name: str) -> str:

@@ -97,7 +97,7 @@ class StabilityPage(ResultPage):
         """Ask where the small case is to go, and write it there."""
         found = self.opened.shrunk
         if found is None:
-            self.message_sent.emit("Shrink a failing cell first (S). Only the smallest case can be saved.")
+            self.tell("Shrink a failing cell first (S). Only the smallest case can be saved.")
             return
         stem = shrunk_name(found.order.experiment.info.name, found.order.place.key)
         self.ask_path("Save case", f"{stem}{STATE_EXTENSION}", CASE_KINDS, self.save_case_to)

@@ -7,9 +7,9 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import Slot
-from PySide6.QtWidgets import QWidget
 
 from app.export.atlas_text import WORDS
+from app.pages.page_bar import Page
 from app.pages.result_presenter import ResultPresenter, ResultWords
 from app.pages.stability.choices import AtlasResult, ExperimentChoice, choices_of_all
 from app.pages.stability.jobs import CellRun, StabilityJobs, StressOrder
@@ -70,7 +70,7 @@ class StabilityPresenter(ResultPresenter[ExperimentChoice]):
         maps: AtlasView,
         curves: tuple[Chart, ChartLegend],
         readout: Readout,
-        page: QWidget,
+        page: Page,
     ) -> None:
         choices = choices_of_all() | {OPEN_SCENE: open_scene_choice(session)}
         super().__init__(jobs.running, WORK_WORDS, choices, experiments, controls, readout, page)

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job
+from app.pages.page_bar import Page
 from app.pages.step.ab_choice import BChoice, OtherRun
 from app.pages.step.ab_pictures import Outlines, Place, buffers_at, compare, first_comparable, side_of
 from app.pages.step.ab_settings import first_difference, settings_difference
@@ -31,14 +32,12 @@ FAULTY = "B is a run with a mistake: the page cannot take it over."
 class ComparePresenter(QObject):
     """Keeps the settings, the run and the cursor of B, and shows both runs while the view is open."""
 
-    edit_refused = Signal(str)
-    message_sent = Signal(str)
-    """What a search has found."""
     look_changed = Signal()
     """B differs otherwise, or another buffer is compared."""
 
-    def __init__(self, session: Session, view: CompareView, parent: QObject | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, session: Session, view: CompareView, page: Page) -> None:
+        super().__init__(page)
+        self._page = page
         self._session, self._view = session, view
         self._b = BChoice()
         self._buffer = ""
@@ -59,9 +58,8 @@ class ComparePresenter(QObject):
         self._search.succeeded.connect(self._land)
         self._search.failed.connect(self._tell_no_divergence)
         self._drags = VertexDrags(
-            session, view.linked.grids, self._no_triangle, session.edit, "drag in A | B", self
+            session, view.linked.grids, self._no_triangle, session.edit, "drag in A | B", page
         )
-        self._drags.refused.connect(self.edit_refused)
         view.setting_chosen.connect(self._choose)
         view.buffer_chosen.connect(self.set_buffer)
         view.reset_requested.connect(self._reset)
@@ -171,12 +169,12 @@ class ComparePresenter(QObject):
     def _use(self) -> None:
         said = settings_difference(self._session.document.settings, self.other)
         if self._edit({}) and said:
-            self.message_sent.emit(f"The page now uses B: {said}. Ctrl+Z takes it back.")
+            self._page.tell(f"The page now uses B: {said}. Ctrl+Z takes it back.")
 
     def _edit(self, differences: dict[str, str | int]) -> bool:
         """Give the page the settings of B, and B other differences; return whether the page could take them."""
         if self._is_faulty:
-            self.message_sent.emit(FAULTY)
+            self._page.tell(FAULTY)
             return False
         other, before = self.other, self._b
         self._b = replace(before, differences=differences, is_chosen=True)
@@ -184,7 +182,7 @@ class ComparePresenter(QObject):
             self._session.edit(replace(self._session.latest, settings=other))
         except ValueError as error:
             self._b = before
-            self.edit_refused.emit(str(error))
+            self._page.refuse(str(error))
             return False
         return True
 
@@ -248,7 +246,7 @@ class ComparePresenter(QObject):
         if found is not None:
             rows, said = found
             self._put_at("raster", *rows)
-            self.message_sent.emit(f"{said} Ctrl+[ goes back.")
+            self._page.tell(f"{said} Ctrl+[ goes back.")
         return found is not None
 
     @Slot(object)
@@ -307,7 +305,7 @@ class ComparePresenter(QObject):
         from core.study.accuracy.divergence import diverge
 
         if self._second is None:
-            self.message_sent.emit(self._refusal or "Show A | B first (Ctrl+D).")
+            self._page.tell(self._refusal or "Show A | B first (Ctrl+D).")
         else:
             self._search.call(partial(diverge, self._session.trace, self._second, by_outcome=True))
 
@@ -322,7 +320,7 @@ class ComparePresenter(QObject):
             if found.pixel is not None:
                 self._session.set_pin(found.pixel)
             self._put_at(found.stage, *found.rows)
-        self.message_sent.emit(said)
+        self._page.tell(said)
 
     def meet_at(self, pixel: tuple[int, int]) -> None:
         """Put both runs at the first step about a pixel in which they differ, or else at the first one about it."""
@@ -350,7 +348,7 @@ class ComparePresenter(QObject):
 
     @Slot(object)
     def _tell_no_divergence(self, error: Exception) -> None:
-        self.message_sent.emit(f"A and B cannot be compared: {error}")
+        self._page.tell(f"A and B cannot be compared: {error}")
 
     # Showing.
 

@@ -2,8 +2,9 @@
 
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
+from app.pages.page_bar import Page
 from app.session.session import Session
 
 if TYPE_CHECKING:
@@ -16,12 +17,9 @@ NO_PIXEL = "Pin a pixel first: its value is asked for."
 class AskThis(QObject):
     """Turns the step just done, or the value of the pinned pixel, into the line of a question."""
 
-    question_requested = Signal(str)
-    """The line that a teacher hands out for a question."""
-    refused = Signal(str)
-
-    def __init__(self, session: Session, parent: QObject | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, session: Session, page: Page) -> None:
+        super().__init__(page)
+        self._page = page
         self._session = session
 
     @Slot()
@@ -30,7 +28,7 @@ class AskThis(QObject):
         cursor = self._session.cursor
         row, _ = self._session.stage_trace.steps.row_at(cursor.position)
         if row < 0:
-            self.refused.emit("Take a step first: the step just done is asked about.")
+            self._page.tell("Take a step first: the step just done is asked about.")
         else:
             self._ask(row=row)
 
@@ -38,7 +36,7 @@ class AskThis(QObject):
         """Ask for the value of a buffer at the pinned pixel."""
         pin = self._session.pin
         if pin is None:
-            self.refused.emit(NO_PIXEL)
+            self._page.tell(NO_PIXEL)
         else:
             steps = self._session.stage_trace.steps
             self._ask(buffer=buffer, pixel=pin, rows_done=steps.rows_done(self._session.cursor.position))
@@ -51,9 +49,9 @@ class AskThis(QObject):
             name = self._screen(**what).name
             screen_template(name).make(Draws(0))
         except ValueError as problem:
-            self.refused.emit(f"This cannot be asked: {problem}.")
+            self._page.tell(f"This cannot be asked: {problem}.")
         else:
-            self.question_requested.emit(f"{name} {VERSION}, seed 0")
+            self._page.question_requested.emit(f"{name} {VERSION}, seed 0")
 
     def _screen(self, **what: object) -> "Screen":
         from lessons.exercises.screen import Screen, scene_name, settings_of

@@ -1,6 +1,6 @@
 """Bookmarks: remembered steps, each with a note that the user may type."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
 from PySide6.QtCore import QObject, Signal
 
@@ -15,13 +15,13 @@ BOOKMARKS = 10
 class Bookmarks(QObject):
     """The bookmarks of the open scene, in the order in which they were set."""
 
-    message_sent = Signal(str)
-    """A note, or why there is no bookmark."""
     bookmarks_changed = Signal()
     """There are others, or one has another note."""
 
-    def __init__(self, session: Session, parent: QObject | None = None) -> None:
+    def __init__(self, session: Session, tell: Callable[[str], None], parent: QObject) -> None:
+        """``tell`` tells the user something."""
         super().__init__(parent)
+        self._tell = tell
         self._session = session
         self.marks: list[Bookmark] = []
 
@@ -54,7 +54,7 @@ class Bookmarks(QObject):
         if before is not None:
             self.marks[self.marks.index(before)] = mark
         elif len(self.marks) >= BOOKMARKS:
-            self.message_sent.emit("All ten bookmarks are set. Remove one first.")
+            self._tell("All ten bookmarks are set. Remove one first.")
             return
         else:
             self.marks.append(mark)
@@ -69,9 +69,9 @@ class Bookmarks(QObject):
     def go_to(self, index: int) -> None:
         """Go to a bookmark by its number from 0, and tell its note."""
         if index >= len(self.marks):
-            self.message_sent.emit(f"Bookmark {index + 1} is not set: Ctrl+B sets one.")
+            self._tell(f"Bookmark {index + 1} is not set: Ctrl+B sets one.")
             return
         mark = self.marks[index]
         self._session.set_stage(mark.stage, mark.position)
         if mark.note:
-            self.message_sent.emit(f"Bookmark {index + 1}: {mark.note}")
+            self._tell(f"Bookmark {index + 1}: {mark.note}")

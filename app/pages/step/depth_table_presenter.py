@@ -4,8 +4,9 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
+from app.pages.page_bar import Page
 from app.session.document import TeachingRaster
 from app.session.moment import Moment
 from app.session.session import Session
@@ -20,11 +21,9 @@ from widgets.tables.depth_table_editor import DepthTableEditor
 class DepthTablePresenter(QObject):
     """Shows the table of the session's scene while it has one, and edits it."""
 
-    edit_refused = Signal(str)
-    """Why something typed was not taken."""
-
-    def __init__(self, session: Session, editor: DepthTableEditor, parent: QObject | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, session: Session, editor: DepthTableEditor, page: Page) -> None:
+        super().__init__(page)
+        self._page = page
         self._session, self._editor = session, editor
         self._shown: DepthTable | None = None
         editor.cell_edited.connect(self._set_cell)
@@ -135,5 +134,5 @@ class DepthTablePresenter(QObject):
                 document = replace(document, triangle=None)
             self._session.edit(document)
         except ValueError as error:
-            self.edit_refused.emit(str(error))
+            self._page.refuse(str(error))
             self._editor.show_table(table)

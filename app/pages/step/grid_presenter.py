@@ -5,6 +5,7 @@ from dataclasses import replace
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.files.state_models import GridLook
+from app.pages.page_bar import Page
 from app.pages.step.cut_overlays import area_overlays, clip_overlays
 from app.pages.step.grid_records import (
     block_overlays,
@@ -47,23 +48,19 @@ DEFAULT_OVERLAYS = {
 class GridPresenter(QObject):
     """Shows buffers, overlays and triangles of the session; takes hover, pin and drags back to it."""
 
-    edit_refused = Signal(str)
-    """Why a drag did nothing."""
     look_changed = Signal()
     """The user has chosen another buffer, overlay or colour range."""
 
-    def __init__(
-        self, session: Session, area: MainArea, legend: OverlayLegend, parent: QObject | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, session: Session, area: MainArea, legend: OverlayLegend, page: Page) -> None:
+        super().__init__(page)
+        self._page = page
         self._session = session
         self._area, self._legend, self._ranges = area, legend, area.ranges
         self._grid, self._strip = grid, strip = area.grid, area.strip
         self._chosen: dict[str, str] = {}
         self._own_ranges: dict[str, tuple[float, float]] = {}
         self._shown_overlays = dict(DEFAULT_OVERLAYS)
-        self._drags = VertexDrags(session, (grid,), self._stepped_triangle, session.drag, "drag", self)
-        self._drags.refused.connect(self.edit_refused)
+        self._drags = VertexDrags(session, (grid,), self._stepped_triangle, session.drag, "drag", page)
         for widget in (grid, strip):
             widget.pixel_hovered.connect(session.hover_place)
             widget.pixel_left.connect(session.end_hover)

@@ -7,9 +7,10 @@ from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QTimer, Signal, Slot
+from PySide6.QtCore import QEvent, QObject, QPoint, QPointF, QRectF, QTimer, Slot
 from PySide6.QtGui import QImage, QPolygonF
 
+from app.pages.page_bar import Page
 from app.session.document import Document
 from app.session.latest_call import LatestCall
 from app.session.moment import Moment
@@ -44,13 +45,9 @@ PART_OF_GRID = 0.3
 class NavigatorPresenter(QObject):
     """Shows the navigator while the grid shows less than the whole picture, and moves what it shows."""
 
-    message_sent = Signal(str)
-    """What the user may want to know after a movement."""
-
-    def __init__(
-        self, session: Session, navigator: Navigator, grid: PixelGrid, parent: QObject | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, session: Session, navigator: Navigator, grid: PixelGrid, page: Page) -> None:
+        super().__init__(page)
+        self._page = page
         self._session, self._navigator, self._grid = session, navigator, grid
         self._moment = session.moment
         self._is_wanted = True
@@ -254,7 +251,7 @@ class NavigatorPresenter(QObject):
             low, high = corners.min(axis=0).tolist(), corners.max(axis=0).tolist()
             if not region.intersects(QRectF(QPointF(*low), QPointF(*high))):
                 triangle = self._session.document.triangle
-                self.message_sent.emit(f"Triangle {triangle} is not in this region. F goes back to it.")
+                self._page.tell(f"Triangle {triangle} is not in this region. F goes back to it.")
 
 
 def _draw_both(scene: AnyScene, settings: Settings) -> tuple[Bytes, Bytes]:

@@ -81,33 +81,21 @@ class StepPage(Page):
         self.narrator = StepNarrator(session.cursor, column, self.grid, self.timeline, self)
         self.navigator = Navigator(self.grid)
         self.navigation = NavigatorPresenter(session, self.navigator, self.grid, self)
-        self.navigation.message_sent.connect(self.message_sent)
         self.navigator.close_requested.connect(partial(self.toggle_pane, "navigator"))
         self.pixel_menu = PixelMenu(session, self.stepping, self)
         self.pixel_menu.origin_requested.connect(self.go_to_writer)
         self.asking = AskThis(session, self)
-        self.asking.question_requested.connect(self.question_requested)
-        self.asking.refused.connect(self.message_sent)
         self.pixel_menu.question_requested.connect(self.ask_value)
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.main_area.view_changed.connect(self._follow_view)
         self.main_area.thumbnails_toggled.connect(self._toggle_thumbnails)
         self.stepping.stepped_alone = self.comparing.steps_alone
-        self.stepping.message_sent.connect(self.message_sent)
-        self.comparing.message_sent.connect(self.message_sent)
         self.views.message_sent.connect(self.message_sent)
         self.main_area.view_chosen.connect(self.look_changed)
         self.grids.look_changed.connect(self.look_changed)
         self.comparing.look_changed.connect(self.look_changed)
-        for refusal in (
-            self.scene.edit_refused,
-            self.table_editing.edit_refused,
-            self.views.refused,
-            self.grids.edit_refused,
-            self.comparing.edit_refused,
-        ):
-            refusal.connect(self.edit_refused)
+        self.views.refused.connect(self.edit_refused)
         self._lay_out()
         self.show_panes(PANES_AT_FIRST)
         self._order = self._order_of_parts()
@@ -353,7 +341,7 @@ class StepPage(Page):
         if self.current_view() == "compare":
             self.compare_view.flip_while_held()
         else:
-            self.message_sent.emit("X swaps the pictures of A and B while it is held. Ctrl+D shows them.")
+            self.tell("X swaps the pictures of A and B while it is held. Ctrl+D shows them.")
 
     def dismiss(self) -> bool:
         """Stop playing, or else take the pin away."""

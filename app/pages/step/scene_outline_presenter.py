@@ -3,9 +3,10 @@
 from collections.abc import Mapping
 from dataclasses import replace
 
-from PySide6.QtCore import QEvent, QObject, Signal, Slot
+from PySide6.QtCore import QEvent, QObject, Slot
 from PySide6.QtWidgets import QWidget
 
+from app.pages.page_bar import Page
 from app.session.document import Document, focus_on
 from app.session.moment import Moment
 from app.session.scene_edits import outline, set_values
@@ -26,17 +27,15 @@ FOCUS = "document/focus/triangle"
 class SceneOutlinePresenter(QObject):
     """Shows and edits scene values and settings."""
 
-    edit_refused = Signal(str)
-    """Why a typed value was not taken."""
-
     def __init__(
         self,
         session: Session,
         scene_outline: SceneOutline,
         panel: SettingsPanel,
-        parent: QObject | None = None,
+        page: Page,
     ) -> None:
-        super().__init__(parent)
+        super().__init__(page)
+        self._page = page
         self._session, self._outline, self._panel = session, scene_outline, panel
         self._shown: dict[QWidget, Document] = {}
         """What each pane shows: while it is folded away, not the newest."""
@@ -89,7 +88,7 @@ class SceneOutlinePresenter(QObject):
                 document = replace(document, scene=scene)
             self._session.edit(document)
         except ValueError as error:
-            self.edit_refused.emit(str(error))
+            self._page.refuse(str(error))
             self.refresh(self._session.moment)
 
     @staticmethod
@@ -104,7 +103,7 @@ class SceneOutlinePresenter(QObject):
         try:
             self._session.set_setting(family, int(value) if family in WHOLE_NUMBERS else value)
         except ValueError as error:
-            self.edit_refused.emit(str(error))
+            self._page.refuse(str(error))
             self.refresh(self._session.moment)
 
 

@@ -7,6 +7,7 @@ import numpy as np
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.files.state_models import Bookmark, Breakpoints
+from app.pages.page_bar import Page
 from app.pages.step.bookmarks import Bookmarks
 from app.pages.step.breaks import Breaks, line_positions
 from app.session.moment import Moment
@@ -59,23 +60,21 @@ def _no_other_run(direction: int, level: Level) -> bool:
 class SteppingPresenter(QObject):
     """Shows where the cursor is and moves it."""
 
-    message_sent = Signal(str)
-    """Something to tell: there is no further event."""
     message_ended = Signal(str)
     """The last message no longer holds: the cursor or the pin has moved."""
     places_changed = Signal()
     """There are other bookmarks or breakpoints, or a bookmark has another note."""
 
-    def __init__(self, session: Session, timeline: Timeline, parent: QObject | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, session: Session, timeline: Timeline, page: Page) -> None:
+        super().__init__(page)
+        self._page = page
         self._session, self._timeline = session, timeline
         self.stepped_alone: Callable[[int, Level], bool] = _no_other_run
         """Steps a run beside this one where only that one has steps left, and returns whether that was so."""
         self.event_kind = "covered"
         """Kind of event that N runs to."""
         self.breaks = Breaks()
-        self.bookmarks = Bookmarks(session, self)
-        self.bookmarks.message_sent.connect(self.tell)
+        self.bookmarks = Bookmarks(session, self.tell, self)
         self.bookmarks.bookmarks_changed.connect(self._show_places)
         self._told = ""
         timeline.position_requested.connect(session.scrub)
@@ -92,7 +91,7 @@ class SteppingPresenter(QObject):
     def tell(self, text: str) -> None:
         """Say something that holds until the cursor or the pin moves."""
         self._told = text
-        self.message_sent.emit(text)
+        self._page.tell(text)
 
     def end_message(self, moment: Moment) -> None:
         """Take the last message back: the cursor or the pin has moved."""

@@ -3,8 +3,9 @@
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject
 
+from app.pages.page_bar import Page
 from app.pages.step.grid_records import outlined_triangles
 from app.session.document import Document
 from app.session.drag_gestures import DragGestures
@@ -16,9 +17,6 @@ from widgets.grid.pixel_grid import PixelGrid
 class VertexDrags(QObject):
     """Takes the drags in grids that show ``app.pages.step.grid_records.geometry_of`` to the session."""
 
-    refused = Signal(str)
-    """Why a drag did nothing."""
-
     def __init__(
         self,
         session: Session,
@@ -26,7 +24,7 @@ class VertexDrags(QObject):
         focus: Callable[[], int | None],
         take: Callable[[Document, str], None],
         name: str,
-        parent: QObject | None = None,
+        page: Page,
     ) -> None:
         """Listen to the grids.
 
@@ -40,7 +38,8 @@ class VertexDrags(QObject):
         name : str
             Of these drags, other than of those in other views.
         """
-        super().__init__(parent)
+        super().__init__(page)
+        self._page = page
         self._session, self._focus, self._take = session, focus, take
         self._drags = DragGestures(session, name, self._move, self)
         for grid in grids:
@@ -59,4 +58,4 @@ class VertexDrags(QObject):
             scene = move_corner(latest.scene, triangle, corner, position, size)
             self._take(replace(latest, scene=scene), self._drags.name)
         except ValueError as error:
-            self.refused.emit(f"The vertex was not moved: {error}")
+            self._page.refuse(f"The vertex was not moved: {error}")

@@ -42,7 +42,7 @@ def move_view(page: StepPage, across: int, up: int) -> None:
 def choose_vertex(page: StepPage) -> None:
     """Choose the next vertex to move."""
     if page.grid.choose_next_vertex() is None:
-        page.message_sent.emit("No vertex can be moved here. Show the pixels of a triangle in focus (V, F).")
+        page.tell("No vertex can be moved here. Show the pixels of a triangle in focus (V, F).")
     else:
         _tell_vertex(page)
 
@@ -52,8 +52,8 @@ def nudge_vertex(page: StepPage, across: int, up: int) -> None:
     if page.grid.nudge_vertex(NUDGE * across, NUDGE * up):
         _tell_vertex(page)
     else:
-        page.message_sent.emit("Choose a vertex first (Alt+N).")
+        page.tell("Choose a vertex first (Alt+N).")
 
 
 def _tell_vertex(page: StepPage) -> None:
-    page.message_sent.emit(f"{page.grid.vertex_text()}. Ctrl+Shift+arrows move it.")
+    page.tell(f"{page.grid.vertex_text()}. Ctrl+Shift+arrows move it.")

@@ -3,8 +3,9 @@
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.background.background_task import BackgroundTask, WorkWords
 from app.background.workers import Job
+from app.pages.background_task import BackgroundTask, WorkWords
+from app.pages.page_bar import Page
 from app.window.main_window import MainWindow
 from widgets.basics.message_bar import Progress
 
@@ -31,7 +32,7 @@ def test_each_percent_is_told_once(qapp: QApplication) -> None:
             pass
 
     job = Job()
-    task = Task(job, Controls(), WorkWords("", "", ""))
+    task = Task(job, Controls(), WorkWords("", "", ""), Page())
     for k in range(100):
         job.progressed.emit(0.2 + 0.0001 * k, "slivers")
     job.progressed.emit(0.21, "cracks")

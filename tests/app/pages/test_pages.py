@@ -180,6 +180,7 @@ def test_the_history_of_a_pixel_that_is_opened_from_another_page_is_told(
     opening = Opening(make_scene("single-triangle"), Settings(), "raster", (20, 20))
     with qtbot.waitSignal(window.opening.opened, timeout=20000):
         window.opening.open_request(StepRequest(opening, "One triangle"))
+    window.page.column.setCurrentWidget(window.page.history)
     assert window.page.history.place.text() == "Pixel column 20, row 20"
     assert "Triangle 0 is visible here" in window.page.history.verdict.text()
 

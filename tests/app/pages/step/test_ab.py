@@ -130,7 +130,7 @@ def test_the_first_divergence_is_reached_in_both(window: MainWindow, qtbot: QtBo
     window.session.open(open_document(make_scene("single-triangle"), "One"))
     window.page.comparing.set_differences({"interpolation": "affine"})
     window.page.show_view("compare")
-    with qtbot.waitSignal(window.page.comparing.message_sent, timeout=20000) as sent:
+    with qtbot.waitSignal(window.page.message_sent, timeout=20000) as sent:
         window.run_action("divergence")
     session, comparing = window.session, window.page.comparing
     other = session.document.make_trace(comparing.other)

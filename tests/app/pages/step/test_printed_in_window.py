@@ -25,7 +25,7 @@ def opened(window: MainWindow, scene: str) -> MainWindow:
 def test_bresenham_as_printed_steps_up_one_column_early(window: MainWindow) -> None:
     opened(window, "pellacini-line")
     said: list[str] = []
-    window.page.comparing.message_sent.connect(said.append)
+    window.page.message_sent.connect(said.append)
     window.show_printed("pellacini-bresenham")
     view = window.page.comparing._view
     assert window.page.current_view() == "compare"
@@ -43,7 +43,7 @@ def test_bresenham_as_printed_steps_up_one_column_early(window: MainWindow) -> N
 def test_dda_as_printed_ends_before_the_last_pixel(window: MainWindow) -> None:
     opened(window, "pellacini-line")
     said: list[str] = []
-    window.page.comparing.message_sent.connect(said.append)
+    window.page.message_sent.connect(said.append)
     window.show_printed("pellacini-dda")
     assert said[-1].startswith("Step 6 is the first that differs: A draws (5, 2), B has ended.")
 

@@ -7,6 +7,7 @@ from PySide6.QtCore import QEvent, QObject, QTimer, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.background.workers import Job
+from app.pages.page_bar import Page
 from widgets.basics.message_bar import Progress
 
 PERCENT = 100
@@ -34,17 +35,12 @@ class ShowsProgress(Protocol):
 class BackgroundTask(QObject):
     """Follows one job: what came before stays, and comes back unless a result takes its place."""
 
-    message_sent = Signal(str)
-    refused = Signal(str)
     shown_changed = Signal()
     """Something else is shown: what was chosen in it is gone."""
-    progressed = Signal(object)
-    """How far the work has come, a ``Progress``; ``None``: nothing is being done any more."""
 
-    def __init__(
-        self, job: Job, controls: ShowsProgress, words: WorkWords, parent: QObject | None = None
-    ) -> None:
-        super().__init__(parent)
+    def __init__(self, job: Job, controls: ShowsProgress, words: WorkWords, page: Page) -> None:
+        super().__init__(page)
+        self._page = page
         self._job, self._progress_shown, self._words = job, controls, words
         self._told: Progress | None = None
         job.progressed.connect(self._show_progress)
@@ -64,7 +60,7 @@ class BackgroundTask(QObject):
         if self._job.is_running:
             self._job.cancel()
             self._come_to_nothing()
-            self.message_sent.emit(f"{self._words.cancelled}; {self._words.kept}.")
+            self._page.tell(f"{self._words.cancelled}; {self._words.kept}.")
 
     @Slot(object, str)
     def _show_progress(self, fraction: float | None, doing: str) -> None:
@@ -77,7 +73,7 @@ class BackgroundTask(QObject):
             return
         self._told = progress
         self._progress_shown.show_progress(progress)
-        self.progressed.emit(progress)
+        self._page.work_progressed.emit(progress)
 
     def _doing(self, doing: str) -> str:
         """Return the words for the work in progress."""
@@ -87,7 +83,7 @@ class BackgroundTask(QObject):
     def _fail(self, error: Exception) -> None:
         self._come_to_nothing()
         kept = self._words.kept
-        self.refused.emit(f"{self._words.failed}: {error} {kept[:1].upper()}{kept[1:]}.")
+        self._page.refuse(f"{self._words.failed}: {error} {kept[:1].upper()}{kept[1:]}.")
 
     @Slot()
     def _end(self) -> None:
