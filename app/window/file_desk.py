@@ -37,6 +37,8 @@ class FileActions(QObject):
     """A ``Message`` about what became of a file."""
     file_used = Signal(str)
     """Path of a file that was opened or saved."""
+    ended = Signal(bool)
+    """Opening has ended: what was asked for is there and shown next, or it could not be opened."""
     path_chosen = Signal(str)
     """Path of a file that the user wants to open."""
 
@@ -91,6 +93,7 @@ class FileActions(QObject):
     @Slot(object)
     def _show_result(self, result: tuple[Opened, Trace]) -> None:
         opened, trace = result
+        self.ended.emit(True)
         self.show_opened(opened, trace)
         self.freeing.ask()
         self._messages.clear()
@@ -133,6 +136,7 @@ class FileActions(QObject):
         else:
             action = READ_OUTSIDE if isinstance(error, OutsideMeshError | OutsideSourceError) else ""
             self._tell(sentences(error, "The open scene is unchanged"), MessageKind.ERROR, action=action)
+        self.ended.emit(False)
 
     @Slot()
     def _tell_cancelled(self) -> None:

@@ -60,7 +60,7 @@ class MainWindow(ActionWindow):
         self.page = step_page
         self._raster = self.session.document.raster
         """The one that is shown: another one is told, for pixels have other sizes and numbers then."""
-        self._closes_unsaved = False
+        self._closes_unsaved = self._starts_over = False
         self._offered = ""
         """Path of the state that the message bar offers to open."""
         self._lay_out()
@@ -134,6 +134,7 @@ class MainWindow(ActionWindow):
         self.exports.message_sent.connect(notices.show_message)
         menus.scale_chosen.connect(self.exports.set_scale)
         self.files.file_used.connect(self.memory.remember_file)
+        self.files.ended.connect(self._end_opening)
         self.memory.recent_changed.connect(self.menus.show_recent)
         self.memory.autosave.failed.connect(notices.warn)
         self.memory.autosave.recovered.connect(self._tell_saved_again)
@@ -368,9 +369,22 @@ class MainWindow(ActionWindow):
             self.pages.show_page(name)
             self.pages.current.open_path(path)
         else:
-            if self.pages.current_name == "start":
-                self.pages.show_page("step")
             self.files.open_path(path, allows_outside)
+
+    def open_first(self, path: str, allows_outside: bool, shows_start: bool) -> None:
+        """Open what the program was started with; ``shows_start``: the start page where that cannot be opened."""
+        self.pages.show_page("step")  # whatever page was shown last; a saved study or atlas goes to its own
+        self._starts_over = shows_start
+        self.open_path(path, allows_outside)
+
+    @Slot(bool)
+    def _end_opening(self, is_shown: bool) -> None:
+        """Leave the start page for what was opened there; what could not be opened leaves it, or leads to it."""
+        if is_shown and self.pages.current_name == "start":
+            self.pages.show_page("step")
+        elif not is_shown and self._starts_over:
+            self.pages.show_page("start")
+        self._starts_over = False
 
 
 def _help_body(address: str) -> tuple[str, str]:

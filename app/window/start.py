@@ -52,19 +52,14 @@ def first_size(application: QApplication) -> QSize:
     return wanted.boundedTo(screen - QSize(0, TITLE_ROOM))
 
 
-def shows_start_page(target: str | None, is_restored: bool, is_wanted: bool) -> bool:
-    """Return whether a start shows the start page: not over a file, over a restored scene only where it is wanted."""
-    return target is None and (is_wanted or not is_restored)
-
-
 def run_window(target: str | None = None, allows_outside: bool = False) -> int:
     """Show the window until it is closed; return the exit code.
 
     Parameters
     ----------
     target : str, optional
-        Mesh file, state file or built-in scene; what was open last by default. A file that cannot be opened is
-        shown in the window.
+        Mesh file, state file or built-in scene; what was open last by default. Where it cannot be opened, the window
+        says so and shows what it would show without it.
     allows_outside : bool
         Whether files that it names may be read from outside its folder.
     """
@@ -94,12 +89,13 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
         window.notices.warn(warning)
     if first.message is not None:
         window.offer(first.message, first.offered)
-    is_restored = first.file is not None or first.message is not None
-    if shows_start_page(target, is_restored, preferences.shows_start):
-        window.pages.show_page("start")
+    # Over a restored scene only where it is wanted.
+    is_restored = first.opened.state is not None or first.message is not None
+    shows_start = preferences.shows_start or not is_restored
     if target is not None:
-        window.pages.show_page("step")  # whatever page was shown last; a saved study or atlas goes to its own
-        window.open_path(target, allows_outside)
+        window.open_first(target, allows_outside, shows_start)
+    elif shows_start:
+        window.pages.show_page("start")
     code = application.exec()
     sys.excepthook = sys.__excepthook__
     window.close_anyway()

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PySide6.QtCore import Qt, Slot
 from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
-from PySide6.QtWidgets import QAbstractButton, QCheckBox, QPushButton, QScrollArea, QWidget
+from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QCheckBox, QPushButton, QScrollArea, QWidget
 
 from app.background.workers import Job, Progress
 from app.pages.page_bar import Page
@@ -40,6 +40,15 @@ HIDDEN = "Hidden while an exercise asks about this scene"
 """What stands for the picture of a scene."""
 OF_MESH = 8
 """Size of the picture of a mesh, in those of the cards' unit: it is shown smaller, so that its edges are smooth."""
+SCROLLS = {
+    Qt.Key.Key_PageUp: QAbstractSlider.SliderAction.SliderPageStepSub,
+    Qt.Key.Key_PageDown: QAbstractSlider.SliderAction.SliderPageStepAdd,
+    Qt.Key.Key_Home: QAbstractSlider.SliderAction.SliderToMinimum,
+    Qt.Key.Key_End: QAbstractSlider.SliderAction.SliderToMaximum,
+}
+"""What keys do to the scenes."""
+SCROLL_STEP = 60
+"""Pixels of a line that the wheel scrolls, three at a notch: a row of cards takes two notches."""
 SIDE = 300
 """Width of the left column in pixels at a text size of 13."""
 
@@ -188,10 +197,12 @@ class StartPage(Page):
         self.action_requested.emit("step_forward")
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Press a button with Return."""
-        focused = self.focusWidget()
+        """Press a button with Return; scroll the scenes, wherever the keyboard is."""
+        focused, scroll = self.focusWidget(), SCROLLS.get(event.key())
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and isinstance(focused, QAbstractButton):
             focused.click()
+        elif scroll is not None:
+            self._panes[1].verticalScrollBar().triggerAction(scroll)
         else:
             super().keyPressEvent(event)
 
@@ -246,9 +257,17 @@ def picture_of(built_in: BuiltInScene, scene: AnyScene) -> NDArray[np.uint8]:
     return draw_picture(scene, settings_from_texts(built_in.settings)).pixels
 
 
+class _Pane(QScrollArea):
+    """A part of the page that scrolls where the window is too low; keys are left to the page."""
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        event.ignore()
+
+
 def _scrolled(content: QWidget, name: str) -> QScrollArea:
-    """Return a part of the page that scrolls where the window is too low."""
-    area = QScrollArea()
+    """Return a part of the page."""
+    area = _Pane()
+    area.verticalScrollBar().setSingleStep(SCROLL_STEP)
     area.setWidgetResizable(True)
     area.setFrameShape(QScrollArea.Shape.NoFrame)
     area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)

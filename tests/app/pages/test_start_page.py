@@ -10,7 +10,6 @@ from pytestqt.qtbot import QtBot
 
 from app.files.preferences import load_preferences
 from app.pages.start.page import StartPage, picture_of
-from app.window import start
 from app.window.main_window import MainWindow
 from lessons.scenes import built_in_scene
 from lessons.slides.scenes import ALL_SCENES, LECTURES
@@ -123,17 +122,34 @@ def test_the_choice_is_remembered_and_the_page_is_not_where_one_stopped(
     assert (kept.shows_start, kept.page) == (True, "step")
 
 
-@pytest.mark.parametrize(
-    ("target", "is_restored", "is_wanted", "shown"),
-    [
-        (None, False, False, "start"),
-        (None, True, False, "step"),
-        (None, True, True, "start"),
-        ("cube", False, True, "step"),
-    ],
-)
-def test_what_a_start_shows(target: str | None, is_restored: bool, is_wanted: bool, shown: str) -> None:
-    assert start.shows_start_page(target, is_restored, is_wanted) == (shown == "start")
+@pytest.mark.own_window
+def test_a_file_that_cannot_be_opened_leaves_the_start_page_or_leads_to_it(
+    window: MainWindow, page: StartPage, qtbot: QtBot, tmp_path: Path
+) -> None:
+    wrong, before = str(tmp_path / "gone.obj"), window.session.document
+    page.open_requested.emit(wrong)
+    qtbot.waitUntil(window.messages.isVisible)
+    assert "gone.obj" in window.messages.text.text()
+    assert (window.pages.current_name, window.session.document) == ("start", before)
+    for shows_start, shown in ((True, "start"), (False, "step")):
+        window.messages.clear()
+        window.open_first(wrong, False, shows_start)
+        assert window.pages.current_name == "step"
+        qtbot.waitUntil(window.messages.isVisible)
+        assert window.pages.current_name == shown
+    window.open_first("segment", False, True)
+    qtbot.waitUntil(lambda: window.session.document.title == "Segment")
+    assert window.pages.current_name == "step"
+
+
+def test_keys_scroll_the_scenes_wherever_the_keyboard_is(window: MainWindow, page: StartPage) -> None:
+    bar = page.cards.parentWidget().parentWidget().parentWidget().verticalScrollBar()  # type: ignore[attr-defined]
+    for start in (page.begin_button, page.cards.cards[0]):
+        start.setFocus(Qt.FocusReason.TabFocusReason)
+        for key, wanted in (("PageDown", bar.pageStep()), ("End", bar.maximum()), ("Home", 0)):
+            QTest.keyClick(start, getattr(Qt.Key, f"Key_{key}"))
+            assert bar.value() == wanted > 0 or key == "Home"
+    assert bar.value() == 0
 
 
 @pytest.mark.own_window
