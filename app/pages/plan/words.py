@@ -23,6 +23,9 @@ EMPTY = (
 )
 
 
+REFERENCE = "The reference settings are the most accurate method of every stage, with 16 samples a pixel."
+
+
 def about(title: str, size: tuple[int, int], tolerance: Tolerance) -> str:
     """Return what was analysed, and with which tolerance."""
     return f"{title}, {size[0]}×{size[1]} pixels, {tolerance_text(tolerance)}."
@@ -81,7 +84,7 @@ def _numbers(decision: Decision, outcome: Outcome | None, report: PlanReport | N
     lines = [predicted, measured]
     if len(outcome.seconds):
         alone, everything = float(np.median(outcome.seconds)), float(np.median(report.seconds_everything))
-        lines.append(f"time alone {time_text(alone)} ({alone / everything:.0%})")
+        lines.append(f"time alone {time_text(alone)} ({alone / everything:.0%} of the reference)")
     return "\n".join(lines)
 
 
@@ -106,11 +109,12 @@ def predicted_time(plan: Plan, start: str) -> str:
 
 
 def details(plan: Plan, report: PlanReport) -> str:
-    """Return the largest difference, the pixels beyond, and every prediction that was wrong."""
+    """Return what the reference is, the largest difference, the pixels beyond, and every prediction that was wrong."""
     parts = [
+        REFERENCE,
         f"Largest difference {in_bytes(report.largest_error)}, predicted at most {in_bytes(plan.predicted_error)}; "
         f"{counted(report.pixels_beyond, 'pixel')} beyond {plan.tolerance.bytes}/255, "
-        f"{plan.tolerance.pixels:,} allowed."
+        f"{plan.tolerance.pixels:,} allowed.",
     ]
     time = predicted_time(plan, "Predicted from smaller pictures: ")
     if time:

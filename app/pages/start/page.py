@@ -198,7 +198,7 @@ class StartPage(Page):
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Press a button with Return; scroll the scenes, wherever the keyboard is."""
-        focused, scroll = self.focusWidget(), SCROLLS.get(event.key())
+        focused, scroll = self.focusWidget(), SCROLLS.get(Qt.Key(event.key()))
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter) and isinstance(focused, QAbstractButton):
             focused.click()
         elif scroll is not None:

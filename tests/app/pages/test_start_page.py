@@ -127,15 +127,15 @@ def test_a_file_that_cannot_be_opened_leaves_the_start_page_or_leads_to_it(
     window: MainWindow, page: StartPage, qtbot: QtBot, tmp_path: Path
 ) -> None:
     wrong, before = str(tmp_path / "gone.obj"), window.session.document
-    page.open_requested.emit(wrong)
-    qtbot.waitUntil(window.messages.isVisible)
+
+    with qtbot.waitSignal(window.files.ended):
+        page.open_requested.emit(wrong)
     assert "gone.obj" in window.messages.text.text()
     assert (window.pages.current_name, window.session.document) == ("start", before)
     for shows_start, shown in ((True, "start"), (False, "step")):
-        window.messages.clear()
-        window.open_first(wrong, False, shows_start)
-        assert window.pages.current_name == "step"
-        qtbot.waitUntil(window.messages.isVisible)
+        with qtbot.waitSignal(window.files.ended):
+            window.open_first(wrong, False, shows_start)
+            assert window.pages.current_name == "step"
         assert window.pages.current_name == shown
     window.open_first("segment", False, True)
     qtbot.waitUntil(lambda: window.session.document.title == "Segment")

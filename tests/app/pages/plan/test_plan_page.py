@@ -109,12 +109,13 @@ def test_a_look_shows_every_stage_with_reason_and_numbers(looked_page: PlanPage)
         assert view.reason.text() == decision.reason
         is_cheaper = decision.chosen != decision.dearest
         assert view.picture_button.isVisibleTo(view) == is_cheaper
-        for text in ("predicted", "measured 0/255", "time alone"):
+        for text in ("predicted", "measured 0/255", "time alone", "of the reference)"):
             assert (text in view.numbers.text()) == is_cheaper
         assert (view.property("role") == "kept") == decision.is_needed
     assert "kept" in page.rows.rows["antialiasing"].instead.text()
     assert "Within the tolerance" in page.summary.headline.text()
     assert "the reference settings" in page.summary.headline.text()
+    assert "the most accurate method of every stage" in page.summary.details.text()
     assert "0 pixels beyond 2/255, 0 allowed" in page.summary.details.text()
     assert page.controls.apply_button.isEnabled()
 
