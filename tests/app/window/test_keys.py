@@ -1,5 +1,8 @@
 """The table of keys: complete, without a key twice, and what menus, tooltips and the page of keys are made from."""
 
+import ast
+from pathlib import Path
+
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
@@ -7,10 +10,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QComboBox, QLabel, QMenu, QPushButton, QTabBar
 from pytestqt.qtbot import QtBot
 
-from app.window.actions import ACTIONS
+import bootstrap
+from app.window.actions import ACTIONS, ACTIONS_BY_NAME
 from app.window.keys import has_use_for, key_text
 from app.window.main_window import MainWindow
 from app.window.menus import MENUS
+from app.window.presenter import CLICKER
 from core import STAGES
 from widgets.basics.theme import DARK, current_theme
 
@@ -103,3 +108,19 @@ def test_what_controls_need_while_they_have_the_keyboard(qtbot: QtBot) -> None:
     )
     assert has_use_for(tabs, pressed(Qt.Key.Key_Left))
     assert not has_use_for(None, pressed(Qt.Key.Key_Space))
+
+
+def test_actions_that_are_named_in_the_program_exist() -> None:
+    """By a page that asks for one, a button of the Start page, and a key of the clicker."""
+    named = set()
+    for file in sorted(Path(bootstrap.ROOT, "app").rglob("*.py")):
+        for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+            if not isinstance(node, ast.Call) or not isinstance(node.func, ast.Attribute):
+                continue
+            called = ast.unparse(node.func).rpartition(".")
+            if called[2] == "run_action" or called[0].endswith("action_requested"):
+                named |= {arg.value for arg in node.args if isinstance(arg, ast.Constant)}
+            if called[2] == "_action_button" and isinstance(node.args[1], ast.Constant):
+                named.add(node.args[1].value)
+    assert len(named) >= 8
+    assert (named | set(CLICKER.values())) - {"start", "black"} <= set(ACTIONS_BY_NAME)
