@@ -48,6 +48,8 @@ class CullVerdicts:
     """(T,) uint8, the bits that all corners have, see ``core.geometry.outcodes``."""
     sight: "NormalView | None" = None
     """What a method by N . V has seen; ``None``: ``facing`` decides."""
+    plane_count: int = len(PLANES)
+    """How many of ``PLANES`` are tested: 2 where lines beside the window may reach into it."""
 
     @property
     def side(self) -> Floats:
@@ -94,6 +96,7 @@ def cull(
     facing: Floats,
     drops_facing: Callable[[Floats], Flags],
     sight: "NormalView | None" = None,
+    plane_count: int = len(PLANES),
 ) -> CullVerdicts:
     """Give every triangle its verdict.
 
@@ -105,9 +108,14 @@ def cull(
         The function of a method of the family ``cull``.
     sight : NormalView, optional
         What a method by N . V decides by, of the same triangles.
+    plane_count : int
+        How many of ``PLANES`` are tested.
     """
     drops = drops_facing(facing if sight is None else -sight.product)
-    return CullVerdicts(assembled, facing, drops, shared_bits(outcode, assembled.corner), sight)
+    shared = shared_bits(outcode, assembled.corner)
+    if plane_count < len(PLANES):
+        shared &= np.uint8(~PLANE_BITS & 0xFF | (1 << plane_count) - 1)
+    return CullVerdicts(assembled, facing, drops, shared, sight, plane_count)
 
 
 @method("cull", "none", "Both faces", source="OpenGL 4.6, 14.6.1", exact_for="every scene")
@@ -142,11 +150,11 @@ def cull_front(facing: Floats) -> Flags:
     return np.asarray(facing > 0)
 
 
-def cull_verdict(clip: Floats, facing: float, drops: bool) -> str:
+def cull_verdict(clip: Floats, facing: float, drops: bool, planes: Floats = PLANE_COEFFICIENTS) -> str:
     """Listing of the verdict on one triangle: corners (3, 4), its facing, whether that facing is dropped."""
     if all(corner[3] <= 0 for corner in clip):  #: behind
         return "behind-eye"
-    for a, b, c, d in PLANE_COEFFICIENTS:
+    for a, b, c, d in planes:
         if all(a * x + b * y + c * z + d * w < 0 for x, y, z, w in clip):  #: outside
             return "outside-plane"
     if facing == 0:  #: degenerate

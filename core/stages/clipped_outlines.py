@@ -41,7 +41,12 @@ class OutlineClip:
 
 
 def clip_outlines(
-    whole: Outlines, method: str, size: tuple[int, int], center: float, region: Floats | None = None
+    whole: Outlines,
+    method: str,
+    size: tuple[int, int],
+    center: float,
+    region: Floats | None = None,
+    reach: float = 0.0,
 ) -> OutlineClip:
     """Clip outlines to the pixels of a raster, or to another region.
 
@@ -54,9 +59,11 @@ def clip_outlines(
         Coordinate of the centre of pixel 0: the raster begins half a pixel before it.
     region : (4,) or (M, 2) float64, optional
         Another region in NDC, see ``ClipScene``.
+    reach : float
+        Pixels around the raster that are kept, where the lines there reach into it.
     """
     if region is not None:
         return OutlineClip(whole, clip_lines(whole.window, region_in_window(region, size), method))
-    first = center - 0.5
-    border = (first, first, size[0] + first, size[1] + first)
+    low, high = center - 0.5 - reach, center - 0.5 + reach
+    border = (low, low, size[0] + high, size[1] + high)
     return OutlineClip(whole, clip_lines(whole.window, border, method))

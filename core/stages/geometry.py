@@ -190,7 +190,8 @@ class Geometry:
         with self.count:
             method, center = self.settings.line_clipping, resolve(self.settings).center
             vertices = self.vertices
-            return clip_outlines(self.whole_outlines, method, vertices.size, center, vertices.clip_region)
+            window = vertices.size, center, vertices.clip_region, line_reach(self.settings)
+            return clip_outlines(self.whole_outlines, method, *window)
 
     @cached_property
     def whole_outlines(self) -> "Outlines | None":
@@ -251,6 +252,15 @@ class Geometry:
         distances = clipping_distances(kept, self.clipping_inserted)
         clipping = DEPTH_CLIPPING if self.clipping_inserted else resolve(self.settings).clipping
         return clipping.clip(whole, distances, 3).primitives.varyings
+
+
+def line_reach(settings: Settings) -> float:
+    """Return how far outside the raster the lines of an outline may lie, in pixels, whose pixels get something."""
+    if not resolve(settings).is_outlined:
+        return 0.0
+    from core.raster.lines.traits import line_traits
+
+    return line_traits(settings.line).reach
 
 
 def all_projected(window: WindowVertices, corner: Integers) -> Flags:

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from core.families import suited
-from core.geometry.culling import CullVerdicts, cull, plane_distances
+from core.geometry.culling import PLANES, CullVerdicts, cull, plane_distances
 from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, outcodes, shared_bits
 from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
@@ -24,7 +24,7 @@ from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings, families, no_effect
 from core.stages.declared import GEOMETRY_STAGES
-from core.stages.geometry import Geometry, all_projected, clipping_distances
+from core.stages.geometry import Geometry, all_projected, clipping_distances, line_reach
 from core.stages.needs import check_needs
 
 __all__ = [
@@ -102,7 +102,14 @@ def _process(
 
             sight = look(eye_triangles(vertices, assembled.triangle))
         culled = (
-            cull(assembled, outcode, doubled_area, resolve(settings).drops_facing, sight)
+            cull(
+                assembled,
+                outcode,
+                doubled_area,
+                resolve(settings).drops_facing,
+                sight,
+                planes_tested(settings),
+            )
             if vertices.rings is None
             else cull_polygons(vertices, assembled, settings)
         )
@@ -227,6 +234,11 @@ def face(
     if len(lost):
         facing[lost] = orient(place_corners(primitives.clip_of(lost), size, settings.coverage))
     return facing
+
+
+def planes_tested(settings: Settings) -> int:
+    """Return how many planes culling tests: not those at the sides of the window where a line beside it reaches in."""
+    return len(PLANES) if line_reach(settings) == 0 else PLANES.index("left")
 
 
 def cull_polygons(vertices: VertexStage, assembled: IndexedPrimitives, settings: Settings) -> CullVerdicts:

@@ -29,7 +29,8 @@ def trace_cull(source: TraceSource) -> StageTrace:
     projected = place_corners(assembled.clip, source.scene.size, source.settings.coverage).is_projected
     count = len(assembled)
     behind = (clip[..., 3] <= 0).all(axis=1)
-    outside = (culled.distances < 0).all(axis=1)
+    outside = np.asarray((culled.distances < 0).all(axis=1))
+    outside[:, culled.plane_count :] = False
 
     # Tests 0: behind, 1 to 6: planes, 7: degenerate, 8: facing, 9: kept; each runs if none before applied.
     applies = np.zeros((count, 10), bool)
@@ -38,6 +39,7 @@ def trace_cull(source: TraceSource) -> StageTrace:
     applies[:, 7] = culled.facing == 0
     applies[:, 8] = (culled.verdict != KEPT) & (culled.verdict < DEGENERATE)
     runs = np.cumsum(applies, axis=1) - applies == 0
+    runs[:, 1 + culled.plane_count : 7] = False
     corner_count = vertices.corner_count
     if corner_count < 3:
         runs[:, 7:9] = False

@@ -242,7 +242,7 @@ def wu_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> 
         (*_COLUMN, _FRACTION, *_DIVIDED),
         beside=_DIVIDED,
     ),
-    traits=LineTraits(pixels_in_column=2, columns=_before_divided),
+    traits=LineTraits(reach=0.5, pixels_in_column=2, columns=_before_divided),
 )
 def wu(segments: Segments, last_pixel: bool) -> LineRun:
     """Divide the line between the two pixels of a column; ``decision`` is its minor coordinate (centres whole).
@@ -333,7 +333,7 @@ def _filter_columns(columns: Columns) -> dict[str, Floats | Integers]:
         (*_COLUMN, *_FILTERED),
         beside=_FILTERED,
     ),
-    traits=LineTraits(pixels_in_column=3, columns=_filter_columns),
+    traits=LineTraits(reach=1.0, pixels_in_column=3, columns=_filter_columns),
 )
 def gupta_sproull(segments: Segments, last_pixel: bool) -> LineRun:
     """Look up the distances of the three nearest pixels of a column; ``decision`` is the line's minor coordinate.

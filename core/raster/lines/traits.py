@@ -85,6 +85,8 @@ class LineTraits:
     """Whether a segment that is as long in x as in y runs along y."""
     coefficients: Callable[[Floats], Coefficients] = line_coefficients
     """Slope and intercept that it uses, of ends (L, 2, 2), the major axis first."""
+    reach: float = 0.0
+    """How far outside the raster a line may lie, in pixels, whose pixels still get something."""
     pixels_in_column: int = 1
     """How many numbers it counts for every column: the most pixels that it looks at in one."""
     columns: Callable[[Columns], dict[str, Floats | Integers]] = _no_columns

@@ -14,7 +14,7 @@ from core.raster.lines.intensities import WRITTEN_INTENSITY, run_rightwards
 from core.raster.lines.traits import has_intensities
 from core.resolved import resolve
 from core.trace.source import TraceSource
-from lessons.scenes import make_scene
+from lessons.scenes import assembled, make_scene
 from tests.core.strategies import clip_of_window
 from tests.covering import every_pair
 
@@ -211,3 +211,20 @@ def test_the_history_of_a_pixel_ends_with_its_colour(line):
         why(TraceSource(scene, settings), column, row, 0)
     assert "seen" in keys
     assert "blended" in keys
+
+
+@pytest.mark.parametrize("line_clipping", table.names("line_clipping"))
+@pytest.mark.parametrize("line", ["wu", "gupta-sproull"])
+@pytest.mark.parametrize("y", [-0.3, 8.3, 0.2])
+def test_a_line_beside_the_raster_gives_its_pale_pixels(line: str, line_clipping: str, y: float) -> None:
+    scene = assembled("segments", [1.5, 9.5], [y, y], (12, 8))
+    settings = Settings(line=line, line_clipping=line_clipping)
+    drawn = draw_lines([[[1.5, y], [9.5, y]]], 12, 8, line).pixels
+    wanted = np.zeros((8, 12), int)
+    np.add.at(wanted, tuple(drawn.T[::-1]), 1)
+    assert wanted.any()
+    assert np.array_equal(render(scene, settings).cover_count, wanted)
+    found = trace(scene, settings)
+    pixels = found.stage("raster").pixel
+    assert np.array_equal(pixels[pixels[:, 0] >= 0], drawn)
+    assert found.stage("cull").columns["verdict"][-1] == "kept"
