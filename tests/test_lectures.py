@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
+from app.files.open_any import open_any
 from core.methods import table
-from core.settings import families
+from core.settings import families, no_effect, settings_from_texts
 from core.stages.declared import STAGES
 from lessons.printed.catalogue import PRINTED
 from lessons.slides.scenes import ALL_SCENES
@@ -51,6 +52,20 @@ def test_every_name_of_a_row_exists(row):
             if function
             else (ROOT / file).exists()
         )
+
+
+@pytest.mark.parametrize("row", ROWS, ids=lambda row: row["number"])
+def test_every_method_of_a_row_acts_in_a_scene_and_every_scene_has_one_that_acts(row):
+    methods = [method.split("=") for method in names(row, "method")]
+    documents = {name: open_any(name).document for name in names(row, "scene")}
+    acting = set()
+    for family, method in methods:
+        others = {name: value for name, value in methods if name != family}
+        for name, document in documents.items():
+            settings = settings_from_texts({**others, family: method}, document.settings)
+            if not no_effect(settings, family, document.scene):
+                acting |= {(family, method), name}
+    assert acting >= {*map(tuple, methods), *(documents if methods else ())}
 
 
 def test_printed_listings_and_scenes_of_the_text_exist():

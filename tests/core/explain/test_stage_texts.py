@@ -3,11 +3,12 @@
 import pytest
 from pytestqt.qtbot import QtBot
 
-from core import STAGES
-from core.explain.stage_texts import ACCOUNTS, family_title, method_text, stage_card
+from core import STAGES, Settings, trace
+from core.explain.stage_texts import ACCOUNTS, family_title, initial_sentence, method_text, stage_card
 from core.methods import table
 from core.settings import FAMILIES, families
 from core.stages.declared import DECLARED, stage_of
+from lessons.scenes import make_scene
 from widgets.timeline.stage_card import StageCardView
 
 
@@ -64,3 +65,11 @@ def test_the_view_shows_a_card(qtbot: QtBot) -> None:
 
 def test_the_card_of_a_table_of_depths_says_nothing_of_lines():
     assert stage_card("raster", "line=bresenham", 0).title == "Raster: which pixels are covered"
+
+
+def test_edges_begin_with_no_word_on_snapping_which_only_some_number_formats_do() -> None:
+    assert initial_sentence("edges") == "No edge function has been set up yet."
+    for coverage in ("float64", "exact", "inverse"):
+        step = trace(make_scene("single-triangle"), Settings(coverage=coverage)).stage("edges").explain(1)
+        assert step is not None
+        assert step.listing is None or "snap" not in step.listing.source
