@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
 
 from app.help.pane import HelpPane
 from app.pages.step.bookmarks import BOOKMARKS
-from app.pages.step.page import StepPage
+from app.pages.step.page import PANES, Pane, SidePane, StepPage
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.pages.step.view_keys import ZOOM, choose_vertex, move_view, nudge_vertex, zoom
 from app.views.view_space import LARGEST_WITH_CAMERA
@@ -140,15 +140,16 @@ def _window(window: ActionWindow) -> ActionWindow:
     return window
 
 
-def _pane(name: str, keys: str, title: str, ends_group: bool = False) -> Row[ActionWindow]:
+def _pane(pane: Pane) -> Row[ActionWindow]:
     """Return what shows a pane of the Step page or folds it away."""
+    name, title = pane.name, f"{pane.title} pane" if isinstance(pane, SidePane) else pane.title
     return Row(
         f"pane_{name}",
-        keys,
+        pane.key,
         title,
         lambda w: w.page.toggle_pane(name),
         lambda w: name in w.page.shown_panes(),
-        ends_group,
+        ends_group=pane is PANES[-1],
     )
 
 
@@ -361,20 +362,13 @@ ACTIONS: tuple[Action, ...] = (
             is_on=lambda w: w.page.current_view() == "compare",
             ends_group=True,
         ),
-        _pane("scene", "S", "Scene pane"),
-        _pane("methods", "M", "Methods pane"),
-        _pane("overlays", "O", "Overlays pane"),
-        _pane("inspector", "I", "Inspector"),
-        _pane("thumbnails", "T", "Thumbnails of all buffers"),
     ),
     *_rows("step", VIEWING, "", _window)(
         Row("flip", "X", "Swap the pictures of A and B while held", lambda w: w.page.flip())
     ),
     *_rows("step", VIEWING, "View", _window)(
         Row("divergence", "D", "First divergence of A and B", lambda w: w.page.comparing.go_to_divergence()),
-        _pane("navigator", "G", "Navigator"),
-        _pane("details", "H", "Variables"),
-        _pane("run", "R", "Run: stages and timeline", ends_group=True),
+        *map(_pane, PANES),
         Row(
             "predict",
             "P",

@@ -1,6 +1,7 @@
 """The stepping page: side panes, main view, inspector and the run at the bottom, around one session."""
 
 from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from functools import partial
 
 from PySide6.QtCore import QCoreApplication, QEvent, Qt, QThread, Signal, Slot
@@ -35,10 +36,6 @@ from widgets.grid.overlay_legend import OverlayLegend
 from widgets.tables.depth_table_editor import DepthTableEditor
 from widgets.timeline.transport import Timeline
 
-SIDE_PANES = (("scene", "Scene", "S"), ("methods", "Methods", "M"), ("overlays", "Overlays", "O"))
-"""Name, title and key of the panes that open beside the strip at the left, one at a time."""
-PANES = (*(name for name, _, _ in SIDE_PANES), "inspector", "details", "thumbnails", "navigator", "run")
-"""Names of everything that can be shown or folded away."""
 PANES_AT_FIRST = ("inspector", "details", "navigator", "run")
 NESTED_LAYOUTS = 5
 """Layouts around a part of the inspector, up to the window's."""
@@ -149,13 +146,9 @@ class StepPage(Page):
     def _lay_out(self) -> None:
         self.side_tabs = SideTabs(self)
         self.side_panes = QStackedWidget(self)
-        for (name, title, key), pane in zip(
-            SIDE_PANES,
-            (self._scene_pane(), self._scrolled(self.settings_panel), self._overlay_pane()),
-            strict=True,
-        ):
-            self.side_tabs.add_tab(name, title, f"Show or fold away: {title} ({key})")
-            self.side_panes.addWidget(pane)
+        for pane in SIDE_PANES:
+            self.side_tabs.add_tab(pane.name, pane.title, f"Show or fold away: {pane.title} ({pane.key})")
+            self.side_panes.addWidget(pane.make(self))
         self.side_tabs.pane_chosen.connect(self.toggle_pane)
         self.columns = StepColumns(self.side_panes, self.main_area, self.column, self)
         self._page_layout = page = column_layout(self, 4, margins=MARGINS)
@@ -170,33 +163,11 @@ class StepPage(Page):
         for _ in range(NESTED_LAYOUTS):
             QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
 
-    def _scrolled(self, widget: QWidget) -> QScrollArea:
-        scroll = QScrollArea(self)
-        scroll.setWidgetResizable(True)
-        scroll.setFrameShape(QScrollArea.Shape.NoFrame)
-        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        scroll.setWidget(widget)
-        return scroll
-
-    def _scene_pane(self) -> QWidget:
-        pane = QWidget(self)
-        layout = column_layout(pane, 0)
-        layout.addWidget(self.outline, 1)
-        layout.addWidget(self.depth_tables, 6)
-        return pane
-
-    def _overlay_pane(self) -> QWidget:
-        pane = QWidget(self)
-        layout = column_layout(pane, 8, margins=(8, 8, 8, 8))
-        layout.addWidget(self.legend)
-        layout.addStretch(1)
-        return pane
-
     # Panes.
 
     def shown_panes(self) -> list[str]:
         """Return the names of the panes that are shown, of `PANES`."""
-        side = SIDE_PANES[self.side_panes.currentIndex()][0] if not self.side_panes.isHidden() else ""
+        side = SIDE_PANES[self.side_panes.currentIndex()].name if not self.side_panes.isHidden() else ""
         is_shown = {
             side: True,
             "inspector": not self.column.isHidden(),
@@ -205,12 +176,13 @@ class StepPage(Page):
             "navigator": self.navigation.is_wanted,
             "run": not self.timeline.isHidden(),
         }
-        return [name for name in PANES if is_shown.get(name)]
+        return [pane.name for pane in PANES if is_shown.get(pane.name)]
 
     def show_panes(self, names: Iterable[str]) -> None:
         """Show these panes and fold the others away; of the side panes the first one named."""
-        names = [name for name in names if name in PANES]
-        sides = [name for name, _, _ in SIDE_PANES]
+        known = {pane.name for pane in PANES}
+        names = [name for name in names if name in known]
+        sides = [pane.name for pane in SIDE_PANES]
         side = next((name for name in names if name in sides), "")
         if side:
             self.side_panes.setCurrentIndex(sides.index(side))
@@ -374,3 +346,60 @@ class StepPage(Page):
             "step thumbnails": self.main_area.rows,
             "step inspector": self.column.rows,
         }
+
+
+@dataclass(frozen=True)
+class Pane:
+    """What can be shown on the Step page or folded away."""
+
+    name: str
+    title: str
+    """Of its tab, or of its entry in the menu."""
+    key: str
+
+
+@dataclass(frozen=True)
+class SidePane(Pane):
+    """One of the panes that open beside the strip at the left, one at a time."""
+
+    make: Callable[[StepPage], QWidget]
+
+
+def _scrolled(widget: QWidget) -> QScrollArea:
+    scroll = QScrollArea()
+    scroll.setWidgetResizable(True)
+    scroll.setFrameShape(QScrollArea.Shape.NoFrame)
+    scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    scroll.setWidget(widget)
+    return scroll
+
+
+def _scene_pane(page: StepPage) -> QWidget:
+    pane = QWidget()
+    layout = column_layout(pane, 0)
+    layout.addWidget(page.outline, 1)
+    layout.addWidget(page.depth_tables, 6)
+    return pane
+
+
+def _overlay_pane(page: StepPage) -> QWidget:
+    pane = QWidget()
+    layout = column_layout(pane, 8, margins=(8, 8, 8, 8))
+    layout.addWidget(page.legend)
+    layout.addStretch(1)
+    return pane
+
+
+SIDE_PANES = (
+    SidePane("scene", "Scene", "S", _scene_pane),
+    SidePane("methods", "Methods", "M", lambda page: _scrolled(page.settings_panel)),
+    SidePane("overlays", "Overlays", "O", _overlay_pane),
+)
+PANES = (
+    *SIDE_PANES,
+    Pane("inspector", "Inspector", "I"),
+    Pane("details", "Variables", "H"),
+    Pane("thumbnails", "Thumbnails of all buffers", "T"),
+    Pane("navigator", "Navigator", "G"),
+    Pane("run", "Run: stages and timeline", "R"),
+)
