@@ -53,6 +53,8 @@ def test_a_method_takes_two_files_at_most() -> None:
         "A line method",
         "A depth format",
         "A view of a stage",
+        "An action",
+        "A pane",
         "A page",
     ]
     for title, diff in SECTIONS:
