@@ -115,6 +115,7 @@ class FileActions(QObject):
             session.open(opened.document, trace, cursor_at(place, trace, session.cursor.level))
             page.stepping.set_places()
             session.set_pin(place.pixel)
+            page.grids.focus_on(max(session.moment.triangle, 0))
             # As at first, also where the same scene was magnified before, or looked at in another view.
             page.main_area.views_by_hand.clear()
             page.show_own_view()

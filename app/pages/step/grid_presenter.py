@@ -105,7 +105,7 @@ class GridPresenter(QObject):
         self._moment, stage = moment, moment.cursor.stage
         if moment.cursor != self._stepped_to:
             self._guesses = None
-            self._focus_on(moment.triangle)
+            self.focus_on(moment.triangle)
         self._stepped_to = moment.cursor
         if self._outlined_at != self._geometry_step():
             self._show_outlines()
@@ -167,7 +167,7 @@ class GridPresenter(QObject):
     def _stepped_triangle(self) -> int:
         return self._focus
 
-    def _focus_on(self, triangle: int) -> None:
+    def focus_on(self, triangle: int) -> None:
         """Give a triangle coloured edges and handles, where the document has none in focus."""
         if triangle >= 0 and triangle != self._focus:
             self._focus = triangle
@@ -226,7 +226,7 @@ class GridPresenter(QObject):
         if self._session.is_predicting:
             # The triangle that a pixel shows in the end is not known yet.
             return
-        self._focus_on(int(self._session.trace.source.picture.primitive[row, column]))
+        self.focus_on(int(self._session.trace.source.picture.primitive[row, column]))
 
     @Slot(str)
     def _choose_buffer(self, name: str) -> None:

@@ -8,6 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
+from app.files.open_any import open_any
 from app.files.preferences import load_preferences
 from app.pages.start.page import StartPage, picture_of
 from app.window.main_window import MainWindow
@@ -68,6 +69,10 @@ def test_arrows_go_from_card_to_card_and_return_opens(
     session = window.session
     assert (session.cursor.stage, session.cursor.position, session.pin) == ("raster", 4, (32, 24))
     assert window.page.sentence.text().startswith("Pixel (32, 24) is covered")
+    window.files.show_opened(open_any("shared-edge"))
+    assert "by triangle 1" in window.page.sentence.text()
+    assert not window.page.grids.geometry.owner, "the edges have the names of the sentence"
+    session.undo()
     session.undo()
     assert session.document.title == "Two triangles sharing an edge"
 
