@@ -113,6 +113,20 @@ def _end_of_edge(turn: int) -> Finder:
     return rows
 
 
+def _earlier_of_line(which: int) -> Finder:
+    """Return how an earlier row about the same line is found: its first (0), or the one before (-1)."""
+
+    def rows(here: StageTrace, row: int, there: StageTrace, element: int) -> Integers:
+        if "segment" not in here.columns:
+            return np.empty(0, int)
+        segment = here.columns["segment"]
+        is_line = np.char.startswith(np.array(here.steps.kinds), here.method.removeprefix("line="))
+        of_line = np.flatnonzero((segment[:row] == segment[row]) & is_line[here.steps.kind[:row]])
+        return of_line[[which]] if len(of_line) else of_line
+
+    return rows
+
+
 SOURCES = {
     **{f"transform.before_{axis}": _Source("transform", f"after_{axis}", _space_before) for axis in "xyzw"},
     "transform.before": _Source("transform", "after", _space_before),
@@ -129,6 +143,14 @@ SOURCES = {
     **{
         f"shade.{name}": _Source("interpolate", name, _same_fragment)
         for name in ("uv", "diffuse_light", "specular_light")
+    },
+    **{
+        f"raster.{name}": _Source("raster", name, _earlier_of_line(0))
+        for name in ("dx", "dy", "sx", "sy", "slope", "intercept", "cosine", "length")
+    },
+    **{
+        f"raster.{name}_before": _Source("raster", now, _earlier_of_line(-1))
+        for name, now in (("sum", "sum_advanced"), ("major", "major"), ("minor", "minor"))
     },
     "depth.before": _Source("depth", "after", _before),
     "blend.source": _Source("shade", "color", _same_fragment),

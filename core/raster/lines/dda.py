@@ -139,6 +139,7 @@ def _run(
         (minor != minor_before) & ~is_first,
         v - np.floor(v) == 0.5,
         sum_before=np.where(is_first, np.nan, v_before),
+        sum_advanced=v,
     )
 
 

@@ -81,3 +81,15 @@ def test_what_was_given_and_what_this_step_made_come_from_nowhere() -> None:
     assert (later.stage, later.position) == ("edges", int(raster.steps.starts[4]) + 1)
     assert origin(run, "transform", 1, "before_x") is None
     assert origin(run, "transform", 1, "no such variable") is None
+
+
+def test_the_numbers_of_bresenham_come_from_the_steps_that_made_them() -> None:
+    run = trace(make_scene("segment"), Settings(line="bresenham"))
+    raster = run.stage("raster")
+    names = [raster.explain(k).key.rpartition(".")[2] for k in range(1, raster.steps.count + 1)]
+    second = int(raster.steps.starts[2])
+    position = names.index("advance", second) + 1
+    for variable, wanted in (("dy", "lengths"), ("sum_before", "advance"), ("major_before", "next")):
+        made = origin(run, "raster", position, variable)
+        assert names[made.position - 1] == wanted
+        assert made.position <= second
