@@ -114,7 +114,6 @@ def run_command_line(arguments: Sequence[str]) -> int:
     for stream in (sys.stdout, sys.stderr):
         if isinstance(stream, io.TextIOWrapper):
             stream.reconfigure(errors="replace")
-    sys.stdout = _written_whole(sys.stdout)
     program = PROGRAM
     try:
         command = next((c for c in COMMANDS if arguments and c.name == arguments[0]), None)
@@ -198,14 +197,6 @@ def _fail(program: str, problem: object, code: int) -> int:
     text = " ".join(str(problem).split()) or type(problem).__name__
     print(f"{program}: {text}", file=sys.stderr)
     return code
-
-
-def _written_whole(output: Any) -> Any:
-    """Return a standard output that writes a whole text or fails: an unbuffered one drops what has no room."""
-    if not isinstance(output, io.TextIOWrapper) or not isinstance(output.buffer, io.RawIOBase):
-        return output
-    encoding, errors = output.encoding, output.errors
-    return io.TextIOWrapper(io.BufferedWriter(output.detach()), encoding, errors, line_buffering=True)
 
 
 def _silence_stdout() -> None:

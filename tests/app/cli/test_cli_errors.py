@@ -228,9 +228,9 @@ class TestWriting:
     def test_an_unbuffered_standard_output_that_is_cut_off(self, tmp_path):
         # A limit on the size of files: one write is done in part, as on a disk that fills up.
         code = (
-            "import resource, sys; from app.cli.commands import run_command_line; "
+            "import resource, sys; from app.__main__ import main; "
             "resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000)); "
-            "sys.exit(run_command_line(sys.argv[1:]))"
+            "sys.exit(main())"
         )
         command = ["trace", "shared-edge", "--stage", "raster", "--format", "csv"]
         with open(tmp_path / "out.csv", "wb") as output:
