@@ -20,7 +20,8 @@ from core.trace.stage_trace import KEPT_EXPLANATIONS
 SUBJECTS = (
     *("transform", "culling", "normal_view", "clipping", "number_formats", "edges", "binning", "spans"),
     *("fills", "polygon_fills", "polygon_clipping"),
-    *("line_clipping", "lines", "smooth_lines", "interpolation", "barycentric", "textures", "shading"),
+    *("line_clipping", "line_names", "line_setup", "lines", "smooth_lines", "line_interpolation"),
+    *("interpolation", "barycentric", "textures", "shading"),
     *("depth", "packed_keys", "rays", "blending", "areas", "resolve", "clip_tables"),
     "polygon_tables",
 )

@@ -1,79 +1,45 @@
-"""Lines of a wireframe: how each method chooses its pixels, and interpolation along them."""
+"""Lines of a wireframe: how each method chooses its pixels."""
 
 import ast
 import math
 from fractions import Fraction
 
-from core.explain.digits import number_latex, signed_latex, spoken, vector_text
+from core.explain.digits import number_latex, signed_latex, spoken
 from core.explain.equation import (
     Part,
     all_of,
-    beside,
     comparison,
     conclusion,
     difference,
     equation,
     fraction,
     linear,
-    relation,
 )
 from core.explain.listed_code import (
     BEFORE,
-    assigned_name,
     assignment,
     code_of,
     number_of,
     symbols,
     symbols_latex,
-    used_values,
 )
 from core.explain.listed_code import tested as tested_by
 from core.explain.records import Asked, choice, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
-from core.explain.variable_text import VariableText, given, hides, shows
-from core.methods import table
-from core.raster.lines.traits import line_of_kind, line_traits, minor_name
-from core.records.words import counted, joined
-
-
-def line_method(step: StepValues) -> str:
-    """Return the line method of a row."""
-    return line_of_kind(step.kind)
-
-
-def is_swapped(step: StepValues) -> bool:
-    """Return whether the listing has swapped x and y for a steep line."""
-    line = line_method(step)
-    is_steep = bool(step.explanation.values.get("is_steep", False))
-    return is_steep and line in table.names("line") and line_traits(line).swaps_axes
-
+from core.explain.subjects.line_names import (
+    MAJOR,
+    MINOR,
+    axes,
+    is_swapped,
+    line_method,
+    sum_name,
+)
+from core.explain.subjects.line_setup import amount, listed_ends
 
 RELATIONS_LATEX = {ast.Gt: ">", ast.GtE: r"\ge", ast.LtE: r"\le", ast.Lt: "<"}
 ON_LINE = 1e-9
 """Pixels from a line within which a centre lies on it, but for the rounding of its ends."""
-MAJOR, MINOR = "x", "y"
-"""Symbols, as in the listings, of the longer axis of the line and of the other: of a steep line x and y are swapped."""
-
-
-def axes(step: StepValues) -> tuple[str, str]:
-    """Return in words the longer axis of the line and the other: their symbols, and what they count if swapped."""
-    return ("x (the row)", "y (the column)") if is_swapped(step) else (MAJOR, MINOR)
-
-
-def listed_ends(step: StepValues) -> tuple[list[float], list[float]]:
-    """Return both ends as the listing has them after its swaps."""
-    first, second = step.vector("first_end"), step.vector("second_end")
-    if is_swapped(step):
-        first, second = first[::-1], second[::-1]
-    return (second, first) if is_reversed(step) else (first, second)
-
-
-def is_reversed(step: StepValues) -> bool:
-    """Return whether the listing has swapped the ends."""
-    k = int(step.flag("is_steep"))
-    is_backward = step.vector("second_end")[k] < step.vector("first_end")[k]
-    return line_traits(line_method(step)).swaps_ends and is_backward
 
 
 def nearness(step: StepValues) -> int:
@@ -107,150 +73,11 @@ def will_step(step: StepValues) -> Asked:
     )
 
 
-@explains("raster.*.octant")
-def octant(step: StepValues) -> Said:
-    """Where an edge runs, and along which axis it is longer."""
-    run, rise, is_steep = step.number("run"), step.number("rise"), step.flag("is_steep")
-    traits, major = line_traits(line_method(step)), "y" if is_steep else "x"
-    first, second = vector_text(step.vector("window_start")), vector_text(step.vector("window_end"))
-    if traits.takes_pixels:
-        first, second = (f"pixel {vector_text(step.vector(name))}" for name in ("first_end", "second_end"))
-    name = f"Edge {step.whole('edge')} of triangle {step.triangle}"
-    text = f"{name} runs from {first} to {second}"
-    steps = "row by row" if is_steep else "column by column"
-    level = "as long in x as in y" if run == rise else f"longer in {major}"
-    swapped = "x and y are swapped and " if is_swapped(step) else ""
-    end = f": it is {level}, so {swapped}it is drawn {steps}."
-    if run == 0:
-        end = ", so it has no length on the raster."
-        text = f"{name} begins and ends in {first}" if traits.takes_pixels else text
-    wanted = r"\ge" if traits.is_diagonal_steep else ">"
-    in_x, in_y = (rise, run) if is_steep else (run, rise)
-    return text + end, equation(
-        ("|y_1 - y_0|", in_y),
-        (wanted, relation(in_y, in_x)),
-        ("|x_1 - x_0|", in_x),
-        *conclusion("row by row", steps),
-    )
-
-
-@explains("raster.*.lengths")
-def lengths(step: StepValues) -> Said:
-    """The lengths along both axes."""
-    major, minor = axes(step)
-    (x0, y0), (x1, y1) = listed_ends(step)
-    dx, dy = step.number("dx"), step.number("dy")
-    text = f"The line goes {counted(int(dx), 'pixel')} along {major} and {spoken(dy)} along {minor}."
-    bar = "|" if "abs" in ast.unparse(code_of(step) or ast.Pass()) else ""
-    made: list[list[Part]] = []
-    for axis, found, first, second in ((MAJOR, dx, x0, x1), (MINOR, dy, y0, y1)):
-        symbols, numbers = difference((f"{axis}_1", second), (f"{axis}_0", first))
-        made.append([(f"d{axis}", found), "=", (f"{bar}{symbols}{bar}", f"{bar}{numbers}{bar}")])
-    return text, equation(*beside(*made))
-
-
-@explains("raster.*.directions")
-def directions(step: StepValues) -> Said:
-    """The way in which the listing goes along the axes."""
-    ways: list[str] = []
-    made: list[list[Part]] = []
-    for k, (axis, symbol) in enumerate(zip(axes(step), (MAJOR, MINOR), strict=True)):
-        if f"s{symbol}" in step.explanation.changed:
-            value, (first, second) = step.number(f"s{symbol}"), listed_ends(step)
-            ways.append(f"{axis} {'grows' if value > 0 else 'falls'} by 1")
-            compared: list[Part] = [
-                (f"{symbol}_1", second[k]),
-                (r"\ge", relation(second[k], first[k])),
-                (f"{symbol}_0", first[k]),
-            ]
-            made.append([*compared, r"\Rightarrow", (f"s{symbol}", value)])
-    text = f"From the first end to the second, {', and '.join(ways)}{' where it steps' * (len(ways) > 1)}."
-    return text, equation(*beside(*made))
-
-
-@explains("raster.*.start")
-def started(step: StepValues) -> Said:
-    """Where the line begins."""
-    (major, minor), ((x0, y0), _) = axes(step), listed_ends(step)
-    x = step.number("major")
-    if "minor" not in step.explanation.changed:
-        side, bracket = ("before", "ceil") if step.number("sx") > 0 else ("after", "floor")
-        text = f"The line starts at {major} = {spoken(x)}, the first whole number not {side} {spoken(x0)}."
-        whole = (rf"\l{bracket} {MAJOR}_0 \r{bracket}", rf"\l{bracket} {number_latex(x0)} \r{bracket}")
-        return text, equation((MAJOR, x), "=", whole)
-    swapped = f", its second end, so that {major} grows" if is_reversed(step) else ""
-    text = f"The line starts at {major} = {spoken(x)} and {minor} = {spoken(y0)}{swapped}."
-    return text, equation(
-        *beside([(MAJOR, x), "=", (f"{MAJOR}_0", x0)], [(MINOR, y0), "=", (f"{MINOR}_0", y0)])
-    )
-
-
-def starting_sum(step: StepValues) -> Asked | None:
-    """Ask for the first value of the sum, where it is computed."""
-    name, (made, computed, value) = sum_name(step), assignment(step)
-    if len(made) == 3:
-        return None
-    known = joined([f"{symbol} = {spoken(number)}" for symbol, number in used_values(step).items()])
-    return number(
-        f"With {known}, what is the first {name}?",
-        value,
-        f"The first {name} is {computed} = {spoken(value)}.",
-    )
-
-
-@explains("raster.*.first-sum", asks=starting_sum)
-def first_sum(step: StepValues) -> Said:
-    """The first value of the sum that decides."""
-    name, (made, computed, value) = sum_name(step), assignment(step)
-    return f"The first {name} is {_amount(computed, value)}.", equation(*made)
-
-
-def _amount(computed: str, value: float) -> str:
-    """Return what was computed, and its number."""
-    return spoken(value) if computed[0].isdigit() and " " not in computed else f"{computed} = {spoken(value)}"
-
-
-@explains("raster.bresenham-float-start.slope")
-def error_slope(step: StepValues) -> Said:
-    """The slope that is added to the error."""
-    if "d" not in ast.unparse(code_of(step) or ast.Pass()):
-        return line_slope(step)
-    _, minor = axes(step)
-    run, rise, m = (step.number(name) for name in ("run", "rise", "slope"))
-    bars = fraction((f"d{MINOR}", rise), (f"d{MAJOR}", max(run, 1.0)))
-    text = f"The slope m is {spoken(rise)} / {spoken(run)} = {spoken(m)}, the change along {minor} with every pixel."
-    return text, equation(("m", m), "=", bars)
-
-
-@explains("raster.*.slope")
-def line_slope(step: StepValues) -> Said:
-    """The slope of the line."""
-    m, (_, minor) = step.number("slope"), axes(step)
-    text = f"The slope m is {spoken(m)}, the change along {minor} for every 1 along {axes(step)[0]}."
-    (x0, y0), (x1, y1) = listed_ends(step)
-    above = difference((f"{MINOR}_1", y1), (f"{MINOR}_0", y0))
-    below = difference((f"{MAJOR}_1", x1), (f"{MAJOR}_0", x0))
-    quotient: list[Part] = ["=", fraction(above, below)] if x0 != x1 else []
-    return text, equation(("m", m), *quotient)
-
-
-@explains("raster.*.intercept")
-def line_intercept(step: StepValues) -> Said:
-    """The equation of the line."""
-    m, b, ((x0, y0), _) = step.number("slope"), step.number("intercept"), listed_ends(step)
-    swapped = ", where x counts rows" if is_swapped(step) else ""
-    text = (
-        f"With pixel centres at whole numbers the line is "
-        f"{MINOR} = {spoken(m)} · {MAJOR} {'−' if b < 0 else '+'} {spoken(abs(b))}{swapped}."
-    )
-    return text, equation(("b", b), "=", (f"{MINOR}_0", y0), "-", ("m", m), r"\cdot", (f"{MAJOR}_0", x0))
-
-
 @explains("raster.dda-float32-start.sy")
 def rounded_step(step: StepValues) -> Said:
     """The slope in the line's direction."""
     made, computed, value = assignment(step)
-    return f"The step sy is {_amount(computed, value)}, rounded to float32.", equation(*made)
+    return f"The step sy is {amount(computed, value)}, rounded to float32.", equation(*made)
 
 
 @explains("raster.dda-float32.advance")
@@ -344,7 +171,7 @@ def added(step: StepValues) -> Said:
     name, now = sum_name(step), step.number(step.explanation.changed[0])
     is_added = isinstance(code_of(step).op, ast.Add)  # type: ignore[union-attr]
     does = "Adding" if is_added else "Subtracting"
-    return f"{does} {_amount(computed, value)} makes {name} = {spoken(now)}.", equation(*made)
+    return f"{does} {amount(computed, value)} makes {name} = {spoken(now)}.", equation(*made)
 
 
 @explains("raster.*.next")
@@ -455,124 +282,3 @@ def plotted(step: StepValues) -> Said:
         bound = r"\max(0, " if along < 0 else r"\min(1, "
         symbols, numbers = f"{bound}{symbols})", f"{bound}{numbers})"
     return text, equation(("t", t), "=", (symbols, numbers))
-
-
-@explains("interpolate.line-perspective.parts")
-def parts(step: StepValues) -> Said:
-    """Both ends' parts of 1/w."""
-    t, w, (start, end) = step.number("t"), step.vector("end_w"), step.vector("parts")
-    text = (
-        f"{step.fragment_name}: at t = {spoken(t)} between ends with w = {spoken(w[0])} and w = {spoken(w[1])}, "
-        f"the first end gives {spoken(start)} of 1/w and the second {spoken(end)}."
-    )
-    first = fraction(("1 - t", f"1 - {number_latex(t)}"), (step.of_end("w", 0), w[0]))
-    second = fraction(("t", t), (step.of_end("w", 1), w[1]))
-    return text, equation(*beside([("p_0", start), "=", first], [("p_1", end), "=", second]))
-
-
-@explains("interpolate.line-perspective.total")
-def total(step: StepValues) -> Said:
-    """1/w along the line."""
-    (start, end), whole = step.vector("parts"), step.number("total")
-    text = f"{step.fragment_name}: both parts add up to 1/w = {spoken(whole)}."
-    return text, linear(r"\frac{1}{w}", whole, [("p_0", start), ("p_1", end)])
-
-
-def second_weight(step: StepValues) -> Asked | None:
-    """Ask for the weight of the second end."""
-    s = step.number("s")
-    return number(f"What is s, the weight of the second end, at {step.the_pixel}?", s, f"s is {spoken(s)}.")
-
-
-@explains("interpolate.*.weight", asks=second_weight)
-def weight(step: StepValues) -> Said:
-    """The weights of the ends."""
-    s, is_affine = step.number("s"), step.kind == "line-affine"
-    how = "its place along the line in the window" if is_affine else "the second part over 1/w"
-    text = f"{step.fragment_name}: the second end has weight {spoken(s)}, {how}, and the first end {spoken(1 - s)}."
-    if is_affine:
-        return text, equation(("s", s), "=", ("t", step.number("t")))
-    return text, equation(
-        ("s", s), "=", fraction(("p_1", step.vector("parts")[1]), ("1/w", step.number("total")))
-    )
-
-
-DECISIONS = {"rectangle": "a", "diamond-exit": f"{MINOR} − {MINOR} centre"}
-"""Symbol of the number that chooses the pixel, where no test of the listing has it."""
-
-
-def decision_name(step: StepValues) -> str:
-    """Return the formula's symbol of the number that chooses the pixel: what is tested, or the line's y."""
-    test = tested_by(code_of(step, "test"))
-    return symbols(test.left) if test else DECISIONS.get(line_method(step), MINOR)
-
-
-def sum_name(step: StepValues) -> str:
-    """Return the symbol of the sum that a method adds up from pixel to pixel."""
-    return assigned_name(code_of(step, "advance")) or MINOR
-
-
-def _major_name(step: StepValues) -> str:
-    return "row" if is_swapped(step) else MAJOR
-
-
-def _minor_name(step: StepValues) -> str:
-    line = line_method(step)
-    if line not in table.names("line"):
-        return MINOR
-    return "column" if is_swapped(step) else minor_name(line)
-
-
-for _line in table.names("line"):
-    _kinds = table.get("line", _line).operations
-    if any("minor" in done.sets for kind in _kinds.values() for done in kind):
-        # The listing's own x and y are the pixel, one step after the other.
-        hides(f"raster.{'|'.join(_kinds)}", ("column", "row"))
-_X = "Pixel along the longer axis of the line."
-_Y = "Pixel along the other axis."
-_SUM = "The sum that decides, from pixel to pixel."
-shows(
-    "raster",
-    {
-        "major_before": VariableText(_major_name, _X),
-        "major": VariableText(_major_name, _X),
-        "minor_before": VariableText(_minor_name, _Y),
-        "minor": VariableText(_minor_name, _Y),
-        "sum_before": VariableText(sum_name, _SUM),
-        "decision": VariableText(decision_name, "The number whose sign or rounding chooses the pixel."),
-        "sum_corrected": VariableText(sum_name, _SUM),
-        "sum_advanced": VariableText(sum_name, _SUM),
-        "first_end": VariableText("first end", "Start of the line, as the method uses it."),
-        "second_end": VariableText("second end", "End of the line, as the method uses it."),
-        "is_steep": VariableText("steep", "Whether y is the major axis: one pixel in every row."),
-        "dx": VariableText("dx", "Length along x, without sign; a steep line has x and y swapped."),
-        "dy": VariableText("dy", "Length along y, without sign; a steep line has x and y swapped."),
-        "sx": VariableText("sx", "The way along x, 1 or −1; a steep line has x and y swapped."),
-        "sy": VariableText("sy", "What is added to y where it steps; a steep line has x and y swapped."),
-        "slope": VariableText("m", "Slope: change of the minor coordinate with every step."),
-        "intercept": VariableText("b", "Intercept: minor coordinate where the major one is 0."),
-        "has_stepped": VariableText("stepped", "Whether the minor coordinate changed."),
-        "is_tie": VariableText("tie", "Whether the line passes exactly between two pixels."),
-        "exit_start": VariableText(
-            "d₀", "How far the first end is through the diamond: below 0.5 is inside."
-        ),
-        "exit_end": VariableText(
-            "d₁", "How far the second end is through the diamond: 0.5 or more is outside."
-        ),
-        "length": VariableText(
-            lambda step: "n" if step.kind == "lane-row" else "L", "Length of the span or line, in pixels."
-        ),
-        "t": VariableText("t", "Position along the line: 0 at the first end, 1 at the second."),
-    },
-)
-
-shows(
-    "interpolate",
-    {
-        "t": given("t", "Position along the line: 0 at the first end, 1 at the second."),
-        "end_w": given("w of the ends", "w of the line's first and second end."),
-        "parts": VariableText("p₀, p₁", "Weight of each end over its w."),
-        "s": VariableText("s", "Weight of the second end in the value."),
-        "end_values": VariableText("at end #", "All values at the line's end, in order.", "s", "parts"),
-    },
-)

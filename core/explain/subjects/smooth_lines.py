@@ -7,7 +7,7 @@ from core.explain.equation import Part, beside, difference, equation, fraction
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
-from core.explain.subjects.lines import MAJOR, MINOR, axes, line_method
+from core.explain.subjects.line_names import MAJOR, MINOR, axes, line_method
 from core.explain.variable_text import VariableText, shows
 from core.records.words import counted
 
