@@ -5,15 +5,15 @@ from collections.abc import Callable, Iterator
 from math import prod
 from typing import Any
 
-from lessons.exercises.answers.amounts import NumberAnswer
 from lessons.exercises.answers.answer import NotCheckedError, Response
+from lessons.exercises.answers.cells import Entry
 from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
+from lessons.exercises.answers.fields import NumberAnswer, TableAnswer
 from lessons.exercises.answers.listings import LineAnswer
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.answers.places import PlaceAnswer
 from lessons.exercises.answers.spots import SpotAnswer
-from lessons.exercises.answers.steps import Step, StepsAnswer
-from lessons.exercises.answers.tables import TableAnswer
+from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer
 from lessons.exercises.question import Question
 
@@ -101,11 +101,11 @@ def _spot(answer: SpotAnswer, text: str) -> dict[str, object]:
 
 def _steps(answer: StepsAnswer, text: str) -> list[list[Any]]:
     steps = answer.steps[: text.count("\n") + 1]
-    lines = _behind(text, [f"{step.prompt}: " for step in steps])
+    lines = _behind(text, [f"{step.label}: " for step in steps])
     return [_tries(step, line) for step, line in zip(steps, lines, strict=True)]
 
 
-def _tries(step: Step, line: str) -> list[Any]:
+def _tries(step: Entry, line: str) -> list[Any]:
     if step.kind == "choice":  # An option may hold ", then" itself.
         longest_first = sorted((*step.options, "fixed"), key=len, reverse=True)
         return re.findall("|".join(map(re.escape, longest_first)), line)
@@ -129,7 +129,7 @@ def _places(answer: PlaceAnswer, text: str) -> list[list[str]]:
 
 
 def _dials(answer: BreakAnswer, text: str) -> list[str]:
-    return list(map(_exact, _behind(text, [f"{dial.name} = " for dial in answer.dials])))
+    return list(map(_exact, _behind(text, [f"{dial.label} = " for dial in answer.dials])))
 
 
 def _methods(answer: CheapestAnswer, text: str) -> list[str]:

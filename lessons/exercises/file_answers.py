@@ -23,16 +23,16 @@ from lessons.exercises.answer_parts import (
     StepsPart,
     TablePart,
 )
-from lessons.exercises.answers.amounts import NumberAnswer
 from lessons.exercises.answers.answer import Answer
+from lessons.exercises.answers.cells import Dial, Entry
 from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
+from lessons.exercises.answers.fields import Column, NumberAnswer, TableAnswer
 from lessons.exercises.answers.listings import LineAnswer
 from lessons.exercises.answers.pixels import PixelAnswer, read_art
 from lessons.exercises.answers.places import PlaceAnswer, Places
 from lessons.exercises.answers.spots import SpotAnswer
-from lessons.exercises.answers.steps import Step, StepsAnswer
-from lessons.exercises.answers.tables import Column, TableAnswer
-from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Dial, Family, Values
+from lessons.exercises.answers.steps import StepsAnswer
+from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family, Values
 from lessons.exercises.drawn_scene import DrawnScene, different_pixels, frame_art, seen_pixels
 from lessons.exercises.draws import Draws
 from lessons.mistakes.shelf import SHELF
@@ -59,7 +59,7 @@ def answer_of(
         shape = (part.rows, count // part.rows) if part.rows > 1 else (count,) if count > 1 else ()
         return NumberAnswer(tuple(part.values), shape, tuple(part.names), part.tolerance), given
     if isinstance(part, TablePart):
-        cells = tuple(tuple(("", number) for number in row) for row in part.cells)
+        cells = tuple(map(tuple, part.cells))
         heads = tuple(map(Column, part.columns))
         return TableAnswer(heads, tuple(part.labels), cells, tolerance=part.tolerance), given
     if isinstance(part, OrderPart):
@@ -120,15 +120,15 @@ def pixel_answer(part: PixelPart, drawn: DrawnScene | None, settings: Settings) 
     return PixelAnswer((columns, rows), of["#"], of["?"], part.noun)
 
 
-def _step(part: StepPart) -> Step:
+def _step(part: StepPart) -> Entry:
     if part.number is not None:
-        return Step(part.ask, "number", part.number, tolerance=part.tolerance)
+        return Entry(part.ask, "number", part.number, tolerance=part.tolerance)
     if part.pixel:
-        return Step(part.ask, "pixel", tuple(part.pixel))
+        return Entry(part.ask, "pixel", tuple(part.pixel))
     if part.place:
-        return Step(part.ask, "place", tuple(part.place), tolerance=part.tolerance)
+        return Entry(part.ask, "place", tuple(part.place), tolerance=part.tolerance)
     assert part.right is not None
-    return Step(part.ask, "choice", part.options.index(part.right), tuple(part.options))
+    return Entry(part.ask, "choice", part.options.index(part.right), tuple(part.options))
 
 
 def corner_answer(
@@ -197,7 +197,7 @@ def _break_answer(part: BreakPart, drawn: DrawnScene, settings: Settings) -> Bre
     start = drawn.corner(part.corner)
     columns, rows = drawn.scene.size
     dials = tuple(
-        Dial(name, Fraction(0), Fraction(side), part.step, (part.corner[0], part.corner[1], axis))
+        Dial(name, high=Fraction(side), step=part.step, corner=(part.corner[0], part.corner[1], axis))
         for axis, (name, side) in enumerate(zip("xy", (columns, rows), strict=True))
     )
     weak, robust = (settings_from_texts(texts, settings) for texts in (part.weak, part.robust))

@@ -8,9 +8,9 @@ from core.explain import question
 from core.raster.pixel_runs import Raster
 from core.records.words import counted
 from core.trace import StageTrace
-from lessons.exercises.answers.amounts import NumberAnswer
 from lessons.exercises.answers.answer import Answer
 from lessons.exercises.answers.choices import ChoiceAnswer
+from lessons.exercises.answers.fields import NumberAnswer
 from lessons.exercises.answers.pixels import NothingToMarkError, Pixel, PixelAnswer, Pixels
 from lessons.exercises.question import Draft
 

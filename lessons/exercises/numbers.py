@@ -104,6 +104,14 @@ def number_text(value: Number) -> str:
     return f"{value} ({decimals})"
 
 
+def plain_number(value: Number) -> str:
+    """Return a number as somebody would type it."""
+    if not isinstance(value, Fraction):
+        return f"{value:.6g}"
+    decimals = f"{float(value):.6g}"
+    return decimals if Fraction(decimals) == value else str(value)
+
+
 def are_close(one: Number, other: Number, tolerance: float) -> bool:
     """Return whether two numbers differ by no more than ``tolerance``, absolute; 0: exact but for rounded roots."""
     if is_infinite(one) or is_infinite(other):

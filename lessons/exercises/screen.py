@@ -19,9 +19,9 @@ from core.settings import settings_from_texts, settings_record
 from core.stages.declared import stage_of
 from core.trace import StageTrace
 from core.trace.stage_trace import BufferTrack
-from lessons.exercises.answers.amounts import NumberAnswer
 from lessons.exercises.answers.answer import Answer
 from lessons.exercises.answers.choices import ChoiceAnswer
+from lessons.exercises.answers.fields import NumberAnswer
 from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.next_step import TOLERANCE, row_draft

@@ -5,22 +5,21 @@ from typing import Any
 from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QCheckBox, QLabel, QRadioButton, QWidget
 
+from core.records.cells import Form, Marks
 from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.labels import text_label
 from widgets.exercises.answer_view import AnswerView, show_mark
 from widgets.exercises.mark_grid import MarkGrid
-from widgets.exercises.records import AnswerMarks, ChoiceForm, ItemMarks
 
 
 class ChoiceAnswerView(AnswerView):
     """A button for every option."""
 
-    def __init__(self, form: ChoiceForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
+    def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
-        self._form = form
         make = QCheckBox if form.is_several else QRadioButton
-        self.buttons: list[QAbstractButton] = [make(option, self) for option in form.options]
-        self._marks = [QLabel(self) for _ in form.options]
+        self.buttons: list[QAbstractButton] = [make(option, self) for option in form.items]
+        self._marks = [QLabel(self) for _ in form.items]
         # Qt lets Tab stop at one button of a group only, whether it is exclusive or not.
         self._group = None if form.is_several else QButtonGroup(self)
         layout = column_layout(self, 4)
@@ -38,24 +37,23 @@ class ChoiceAnswerView(AnswerView):
 
     def given(self) -> list[str]:
         """Return the options chosen."""
-        options = zip(self._form.options, self.buttons, strict=True)
+        options = zip(self._form.items, self.buttons, strict=True)
         return [option for option, button in options if button.isChecked()]
 
     def show_given(self, given: Any) -> None:
         """Choose options."""
         if self._group is not None:
             self._group.setExclusive(False)  # Else the last chosen one stays.
-        for option, button in zip(self._form.options, self.buttons, strict=True):
+        for option, button in zip(self._form.items, self.buttons, strict=True):
             button.setChecked(option in (given or ()))
         if self._group is not None:
             self._group.setExclusive(True)
 
-    def show_marks(self, marks: AnswerMarks | None) -> None:
+    def show_marks(self, marks: Marks | None) -> None:
         """Mark the options that are chosen rightly or wrongly, and those that are missing."""
-        assert marks is None or isinstance(marks, ItemMarks)
         for place, (label, button) in enumerate(zip(self._marks, self.buttons, strict=True)):
             words = {"right": "right", "wrong": "wrong", "missing": "missing: it is right"}
-            kinds = [name for name in words if marks is not None and place in getattr(marks, name)]
+            kinds = [name for name in words if marks is not None and place in marks.get(name, ())]
             show_mark(label, {"right": True, "wrong": False}.get(kinds[0]) if kinds else None)
             if kinds == ["missing"]:
                 label.setText(words["missing"])

@@ -5,12 +5,12 @@ from typing import Any
 from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QGridLayout, QLineEdit, QSlider, QWidget
 
+from core.records.cells import Form, Lattice
 from widgets.basics.controls import column_layout
 from widgets.basics.labels import text_label
 from widgets.basics.typed_value import NumberEdit
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
-from widgets.exercises.records import AnswerMarks, DialForm
 
 HOW = "Drag a slider, or type a number."
 HOW_CORNERS = (
@@ -24,9 +24,9 @@ class DialAnswerView(AnswerView):
 
     uses_grid = True
 
-    def __init__(self, form: DialForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
+    def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
-        self._form, self._grid = form, grid
+        self._dials = [cell for (cell,) in form.cells if isinstance(cell, Lattice)]
         self._refused: dict[int, str] = {}
         """Why the text of a field is not taken, by the number of its dial."""
         self.sliders: list[QSlider] = []
@@ -35,17 +35,17 @@ class DialAnswerView(AnswerView):
         layout.addWidget(text_label(HOW_CORNERS if form.corners else HOW, self, role="muted", wraps=True))
         rows = QGridLayout()
         rows.setHorizontalSpacing(8)
-        for row, dial in enumerate(form.dials):
+        for row, dial in enumerate(self._dials):
             slider, field = QSlider(Qt.Orientation.Horizontal, self), NumberEdit(self)
             slider.setRange(0, dial.count - 1)
-            slider.setAccessibleName(dial.name)
-            field.setAccessibleName(f"{dial.name} as a number")
+            slider.setAccessibleName(dial.label)
+            field.setAccessibleName(f"{dial.label} as a number")
             field.setAccessibleDescription(dial.values)
             field.setFixedWidth(field.fontMetrics().horizontalAdvance("-00000.0000") + 16)
             slider.valueChanged.connect(self._slid)
             field.textEdited.connect(self._type)
             field.editingFinished.connect(self._end_typing)
-            for column, widget in enumerate((text_label(dial.name, self), slider, field)):
+            for column, widget in enumerate((text_label(dial.label, self), slider, field)):
                 rows.addWidget(widget, 2 * row, column)
             rows.addWidget(text_label(dial.values, self, role="muted", wraps=True), 2 * row + 1, 0, 1, 3)
             self.sliders.append(slider)
@@ -59,9 +59,16 @@ class DialAnswerView(AnswerView):
 
     def given(self) -> list[str]:
         """Return the numbers as texts."""
-        return [
-            dial.text(slider.value()) for dial, slider in zip(self._form.dials, self.sliders, strict=True)
-        ]
+        return [self._text(number) for number in range(len(self._dials))]
+
+    def _text(self, number: int) -> str:
+        dial = self._dials[number]
+        return dial.typed(dial.value(self.sliders[number].value()))
+
+    def _index(self, number: int, text: str) -> int:
+        """Return the place of the value that a text means; ValueError with a sentence where it means none."""
+        dial = self._dials[number]
+        return dial.index(dial.read(text))
 
     def unread(self) -> str:
         """Say which text is not taken as a number, and why."""
@@ -70,11 +77,8 @@ class DialAnswerView(AnswerView):
     def show_given(self, given: Any) -> None:
         """Set the dials; ``None`` sets them to what they begin with."""
         for number, text in enumerate(given or self._form.start):
-            self._set(number, self._form.dials[number].place(text))
+            self._set(number, self._index(number, text))
         self._show_corners()
-
-    def show_marks(self, marks: AnswerMarks | None) -> None:
-        """Do nothing: runs decide, and words say what came of them."""
 
     def release(self) -> None:
         """Leave the picture to the next form."""
@@ -96,7 +100,7 @@ class DialAnswerView(AnswerView):
         slider.blockSignals(False)
         self._refused.pop(number, None)
         if not is_typed:
-            self.fields[number].setText(self._form.dials[number].text(slider.value()))
+            self.fields[number].setText(self._text(number))
 
     def _show_corners(self) -> None:
         given = self.given()
@@ -114,7 +118,7 @@ class DialAnswerView(AnswerView):
         """Take a number as it is typed; what means none stays in its field, and is not checked."""
         number = self._number_of_field()
         try:
-            place = self._form.dials[number].place(text)
+            place = self._index(number, text)
         except ValueError as problem:
             said = self._refused[number] = str(problem)
             self.note_changed.emit(f"{said[:1].upper()}{said[1:]}.")
@@ -137,15 +141,9 @@ class DialAnswerView(AnswerView):
     @Slot(int, float, float)
     def _moved(self, number: int, x: float, y: float) -> None:
         """Set the dials of a corner that was dragged."""
-        corner, form = self._form.corners[number], self._form
+        corner = self._form.corners[number]
         values = ((corner.x, x), (corner.y, y))
-        self._change(
-            {
-                dial: form.dials[dial].place(form.snapped(dial, value))
-                for dial, value in values
-                if dial is not None
-            }
-        )
+        self._change({dial: self._dials[dial].nearest(value) for dial, value in values if dial is not None})
 
     @Slot(int, int, int, bool)
     def _nudged(self, number: int, across: int, up: int, is_whole: bool) -> None:

@@ -10,8 +10,9 @@ from widgets.basics.focus_order import give_focus
 from widgets.basics.labels import text_label
 from widgets.basics.typed_value import NumberEdit
 from widgets.exercises.answer_view import show_mark
-from widgets.exercises.records import Cell
 
+Cell = tuple[int, int]
+"""Row and column of a field."""
 WIDEST = 240
 """Pixels of a field that stands alone in its row."""
 MANY = 12

@@ -5,24 +5,30 @@ from typing import Any
 from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QWidget
 
+from core.records.cells import Form, Marks
 from widgets.basics.controls import column_layout
+from widgets.basics.labels import text_label
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.entry_grid import EntryGrid
 from widgets.exercises.mark_grid import MarkGrid
-from widgets.exercises.records import AnswerMarks, FieldForm, FieldMarks
 
 
 class FieldAnswerView(AnswerView):
-    """The fields of a `FieldForm`."""
+    """A field for each cell."""
 
-    def __init__(self, form: FieldForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
+    name = "Your answer"
+    how = ""
+    """How it is answered; empty: that is plain."""
+
+    def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
-        self._form = form
         self.fields = EntryGrid(form.columns, form.labels, self)
-        self.fields.setAccessibleName("Your answer")
+        self.fields.setAccessibleName(self.name)
         self.fields.field_edited.connect(self._edited)
         self.fields.field_entered.connect(self._tell)
-        layout = column_layout(self, 4)
+        layout = column_layout(self, 8)
+        if self.how:
+            layout.addWidget(text_label(self.how, self, role="muted", wraps=True))
         layout.addWidget(self.fields)
 
     def given(self) -> list[list[str]]:
@@ -36,12 +42,11 @@ class FieldAnswerView(AnswerView):
                 self.fields.show_text(row, column, given[row][column] if given else "")
             self._note(row)
 
-    def show_marks(self, marks: AnswerMarks | None) -> None:
+    def show_marks(self, marks: Marks | None) -> None:
         """Mark every field."""
-        assert marks is None or isinstance(marks, FieldMarks)
         for row in range(len(self._form.labels)):
             for column in range(len(self._form.columns)):
-                is_right = None if marks is None else (row, column) not in marks.wrong
+                is_right = None if marks is None else (row, column) not in marks["wrong"]
                 self.fields.show_mark(row, column, is_right)
 
     def set_open(self, is_open: bool) -> None:
@@ -58,18 +63,24 @@ class FieldAnswerView(AnswerView):
         if len(self._form.columns) > 1:
             return
         text = self.fields.text(row, 0).strip()
-        found = self._form.understand(0, text) if set(text) & set("/*(") else None
-        self.fields.show_note(row, f"= {found.text}" if found is not None and found.is_readable else "")
+        understood, is_read = self._understood(row, 0) if set(text) & set("/*(") else ("", False)
+        self.fields.show_note(row, f"= {understood}" if is_read else "")
+
+    def _understood(self, row: int, column: int) -> tuple[str, bool]:
+        """Return how the text of a field is understood, or why it means nothing, and whether it means something."""
+        try:
+            return self._form.cells[row][column].understood(self.fields.text(row, column)), True
+        except ValueError as problem:
+            return str(problem), False
 
     @Slot(int, int)
     def _tell(self, row: int, column: int) -> None:
         """Say how the text of a field is understood."""
         self._note(row)
-        text = self.fields.text(row, column)
-        if not text.strip():
+        if not self.fields.text(row, column).strip():
             self.note_changed.emit("")
             return
-        found = self._form.understand(column, text)
+        understood, is_read = self._understood(row, column)
         name = self.fields.field(row, column).accessibleName()
-        said = f"understood as {found.text}" if found.is_readable else found.text
+        said = f"understood as {understood}" if is_read else understood
         self.note_changed.emit(f"{name}: {said}" if name else said.capitalize())

@@ -1,16 +1,17 @@
 """A pixel grid that is answered on: click, drag, or arrows and Space mark pixels; points are placed the same way."""
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 
 import numpy as np
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPainter
 from PySide6.QtWidgets import QWidget
 
+from core.records.cells import Marks
 from widgets.basics.accessible import announce
 from widgets.basics.theme import current_theme
 from widgets.exercises.point_layer import Place, PointLayer, paint_names
-from widgets.exercises.records import Pixel, PixelMarks, Pixels
+from widgets.exercises.records import Pixel, Pixels
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.overlay import Mark, MaskOverlay, Overlay
@@ -18,6 +19,7 @@ from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridPlacement
 
 NOTHING: Pixels = frozenset()
+FOUND = {"right": Mark.RIGHT, "missing": Mark.MISSING, "extra": Mark.EXTRA, "double": Mark.DOUBLE}
 _MOVES = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 1), Qt.Key.Key_Down: (0, -1)}
 _WINDOWS_OWN = (
     Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.MetaModifier
@@ -79,22 +81,15 @@ class MarkGrid(PixelGrid):
         self._marked = pixels
         self._show_marked()
 
-    def show_marks(self, marks: PixelMarks | None) -> None:
+    def show_marks(self, marks: Marks | None) -> None:
         """Mark what is right, missing, extra or double, each by a shape of its own."""
-        kinds = (
-            ()
-            if marks is None
-            else (
-                ("right", Mark.RIGHT, marks.right),
-                ("missing", Mark.MISSING, marks.missing),
-                ("extra", Mark.EXTRA, marks.extra),
-                ("double", Mark.DOUBLE, marks.double),
-            )
+        kinds = {} if marks is None else FOUND
+        self._found = tuple(
+            MaskOverlay(key, mark, self._mask((marks or {}).get(key, ()))) for key, mark in kinds.items()
         )
-        self._found = tuple(MaskOverlay(key, mark, self._mask(pixels)) for key, mark, pixels in kinds)
         self._show_marked()
 
-    def _mask(self, pixels: Pixels) -> np.ndarray:
+    def _mask(self, pixels: Collection[Pixel]) -> np.ndarray:
         mask = np.zeros(self._size[::-1], bool)
         if pixels:
             columns, rows = np.array(sorted(pixels)).T

@@ -5,35 +5,34 @@ from typing import Any
 from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QComboBox, QGridLayout, QWidget
 
+from core.records.cells import Form
 from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.controls import column_layout
 from widgets.basics.labels import text_label
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
-from widgets.exercises.records import AnswerMarks, MethodForm
 
 
 class MethodAnswerView(AnswerView):
     """A list of methods for every family."""
 
-    def __init__(self, form: MethodForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
+    def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
-        self._form = form
         self.boxes: list[QComboBox] = []
         self.cost = text_label("", self, role="muted", wraps=True)
         rows = QGridLayout()
         rows.setHorizontalSpacing(8)
-        for row, family in enumerate(form.families):
+        for row, ((family,), names) in enumerate(zip(form.cells, form.names, strict=True)):
             box = ChoiceBox(self)
-            box.setAccessibleName(family.title)
+            box.setAccessibleName(family.label)
             # The longest method must not make the question wider than its column.
             box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
             box.setMinimumContentsLength(10)
             box.addItem("choose", "")
-            for name, text in family.methods:
+            for name, text in zip(names, family.options, strict=True):
                 box.addItem(text, name)
             box.activated.connect(self._chosen)
-            rows.addWidget(text_label(family.title, self), row, 0)
+            rows.addWidget(text_label(family.label, self), row, 0)
             rows.addWidget(box, row, 1)
             self.boxes.append(box)
         rows.setColumnStretch(1, 1)
@@ -44,24 +43,19 @@ class MethodAnswerView(AnswerView):
 
     def given(self) -> dict[str, str]:
         """Return the methods by family; empty: none is chosen yet."""
-        return {
-            family.name: box.currentData()
-            for family, box in zip(self._form.families, self.boxes, strict=True)
-        }
+        return {family: box.currentData() for family, box in zip(self._form.labels, self.boxes, strict=True)}
 
     def show_given(self, given: Any) -> None:
         """Choose methods."""
-        for family, box in zip(self._form.families, self.boxes, strict=True):
-            box.setCurrentIndex(max(box.findData((given or {}).get(family.name, "")), 0))
+        for family, box in zip(self._form.labels, self.boxes, strict=True):
+            box.setCurrentIndex(max(box.findData((given or {}).get(family, "")), 0))
         self._show_cost()
-
-    def show_marks(self, marks: AnswerMarks | None) -> None:
-        """Do nothing: the run decides, and words say what came of it."""
 
     def _show_cost(self) -> None:
         for box in self.boxes:
             box.setToolTip(box.currentText())  # The box may be too narrow for it.
-        self.cost.setText(self._form.cost(self.given()) if all(self.given().values()) else "")
+        assert self._form.told is not None
+        self.cost.setText(self._form.told(self.given()) if all(self.given().values()) else "")
 
     @Slot()
     def _chosen(self) -> None:

@@ -1,16 +1,19 @@
 """Pixels marked on the picture; the same as a list of rows, with the same marks."""
 
+import re
+from collections.abc import Collection
 from typing import Any
 
 from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QWidget
 
+from core.records.cells import Form, Marks
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.labels import text_label
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.entry_grid import EntryGrid
 from widgets.exercises.mark_grid import NOTHING, MarkGrid
-from widgets.exercises.records import AnswerMarks, PixelForm, PixelMarks, Pixels
+from widgets.exercises.records import Pixel
 
 HOW = "Click or drag on the picture. By keyboard: arrows go, Space marks, Shift and an arrow take the mark along."
 
@@ -18,16 +21,17 @@ LEGEND = (
     "Tick: right. Square: missing. Cross: extra. Two bars: double, another triangle or line has the pixel."
 )
 
+_RUN = re.compile(r"\s*(\d{1,3})(?:\s*[-–]\s*(\d{1,3}))?\s*", re.ASCII)
+
 
 class PixelAnswerView(AnswerView):
     """How many are marked, and the rows as text on request."""
 
     uses_grid = True
 
-    def __init__(self, form: PixelForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
+    def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
-        self._form, self._grid = form, grid
-        self._marks: PixelMarks | None = None
+        self._marks: Marks | None = None
         self._unread: dict[int, str] = {}
         """Why the text of a row means nothing, by the field's number."""
         self.how = text_label(HOW, self, role="muted", wraps=True)
@@ -68,9 +72,8 @@ class PixelAnswerView(AnswerView):
         self._grid.show_marked(frozenset((column, row) for column, row in given or ()))
         self._show()
 
-    def show_marks(self, marks: AnswerMarks | None) -> None:
+    def show_marks(self, marks: Marks | None) -> None:
         """Mark what is right on the picture and in the rows."""
-        assert marks is None or isinstance(marks, PixelMarks)
         self._marks = marks
         self._grid.show_marks(marks)
         self.how.setText(HOW if marks is None else LEGEND)
@@ -114,7 +117,7 @@ class PixelAnswerView(AnswerView):
         """Mark the columns that are typed for a row."""
         row = self._form.size[1] - 1 - number
         try:
-            columns = self._form.read_columns(self.rows.text(number, column))
+            columns = read_columns(self._form.size[0], self.rows.text(number, column))
         except ValueError as problem:
             self._unread[number] = f"row {row}: {problem}"
             self._tell_unread()
@@ -149,7 +152,23 @@ class PixelAnswerView(AnswerView):
             self.rows.show_text(number, 1, "" if self._marks is None else found_text(self._marks, row))
 
 
-def columns_text(pixels: Pixels, row: int) -> str:
+def read_columns(columns: int, text: str) -> frozenset[int]:
+    """Return the columns of a text such as ``3-7, 9``; ValueError where it means nothing."""
+    found: set[int] = set()
+    for part in text.split(",") if text.strip() else ():
+        run = _RUN.fullmatch(part)
+        if run is None:
+            raise ValueError(f"expected columns such as 3-7, 9; got {part.strip()[:20]!a}")
+        first, last = int(run[1]), int(run[2] or run[1])
+        if first > last:
+            raise ValueError(f"expected the smaller column first, got {part.strip()}")
+        if last >= columns:
+            raise ValueError(f"expected columns from 0 to {columns - 1}, got {part.strip()}")
+        found.update(range(first, last + 1))
+    return frozenset(found)
+
+
+def columns_text(pixels: Collection[Pixel], row: int) -> str:
     """Return the columns of the pixels in a row, as ``3-7, 9``."""
     columns = sorted(column for column, its in pixels if its == row)
     runs: list[list[int]] = []
@@ -161,9 +180,9 @@ def columns_text(pixels: Pixels, row: int) -> str:
     return ", ".join(str(first) if first == last else f"{first}-{last}" for first, last in runs)
 
 
-def found_text(marks: PixelMarks, row: int) -> str:
+def found_text(marks: Marks, row: int) -> str:
     """Return what a check found in a row, as ``right 3-7; missing 8``."""
     found = (
-        (name, columns_text(getattr(marks, name), row)) for name in ("right", "missing", "extra", "double")
+        (name, columns_text(marks.get(name, ()), row)) for name in ("right", "missing", "extra", "double")
     )
     return "; ".join(f"{name} {columns}" for name, columns in found if columns)

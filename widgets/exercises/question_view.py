@@ -7,6 +7,7 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QFont, QFontDatabase
 from PySide6.QtWidgets import QFrame, QLabel, QPushButton, QScrollArea, QSizePolicy, QWidget
 
+from core.records.cells import Form
 from widgets.basics.accessible import announce
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.flow_layout import FlowLayout
@@ -16,7 +17,7 @@ from widgets.basics.theme import current_theme, theme_notifier
 from widgets.exercises.answer_forms import make_view
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
-from widgets.exercises.records import AnswerForm, Feedback, QuestionRecord
+from widgets.exercises.records import Feedback, QuestionRecord
 from widgets.exercises.sketch_view import SketchView
 
 MODEL_TIP = "Show the right answer; before a check this ends the variant without points (Ctrl+M)"
@@ -158,7 +159,7 @@ class QuestionView(QWidget):
 
     # What is shown.
 
-    def show_question(self, record: QuestionRecord, form: AnswerForm) -> AnswerView:
+    def show_question(self, record: QuestionRecord, form: Form) -> AnswerView:
         """Ask a question; return the form for its answer."""
         for label, text in (
             (self.title, record.title),

@@ -5,13 +5,13 @@ from typing import Any
 from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QWidget
 
+from core.records.cells import Form, Marks
 from widgets.basics.controls import column_layout
 from widgets.basics.labels import text_label
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.choice_answer import ChoiceAnswerView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.pixel_answer import PixelAnswerView
-from widgets.exercises.records import AnswerMarks, ChoiceForm, ItemMarks, SpotForm, SpotMarks
 
 
 class SpotAnswerView(AnswerView):
@@ -19,19 +19,17 @@ class SpotAnswerView(AnswerView):
 
     uses_grid = True
 
-    def __init__(self, form: SpotForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
+    def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
-        grid.show_picture(form.picture)
-        self.pixels = PixelAnswerView(form.pixels, grid, self)
+        self.pixels = PixelAnswerView(form, grid, self)
         self.pixels.answer_changed.connect(self._changed)
         self.pixels.note_changed.connect(self.note_changed)
-        self._options = form.options
-        self.choice = ChoiceAnswerView(ChoiceForm(form.options, is_several=False), grid, self)
+        self.choice = ChoiceAnswerView(form, grid, self)
         self.choice.answer_changed.connect(self._changed)
-        self.choice.setVisible(bool(form.options))
+        self.choice.setVisible(bool(form.items))
         layout = column_layout(self, 8)
         layout.addWidget(self.pixels)
-        if form.options:
+        if form.items:
             layout.addWidget(text_label("Which mistake made this picture?", self, wraps=True))
         layout.addWidget(self.choice)
 
@@ -48,16 +46,12 @@ class SpotAnswerView(AnswerView):
         self.pixels.show_given(given["pixels"] if given else None)
         self.choice.show_given([given["option"]] if given and given["option"] else None)
 
-    def show_marks(self, marks: AnswerMarks | None) -> None:
+    def show_marks(self, marks: Marks | None) -> None:
         """Mark what is right on the picture and among the options."""
-        assert marks is None or isinstance(marks, SpotMarks)
-        self.pixels.show_marks(None if marks is None else marks.pixels)
-        chosen = self.choice.given()
-        if marks is None or marks.option is None or not chosen:
-            self.choice.show_marks(None)
-        else:
-            place = frozenset({self._options.index(chosen[0])})
-            self.choice.show_marks(ItemMarks(right=place) if marks.option else ItemMarks(wrong=place))
+        self.choice.show_marks(marks)
+        if marks is not None:
+            marks = {name: [key for key in keys if isinstance(key, tuple)] for name, keys in marks.items()}
+        self.pixels.show_marks(marks)
 
     def set_open(self, is_open: bool) -> None:
         """Take an answer, or only show it."""

@@ -2,20 +2,19 @@
 
 from typing import Any
 
-from PySide6.QtCore import QSize, Qt, Slot
-from PySide6.QtGui import QIcon, QKeyEvent
-from PySide6.QtWidgets import QListWidget, QPushButton, QSizePolicy, QWidget
+from PySide6.QtCore import Qt, Slot
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QPushButton, QSizePolicy, QWidget
 
+from core.records.cells import Form, StepLine
 from widgets.basics.accessible import announce
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import text_label
-from widgets.basics.marks import Mark, mark_pixmap
-from widgets.basics.theme import current_theme
+from widgets.basics.marks import Mark
 from widgets.basics.typed_value import NumberEdit
-from widgets.exercises.answer_view import AnswerView
+from widgets.exercises.answer_view import AnswerView, ItemList
 from widgets.exercises.mark_grid import MarkGrid
-from widgets.exercises.records import AnswerMarks, StepLine, StepsForm
 
 FIXED = "fixed"
 MARKS = {"right": Mark.RIGHT, "wrong": Mark.WRONG, "fixed": Mark.INFORMATION}
@@ -31,7 +30,6 @@ HOW = {
     "place": "Type x and y, as 3.5, 2.",
     "number": "Type the number.",
     "choice": "Choose one.",
-    "": "",
 }
 
 
@@ -40,12 +38,13 @@ class StepsAnswerView(AnswerView):
 
     uses_grid = True
 
-    def __init__(self, form: StepsForm, grid: MarkGrid, parent: QWidget | None = None) -> None:
+    def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
-        self._form, self._grid = form, grid
+        assert form.state is not None
+        self._state_of = form.state
         self._tries: list[list[str]] = []
         self._state = form.state([])
-        self.list = QListWidget(self)
+        self.list = ItemList(self)
         self.list.setAccessibleName("Steps")
         self.list.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Preferred)
         self.prompt = text_label("", self, role="strong", wraps=True)
@@ -89,12 +88,9 @@ class StepsAnswerView(AnswerView):
     def show_given(self, given: Any) -> None:
         """Go on from the tries of before."""
         tries = [[str(one) for one in step] for step in given or ()]
-        self._state = self._form.state(tries)
+        self._state = self._state_of(tries)
         self._tries = tries
         self._show()
-
-    def show_marks(self, marks: AnswerMarks | None) -> None:
-        """Do nothing: every step has its mark as soon as it is tried."""
 
     def set_open(self, is_open: bool) -> None:
         """Take steps, or only show them."""
@@ -114,17 +110,17 @@ class StepsAnswerView(AnswerView):
 
     def _tries_with(self, text: str) -> list[list[str]]:
         """Return the tries with one more of the step that is asked."""
-        tries, number = self.given(), self._state.open
-        assert number is not None
+        tries, number = self.given(), self._state.number
         tries[number:] = [[*(tries[number] if number < len(tries) else []), text]]
         return tries
 
     def _problem(self, text: str) -> str:
         """Return why a typed text means nothing as a step; empty: it means something."""
+        assert self._state.open is not None
         if text == FIXED:
-            return f"expected a {self._state.kind}, got {text!r}"
+            return f"expected a {self._state.open.kind}, got {text!r}"
         try:
-            self._form.state(self._tries_with(text))
+            self._state_of(self._tries_with(text))
         except ValueError as problem:
             return str(problem)
         return ""
@@ -155,23 +151,24 @@ class StepsAnswerView(AnswerView):
         """Try the pixel that was pointed at."""
         pointed = self._grid.marked() ^ self._state.pixels
         self._grid.show_marked(self._state.pixels)
-        if self._state.kind == "pixel" and len(pointed) == 1:
+        step = self._state.open
+        if step is not None and step.kind == "pixel" and len(pointed) == 1:
             column, row = next(iter(pointed))
             self._try(f"{column}, {row}")
 
     def _try(self, text: str) -> None:
         """Have one try judged at once."""
-        number = self._state.open
-        if number is None:
+        if self._state.open is None:
             return
+        number = self._state.number
         tries = self._tries_with(text)
         try:
-            self._state = self._form.state(tries)
+            self._state = self._state_of(tries)
         except ValueError as problem:
             self.note_changed.emit(f"Not tried yet: {problem}.")
             return
         self._tries = tries
-        has_gone_on = self._state.open != number
+        has_gone_on = self._state.number != number
         self.field.clear()
         self._show()
         said = f"Step {number + 1}: {self._state.lines[number].tries}"
@@ -183,31 +180,26 @@ class StepsAnswerView(AnswerView):
 
     def _show(self) -> None:
         """Show the steps, and what is asked now."""
-        state = self._state
-        is_asked = state.open is not None
-        prompt = "" if state.open is None else state.lines[state.open].prompt
-        number = 0 if state.open is None else state.open + 1
+        state, step = self._state, self._state.open
         self.prompt.setText(
-            f"Step {number} of {len(state.lines)}: {prompt}" if is_asked else "All steps are done."
+            "All steps are done."
+            if step is None
+            else f"Step {state.number + 1} of {len(state.lines)}: {step.label}"
         )
-        self.how.setText(HOW[state.kind])
-        self.how.setVisible(is_asked)
-        self.field.setVisible(is_asked and state.kind != "choice")
-        self.try_button.setVisible(is_asked and state.kind != "choice")
-        self.fix_button.setVisible(is_asked and state.is_missed)
-        self._show_options(state.options)
+        self.how.setText("" if step is None else HOW[step.kind])
+        self.how.setVisible(step is not None)
+        is_typed = step is not None and step.kind != "choice"
+        self.field.setVisible(is_typed)
+        self.try_button.setVisible(is_typed)
+        self.fix_button.setVisible(step is not None and state.is_missed)
+        self._show_options(() if step is None else step.options)
         self._grid.show_marked(state.pixels)
-        side = current_theme().text_px
-        self.list.setIconSize(QSize(side, side))
         self.list.clear()
-        for line in state.lines[:number] if is_asked else state.lines:
+        for row, line in enumerate(state.lines[: state.number + 1]):
             self.list.addItem(_line_text(line))
             # A step that was missed stays open: it may be tried again.
-            mark = MARKS.get("wrong" if line.standing == "open" and line.tries else line.standing)
-            if mark is not None:
-                self.list.item(self.list.count() - 1).setIcon(
-                    QIcon(mark_pixmap(mark, side, self.devicePixelRatioF()))
-                )
+            missed = "wrong" if line.standing == "open" and line.tries else line.standing
+            self.list.show_mark(row, MARKS.get(missed))
         self.list.scrollToBottom()
 
     def _show_options(self, options: tuple[str, ...]) -> None:

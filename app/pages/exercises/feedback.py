@@ -5,7 +5,7 @@ from app.pages.exercises.work import Checked
 from core.records.words import counted
 from lessons.attempts.practice import MISSES_IN_A_ROW
 from lessons.exercises.question import Question
-from widgets.exercises.records import Feedback, PixelMarks
+from widgets.exercises.records import Feedback
 
 SHOWN = "What is right was shown before, so this earns nothing."
 CORRECTED = "The first check of a question counts. A new variant earns points of its own."
@@ -22,12 +22,12 @@ def feedback_of(
     question: Question, checked: Checked, *, is_corrected: bool, is_explained: bool = False
 ) -> Feedback:
     """Return what is said; ``is_corrected``: there was a check before; ``is_explained``: its step is offered."""
-    judgement, marks = checked.judgement, checked.marks
+    judgement, double = checked.judgement, checked.marks.get("double")
     heading = f"{judgement.points:.3g} of {counted(question.template.points, 'point')}"
     is_right = judgement.verdict.score == 1
     counts = judgement.verdict.counts
-    if isinstance(marks, PixelMarks) and marks.double:
-        counts += f", {len(marks.double)} of these double"
+    if double:
+        counts += f", {len(double)} of these double"
     reveal = (question.draft.reveal,) if is_right and question.draft.reveal else ()
     before = (SHOWN,) if checked.attempt is None else (CORRECTED,) if is_corrected else ()
     offer = (EXPLAINED[question.draft.scene is None],) if is_explained else ()

@@ -12,8 +12,7 @@ from PySide6.QtGui import QGuiApplication
 from app.background.workers import JobGroup
 from app.files.unfinished_answers import Unfinished, UnfinishedFile
 from app.pages.exercises.answer_history import AnswerHistory
-from app.pages.exercises.answer_kind import Live
-from app.pages.exercises.answer_kinds import KINDS
+from app.pages.exercises.answer_pictures import Live, numbers_of, picture_of, place_of, size_of
 from app.pages.exercises.evidence import Evidence
 from app.pages.exercises.feedback import feedback_of
 from app.pages.exercises.work import Asked, Checked, asking, asking_apart, checking, drawing, drawn
@@ -21,6 +20,7 @@ from core.records.words import counted
 from lessons.attempts.practice import MISSES_IN_A_ROW, TRY_LIMIT, first_tries, is_correction, misses_in_a_row
 from lessons.attempts.record import Attempt
 from lessons.exercises.answers.answer import NotCheckedError, Response
+from lessons.exercises.answers.spots import SpotAnswer
 from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.question import Question, Template, ask, hints_after
 from lessons.exercises.scene_digest import scene_digest
@@ -194,16 +194,17 @@ class QuestionPresenter(QObject):
         self._is_explained = False
         self._digest = "" if draft.scene is None else scene_digest(draft.scene)
         self._begun = monotonic()
-        kind = KINDS[draft.answer.kind]
-        size = kind.size(draft)
+        size = size_of(draft)
         self._grid.setVisible(size is not None)
         if size is not None:
             self._grid.show_raster(size, asked.outline, draft.pixel)
+            if isinstance(draft.answer, SpotAnswer):
+                self._grid.show_picture(picture_of(draft.answer.picture))
         credit = f"{counted(template.points, 'point')}. {draft.answer.credit}"
         record = QuestionRecord(
-            template.title, question.mark, draft.text, kind.numbers(draft), credit, draft.sketch
+            template.title, question.mark, draft.text, numbers_of(draft), credit, draft.sketch
         )
-        answer = self._view.show_question(record, kind.form(draft.answer))
+        answer = self._view.show_question(record, draft.answer.form)
         answer.answer_changed.connect(self._change)
         if kept.given is not None:
             try:
@@ -262,22 +263,21 @@ class QuestionPresenter(QObject):
         if self.question is not None and self._view.answer is not None:
             draft, given = self.question.draft, self._view.answer.given()
             if draft.sketch is not None:
-                self._view.sketch.show_answer(KINDS[draft.answer.kind].place(draft.answer, given), name)
+                self._view.sketch.show_answer(place_of(draft, given), name)
             work = drawing(self.question, given)
             if work is not None:
                 self._drawing.start(work)
 
     @Slot(object)
-    def _show_live(self, live: Live | None) -> None:
-        if live is not None:
-            self._grid.show_geometry(live.outline)
-            self._grid.show_picture(live.picture, live.overlays)
+    def _show_live(self, live: Live) -> None:
+        self._grid.show_geometry(live.outline)
+        self._grid.show_picture(live.picture, live.overlays)
 
     def answer(self, response: Response) -> None:
         """Fill the form with an answer, as if the learner had given it."""
         if self.question is not None and self._view.answer is not None:
             answer = self.question.draft.answer
-            self._view.answer.show_given(KINDS[answer.kind].given(answer, response))
+            self._view.answer.show_given(answer.given(response))
             self._change()
 
     def _keep(self, **changed: Any) -> None:
@@ -307,7 +307,7 @@ class QuestionPresenter(QObject):
         try:
             if unread := view.unread():
                 raise NotCheckedError(unread)
-            response = answer.read(KINDS[answer.kind].read(answer, given))
+            response = answer.read(given)
         except NotCheckedError as problem:
             self._view.show_not_checked(f"Not checked yet: {problem}.")
             return
@@ -414,7 +414,7 @@ class QuestionPresenter(QObject):
             self._is_shown = True
             self.evidence.end_picture()
             view.show_marks(None)
-            view.show_given(KINDS[answer.kind].given(answer, answer.reference))
+            view.show_given(answer.given(answer.reference))
             view.set_open(False)
             self._draw_live("model answer")
             self._view.show_note(

@@ -2,8 +2,7 @@
 
 from dataclasses import replace
 
-from app.pages.exercises.answer_kind import Live
-from app.pages.exercises.marked_kinds import picture_of
+from app.pages.exercises.answer_pictures import Live, picture_of
 from app.pages.exercises.scene_outline import document_of, scene_outline
 from app.pages.page_bar import StepRequest
 from core.scene import ClipScene

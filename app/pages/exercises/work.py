@@ -6,14 +6,13 @@ from datetime import UTC, datetime
 
 from app.background.workers import Progress
 from app.files.attempts import attempt_file
-from app.pages.exercises.answer_kind import AnswerKind, Live
-from app.pages.exercises.answer_kinds import KINDS
+from app.pages.exercises.answer_pictures import Live, is_live, live, marks_of
 from app.pages.exercises.scene_outline import outline_of
+from core.records.cells import Marks
 from lessons.attempts.practice import telling_apart
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Judgement, Question, Template, ask, judge
-from widgets.exercises.records import AnswerMarks
 from widgets.grid.geometry import GridGeometry
 
 Work = Callable[[Progress, Callable[[], bool]], "Asked"]
@@ -37,7 +36,7 @@ class Checked:
     """What was in the form."""
     response: Response
     judgement: Judgement
-    marks: AnswerMarks
+    marks: Marks
     attempt: Attempt | None
     """The attempt to keep; ``None``: the model answer was shown before."""
     trouble: str
@@ -67,23 +66,18 @@ def asking_apart(template: Template, mistakes: Sequence[str], seeds: Sequence[in
     return work
 
 
-def drawing(
-    question: Question, given: object
-) -> Callable[[Progress, Callable[[], bool]], Live | None] | None:
+def drawing(question: Question, given: object) -> Callable[[Progress, Callable[[], bool]], Live] | None:
     """Return the work that draws an answer while it is given; ``None``: nothing is drawn of this type."""
     draft = question.draft
-    kind = KINDS[draft.answer.kind]
-    if type(kind).live is AnswerKind.live:
-        return None
 
-    def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Live | None:
+    def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Live:
         try:
-            response = draft.answer.read(kind.read(draft.answer, given))
+            response = draft.answer.read(given)
         except NotCheckedError:
             response = None
-        return kind.live(draft, response)
+        return live(draft, response)
 
-    return work
+    return work if is_live(draft) else None
 
 
 def checking(
@@ -93,7 +87,7 @@ def checking(
 
     def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Checked:
         judgement = judge(question, response)
-        marks = KINDS[question.draft.answer.kind].marks(question, response, judgement.verdict)
+        marks = marks_of(question, judgement.verdict)
         if not is_kept:
             return Checked(given, response, judgement, marks, None, "")
         attempt = attempt_of(user, question, response, judgement, seconds, datetime.now(UTC))

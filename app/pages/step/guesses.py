@@ -1,5 +1,6 @@
 """What a student holds for covered, and how the grid shows it: nothing of the answer but what was asked for."""
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
@@ -10,7 +11,7 @@ from widgets.grid.buffer import GridBuffer
 from widgets.grid.overlay import Mark, MaskOverlay, Overlay
 
 if TYPE_CHECKING:
-    from lessons.exercises.answers.pixels import PixelAnswer, Pixels
+    from lessons.exercises.answers.pixels import Pixel, PixelAnswer, Pixels
 
 
 @dataclass(frozen=True, eq=False)
@@ -24,7 +25,7 @@ class Guesses:
     is_revealed: bool = False
     """Whether the pixels that were not clicked are shown too."""
 
-    def _mask(self, pixels: "Pixels") -> Flags:
+    def _mask(self, pixels: Collection["Pixel"]) -> Flags:
         columns, rows = self.answer.size
         mask = np.zeros((rows, columns), bool)
         if pixels:

@@ -1,11 +1,12 @@
 """What all types of answers share."""
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
+from core.records.cells import Form, Marks
 from lessons.exercises.draws import Draws
 
 Response = Any
@@ -42,8 +43,8 @@ class Verdict:
     """From 0 to 1."""
     counts: str
     """In words, as ``12 right, 1 missing, 2 extra``."""
-    marks: Mapping[str, Any] = field(default_factory=dict)
-    """What is right and what is not, by ``right``, ``missing``, ``extra`` or ``wrong``; pixels, cells or items."""
+    marks: Marks = field(default_factory=dict)
+    """What is right and what is not."""
 
 
 class Answer(ABC):
@@ -77,6 +78,15 @@ class Answer(ABC):
     def is_many(self) -> bool:
         """Whether more than a thousand different answers can be given."""
         return True
+
+    @property
+    @abstractmethod
+    def form(self) -> Form:
+        """What the answer is given in."""
+
+    @abstractmethod
+    def given(self, response: Response) -> object:
+        """Return what stands in the form where it says a response; `read` returns that."""
 
     @abstractmethod
     def read(self, given: object) -> Response:

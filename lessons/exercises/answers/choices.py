@@ -4,7 +4,9 @@ from dataclasses import dataclass
 from itertools import combinations, pairwise, permutations
 from typing import ClassVar
 
+from core.records.cells import Form
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
+from lessons.exercises.answers.cells import read_names
 from lessons.exercises.answers.pixels import marked_score
 from lessons.exercises.draws import Draws
 
@@ -15,28 +17,13 @@ CHOICE_LIMIT = 10
 """Most options to choose from."""
 
 
-def longest_run(order: Order) -> int:
-    """Return the length of the longest run of neighbours that follow each other, 1 where none do."""
-    longest = length = 1
-    for one, other in pairwise(order):
-        length = length + 1 if other == one + 1 else 1
-        longest = max(longest, length)
-    return longest
-
-
-def read_names(given: object, options: tuple[str, ...]) -> tuple[int, ...]:
-    """Return the numbers of named options, each at most once."""
-    if given in ("", [], None):
-        raise NotCheckedError("the answer is empty")
-    names = [given] if isinstance(given, str) else given
-    if not isinstance(names, list):
-        raise NotCheckedError(f"expected a list of options, got {type(given).__name__}")
-    for name in names:
-        if name not in options:
-            raise NotCheckedError(f"expected one of {', '.join(options)}, got {name!r:.60}")
-    if len(set(names)) != len(names):
-        raise NotCheckedError("expected each option once, got one twice")
-    return tuple(options.index(name) for name in names)
+def longest_run(order: Order) -> list[int]:
+    """Return the places of the longest run of neighbours that follow each other, of one place where none do."""
+    best = run = [0]
+    for place, (one, other) in enumerate(pairwise(order), 1):
+        run = [*run, place] if other == one + 1 else [place]
+        best = max(best, run, key=len)
+    return best
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +43,7 @@ class OrderAnswer(Answer):
             raise ValueError(
                 f"expected 3 to {ORDER_LIMIT} different things to put in order, got {self.options}"
             )
-        runs = [longest_run(order) for order in permutations(range(len(self.options)))]
+        runs = [len(longest_run(order)) for order in permutations(range(len(self.options)))]
         object.__setattr__(self, "_by_chance", sum(runs) / len(runs))
         object.__setattr__(self, "_chance", sum(map(self._score, runs)) / len(runs))
 
@@ -93,6 +80,15 @@ class OrderAnswer(Answer):
         """Whether there are more than a thousand orders."""
         return len(self.options) > 6
 
+    @property
+    def form(self) -> Form:
+        """The things as the question lists them."""
+        return Form(self.kind, items=self.shown)
+
+    def given(self, response: Order) -> list[str]:
+        """Return the things in order."""
+        return [self.options[place] for place in response]
+
     def read(self, given: object) -> Order:
         """Read the names in order."""
         order = read_names(given, self.options)
@@ -103,7 +99,8 @@ class OrderAnswer(Answer):
     def check(self, response: Order) -> Verdict:
         """Score an order."""
         run = longest_run(response)
-        return Verdict(self._score(run), f"{run} of {len(response)} in a row right", {"order": response})
+        marks = {"right": run if len(run) > 1 else []}
+        return Verdict(self._score(len(run)), f"{len(run)} of {len(response)} in a row right", marks)
 
     def is_same(self, one: Order, other: Order) -> bool:
         """Compare orders."""
@@ -180,6 +177,15 @@ class ChoiceAnswer(Answer):
         """There are few options."""
         return False
 
+    @property
+    def form(self) -> Form:
+        """The options."""
+        return Form(self.kind, items=self.options, is_several=self.is_several)
+
+    def given(self, response: frozenset[int]) -> list[str]:
+        """Return the names of the options."""
+        return [self.options[place] for place in sorted(response)]
+
     def read(self, given: object) -> frozenset[int]:
         """Read one name, or a list of them."""
         chosen = frozenset(read_names(given, self.options))
@@ -189,17 +195,17 @@ class ChoiceAnswer(Answer):
 
     def check(self, response: frozenset[int]) -> Verdict:
         """Score a choice."""
-        hits, extra = response & self.reference, response - self.reference
+        hits, wrong = response & self.reference, response - self.reference
+        # A single right option stays unmarked: hints still lead to it.
+        missing = self.reference - response if self.is_several else frozenset()
+        marks = {"right": hits, "missing": missing, "wrong": wrong}
         if not self.is_several:
-            # The right option stays unmarked: hints still lead to it.
             is_right = response == self.reference
-            marks = {"right": hits, "missing": frozenset[int](), "extra": extra}
             return Verdict(float(is_right), "right" if is_right else "wrong", marks)
-        missing = self.reference - response
         count = len(self.reference)
-        score = marked_score(len(hits), count, len(extra), len(self.options) - count)
-        counts = f"{len(hits)} right, {len(missing)} missing, {len(extra)} wrong"
-        return Verdict(score, counts, {"right": hits, "missing": missing, "extra": extra})
+        score = marked_score(len(hits), count, len(wrong), len(self.options) - count)
+        counts = f"{len(hits)} right, {len(missing)} missing, {len(wrong)} wrong"
+        return Verdict(score, counts, marks)
 
     def is_same(self, one: frozenset[int], other: frozenset[int]) -> bool:
         """Compare choices."""

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
+from core.records.cells import Form
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
 from lessons.exercises.draws import Draws
 
@@ -50,6 +51,15 @@ class LineAnswer(Answer):
     def offered(self) -> str:
         """The lines with their numbers, from 1."""
         return "\n".join(f"{k:>2}  {line}" for k, line in enumerate(self.lines, 1))
+
+    @property
+    def form(self) -> Form:
+        """The lines."""
+        return Form(self.kind, items=self.lines)
+
+    def given(self, response: int) -> str:
+        """Return the number of the line."""
+        return str(response + 1)
 
     def read(self, given: object) -> int:
         """Read the number of a line, from 1."""

@@ -4,6 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import ClassVar
 
+from core.records.cells import Form
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
 from lessons.exercises.draws import Draws
 
@@ -59,6 +60,15 @@ class PixelAnswer(Answer):
             f"Marked {self.noun} earn their share of all that must be marked; each wrong one costs at least as much. "
             "An answer that is exactly what a known mistake gives earns at most half of the points."
         )
+
+    @property
+    def form(self) -> Form:
+        """The raster."""
+        return Form(self.kind, size=self.size, noun=self.noun)
+
+    def given(self, response: Pixels) -> list[list[int]]:
+        """Return the marked pixels."""
+        return sorted(map(list, response))
 
     def read(self, given: object) -> Pixels:
         """Read text art, top row first, or a list of columns and rows."""

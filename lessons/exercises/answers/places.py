@@ -6,11 +6,12 @@ from fractions import Fraction
 from functools import cached_property
 from typing import ClassVar
 
+from core.records.cells import Form
 from core.scene import ClipScene
-from lessons.exercises.answers.amounts import read_entry
 from lessons.exercises.answers.answer import CANDIDATES, Answer, NotCheckedError, Verdict, spread
+from lessons.exercises.answers.cells import Dial, Entry, is_blank, read_entry
 from lessons.exercises.draws import Draws
-from lessons.exercises.numbers import Number, are_close, number_text
+from lessons.exercises.numbers import Number, are_close, number_text, plain_number
 
 Place = tuple[Number, Number]
 """x and y in pixels, y up."""
@@ -72,9 +73,20 @@ class PlaceAnswer(Answer):
         ]
         return sum(self.check((place,) * len(self.names)).score for place in places) / len(places)
 
+    @property
+    def form(self) -> Form:
+        """X and y of each point."""
+        cells = tuple((Entry(name, stands_alone=False),) * 2 for name in self.names)
+        dial = Dial("", high=Fraction(max(self.size)), step=self.step)
+        return Form(self.kind, cells, ("x", "y"), self.names, size=self.size, snapped=dial.snapped)
+
+    def given(self, response: Places) -> list[list[str]]:
+        """Return x and y as texts."""
+        return [[plain_number(x), plain_number(y)] for x, y in response]
+
     def read(self, given: object) -> Places:
         """Read a list of [x, y]; of one point, also x and y alone, as a list or a text."""
-        if given in ("", [], None):
+        if is_blank(given):
             raise NotCheckedError("the answer is empty")
         points = given
         if len(self.names) == 1:
@@ -150,8 +162,8 @@ class PlaceAnswer(Answer):
 
     def first_wrong(self, response: Places) -> str:
         """Name the first point that is wrong."""
-        wrong = self.check(response).marks["wrong"]
-        return f"The first point that is wrong: {self.names[wrong[0]]}." if wrong else ""
+        wrong = next(iter(self.check(response).marks["wrong"]), None)
+        return "" if wrong is None else f"The first point that is wrong: {self.names[wrong]}."
 
     def random(self, draws: Draws) -> Places:
         """Guess places of the window's grid."""

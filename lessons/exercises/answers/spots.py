@@ -3,10 +3,12 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
+from core.records.cells import Form, Marks
 from core.records.frame import Frame
 from core.records.words import counted
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
-from lessons.exercises.answers.choices import CHOICE_LIMIT, read_names
+from lessons.exercises.answers.cells import read_names
+from lessons.exercises.answers.choices import CHOICE_LIMIT
 from lessons.exercises.answers.pixels import Pixel, PixelAnswer, Pixels
 from lessons.exercises.draws import Draws
 
@@ -78,6 +80,16 @@ class SpotAnswer(Answer):
         """Answers differ by the mistake and by whether the place is right."""
         return False
 
+    @property
+    def form(self) -> Form:
+        """The raster and the options."""
+        return Form(self.kind, items=self.options, size=self.size)
+
+    def given(self, response: Spot) -> dict[str, object]:
+        """Return the pixels and the option."""
+        option = "" if response.option is None else self.options[response.option]
+        return {"pixels": sorted(map(list, response.pixels)), "option": option}
+
     def read(self, given: object) -> Spot:
         """Read a table of pixels (as text art, or a list) and an option, or one of the two alone."""
         parts = given if isinstance(given, dict) else {"option" if given in self.options else "pixels": given}
@@ -109,7 +121,9 @@ class SpotAnswer(Answer):
                 if response.option is None
                 else f"mistake {'right' if is_named else 'wrong'}"
             )
-        marks = {"right": right, "extra": extra, "option": is_named}
+        options = [] if response.option is None else [response.option]
+        named: Marks = {"right": [*right, *options]} if is_named else {"right": right, "wrong": options}
+        marks = {**named, "extra": extra}
         return Verdict(score, "; ".join(words), marks)
 
     def is_same(self, one: Spot, other: Spot) -> bool:

@@ -1,20 +1,16 @@
 """Be the rasterizer: one step at a time, each judged at once; a wrong one is tried again or put right."""
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from fractions import Fraction
+from dataclasses import dataclass
 from math import prod
-from typing import Any, ClassVar, Literal
+from typing import ClassVar
 
+from core.records.cells import Form, StepLine, StepsState
 from core.records.words import counted
-from lessons.exercises.answers.amounts import random_number, read_entry
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
-from lessons.exercises.answers.choices import read_names
+from lessons.exercises.answers.cells import Entry, Value
 from lessons.exercises.draws import Draws
-from lessons.exercises.numbers import are_close, number_text
 
-Value = Any
-"""Of a step: (column, row), a number, the number of an option, or (x, y)."""
 Tries = tuple[Value, ...]
 """What was tried at a step, in order; ``FIXED`` last where the program put it right."""
 Run = tuple[Tries, ...]
@@ -26,67 +22,16 @@ TRY_LIMIT = 20
 """Most tries of a step that are read."""
 
 
-@dataclass(frozen=True)
-class Step:
-    """One step of a run."""
-
-    prompt: str
-    """What is asked, as ``the next pixel``."""
-    kind: Literal["pixel", "number", "choice", "place"]
-    right: Value
-    options: tuple[str, ...] = ()
-    """Of a choice."""
-    tolerance: float = 0.0
-    """Largest difference of each number, absolute."""
-
-    def read(self, given: object) -> Value:
-        """Return what one try means; NotCheckedError where it means nothing."""
-        if self.kind == "choice":
-            chosen = read_names(given, self.options)
-            if len(chosen) != 1:
-                raise NotCheckedError(f"expected one of {', '.join(self.options)}, got {len(chosen)}")
-            return chosen[0]
-        if self.kind == "number":
-            return read_entry(given, takes_comma=True)
-        pair = given.strip("() ").split(",") if isinstance(given, str) else given
-        if not isinstance(pair, list) or len(pair) != 2:
-            raise NotCheckedError(f"expected two numbers for {self.prompt}, got {given!r:.60}")
-        numbers = tuple(map(read_entry, pair))
-        if self.kind == "pixel":
-            if any(not isinstance(number, Fraction) or number.denominator != 1 for number in numbers):
-                raise NotCheckedError(f"expected a pixel such as 3, 2, got {given!r:.60}")
-            return tuple(map(int, numbers))
-        return numbers
-
-    def is_right(self, value: Value) -> bool:
-        """Return whether a try is right."""
-        if value is FIXED or self.kind in ("pixel", "choice"):
-            return bool(value == self.right)
-        mine, its = ((value,), (self.right,)) if self.kind == "number" else (value, self.right)
-        return all(are_close(one, other, self.tolerance) for one, other in zip(mine, its, strict=True))
-
-    def text(self, value: Value) -> str:
-        """Return a try as text."""
-        if value is FIXED:
-            return "fixed"
-        if self.kind == "choice":
-            return self.options[value]
-        if self.kind == "number":
-            return number_text(value)
-        return (
-            f"({', '.join(number_text(Fraction(part) if isinstance(part, int) else part) for part in value)})"
-        )
-
-    def is_done(self, tries: Tries) -> bool:
-        """Return whether the step is right by now."""
-        return bool(tries) and (tries[-1] is FIXED or self.is_right(tries[-1]))
+def _is_done(step: Entry, tries: Tries) -> bool:
+    """Return whether a step is right by now."""
+    return bool(tries) and (tries[-1] is FIXED or step.is_close(tries[-1], step.right))
 
 
 @dataclass(frozen=True, eq=False)
 class StepsAnswer(Answer):
     """The steps of a run, each from the right state before it: only a first try earns."""
 
-    steps: tuple[Step, ...]
+    steps: tuple[Entry, ...]
     size: tuple[int, int] = (1, 1)
     """Columns and rows of the raster, for pixels and places."""
 
@@ -107,7 +52,7 @@ class StepsAnswer(Answer):
         """The steps with their numbers, and what each wants."""
         wanted = (" | ".join(step.options) or f"a {step.kind}" for step in self.steps)
         return "\n".join(
-            f"{number}. {step.prompt} ({want})"
+            f"{number}. {step.label} ({want})"
             for number, (step, want) in enumerate(zip(self.steps, wanted, strict=True), 1)
         )
 
@@ -124,7 +69,7 @@ class StepsAnswer(Answer):
         """Mean score of a guess at every step; numbers and places are not guessed."""
         return sum(1 / self._count(step) for step in self.steps) / len(self.steps)
 
-    def _count(self, step: Step) -> float:
+    def _count(self, step: Entry) -> float:
         """Return how many answers a step can be given."""
         if step.kind == "choice":
             return len(step.options)
@@ -137,7 +82,7 @@ class StepsAnswer(Answer):
 
     def open_step(self, run: Run) -> int | None:
         """Return the number of the step that is asked now; ``None``: all are done."""
-        done = len(run) - bool(run and not self.steps[len(run) - 1].is_done(run[-1]))
+        done = len(run) - bool(run and not _is_done(self.steps[len(run) - 1], run[-1]))
         return done if done < len(self.steps) else None
 
     def tried(self, run: Run, value: Value) -> Run:
@@ -147,6 +92,37 @@ class StepsAnswer(Answer):
             raise ValueError("all steps are done")
         before = run[number] if number < len(run) else ()
         return (*run[:number], (*before, value))
+
+    @property
+    def form(self) -> Form:
+        """The steps."""
+        return Form(self.kind, tuple((step,) for step in self.steps), size=self.size, state=self.state)
+
+    def state(self, given: list[list[str]]) -> StepsState:
+        """Return how far a run is; NotCheckedError where its last try means nothing."""
+        run = self.read(given) if given else ()
+        number = self.open_step(run)
+        lines = []
+        for k, step in enumerate(self.steps):
+            tries = run[k] if k < len(run) else ()
+            texts = [step.text(value) for value in tries if value is not FIXED]
+            standing = "open" if k == number else ""
+            if FIXED in tries:
+                standing, texts = "fixed", [*texts, step.text(step.right)]
+            elif tries and k != number:
+                standing = "right" if len(tries) == 1 else "wrong"
+            lines.append(StepLine(step.label, ", then ".join(texts), standing))
+        done = len(self.steps) if number is None else number
+        pixels = frozenset(step.right for step in self.steps[:done] if step.kind == "pixel")
+        asked = None if number is None else self.steps[number]
+        return StepsState(tuple(lines), asked, done, is_missed=done < len(run), pixels=pixels)
+
+    def given(self, response: Run) -> list[list[str]]:
+        """Return the tries as texts."""
+        return [
+            ["fixed" if value is FIXED else step.typed(value) for value in tries]
+            for step, tries in zip(self.steps, response, strict=False)
+        ]
 
     def read(self, given: object) -> Run:
         """Read a list with a try, a list of tries or ``fixed`` for each step; the last ones may be missing."""
@@ -158,12 +134,12 @@ class StepsAnswer(Answer):
         run = []
         for number, (step, entry) in enumerate(zip(self.steps, given, strict=False)):
             tries = self._read_tries(step, entry)
-            if not step.is_done(tries) and number < len(given) - 1:
+            if not _is_done(step, tries) and number < len(given) - 1:
                 tries = (*tries, FIXED)
             run.append(tries)
         return tuple(run)
 
-    def _read_tries(self, step: Step, entry: object) -> Tries:
+    def _read_tries(self, step: Entry, entry: object) -> Tries:
         # A pixel or place as a list of two numbers is one try, not two.
         is_pair = step.kind in ("pixel", "place") and isinstance(entry, list) and len(entry) == 2
         is_one = not isinstance(entry, list) or (is_pair and not any(_is_pair(part) for part in entry))
@@ -177,7 +153,7 @@ class StepsAnswer(Answer):
         """Count the steps whose first try is right."""
         marks: dict[str, list[int]] = {"right": [], "wrong": [], "fixed": []}
         for number, (step, tries) in enumerate(zip(self.steps, response, strict=False)):
-            marks["right" if step.is_right(tries[0]) else "wrong"].append(number)
+            marks["right" if step.is_close(tries[0], step.right) else "wrong"].append(number)
             if FIXED in tries:
                 marks["fixed"].append(number)
         right, count = len(marks["right"]), len(self.steps)
@@ -187,7 +163,7 @@ class StepsAnswer(Answer):
 
     def _first_wrong(self, run: Sequence[Tries]) -> int | None:
         for number, (step, tries) in enumerate(zip(self.steps, run, strict=False)):
-            if not step.is_right(tries[0]):
+            if not step.is_close(tries[0], step.right):
                 return number
         return None
 
@@ -206,7 +182,7 @@ class StepsAnswer(Answer):
     def text(self, response: Run) -> str:
         """Return the steps, one a line, with all tries."""
         return "\n".join(
-            f"{step.prompt}: {', then '.join(map(step.text, tries))}"
+            f"{step.label}: {', then '.join(_try_text(step, value) for value in tries)}"
             for step, tries in zip(self.steps, response, strict=False)
         )
 
@@ -219,38 +195,30 @@ class StepsAnswer(Answer):
     def first_wrong(self, response: Run) -> str:
         """Name the first wrong step."""
         found = self._first_wrong(response)
-        return "" if found is None else f"The first wrong step: {self.steps[found].prompt}."
+        return "" if found is None else f"The first wrong step: {self.steps[found].label}."
 
     def random(self, draws: Draws) -> Run:
         """Guess every step."""
-        return tuple((self._guess(step, draws),) for step in self.steps)
-
-    def _guess(self, step: Step, draws: Draws) -> Value:
-        columns, rows = self.size
-        if step.kind == "choice":
-            return draws.whole(0, len(step.options) - 1)
-        if step.kind == "pixel":
-            return draws.whole(0, columns - 1), draws.whole(0, rows - 1)
-        if step.kind == "place":
-            return Fraction(draws.whole(0, 10 * columns), 10), Fraction(draws.whole(0, 10 * rows), 10)
-        return random_number(draws, (step.right,))
+        return tuple((step.guess(draws, (step.right,), self.size),) for step in self.steps)
 
     def extremes(self) -> list[Run]:
         """Have every step put right, or do none."""
         return [((FIXED,),) * len(self.steps), ()]
 
 
-def _is_same_try(step: Step, one: Value, other: Value) -> bool:
-    if one is FIXED or other is FIXED:
-        return one is other
-    return replace(step, right=other).is_right(one)
+def _is_same_try(step: Entry, one: Value, other: Value) -> bool:
+    return one is other or step.is_close(one, other)
+
+
+def _try_text(step: Entry, value: Value) -> str:
+    return "fixed" if value is FIXED else step.text(value)
 
 
 def _is_pair(given: object) -> bool:
     return isinstance(given, list) or (isinstance(given, str) and "," in given)
 
 
-def first_tries(values: Sequence[Value], steps: Sequence[Step]) -> Run:
+def first_tries(values: Sequence[Value], steps: Sequence[Entry]) -> Run:
     """Return a run of first tries; ``FIXED`` where there are fewer of them than steps."""
     missing = max(len(steps) - len(values), 0)
     return tuple((value,) for value in (*values[: len(steps)], *(FIXED,) * missing))

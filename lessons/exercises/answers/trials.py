@@ -3,15 +3,18 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import product
 from typing import Any, ClassVar
 
 from core import Settings
+from core.methods import table
+from core.raster.edges.snapping import window_position
+from core.records.cells import Corner, Form
 from core.scene import ClipScene
-from core.settings import with_method
-from lessons.exercises.answers.amounts import read_entry
+from core.settings import FAMILIES, with_method
 from lessons.exercises.answers.answer import CANDIDATES, Answer, NotCheckedError, Verdict, spread
+from lessons.exercises.answers.cells import Dial, Entry, is_blank
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 
@@ -26,7 +29,7 @@ COMBINATION_LIMIT = 256
 
 def _entries_of(given: object, names: list[str], what: str) -> list[Any]:
     """Return the entry of every name: from a list in their order, or a table of them."""
-    if given in ("", [], None, {}):
+    if is_blank([*given.values()] if isinstance(given, dict) else given):
         raise NotCheckedError("the answer is empty")
     if isinstance(given, dict):
         if set(given) != set(names):
@@ -36,44 +39,6 @@ def _entries_of(given: object, names: list[str], what: str) -> list[Any]:
     if len(entries) != len(names):
         raise NotCheckedError(f"expected {what} for each of {', '.join(names)}, got {len(entries)}")
     return entries
-
-
-@dataclass(frozen=True)
-class Dial:
-    """A number that the learner changes."""
-
-    name: str
-    low: Fraction
-    high: Fraction
-    step: Fraction
-    corner: tuple[int, int, int] | None = None
-    """Number of the primitive, its corner, 0 for x or 1 for y; ``None``: it is no coordinate of a corner."""
-
-    @property
-    def count(self) -> int:
-        """How many values it has."""
-        return (self.high - self.low) // self.step + 1
-
-    def value(self, index: int) -> Fraction:
-        """Return one of its values."""
-        return self.low + index * self.step
-
-    @property
-    def values(self) -> str:
-        """What it can be, as ``0 to 8 in steps of 1/4 (0.25)``."""
-        low, high, step = map(number_text, (self.low, self.high, self.step))
-        return f"{low} to {high} in steps of {step}"
-
-    def read(self, given: object) -> Fraction:
-        """Return the value that an entry of a file or a text means; NotCheckedError where it means none."""
-        try:
-            number = read_entry(given)
-        except NotCheckedError as problem:
-            raise NotCheckedError(f"{self.name}: {problem}") from None
-        is_value = isinstance(number, Fraction) and self.low <= number <= self.high
-        if not isinstance(number, Fraction) or not is_value or (number - self.low) % self.step:
-            raise NotCheckedError(f"expected {self.name} from {self.values}, got {given!r:.40}")
-        return number
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,7 +68,7 @@ class BreakAnswer(Answer):
     def offered(self) -> str:
         """The dials, and what they begin with."""
         return "\n".join(
-            f"{dial.name}: {dial.values}, at first {number_text(value)}"
+            f"{dial.label}: {dial.values}, at first {number_text(value)}"
             for dial, value in zip(self.dials, self.start, strict=True)
         )
 
@@ -136,19 +101,47 @@ class BreakAnswer(Answer):
         """Answers differ by whether each method fails."""
         return False
 
+    @property
+    def form(self) -> Form:
+        """The dials, and the corners that they move."""
+        moved: dict[tuple[int, int], list[int | None]] = {}
+        for number, dial in enumerate(self.dials):
+            if dial.corner is not None:
+                moved.setdefault(dial.corner[:2], [None, None])[dial.corner[2]] = number
+        corners = tuple(
+            Corner(f"{'ABCDEFGH'[at[0] % 8]}{at[1]}", x, y, partial(self._place, at))
+            for at, (x, y) in moved.items()
+        )
+        start = tuple(dial.snapped(float(value)) for dial, value in zip(self.dials, self.start, strict=True))
+        cells = tuple((dial,) for dial in self.dials)
+        return Form(self.kind, cells, start=start, corners=corners)
+
+    def _place(self, at: tuple[int, int], given: list[str]) -> tuple[float, float]:
+        """Return where a corner is in the window."""
+        scene = self.scene_of(self.read(given))
+        x, y = window_position(scene.clip, scene.size)[at].tolist()
+        return x, y
+
+    def given(self, response: Values) -> list[str]:
+        """Return the numbers as texts."""
+        return [dial.typed(value) for dial, value in zip(self.dials, response, strict=True)]
+
     def read(self, given: object) -> Values:
         """Read a list of numbers, or a table of them by the names of the dials."""
-        entries = _entries_of(given, [dial.name for dial in self.dials], "a number")
+        entries = _entries_of(given, [dial.label for dial in self.dials], "a number")
         return tuple(dial.read(entry) for dial, entry in zip(self.dials, entries, strict=True))
 
     def check(self, response: Values) -> Verdict:
         """Run both methods."""
+        weak, robust = self._failing(response)
+        counts = f"the weak method {_failed(weak)}, the other {_failed(robust)}"
+        return Verdict(float(weak and not robust), counts)
+
+    def _failing(self, response: Values) -> tuple[bool, bool]:
         if response not in self._found:
             scene = self.scene_of(response)
             self._found[response] = self.fails(scene, self.weak), self.fails(scene, self.robust)
-        weak, robust = self._found[response]
-        counts = f"the weak method {_failed(weak)}, the other {_failed(robust)}"
-        return Verdict(float(weak and not robust), counts, {"weak": weak, "robust": robust})
+        return self._found[response]
 
     @cached_property
     def _found(self) -> dict[Values, tuple[bool, bool]]:
@@ -157,7 +150,7 @@ class BreakAnswer(Answer):
 
     def is_same(self, one: Values, other: Values) -> bool:
         """Compare which methods fail."""
-        return one == other or self.check(one).marks == self.check(other).marks
+        return one == other or self._failing(one) == self._failing(other)
 
     def is_slip(self, response: Values) -> bool:
         """No number is a slip of another: what runs decides."""
@@ -166,7 +159,7 @@ class BreakAnswer(Answer):
     def text(self, response: Values) -> str:
         """Return the numbers by name."""
         return "\n".join(
-            f"{dial.name} = {number_text(value)}" for dial, value in zip(self.dials, response, strict=True)
+            f"{dial.label} = {number_text(value)}" for dial, value in zip(self.dials, response, strict=True)
         )
 
     def random(self, draws: Draws) -> Values:
@@ -190,6 +183,15 @@ class Family:
     """Of a setting, as ``interpolation``."""
     methods: tuple[str, ...]
     costs: tuple[Fraction, ...]
+
+    @property
+    def cell(self) -> Entry:
+        """The choice among the methods."""
+        titles = (
+            f"{table.get(self.name, method).title}, cost {number_text(cost)}"
+            for method, cost in zip(self.methods, self.costs, strict=True)
+        )
+        return Entry(FAMILIES[self.name].title, "choice", options=tuple(titles))
 
 
 @dataclass(frozen=True, eq=False)
@@ -291,6 +293,21 @@ class CheapestAnswer(Answer):
         """Choices are few."""
         return False
 
+    @property
+    def form(self) -> Form:
+        """The families with the costs of their methods."""
+        return Form(
+            self.kind,
+            tuple((family.cell,) for family in self.families),
+            labels=tuple(family.name for family in self.families),
+            names=tuple(family.methods for family in self.families),
+            told=lambda given: f"Cost together: {number_text(self.cost(self.read(given)))}",
+        )
+
+    def given(self, response: Choices) -> dict[str, str]:
+        """Return the methods by family."""
+        return {family.name: family.methods[k] for family, k in zip(self.families, response, strict=True)}
+
     def read(self, given: object) -> Choices:
         """Read a table of methods by family, or a list of them."""
         entries = _entries_of(given, [family.name for family in self.families], "a method")
@@ -309,7 +326,7 @@ class CheapestAnswer(Answer):
         score = float((most - cost) / (most - least)) if is_within else 0.0
         within = "within" if is_within else "beyond"
         counts = f"error {number_text(error)} {self.unit}, {within} the tolerance; cost {number_text(cost)}"
-        return Verdict(score, counts, {"error": error, "cost": cost, "is_within": is_within})
+        return Verdict(score, counts)
 
     def is_same(self, one: Choices, other: Choices) -> bool:
         """Compare the choices; all that earn everything are the same."""

@@ -111,7 +111,7 @@ def draw_tie(draws: Draws) -> Draft | None:
     ends = (x, y), (x + 8, y + dy)
     wanted = draws.whole(-1, 1)
     values = d_values((ends[0], ends[1]), Settings(line="bresenham-lecture"))
-    numbers = [int(cell[1]) for (cell,) in values if cell is not None and cell[1] is not None]
+    numbers = [int(d) for (d,) in values]
     found = [k for k, d in enumerate(numbers) if (d > 0) - (d < 0) == wanted]
     if not found:
         return None

@@ -6,7 +6,8 @@ from fractions import Fraction
 from core import Settings, clip_lines
 from core.geometry.line_clipping.records import ENTER, LEAVE, ParameterRows
 from core.scene import ClipScene
-from lessons.exercises.answers.tables import ENTERS, LEAVES, Cell, Column, Row, Rows, TableAnswer
+from lessons.exercises.answers.cells import ENTERS, LEAVES, Value
+from lessons.exercises.answers.fields import Column, Row, Rows, TableAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import Number
 from lessons.exercises.question import Draft, Template
@@ -33,7 +34,7 @@ def parameter_rows(ends: Ends, settings: Settings) -> Rows:
         if edge >= 0:
             word = words.get(int(case), "none")
             number = None if word == "none" else Fraction(float(t)).limit_denominator(1000)
-            rows.append((("", Fraction(float(p))), ("", Fraction(float(q))), (word, number)))
+            rows.append((Fraction(float(p)), Fraction(float(q)), (word, number)))
     return tuple(rows)
 
 
@@ -41,12 +42,10 @@ def parameter_table(ends: Ends) -> TableAnswer:
     """Return the table of p, q and t, where t follows from the learner's p and q."""
     right = parameter_rows(ends, PARAMETERS)
 
-    def follow(own: Sequence[Row], row: int, mine: Row) -> Cell:
+    def follow(own: Sequence[Row], row: int, mine: Row) -> Value:
         if len(mine) < 2:
             return right[row][len(mine)]
-        p, q = (cell[1] for cell in mine if cell is not None)
-        assert p is not None
-        assert q is not None
+        p, q = mine
         return ("none", None) if p == 0 else (ENTERS if p < 0 else LEAVES, q / p)
 
     columns = (Column("p"), Column("q"), Column("t", "crossing"))
@@ -81,17 +80,17 @@ def crossing(ends: Ends, edge: int) -> Place | None:
 def outcode_table(ends: Ends, count: int) -> TableAnswer:
     """Return the table of Cohen-Sutherland's first ``count`` cuts: both outcodes, and where the end moves."""
 
-    def follow(own: Sequence[Row], row: int, mine: Row) -> Cell:
+    def follow(own: Sequence[Row], row: int, mine: Row) -> Value:
         places: list[Place] = [(Fraction(x), Fraction(y)) for x, y in ends]
         for codes, x, y in own:
-            moved = moving_end(codes[0]) if codes else None
-            if moved and x and y and x[1] is not None and y[1] is not None:
-                places[moved[0]] = (x[1], y[1])
+            moved = moving_end(codes) if codes else None
+            if moved and x is not None and y is not None:
+                places[moved[0]] = (x, y)
         if not mine:
-            return f"{code_of(places[0])} {code_of(places[1])}", None
-        moves = moving_end(mine[0][0]) if mine[0] else None
+            return f"{code_of(places[0])} {code_of(places[1])}"
+        moves = moving_end(mine[0]) if mine[0] else None
         point = crossing(ends, moves[1]) if moves else None
-        return None if point is None else ("", point[len(mine) - 1])
+        return None if point is None else point[len(mine) - 1]
 
     columns = (Column("outcodes", "codes"), Column("x"), Column("y"))
     labels = tuple(f"cut {number}" for number in range(1, count + 1))

@@ -12,8 +12,9 @@ from core.framebuffer.depth_formats import unsigned_depth
 from core.records.arrays import Floats
 from core.records.depth_table import DepthTable, text_of_depths
 from core.scene import ClipScene
+from lessons.exercises.answers.cells import Value
 from lessons.exercises.answers.choices import OrderAnswer
-from lessons.exercises.answers.tables import Cell, Column, Follow, Row, Rows, TableAnswer
+from lessons.exercises.answers.fields import Column, Follow, Row, Rows, TableAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
@@ -92,14 +93,10 @@ def draw_fighting(draws: Draws) -> Draft | None:
 def follow_nearest(values: Sequence[tuple[int, Fraction]]) -> Follow:
     """Return the follow-through of a buffer that keeps the larger value."""
 
-    def follow(own: Sequence[Row], row: int, mine: Row) -> Cell:
+    def follow(own: Sequence[Row], row: int, mine: Row) -> Value:
         pixel, value = values[row]
-        before = [
-            cells[0][1] for cells, (its, _) in zip(own, values, strict=False) if its == pixel and cells[0]
-        ]
-        if not before or before[-1] is None:
-            return "", value
-        return "", max(before[-1], value)
+        before = [stored for (stored,), (its, _) in zip(own, values, strict=False) if its == pixel]
+        return max(before[-1], value) if before else value
 
     return follow
 
@@ -152,7 +149,7 @@ def draw_grid(draws: Draws) -> Draft:
     drawn = ~np.isnan(both)
 
     def cells(found: Floats) -> Rows:
-        rows = [[("", inf if isinf(z) else Fraction(z)) for z in row] for row in found.tolist()]
+        rows = [[inf if isinf(z) else Fraction(z) for z in row] for row in found.tolist()]
         return tuple(tuple(row) for row in rows[::-1])
 
     last = np.where(drawn[1], both[1], np.where(drawn[0], both[0], inf))

@@ -8,10 +8,9 @@ from core import Settings, render
 from core.records.frame import Frame
 from core.scene import AnyScene, ClipScene
 from core.settings import DEFAULTS
-from lessons.exercises.answers.amounts import NumberAnswer, Numbers
 from lessons.exercises.answers.choices import ChoiceAnswer
+from lessons.exercises.answers.fields import Column, Follow, NumberAnswer, Numbers, TableAnswer, number_rows
 from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer, Pixels
-from lessons.exercises.answers.tables import Column, Follow, TableAnswer, number_rows
 from lessons.exercises.drawn_scene import seen_pixels, window_text
 from lessons.exercises.numbers import Number, number_text
 from lessons.exercises.question import Draft

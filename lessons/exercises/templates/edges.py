@@ -120,7 +120,7 @@ def draw_stepped(draws: Draws) -> Draft | None:
     )
 
     def follow(own: Any, number: int, mine: Any) -> Any:
-        return ("", own[-1][0][1] + a) if number else ("", right[0][0])
+        return own[-1][0] + a if number else right[0][0]
 
     given = f"Edge from {place_text(start)} to {place_text(end)}."
     return table(text, given, ("E",), [f"column {x}" for x in columns], right, hints, follow=follow)

@@ -9,9 +9,18 @@ import numpy as np
 from core import STAGES, Settings, render
 from core.records.frame import Frame
 from core.scene import ClipScene
-from lessons.exercises.answers.amounts import NearMiss, NumberAnswer, Numbers
+from lessons.exercises.answers.cells import Value
 from lessons.exercises.answers.choices import OrderAnswer
-from lessons.exercises.answers.tables import Cell, Column, Row, Rows, TableAnswer, number_rows
+from lessons.exercises.answers.fields import (
+    Column,
+    NearMiss,
+    NumberAnswer,
+    Numbers,
+    Row,
+    Rows,
+    TableAnswer,
+    number_rows,
+)
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
@@ -130,12 +139,10 @@ def again_text(fragments: Sequence[Fragment]) -> str:
 def depth_table(fragments: Sequence[Fragment]) -> TableAnswer:
     """Return the table of stored depths, with follow-through."""
 
-    def follow(own: Sequence[Row], row: int, mine: Row) -> Cell:
+    def follow(own: Sequence[Row], row: int, mine: Row) -> Value:
         pixel, z = fragments[row]
-        before = [cells[0] for cells, (its, _) in zip(own, fragments, strict=False) if its == pixel]
-        if before and before[-1] and before[-1][1] is not None:
-            return "", min(Fraction(z), before[-1][1])
-        return "", Fraction(z)
+        before = [stored for (stored,), (its, _) in zip(own, fragments, strict=False) if its == pixel]
+        return min((Fraction(z), *before[-1:]))
 
     labels = tuple(f"pixel {pixel}, z = {z}" for pixel, z in fragments)
     return TableAnswer((Column("stored"),), labels, stored_depths(fragments), follow)

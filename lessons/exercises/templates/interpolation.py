@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from core import Settings, render
-from lessons.exercises.answers.amounts import Numbers
+from lessons.exercises.answers.fields import Numbers
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template

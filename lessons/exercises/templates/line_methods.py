@@ -5,8 +5,8 @@ from fractions import Fraction
 from math import floor
 
 from core import Settings
+from lessons.exercises.answers.fields import Row
 from lessons.exercises.answers.pixels import PixelAnswer
-from lessons.exercises.answers.tables import Cell, Row
 from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
@@ -86,12 +86,10 @@ def draw_dda(draws: Draws) -> Draft:
     m, (x0, y0) = slope(ends), ends[0]
     exact = [y0 + m * k for k in range(ends[1][0] - x0 + 1)]
 
-    def follow(own: Sequence[Row], number: int, mine: Row) -> Cell:
+    def follow(own: Sequence[Row], number: int, mine: Row) -> Fraction:
         if not mine:
-            before = own[-1][0] if number else None
-            return "", (before[1] or 0) + m if before else Fraction(y0)
-        y = mine[0][1] if mine[0] else None
-        return None if y is None else ("", Fraction(floor(y + HALF)))
+            return own[-1][0] + m if number else Fraction(y0)
+        return Fraction(floor(mine[0] + HALF))
 
     text = (
         "Fill in y and the row of each pixel of this line by a DDA: y grows by m = dy/dx in every column, and the row "
@@ -122,9 +120,8 @@ def draw_error(draws: Draws) -> Draft:
     while len(right) < ends[1][0] - ends[0][0]:
         right.append([after(right[-1][0])])
 
-    def follow(own: Sequence[Row], number: int, mine: Row) -> Cell:
-        before = own[-1][0][1] if number and own[-1][0] else None
-        return "", Fraction(0) if before is None else after(Fraction(before))
+    def follow(own: Sequence[Row], number: int, mine: Row) -> Fraction:
+        return after(own[-1][0]) if number else Fraction(0)
 
     text = (
         "What is the error e before each move? It begins at 0. Where e + m > 1/2, y steps up and e grows by m - 1; "

@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 
 from core import Settings, draw_lines
+from lessons.exercises.answers.cells import Value
+from lessons.exercises.answers.fields import Column, Row, Rows, TableAnswer, number_rows
 from lessons.exercises.answers.pixels import PixelAnswer
-from lessons.exercises.answers.tables import Cell, Column, Row, Rows, TableAnswer, number_rows
 from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template
@@ -35,13 +36,11 @@ def d_table(ends: Ends) -> TableAnswer:
     (x0, y0), (x1, y1) = ends
     dx, dy = x1 - x0, y1 - y0
 
-    def follow(own: Sequence[Row], row: int, mine: Row) -> Cell:
+    def follow(own: Sequence[Row], row: int, mine: Row) -> Value:
         if row == 0:
-            return "", Fraction(2 * dy - dx)
+            return Fraction(2 * dy - dx)
         before = own[-1][0]
-        assert before is not None
-        assert before[1] is not None
-        return "", before[1] + 2 * dy - (2 * dx if before[1] > 0 else 0)
+        return before + 2 * dy - (2 * dx if before > 0 else 0)
 
     labels = tuple(f"at x = {x}" for x in range(x0, x1))
     return TableAnswer((Column("D"),), labels, d_values(ends, LECTURE), follow)

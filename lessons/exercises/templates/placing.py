@@ -5,8 +5,8 @@ from fractions import Fraction
 import numpy as np
 
 from core import Settings, clip_lines
+from lessons.exercises.answers.cells import ENTERS, LEAVES
 from lessons.exercises.answers.places import PlaceAnswer, Places
-from lessons.exercises.answers.tables import ENTERS, LEAVES
 from lessons.exercises.drawn_scene import DrawnScene, window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.file_answers import NoQuestionError, corner_answer

@@ -9,7 +9,8 @@ import numpy as np
 
 from core import Settings, render
 from core.scene import ClipScene
-from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Dial, Family, Values
+from lessons.exercises.answers.cells import Dial
+from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family, Values
 from lessons.exercises.drawn_scene import Corner, window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.file_answers import FAILS, byte_error, is_drawn_twice
@@ -57,8 +58,8 @@ def draw_shared_corner(draws: Draws) -> Draft | None:
     top = (draws.whole(4, 7) + half, Fraction(35, 4))
     start = (draws.whole(3, 8) + quarter, Fraction(1) + quarter)
     dials = (
-        Dial("x", Fraction(3), Fraction(9), quarter, (0, 1, 0)),
-        Dial("y", Fraction(0), Fraction(2), quarter, (0, 1, 1)),
+        Dial("x", low=Fraction(3), high=Fraction(9), step=quarter, corner=(0, 1, 0)),
+        Dial("y", high=Fraction(2), step=quarter, corner=(0, 1, 1)),
     )
 
     def corners_of(values: Values) -> list[list[Corner]]:
@@ -104,7 +105,7 @@ def draw_affine(draws: Draws) -> Draft | None:
     """The w of a vertex."""
     span = draws.item((8, 16, 32))
     limit = Fraction(draws.whole(3, 5) * span, 64)
-    dials = (Dial("w of vertex 1", Fraction(1), Fraction(8), Fraction(1, 4)),)
+    dials = (Dial("w of vertex 1", low=Fraction(1), high=Fraction(8), step=Fraction(1, 4)),)
 
     def scene_of(values: Values) -> ClipScene:
         w = np.array([[1, float(values[0]), 1]])
@@ -173,7 +174,7 @@ def draw_depth_format(draws: Draws) -> Draft | None:
     """Two depths that a format cannot tell apart."""
     base = Fraction(draws.whole(20, 80), 100)
     step = Fraction(1, 400_000)
-    dials = (Dial("gap", Fraction(0), 20 * step, step),)
+    dials = (Dial("gap", high=20 * step, step=step),)
 
     def scene_of(values: Values) -> ClipScene:
         depth = [[float(base)] * 3, [float(base - values[0])] * 3]

@@ -3,7 +3,8 @@
 from fractions import Fraction
 
 from core import draw_lines
-from lessons.exercises.answers.steps import Step, StepsAnswer, Value, first_tries
+from lessons.exercises.answers.cells import Entry, Value
+from lessons.exercises.answers.steps import StepsAnswer, first_tries
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import corner_text, twice_area
@@ -41,9 +42,9 @@ def draw_line(draws: Draws) -> Draft:
     for number, value in enumerate(line_values(ends)):
         move = number // 2 + 1
         if number % 2 == 0:
-            steps.append(Step(f"D before move {move}", "number", value))
+            steps.append(Entry(f"D before move {move}", "number", value))
         else:
-            steps.append(Step(f"the pixel after move {move}", "pixel", value))
+            steps.append(Entry(f"the pixel after move {move}", "pixel", value))
     wrong = {
         name: first_tries(line_values(ends, name), steps)
         for name in ("ties-step", "not-corrected", "start-not-doubled")
@@ -86,7 +87,7 @@ def draw_depth(draws: Draws) -> Draft | None:
     if not 3 <= sum(right) <= 5:
         return None
     steps = tuple(
-        Step(f"fragment {k}: pixel {pixel}, z = {z}", "choice", verdict, VERDICTS)
+        Entry(f"fragment {k}: pixel {pixel}, z = {z}", "choice", verdict, VERDICTS)
         for k, ((pixel, z), verdict) in enumerate(zip(fragments, right, strict=True))
     )
     wrong = {
@@ -120,14 +121,14 @@ def draw_clip(draws: Draws) -> Draft | None:
     inside = [x <= BORDER for x, _ in corners]
     if twice_area(corners) < 12 or sum(inside) not in (1, 2) or any(x == BORDER for x, _ in corners):
         return None
-    steps: list[Step] = []
+    steps: list[Entry] = []
     for k, ((x0, y0), (x1, y1)) in enumerate(zip(corners, [*corners[1:], corners[0]], strict=True)):
         output = side_output(inside[k], inside[(k + 1) % 3])
-        steps.append(Step(f"side {k}: what is put out", "choice", output, OUTPUTS))
+        steps.append(Entry(f"side {k}: what is put out", "choice", output, OUTPUTS))
         if inside[k] != inside[(k + 1) % 3]:
             y = y0 + (BORDER - x0) * (y1 - y0) / (x1 - x0)
             steps.append(
-                Step(f"side {k}: the crossing (x, y)", "place", (Fraction(BORDER), y), tolerance=0.05)
+                Entry(f"side {k}: the crossing (x, y)", "place", (Fraction(BORDER), y), tolerance=0.05)
             )
     text = (
         f"Be Sutherland-Hodgman at the border x = {BORDER}: inside is where x is smaller. For each side from its start "

@@ -4,7 +4,8 @@ from fractions import Fraction
 
 import numpy as np
 
-from lessons.exercises.answers.steps import Run, Step, StepsAnswer, first_tries
+from lessons.exercises.answers.cells import Entry
+from lessons.exercises.answers.steps import Run, StepsAnswer, first_tries
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
@@ -16,10 +17,10 @@ from lessons.small_scenes import triangle_scene
 HALF = Fraction(1, 2)
 
 
-def number_steps(names: tuple[str, ...], values: tuple[Fraction, ...]) -> tuple[Step, ...]:
+def number_steps(names: tuple[str, ...], values: tuple[Fraction, ...]) -> tuple[Entry, ...]:
     """Return a step for each number."""
     return tuple(
-        Step(name, "number", value, tolerance=TOLERANCE) for name, value in zip(names, values, strict=True)
+        Entry(name, "number", value, tolerance=TOLERANCE) for name, value in zip(names, values, strict=True)
     )
 
 

@@ -4,9 +4,8 @@ import re
 
 import pytest
 
-from lessons.exercises.answers.amounts import NumberAnswer
 from lessons.exercises.answers.answer import NotCheckedError
-from lessons.exercises.answers.tables import Column, TableAnswer, number_rows
+from lessons.exercises.answers.fields import Column, NumberAnswer, TableAnswer, number_rows
 from lessons.exercises.asked import topics
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask, judge

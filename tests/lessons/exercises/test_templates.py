@@ -121,7 +121,7 @@ def test_the_cuts_of_an_outcode_table_end_where_the_clipper_does() -> None:
         "cut 4  0000 1000  71/9 (7.889)  6",
     ]
     (start, end) = clip_lines([SEGMENT], (0, 0, 8, 6), "cohen-sutherland").segments[0].tolist()
-    places = [[float(row[1][1]), float(row[2][1])] for row in (table.reference[1], table.reference[3])]
+    places = [[float(row[1]), float(row[2])] for row in (table.reference[1], table.reference[3])]
     np.testing.assert_allclose(places, [start, end])
     # The outcode of the new end was not computed again: two cells are wrong, the rest follows.
     late = [

@@ -49,11 +49,11 @@ def test_a_listing_with_a_wrong_line_draws_what_its_twin_draws(fault: str) -> No
 def test_steps_of_a_line_are_those_of_the_run_and_twins_leave_them_where_their_runs_do() -> None:
     ends = ((1, 1), (9, 4))
     right = stepping.line_values(ends)
-    assert right[::2] == [row[0][1] for row in d_values(ends, LECTURE)]
+    assert right[::2] == [row[0] for row in d_values(ends, LECTURE)]
     assert set(right[1::2]) | {ends[0]} == line_pixels(pixel_segments([ends], (16, 12)), LECTURE)
     for twin in ("ties-step", "not-corrected", "start-not-doubled"):
         mine = stepping.line_values(ends, twin)
-        run = [row[0][1] for row in d_values(ends, SHELF[twin].change_settings(LECTURE))]
+        run = [row[0] for row in d_values(ends, SHELF[twin].change_settings(LECTURE))]
         first = next(k for k, (a, b) in enumerate(zip(mine, right, strict=True)) if a != b)
         assert mine[0 : first + 1 : 2] == run[: first // 2 + 1]
 
@@ -64,7 +64,7 @@ def test_depth_verdicts_are_those_of_drawing() -> None:
     passed = [k for k, tries in enumerate(question.draft.answer.reference) if tries == (0,)]
     assert set(seen.tolist()) - {-1} <= set(passed)
     last = {
-        step.prompt.split(",")[0][-1]: k for k, step in enumerate(question.draft.answer.steps) if k in passed
+        step.label.split(",")[0][-1]: k for k, step in enumerate(question.draft.answer.steps) if k in passed
     }
     assert set(seen.tolist()) - {-1} == set(last.values())
 

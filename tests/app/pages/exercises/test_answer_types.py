@@ -6,8 +6,9 @@ from PySide6.QtWidgets import QApplication, QLabel, QLineEdit
 from pytestqt.qtbot import QtBot
 
 from app.files.attempts import attempt_file
-from app.pages.exercises.answer_kinds import KINDS
 from app.window.main_window import MainWindow
+from core.records.cells import Form
+from lessons.exercises.answers.cells import Entry
 from lessons.exercises.answers.spots import SpotAnswer
 from lessons.exercises.answers.trials import BreakAnswer
 from lessons.exercises.catalogue import TEMPLATES
@@ -17,13 +18,11 @@ from widgets.exercises.choice_answer import ChoiceAnswerView
 from widgets.exercises.dial_answer import DialAnswerView
 from widgets.exercises.entry_grid import KEYS
 from widgets.exercises.field_answer import FieldAnswerView
-from widgets.exercises.listing_answer import ListingAnswerView
+from widgets.exercises.list_answers import ListingAnswerView, OrderAnswerView
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.method_answer import MethodAnswerView
-from widgets.exercises.order_answer import OrderAnswerView
 from widgets.exercises.pixel_answer import PixelAnswerView
 from widgets.exercises.place_answer import PlaceAnswerView
-from widgets.exercises.records import FamilyRecord, MethodForm
 from widgets.exercises.spot_answer import SpotAnswerView
 from widgets.exercises.steps_answer import StepsAnswerView
 
@@ -88,7 +87,7 @@ def check_that_a_table_takes_the_keyboard_and_marks_the_wrong_cell(page: Page) -
     answer = shown.question_view.answer
     assert shown.question is not None
     assert isinstance(answer, FieldAnswerView)
-    right = [[str(cell[1])] for (cell,) in shown.question.draft.answer.reference]
+    right = [[str(value)] for (value,) in shown.question.draft.answer.reference]
     answer.fields.field(0, 0).setFocus()
     for (text,) in right:
         focused = QApplication.focusWidget()
@@ -398,11 +397,9 @@ def test_every_form_takes_every_answer_of_its_questions() -> None:
     """What a form holds for an answer is read as that answer."""
     for template in list(TEMPLATES.values())[::4]:
         draft = ask(template, 3).draft
-        kind = KINDS[draft.answer.kind]
         for response in (draft.answer.reference, *draft.mistakes.values()):
-            given = kind.given(draft.answer, response)
-            read = draft.answer.read(kind.read(draft.answer, given))
-            assert draft.answer.is_same(read, response), template.name
+            given = draft.answer.given(response)
+            assert draft.answer.is_same(draft.answer.read(given), response), template.name
 
 
 def test_every_type_is_answered_in_one_window(page: Page, window: MainWindow) -> None:
@@ -430,7 +427,8 @@ def test_a_long_method_makes_the_question_no_wider(qtbot: QtBot) -> None:
     """A list of methods that is wider than its column would cut the text of the question off."""
 
     def width(text: str) -> int:
-        form = MethodForm((FamilyRecord("fill", "Fill", (("one", text),)),), lambda chosen: "")
+        cell = Entry("Fill", "choice", options=(text,))
+        form = Form("cheapest", ((cell,),), labels=("fill",), names=(("one",),), told=str)
         grid = MarkGrid()
         view = MethodAnswerView(form, grid)
         qtbot.addWidget(grid)

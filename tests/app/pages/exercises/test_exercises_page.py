@@ -14,7 +14,7 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from app.files.attempts import attempt_file
-from app.pages.exercises.answer_kinds import KINDS
+from app.pages.exercises.answer_pictures import marks_of
 from app.pages.exercises.feedback import CORRECTED, feedback_of
 from app.pages.exercises.page import ExercisesPage
 from app.pages.exercises.scene_outline import outline_of
@@ -27,7 +27,7 @@ from lessons.exercises.question import Question, ask, judge
 from tests.app.pages.exercises.acting import LEFT, Page, check, paint
 from widgets.exercises.catalogue import Catalogue
 from widgets.exercises.pixel_answer import LEGEND, PixelAnswerView
-from widgets.exercises.records import ExerciseEntry, ExerciseGroup, PixelMarks
+from widgets.exercises.records import ExerciseEntry, ExerciseGroup
 from widgets.grid.overlay import Mark, MaskOverlay
 
 
@@ -269,12 +269,15 @@ def test_only_a_pixel_that_another_triangle_covers_is_double(tmp_path: Path) -> 
     def checked(question: Question, more: set[tuple[int, int]]) -> Checked:
         response = question.draft.answer.reference | more
         judgement = judge(question, response)
-        marks = KINDS["pixels"].marks(question, response, judgement.verdict)
+        marks = marks_of(question, judgement.verdict)
         return Checked(None, response, judgement, marks, None, "")
 
     question = ask(read_exercise(path), 0)
     found = checked(question, {(0, 5), (1, 4)})
-    assert found.marks == PixelMarks(question.draft.answer.reference, double=frozenset({(0, 5), (1, 4)}))
+    nothing: frozenset[tuple[int, int]] = frozenset()
+    double = frozenset({(0, 5), (1, 4)})
+    right = question.draft.answer.reference
+    assert found.marks == {"right": right, "missing": nothing, "extra": nothing, "double": double}
     said = feedback_of(question, found, is_corrected=False)
     assert said.counts.endswith("2 extra, 2 of these double")
     question = ask(TEMPLATES["below-half"], 7)
@@ -282,9 +285,8 @@ def test_only_a_pixel_that_another_triangle_covers_is_double(tmp_path: Path) -> 
     primitive = render(question.draft.scene, question.draft.settings).primitive
     covered = {(column, row) for row, column in np.argwhere(primitive >= 0).tolist()}
     marks = checked(question, covered).marks
-    assert isinstance(marks, PixelMarks)
-    assert marks.extra
-    assert not marks.double
+    assert marks["extra"]
+    assert not marks.get("double")
 
 
 def test_a_long_title_of_the_catalogue_is_read_whole(qtbot: QtBot) -> None:
