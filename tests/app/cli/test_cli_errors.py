@@ -73,7 +73,6 @@ def test_wrong_usage(tmp_path, arguments, wanted):
 NAN = "v 0 0 0\nv 1 nan 0\nv 0 1 0\nf 1 2 3\n"
 MESHES = [
     ("a.obj", "", "a.obj is empty"),
-    ("a.obj", SQUARE, "no faces"),
     ("a.obj", SQUARE + "f 1 2 9\n", "9"),
     ("a.obj", NAN, "a.obj"),
     ("a.obj", "v 0 0 0\nv 1 0 0\nv 2 0 0\nf 1 2 3\n", "only degenerate faces"),
@@ -271,7 +270,7 @@ def test_a_window_without_a_display_says_so(monkeypatch):
 @pytest.mark.parametrize(
     ("field", "value", "wanted"),
     [
-        ("version", 3, "it is of version 3, and this Rasterscope opens versions 1 to 2"),
+        ("version", 4, "it is of version 4, and this Rasterscope opens versions 1 to 3"),
         ("position", "ten", "position must be a valid integer, got 'ten'"),
         ("scene.camera.near", 90.0, "scene.camera: near must be less than far, got near 90"),
         ("scene.camera.far", float("nan"), "scene.camera.far must be a finite number, got nan"),

@@ -57,7 +57,7 @@ def test_a_dial_is_slid_and_typed(controls: StudyControls, qtbot: QtBot) -> None
         dial.field.edit.selectAll()
         QTest.keyClicks(dial.field.edit, "9999")
         QTest.keyClick(dial.field.edit, Qt.Key.Key_Return)
-    assert dial.field.error_text() == "between 4 and 64"
+    assert dial.field.error_text() == "expected a number between 4 and 64"
 
 
 @pytest.mark.parametrize(
