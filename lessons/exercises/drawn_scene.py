@@ -12,12 +12,15 @@ from core.scene import AnyScene, ClipScene
 from core.study.planner.trials import difference
 from lessons.exercises.answers.pixels import Pixels
 from lessons.exercises.draws import Draws
+from lessons.exercises.fields import Range
 from lessons.exercises.numbers import number_text
 from lessons.exercises.record import ScenePart
 from lessons.scenes import make_scene
 from lessons.small_scenes import segment_scene, triangle_scene
 
 Corner = tuple[Fraction, Fraction]
+FLAT = Fraction(1, 2), Fraction(1)
+"""Depth and w of a corner that is given by x and y alone."""
 MARKS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 
 
@@ -30,6 +33,8 @@ class DrawnScene:
     """Corners of the triangles or segments in the window; empty: a built-in scene."""
     name: str = ""
     """Of a built-in scene."""
+    more: tuple[str, ...] = ()
+    """What a question says of the corners beside their places, a line each."""
 
     @property
     def direction(self) -> tuple[float, float] | None:
@@ -47,16 +52,18 @@ class DrawnScene:
         return self.places[primitive][corner]
 
     def with_corner(self, at: Sequence[int], place: Corner) -> ClipScene:
-        """Return the triangles with one corner at another place."""
-        moved = [list(corners) for corners in self.places]
-        moved[at[0]][at[1]] = place
-        return triangle_scene(np.array(moved, float), self.scene.size)
+        """Return the triangles with one corner at another place; all else of it stays."""
+        assert isinstance(self.scene, ClipScene)
+        clip = self.scene.clip.copy()
+        corner = clip[at[0], at[1]]
+        corner[:2] = (2 * np.array(place, float) / self.scene.size - 1) * corner[3]
+        return replace(self.scene, clip=clip)
 
     def text(self, hidden: Sequence[int] = ()) -> str:
         """Return the numbers as text, but for a corner that is ``hidden``."""
         if not self.places:
             columns, rows = self.scene.size
-            return f"Scene {self.name}, {columns} x {rows} pixels."
+            return "\n".join([f"Scene {self.name}, {columns} x {rows} pixels.", *self.more])
         lines = [window_text(self.scene.size)]
         for number, corners in enumerate(self.places):
             texts = [
@@ -65,7 +72,7 @@ class DrawnScene:
             ]
             noun = "Triangle" if len(corners) == 3 else "Segment"
             lines.append(f"{noun} {number}: {', '.join(texts)}")
-        return "\n".join(lines)
+        return "\n".join([*lines, *self.more])
 
 
 def window_text(size: tuple[int, int]) -> str:
@@ -74,21 +81,47 @@ def window_text(size: tuple[int, int]) -> str:
 
 
 def draw_scene(part: ScenePart, draws: Draws) -> DrawnScene:
-    """Draw the places of a scene."""
+    """Draw the numbers of a scene."""
+
+    def drawn(rows: Sequence[Sequence[Sequence[Range]]]) -> list[list[list[Fraction]]]:
+        return [[[one.draw(draws) for one in corner] for corner in row] for row in rows]
+
     columns, rows = part.size
+    given = drawn(part.triangles or part.segments)
+    corners = [[[*corner, *FLAT[len(corner) - 2 :]] for corner in row] for row in given]
+    values, alpha = drawn(part.values), drawn([[[one] for one in row] for row in part.alpha])
+    depths = [[corner[2:] for corner in row] for row in corners]
+    more = [
+        *_told("depth and w", depths if any(len(corner) > 2 for row in given for corner in row) else []),
+        *_told("values", values),
+        *_told("alpha", alpha),
+    ]
+    places = tuple(tuple((x, y) for x, y, *_ in row) for row in corners)
     if part.builtin is not None:
-        return DrawnScene(replace(make_scene(part.builtin), size=(columns, rows)), name=part.builtin)
-    places = tuple(
-        tuple((x.draw(draws), y.draw(draws)) for x, y in corners)
-        for corners in part.triangles or part.segments
-    )
-    corners_of = np.array(places, float)
-    scene = (
-        triangle_scene(corners_of, (columns, rows))
-        if part.triangles
-        else segment_scene([(tuple(a), tuple(b)) for a, b in corners_of.tolist()], (columns, rows))
-    )
-    return DrawnScene(scene, places)
+        scene: AnyScene = replace(make_scene(part.builtin), size=(columns, rows))
+    elif part.segments:
+        ends = [(tuple(a), tuple(b)) for a, b in np.array(places, float).tolist()]
+        scene = segment_scene(ends, (columns, rows))
+    else:
+        whole = np.array(corners, float)
+        colors = np.array(values, float) if values else np.zeros((*whole.shape[:2], 3))
+        with_alpha = np.concatenate([colors, np.array(alpha, float)], axis=2) if alpha else colors
+        attributes = with_alpha if values or alpha else None
+        scene = triangle_scene(whole[..., :2], (columns, rows), whole[..., 2], whole[..., 3], attributes)
+    if part.background is not None:
+        background = [one.draw(draws) for one in part.background]
+        more.append(f"Background: {', '.join(map(number_text, background))} (red, green, blue, alpha).")
+        scene = replace(scene, background=np.array(background, float))
+    return DrawnScene(scene, places, part.builtin or "", tuple(more))
+
+
+def _told(name: str, rows: Sequence[Sequence[Sequence[Fraction]]]) -> list[str]:
+    """Return what a question says of the corners of each triangle, where they have it."""
+    told = []
+    for number, row in enumerate(rows):
+        texts = [f"({', '.join(map(number_text, corner))})" for corner in row]
+        told.append(f"Triangle {number}, {name} of its corners: {', '.join(texts)}")
+    return told
 
 
 def seen_pixels(frame: Frame, triangle: int | None = None) -> Pixels:

@@ -79,8 +79,7 @@ def _revision_of(values: Mapping[str, Any]) -> int:
 
 def has_ranges(exercise: Exercise) -> bool:
     """Return whether the scene is drawn from ranges."""
-    primitives = [] if exercise.scene is None else [*exercise.scene.triangles, *exercise.scene.segments]
-    return any(one.low < one.high for corners in primitives for place in corners for one in place)
+    return exercise.scene is not None and exercise.scene.has_ranges
 
 
 def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:

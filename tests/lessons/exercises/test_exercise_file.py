@@ -1,11 +1,16 @@
 """Exercises that teachers write: what they may say, and one sentence with file and line for what they may not."""
 
 import re
+from fractions import Fraction
 from pathlib import Path
 
+import numpy as np
 import pytest
 
+from core.scene import ClipScene
+from lessons.exercises.drawn_scene import DrawnScene
 from lessons.exercises.exercise_file import read_exercise
+from lessons.exercises.numbers import number_text
 from lessons.exercises.question import ask, judge
 
 DRAWN = """
@@ -199,7 +204,29 @@ def changed(old: str, new: str) -> str:
         (changed("1.5]", "99999]"), "expected a coordinate from -4096 to 4096, got 99999"),
         (changed("7..11 step 0.5", "8..7 step 1"), "expected a range such as"),
         (changed("7..11 step 0.5", "8..11 step 0"), "expected a range such as"),
-        (changed(", 1.5]", "]"), r"line 12: scene: expected 3 corners \[x, y\] in triangles\[0\]"),
+        (
+            changed(", 1.5]", "]"),
+            r"line 12: scene: expected 3 corners \[x, y\] or \[x, y, depth, w\] in triangles\[0\]",
+        ),
+        (changed("1.5],", "1.5, 0.5],"), r"line 12: scene: expected 3 corners \[x, y\] or \[x, y, depth"),
+        (changed("1.5],", '1.5, 0.5, "-1..1 step 1"],'), r"expected a w that is never 0 in triangles\[0\]"),
+        (
+            changed("\n[settings]", "values = [[[1], [2]]]\n[settings]"),
+            "expected values of the three corners",
+        ),
+        (changed("\n[settings]", "values = [[[1], [2], [3, 4]]]\n[settings]"), "expected the same count of"),
+        (
+            changed("\n[settings]", "alpha = [[1, 1, 2]]\n[settings]"),
+            "expected alpha and background from 0 to 1",
+        ),
+        (
+            changed("\n[settings]", "alpha = [[1, 1, 1]]\nvalues = [[[1], [2], [3]]]\n[settings]"),
+            "expected values of red, green and blue beside alpha, or none",
+        ),
+        (
+            changed("\n[settings]", "background = [1, 1, 1]\n[settings]"),
+            "expected red, green, blue and alpha",
+        ),
         (
             changed('"corner-for-center"', '"\'; DROP TABLE twins"'),
             "line 10: mistakes.0: expected a mistake such as",
@@ -362,6 +389,51 @@ def test_lines_and_meshes_are_drawn_too(tmp_path: Path) -> None:
         ValueError, match="expected triangles or segments in the window where mistakes are named"
     ):
         read_exercise(written(tmp_path, named))
+
+
+WHOLE = HEAD.replace(
+    "[answer]",
+    """
+[scene]
+size = [10, 8]
+triangles = [[["1/2", "1/2", "1/4", 1], ["17/2", "1/2", "1/4", "2..4 step 2"], ["1/2", "13/2"]]]
+values = [[[0, 1, 0], ["0..1 step 1/2", 1, 0], [0, 1, 0]]]
+alpha = [[1, "1/2", 1]]
+background = [0, 0, 1, 1]
+[answer]
+type = "numbers"
+values = [1]
+""",
+)
+
+
+def test_corners_have_depth_w_values_and_alpha_and_the_scene_a_background(tmp_path: Path) -> None:
+    """They are drawn, may be ranges, stand in the question, and stay where a corner is moved."""
+    template = read_exercise(written(tmp_path, WHOLE))
+    drawn = set()
+    for seed in range(24):
+        draft = ask(template, seed).draft
+        scene = draft.scene
+        assert isinstance(scene, ClipScene)
+        assert scene.clip[0, :, 3].tolist() in ([1, 2, 1], [1, 4, 1])
+        assert (scene.clip[0, :, 2] / scene.clip[0, :, 3]).tolist() == [-0.5, -0.5, 0]
+        assert scene.attributes is not None
+        assert scene.attributes[0, :, 1:].tolist() == [[1, 0, 1], [1, 0, 0.5], [1, 0, 1]]
+        assert scene.background.tolist() == [0, 0, 1, 1]
+        w, red = int(scene.clip[0, 1, 3]), Fraction(scene.attributes[0, 1, 0])
+        assert draft.given.splitlines()[2:] == [
+            f"Triangle 0, depth and w of its corners: (0.25, 1), (0.25, {w}), (0.5, 1)",
+            f"Triangle 0, values of its corners: (0, 1, 0), ({number_text(red)}, 1, 0), (0, 1, 0)",
+            "Triangle 0, alpha of its corners: (1), (0.5), (1)",
+            "Background: 0, 0, 1, 1 (red, green, blue, alpha).",
+        ]
+        drawn.add((w, red))
+    assert len(drawn) == 6
+    moved = DrawnScene(scene).with_corner([0, 1], (Fraction(3), Fraction(5)))
+    assert np.array_equal(moved.clip[0, ::2], scene.clip[0, ::2])
+    assert moved.clip[0, 1].tolist() == pytest.approx([-0.4 * w, 0.25 * w, -0.5 * w, w])
+    assert np.array_equal(moved.attributes, scene.attributes)
+    assert np.array_equal(moved.background, scene.background)
 
 
 def test_draws_with_nothing_to_mark_are_drawn_again(tmp_path: Path) -> None:
