@@ -216,17 +216,39 @@ def _copy(w: ActionWindow) -> None:
 
 
 def _dismiss(w: ActionWindow) -> None:
-    """Close what is open on top, stop what runs, or else take the pin away; a hint goes in any case."""
+    """End the first of these: a black screen, a run, an editor, a message, orbiting by key, a pin, presenting.
+
+    A hint beside the names of the pages goes in any case.
+    """
+    has_hint = w.presenter.hint.isVisible()
     w.statusBar().clearMessage()
-    if w.presenter.end_black() or w.overlays.close_top() or w.help.dismiss():
-        return
-    page, walk = w.pages.current, w.focus_walk
+    if not (
+        w.presenter.end_black()
+        or _stop_run(w)
+        or w.overlays.close_top()
+        or w.help.dismiss()
+        or _end_message(w)
+        or has_hint
+        or w.focus_walk.go_home()
+        or w.pages.current.dismiss()
+    ):
+        w.presenter.leave()
+
+
+def _stop_run(w: ActionWindow) -> bool:
+    """Stop opening a file, or else what runs on the page; return whether anything ran."""
     if w.files.progress.is_busy:
         w.files.progress.cancel()
-    elif w.messages.isVisible():
+        return True
+    return w.pages.current.is_busy() and w.pages.current.dismiss()
+
+
+def _end_message(w: ActionWindow) -> bool:
+    """Take the message away that stays until then; return whether there was one."""
+    was_shown = w.messages.isVisible()
+    if was_shown:
         w.messages.dismiss()
-    elif (page.is_busy() or walk.is_by_mouse or not walk.go_home()) and not page.dismiss():
-        w.presenter.leave()
+    return was_shown
 
 
 def _fit_to_triangle(w: ActionWindow) -> None:
@@ -349,7 +371,7 @@ ACTIONS: tuple[Action, ...] = (
         *(_way("view", "Ctrl", "Look further", move_view, *way) for way in WAYS)
     ),
     *_rows("", VIEWING, "", _window)(
-        Row("unpin", "Escape", "Close the top pane, stop work, or remove the pin", _dismiss)
+        Row("unpin", "Escape", "Stop work, close the top pane or message, or remove the pin", _dismiss)
     ),
     *_rows("step", VIEWING, "View", _window)(
         Row("fit_view", "W", "Show all stepped pixels", lambda w: w.page.fit()),

@@ -54,6 +54,8 @@ class Appearance(QObject):
         super().__init__(window)
         self._name = current_theme().name
         self._text_size: TextSize = 100
+        self._presented_size: TextSize = 100
+        """Percent of the type that a screen needs, while presenting."""
 
     @property
     def name(self) -> str:
@@ -68,6 +70,8 @@ class Appearance(QObject):
     @Slot(str)
     def set_theme(self, name: str) -> None:
         """Show the window in a theme by its name."""
+        if self._is_at_desk:
+            self._presented_size = 100
         self._name = name
         self._apply()
         self.theme_changed.emit(name)
@@ -80,9 +84,15 @@ class Appearance(QObject):
         self.text_size_changed.emit(percent)
 
     def change_text_size(self, steps: int) -> None:
-        """Go so many places up or down the list of sizes."""
-        place = TEXT_SIZES.index(self._text_size or system_text_size()) + steps
-        self.set_text_size(TEXT_SIZES[min(max(place, 0), len(TEXT_SIZES) - 1)])
+        """Go so many places up or down the list of sizes; a presenter's type has a size of its own, for this time."""
+        before = (self._text_size or system_text_size()) if self._is_at_desk else self._presented_size
+        place = TEXT_SIZES.index(before) + steps
+        size = TEXT_SIZES[min(max(place, 0), len(TEXT_SIZES) - 1)]
+        if self._is_at_desk:
+            self.set_text_size(size)
+        else:
+            self._presented_size = size
+            self._apply()
 
     def grow_text_to(self, percent: TextSize) -> None:
         """Write everything at least as large as another window did; smaller text is for the user alone to choose."""
@@ -96,18 +106,20 @@ class Appearance(QObject):
 
     def follow_height(self) -> None:
         """Give a presenter's type the size that the window's height wants now."""
-        if self._name not in DESK_THEMES:
+        if not self._is_at_desk:
             self._apply()
+
+    @property
+    def _is_at_desk(self) -> bool:
+        return self._name in DESK_THEMES
 
     def _apply(self) -> None:
         window = (
             self.parent()
         )  # Not an attribute: a window in a cycle would not be deleted when it is released.
         assert isinstance(window, QWidget)
-        is_at_desk = self._name in DESK_THEMES
-        theme = (
-            sized_theme(self._name, self._text_size)
-            if is_at_desk
-            else for_screen(THEMES[self._name], window.height())
-        )
+        if self._is_at_desk:
+            theme = sized_theme(self._name, self._text_size)
+        else:
+            theme = with_text_size(for_screen(THEMES[self._name], window.height()), self._presented_size)
         apply_theme(the_application(), theme)

@@ -7,7 +7,7 @@ from app.help.pane import HelpPane
 from app.window.appearance import the_application
 from app.window.parts import WindowParts
 from widgets.basics.focus_order import give_focus, next_stop, tab_stops
-from widgets.basics.key_claim import GIVEN_BACK
+from widgets.basics.key_claim import GIVEN_BACK, KeyClaim
 
 
 class FocusWalk(QObject):
@@ -69,10 +69,13 @@ class FocusWalk(QObject):
             give_focus(last if last in own else own[0])
 
     def go_home(self) -> bool:
-        """Give the keyboard back to the main view; return whether something else had it."""
+        """Give the keyboard back to the main view and the arrows to stepping; return whether others had them."""
         own = tab_stops([self.window.pages.current.main_view()])
         now = self.window.focusWidget()
-        if not own or now is None or now is self.window or now in own:
+        if self.is_by_mouse or not own or now is None or now is self.window:
             return False
+        if now in own:
+            claim = now.findChild(KeyClaim, options=Qt.FindChildOption.FindDirectChildrenOnly)
+            return claim is not None and claim.end()
         give_focus(own[0], GIVEN_BACK)
         return True

@@ -18,6 +18,7 @@ CLICKER = {
     Qt.Key.Key_Period: "black",
 }
 """What the keys that clickers send do while presenting."""
+ARROWS = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down)
 HINT_ROOM = 32
 """Width of a hint around its text, in logical pixels."""
 PRESENTED_PANES = ("inspector",)
@@ -30,7 +31,6 @@ class _Desk:
 
     theme: str
     window_state: Qt.WindowState
-    panes: list[str]
     layout: dict[str, str]
 
 
@@ -77,9 +77,7 @@ class Presenter(QObject):
     def arrange(self) -> None:
         """Show only what the step needs, in large type: without filling the screen."""
         window, page = self._window, self._window.page
-        self._desk = _Desk(
-            window.appearance.name, window.windowState(), page.shown_panes(), page.layout_state()
-        )
+        self._desk = _Desk(window.appearance.name, window.windowState(), page.layout_state())
         window.menuBar().hide()
         window.pages.show_bar(False)
         page.set_presenting(True)
@@ -111,7 +109,6 @@ class Presenter(QObject):
         page.set_presenting(False)
         window.setWindowState(desk.window_state)
         window.appearance.set_theme(desk.theme)
-        page.show_panes(desk.panes)
         page.restore_layout(desk.layout)
         self.presenting_changed.emit(False)
 
@@ -131,7 +128,10 @@ class Presenter(QObject):
     # The clicker.
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Take the keys of a clicker, wherever the focus is, but for what is being typed."""
+        """Take the keys of a clicker, wherever the focus is, but for what is being typed; let arrows step."""
+        if isinstance(event, QKeyEvent) and self._steps(event):
+            event.ignore()  # No view and no table keeps it from the window's keys.
+            return True
         if isinstance(event, QKeyEvent) and self._takes(event):
             if event.type() == QEvent.Type.ShortcutOverride:
                 event.accept()
@@ -143,10 +143,14 @@ class Presenter(QObject):
 
     def _takes(self, event: QKeyEvent) -> bool:
         """Return whether a key is a clicker's."""
-        if QApplication.activeModalWidget() or QApplication.activePopupWidget():
+        return event.key() in CLICKER and _is_for_all(event)
+
+    def _steps(self, event: QKeyEvent) -> bool:
+        """Return whether it is asked who wants an arrow that is pressed on the Step page: the window does."""
+        if event.type() != QEvent.Type.ShortcutOverride or event.key() not in ARROWS:
             return False
-        is_typing = isinstance(QApplication.focusWidget(), QLineEdit | QAbstractSpinBox)
-        return event.key() in CLICKER and not event.modifiers() and not is_typing
+        focus = QApplication.focusWidget()
+        return focus is not None and self._window.page.isAncestorOf(focus) and _is_for_all(event)
 
     def _click(self, action: str) -> None:
         """Do what a clicker means; what is black is shown first."""
@@ -179,3 +183,10 @@ class Presenter(QObject):
             self.hint.setFixedHeight(self.hint.heightForWidth(self.hint.width()))
             self.hint.move(room.left(), room.bottom() - self.hint.height())
             self.hint.raise_()
+
+
+def _is_for_all(event: QKeyEvent) -> bool:
+    """Return whether a key is pressed alone, and neither for a menu or a dialog nor for what is being typed."""
+    is_typing = isinstance(QApplication.focusWidget(), QLineEdit | QAbstractSpinBox)
+    is_elsewhere = QApplication.activeModalWidget() or QApplication.activePopupWidget()
+    return not (event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier or is_typing or is_elsewhere)

@@ -42,6 +42,9 @@ class FocusRing(QObject):
                 is_seen = event.reason() == GIVEN_BACK
                 self._is_by_keyboard = is_seen or is_focus_by_keyboard(event, self._is_by_keyboard)
             self._painted.update()
+        elif event.type() == QEvent.Type.MouseButtonPress and self._is_by_keyboard:
+            self._is_by_keyboard = False
+            self._painted.update()
         return False
 
     def paint(self, painter: QPainter, area: QRect) -> None:
@@ -64,11 +67,23 @@ class KeyClaim(QObject):
         self._is_by_keyboard = False
         widget.installEventFilter(self)
 
+    @property
+    def is_kept(self) -> bool:
+        """Whether the keys are kept while the widget has the focus."""
+        return self._is_by_keyboard
+
+    def end(self) -> bool:
+        """Leave the keys to the window until the keyboard brings the focus again; return whether they were kept."""
+        was_kept, self._is_by_keyboard = self._is_by_keyboard, False
+        return was_kept
+
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Accept claimed keys, and leave every other key to the shortcuts of the window."""
         if isinstance(event, QFocusEvent) and event.type() == QEvent.Type.FocusIn:
             is_given = event.reason() == GIVEN_BACK
             self._is_by_keyboard = not is_given and is_focus_by_keyboard(event, self._is_by_keyboard)
+        elif event.type() == QEvent.Type.MouseButtonPress:
+            self._is_by_keyboard = False
         elif isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride:
             is_plain = not event.modifiers() & ~(
                 Qt.KeyboardModifier.ShiftModifier | Qt.KeyboardModifier.KeypadModifier

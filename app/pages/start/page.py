@@ -196,6 +196,11 @@ class StartPage(Page):
         self.action_requested.emit("page_step")
         self.action_requested.emit("step_forward")
 
+    def dismiss(self) -> bool:
+        """Go back to the Step page."""
+        self.action_requested.emit("page_step")
+        return True
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Press a button with Return; scroll the scenes, wherever the keyboard is."""
         focused, scroll = self.focusWidget(), SCROLLS.get(Qt.Key(event.key()))

@@ -15,7 +15,7 @@ def look_of(page: StepPage, text_size: TextSize) -> Look:
         other=dict(page.comparing.differences),
         printed=page.comparing.printed,
         other_buffer=page.comparing.buffer,
-        panes=page.shown_panes(),
+        panes=page.desk_panes(),
         text_size=text_size,
         event=page.stepping.event_kind,
     )
@@ -30,7 +30,7 @@ def show_look(page: StepPage, look: Look) -> None:
         page.comparing.show_printed(look.printed, seeks=False)
     page.events.choose(look.event)
     if look.panes is not None:
-        page.show_panes(look.panes)
+        page.show_desk_panes(look.panes)
     page.grids.show_look(look.grid)
     page.views.look_from({name: Orbit(**dict(orbit)) for name, orbit in look.orbits.items()})
     page.show_view(look.view)

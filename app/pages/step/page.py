@@ -93,6 +93,8 @@ class StepPage(Page):
         self.grids.look_changed.connect(self.look_changed)
         self.comparing.look_changed.connect(self.look_changed)
         self.views.refused.connect(self.edit_refused)
+        self._desk_panes: list[str] | None = None
+        """While presenting, the panes that come back after it."""
         self._lay_out()
         self.show_panes(PANES_AT_FIRST)
         self._order = self._order_of_parts()
@@ -178,6 +180,17 @@ class StepPage(Page):
         }
         return [pane.name for pane in PANES if is_shown.get(pane.name)]
 
+    def desk_panes(self) -> list[str]:
+        """Return the names of the panes that are shown at the desk, now or when presenting ends."""
+        return self.shown_panes() if self._desk_panes is None else self._desk_panes
+
+    def show_desk_panes(self, names: Iterable[str]) -> None:
+        """Show these panes at the desk, now or when presenting ends."""
+        if self._desk_panes is None:
+            self.show_panes(names)
+        else:
+            self._desk_panes = list(names)
+
     def show_panes(self, names: Iterable[str]) -> None:
         """Show these panes and fold the others away; of the side panes the first one named."""
         known = {pane.name for pane in PANES}
@@ -212,12 +225,16 @@ class StepPage(Page):
         self.show_panes(self.shown_panes())
 
     def set_presenting(self, is_presenting: bool) -> None:
-        """Leave out all that does not show the step, or bring it back; panes are folded by `show_panes`."""
+        """Leave out all that does not show the step, or bring it back, with the panes of the desk."""
+        panes = self.desk_panes()
+        self._desk_panes = panes if is_presenting else None
         self.side_tabs.setVisible(not is_presenting)
         self._page_layout.setContentsMargins(*(PRESENTED_MARGINS if is_presenting else MARGINS))
         self.main_area.set_presenting(is_presenting)
         self.column.set_presenting(is_presenting)
         self.columns.set_presenting(is_presenting)
+        if not is_presenting:
+            self.show_panes(panes)
 
     # Views.
 

@@ -2,15 +2,19 @@
 
 import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QFontMetricsF, QImage
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.files.open_any import Opened
 from app.window.main_window import MainWindow
 from core import STAGES
 from core.explain.records import Formula
+from widgets.basics.key_claim import KeyClaim
+from widgets.basics.message_bar import Message, MessageKind
+from widgets.space.scene_view import SceneView
 
 SIZES = [(1280, 720), (1920, 1080)]
 
@@ -187,3 +191,103 @@ def test_pages_scroll_where_large_type_has_no_room(window: MainWindow) -> None:
         QApplication.processEvents()
         assert panes.height() >= panes.minimumSizeHint().height(), name
         assert window.pages.minimumSizeHint().height() <= 720, name
+
+
+def test_text_grows_while_presenting_and_is_the_desks_own_after_it(window: MainWindow) -> None:
+    present(window, (1280, 720))
+    usual, at_desk = window.page.sentence.font().pixelSize(), window.appearance.text_size
+    QTest.keyClick(window, Qt.Key.Key_Plus, Qt.KeyboardModifier.ControlModifier)
+    assert window.page.sentence.font().pixelSize() == round(1.1 * usual)
+    QTest.keyClick(window, Qt.Key.Key_Minus, Qt.KeyboardModifier.ControlModifier)
+    assert window.page.sentence.font().pixelSize() == usual
+    assert window.appearance.text_size == at_desk
+
+
+def test_a_state_of_the_desk_opens_clean_and_one_of_the_presenter_whole(window: MainWindow) -> None:
+    page = window.page
+    page.show_panes(["scene", "inspector", "details", "thumbnails", "navigator", "run"])
+    desk, panes = window.files.state(), page.shown_panes()
+    page.show_panes(["inspector"])
+    present(window, (1280, 720))
+    presented = page.shown_panes()
+    window.files.show_opened(Opened(desk.document, state=desk))
+    assert page.shown_panes() == presented
+    assert window.files.state().look.panes == panes
+    window.presenter.leave()
+    assert page.shown_panes() == panes
+
+
+def test_the_start_page_keeps_the_presenter(window: MainWindow) -> None:
+    present(window, (1280, 720))
+    window.run_action("page_start")
+    window.run_action("unpin")
+    assert window.pages.current_name == "step"
+    assert window.presenter.is_presenting
+
+
+def test_arrows_step_wherever_the_keyboard_is_but_in_a_field(window: MainWindow) -> None:
+    page, session = window.page, window.session
+    page.show_view("scene")
+    present(window, (1280, 720))
+    page.show_panes(["scene", "inspector", "run"])
+    view = page.main_view()
+    assert isinstance(view, SceneView)
+    azimuth = view.orbit().azimuth
+    for widget in (view, page.column.tabBar(), page.listing, page.timeline.bar):
+        widget.setFocus(Qt.FocusReason.TabFocusReason)
+        before = session.cursor
+        QTest.keyClick(widget, Qt.Key.Key_Right)
+        assert session.cursor.position > before.position, widget
+    assert view.orbit().azimuth == azimuth
+    field = page.outline.field("corner/0/0/x").edit
+    field.setFocus(Qt.FocusReason.TabFocusReason)
+    before = session.cursor
+    QTest.keyClick(field, Qt.Key.Key_Right)
+    assert session.cursor == before
+
+
+def test_a_click_and_escape_give_the_arrows_back_to_stepping(window: MainWindow) -> None:
+    page, session = window.page, window.session
+    page.show_view("scene")
+    view = page.main_view()
+    assert isinstance(view, SceneView)
+    view.setFocus(Qt.FocusReason.TabFocusReason)
+    before, orbit = session.cursor, view.orbit()
+    QTest.keyClick(view, Qt.Key.Key_Right)
+    assert session.cursor == before
+    assert view.orbit() != orbit
+    QTest.mouseClick(view, Qt.MouseButton.LeftButton, pos=QPoint(8, 8))
+    QTest.keyClick(view, Qt.Key.Key_Right)
+    assert session.cursor != before
+    page.listing.setFocus(Qt.FocusReason.TabFocusReason)
+    view.setFocus(Qt.FocusReason.TabFocusReason)
+    before = session.cursor
+    QTest.keyClick(view, Qt.Key.Key_Escape)
+    QTest.keyClick(view, Qt.Key.Key_Right)
+    assert session.cursor != before
+
+
+def test_escape_ends_run_editor_message_orbiting_pin_and_presenting_in_this_order(
+    window: MainWindow,
+) -> None:
+    page, presenter = window.page, window.presenter
+    page.show_view("scene")
+    present(window, (1280, 720))
+    window.session.set_pin((20, 20))
+    page.main_view().setFocus(Qt.FocusReason.TabFocusReason)
+    claim = page.main_view().findChild(KeyClaim)
+    assert claim is not None
+    window.messages.show_message(Message(MessageKind.WARNING, "A message that stays."))
+    window.overlays.toggle_keys()
+    window.run_action("toggle_play")
+    there = {
+        "run": page.timeline.is_playing,
+        "editor": window.overlays.key_help.isVisible,
+        "message": window.messages.isVisible,
+        "orbiting": lambda: claim.is_kept,
+        "pin": lambda: window.session.pin is not None,
+        "presenting": lambda: presenter.is_presenting,
+    }
+    for number in range(len(there) + 1):
+        assert [name for name, is_there in there.items() if is_there()] == list(there)[number:]
+        window.run_action("unpin")
