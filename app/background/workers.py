@@ -164,6 +164,9 @@ class Job(QObject):
 
     @Slot()
     def _retire(self) -> None:
+        for worker in self._retired:
+            if not worker.isRunning():
+                worker.deleteLater()
         self._retired = [worker for worker in self._retired if worker.isRunning()]
 
 

@@ -1,5 +1,6 @@
 """A window under random keys, clicks, drags, pages and files: no exception, no stall, no memory that stays."""
 
+import json
 import os
 import subprocess
 import sys
@@ -17,9 +18,15 @@ from tests.core.meshes import torus
 from tests.robust.monkey import Monkey
 
 SEED = 20
-OPENED_MESHES = Path(__file__).with_name("opened_meshes.py")
+OPENED_MESHES, GROWN_WINDOW = (
+    Path(__file__).with_name(name) for name in ("opened_meshes.py", "grown_window.py")
+)
 MOST_BYTES = 200 << 20
 """By which the memory after thirty meshes may be larger than after three."""
+MOST_GROWN = 200
+"""Objects of one kind of Qt by which a window may hold more after 12,000 random steps than after 4,000."""
+MOST_HELD = 128 << 20
+"""Bytes of arrays that it may hold at rest: those of undo, and of what is open."""
 
 
 @pytest.fixture
@@ -86,3 +93,22 @@ def test_thirty_meshes_leave_no_more_than_three(tmp_path: Path) -> None:
     assert (run.returncode, run.stderr) == (0, "")
     used = [int(line) for line in run.stdout.split()]
     assert used[-1] - used[2] < MOST_BYTES, [found >> 20 for found in used]
+
+
+@pytest.mark.slow
+def test_what_a_window_holds_grows_no_more(tmp_path: Path) -> None:
+    run = subprocess.run(
+        [sys.executable, GROWN_WINDOW, tmp_path, "4000", "12000"],
+        env=os.environ | {"RASTERSCOPE_CONFIG": str(tmp_path / "config")},
+        stdout=subprocess.PIPE,
+        timeout=900,
+        check=True,
+    )
+    first, last = map(json.loads, run.stdout.splitlines())
+    grown = {kind: count - first["qt"].get(kind, 0) for kind, count in last["qt"].items()}
+    assert {kind: more for kind, more in grown.items() if more > MOST_GROWN} == {}
+    before, after = (sum(found["python"].values()) for found in (first, last))
+    assert after <= 1.2 * before, {
+        kind: (count, first["python"].get(kind, 0)) for kind, count in last["python"].items()
+    }
+    assert last["bytes"] < MOST_HELD

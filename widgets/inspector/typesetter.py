@@ -17,6 +17,9 @@ from PySide6.QtSvg import QSvgRenderer
 
 from core.explain.latex import MATRIX_WITH_SCRIPT
 
+KEPT_CELLS = 1024
+"""Cells that are kept: a cell takes some 43 KB, these take 44 MB."""
+
 
 @dataclass(frozen=True, eq=False)
 class TypesetCell:
@@ -33,7 +36,7 @@ class TypesetCell:
 class Typesetter:
     """Typesets cells and keeps the last ones."""
 
-    def __init__(self, capacity: int = 4096) -> None:
+    def __init__(self, capacity: int = KEPT_CELLS) -> None:
         self._capacity = capacity
         self._cells: OrderedDict[tuple[str, str, float], TypesetCell] = OrderedDict()
 

@@ -27,6 +27,7 @@ from PySide6.QtWidgets import (
     QTreeWidgetItem,
     QWidget,
 )
+from shiboken6 import delete
 
 from core.explain.number_text import DIGITS, exact_text, fraction_text, full_text
 from core.explain.records import Value, Variable
@@ -315,7 +316,8 @@ class _VariableItem(QTreeWidgetItem):
         """Be the closed row of another variable."""
         if self.childCount():
             self.setExpanded(False)
-            self.takeChildren()
+            for child in self.takeChildren():
+                delete(child)  # Python would keep it.
         if isinstance(variable.now, tuple):
             self.addChildren([_VariableItem() for _ in variable.now])
 

@@ -3,6 +3,7 @@
 from weakref import ref
 
 import pytest
+from PySide6.QtCore import QThread
 from pytestqt.qtbot import QtBot
 
 from app.background.workers import Job
@@ -55,3 +56,14 @@ def test_only_an_expected_error_is_reported(qtbot: QtBot, error: Exception, is_e
     job.shut_down()
     assert reported == [error] * is_expected
     assert [each for _, each, _ in raised] == [error] * (not is_expected)
+
+
+def test_ended_threads_are_held_no_longer(qtbot: QtBot) -> None:
+    job = Job()
+    for _ in range(10):
+        with qtbot.waitSignal(job.succeeded):
+            job.call(lambda: 1)
+    qtbot.wait(1)
+    # The last one is told to go once it has ended altogether.
+    qtbot.waitUntil(lambda: len(job.findChildren(QThread)) <= 2)
+    job.shut_down()

@@ -1,3 +1,4 @@
+import gc
 import math
 
 import pytest
@@ -176,3 +177,14 @@ def test_numbers_of_the_same_text_copy_in_full(view) -> None:
     view.topLevelItem(0).setSelected(True)
     view.copy_values()
     assert QGuiApplication.clipboard().text() == f"t = {1 / 3 + 1e-9!r}"
+
+
+def test_rows_that_go_are_held_no_longer(view) -> None:
+    def rows() -> int:
+        return sum(type(one).__name__ == "_VariableItem" for one in gc.get_objects())
+
+    before = rows()
+    for number in range(20):
+        view.show_variables([Variable(f"p{number}", (1.0, 2.0, 3.0))] * (number % 3 + 1))
+    gc.collect()
+    assert rows() - before <= 3 * 4
