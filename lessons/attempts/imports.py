@@ -1,13 +1,13 @@
 """Attempts of somebody else's file: judged again where their question is known, else marked."""
 
 from collections import Counter
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 
 from core.records.words import counted
-from lessons.attempts.answer_texts import responses_of
 from lessons.attempts.record import ANSWER_LIMIT, NOT_CHECKED, Attempt
+from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Question, Template, ask, judge
 from lessons.exercises.screen import PREFIX, screen_template
 
@@ -137,3 +137,24 @@ def _sentences(
     late = sum(attempt.at > now for attempt in judged)
     if late:
         yield f"{counted(late, 'answer')} dated later than now."
+
+
+def responses_of(question: Question, text: str) -> Iterator[Response]:
+    """Yield the answers to a question whose text is ``text``, the likeliest first; none where it is no such text.
+
+    Notes
+    -----
+    Text has roots and long fractions rounded: sqrt(2) and 1.41421 are the same text. So the right answer and those of
+    the mistakes follow where they have this text.
+    """
+    answer = question.draft.answer
+    try:
+        response = answer.read(answer.said(text))
+        is_read = answer.text(response) == text
+    except (NotCheckedError, ValueError, IndexError):
+        is_read = False
+    if is_read:
+        yield response
+    for known in (answer.reference, *question.draft.mistakes.values()):
+        if answer.text(known) == text:
+            yield known

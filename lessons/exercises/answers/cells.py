@@ -26,10 +26,26 @@ an option; ``None``: the cell is empty."""
 
 ENTERS, LEAVES = "PE", "PL"
 _CODES = re.compile(r"[01]{4} [01]{4}")
+_DECIMALS = re.compile(r" \([^()]*\)$")
 _WANTED = {
     "crossing": f"{ENTERS} or {LEAVES} and a number such as {ENTERS} 1/2, or none",
     "codes": "two outcodes such as 0101 0010",
 }
+
+
+def behind(text: str, heads: list[str]) -> list[str]:
+    """Return what stands behind its head in each line of a text; ValueError where there are more or fewer lines."""
+    return [line.removeprefix(head) for head, line in zip(heads, text.split("\n"), strict=True)]
+
+
+def exact(text: str) -> str:
+    """Return the text of a number without the decimals behind an exact fraction."""
+    return _DECIMALS.sub("", text)
+
+
+def exact_pair(text: str) -> list[str]:
+    """Return the two numbers of a text in brackets."""
+    return list(map(exact, text[1:-1].split(", ")))
 
 
 def is_blank(given: object) -> bool:

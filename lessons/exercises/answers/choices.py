@@ -102,10 +102,6 @@ class OrderAnswer(Answer):
         marks = {"right": run if len(run) > 1 else []}
         return Verdict(self._score(len(run)), f"{len(run)} of {len(response)} in a row right", marks)
 
-    def is_same(self, one: Order, other: Order) -> bool:
-        """Compare orders."""
-        return one == other
-
     def is_slip(self, response: Order) -> bool:
         """Two neighbours are exchanged."""
         off = [k for k, place in enumerate(response) if k != place]
@@ -114,6 +110,10 @@ class OrderAnswer(Answer):
     def text(self, response: Order) -> str:
         """Return the names in order."""
         return " > ".join(self.options[k] for k in response)
+
+    def said(self, text: str) -> list[str]:
+        """Return the names of a text."""
+        return text.split(" > ")
 
     def first_wrong(self, response: Order) -> str:
         """Name the first two neighbours that do not belong together."""
@@ -142,6 +142,7 @@ class ChoiceAnswer(Answer):
     """What is true of each option, a sentence that tells why it is right or wrong; empty: none is known."""
 
     kind: ClassVar[str] = "choice"
+    is_many: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         count = len(self.options)
@@ -173,11 +174,6 @@ class ChoiceAnswer(Answer):
         return sum(self.check(chosen).score for chosen in choices) / len(choices)
 
     @property
-    def is_many(self) -> bool:
-        """There are few options."""
-        return False
-
-    @property
     def form(self) -> Form:
         """The options."""
         return Form(self.kind, items=self.options, is_several=self.is_several)
@@ -207,14 +203,6 @@ class ChoiceAnswer(Answer):
         counts = f"{len(hits)} right, {len(missing)} missing, {len(wrong)} wrong"
         return Verdict(score, counts, marks)
 
-    def is_same(self, one: frozenset[int], other: frozenset[int]) -> bool:
-        """Compare choices."""
-        return one == other
-
-    def is_slip(self, response: frozenset[int]) -> bool:
-        """No choice is a slip: a belief stands behind each."""
-        return False
-
     def reason(self, response: frozenset[int]) -> str:
         """Return the note of the first option that is chosen wrongly."""
         wrong = sorted(response - self.reference)
@@ -223,6 +211,15 @@ class ChoiceAnswer(Answer):
     def text(self, response: frozenset[int]) -> str:
         """Return the options chosen."""
         return ", ".join(self.options[k] for k in sorted(response))
+
+    def said(self, text: str) -> list[str]:
+        """Take the options of a text in their order; they may hold commas themselves."""
+        chosen, rest = [], f"{text}, "
+        for option in self.options:
+            if rest.startswith(f"{option}, "):
+                chosen.append(option)
+                rest = rest.removeprefix(f"{option}, ")
+        return chosen
 
     def first_wrong(self, response: frozenset[int]) -> str:
         """Name the first option that is chosen and wrong, or right and not chosen; of one choice nothing."""

@@ -5,13 +5,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import pairwise
 from math import prod
 from typing import Any, ClassVar, Literal
 
 from core.records.cells import Form
 from core.records.words import counted
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict, placed
-from lessons.exercises.answers.cells import Entry, Value, is_blank, random_number
+from lessons.exercises.answers.cells import Entry, Value, behind, exact, is_blank, random_number
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import Number, number_text
 
@@ -128,7 +129,7 @@ class NumberAnswer(FieldAnswer):
         )
 
     def rows(self, response: Any) -> Rows:
-        """Return numbers in the rows of their fields."""
+        """Return numbers, or their texts, in the rows of their fields."""
         numbers, columns = tuple(response), self._columns
         return tuple(numbers[place : place + columns] for place in range(0, len(numbers), columns))
 
@@ -209,6 +210,12 @@ class NumberAnswer(FieldAnswer):
         if self.names:
             return "\n".join(f"{name} = {text}" for name, text in zip(self.names, texts, strict=True))
         return ", ".join(texts)
+
+    def said(self, text: str) -> list[list[str]]:
+        """Return the numbers of a text in the rows of their fields."""
+        heads = [f"{name} = " for name in self.names]
+        texts = map(exact, behind(text, heads) if heads else text.split(", "))
+        return [[*row] for row in self.rows(texts)]
 
     def first_wrong(self, response: Numbers) -> str:
         """Name the first number that is wrong, or its row and column; nothing where there is only one."""
@@ -326,6 +333,19 @@ class TableAnswer(FieldAnswer):
             "  ".join(text.ljust(width) for text, width in zip(line, widths, strict=True)) for line in lines
         )
         return "\n".join(line.rstrip() for line in padded)
+
+    def said(self, text: str) -> list[list[str]]:
+        """Cut the lines of a text where the heads of the columns begin."""
+        head, *lines = text.split("\n")
+        begins = [max(map(len, self.labels)) + 2]
+        for column, following in pairwise(self.columns):
+            begins.append(head.index(f"  {following.name}", begins[-1] + len(column.name)) + 2)
+        ends = [*(begin - 2 for begin in begins[1:]), None]
+        rows = [
+            [exact(line[begin:end].strip()) for begin, end in zip(begins, ends, strict=True)]
+            for line in lines
+        ]
+        return [["" if cell == "..." else cell for cell in row] for row in rows]
 
     def left_out(self, response: Rows) -> str:
         """Count the empty cells."""

@@ -19,6 +19,7 @@ class LineAnswer(Answer):
     """Lines that count as right, too."""
 
     kind: ClassVar[str] = "line"
+    is_many: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         right = self.also | {self.reference}
@@ -36,11 +37,6 @@ class LineAnswer(Answer):
     def chance(self) -> float:
         """Mean score of all lines that say something."""
         return len(self.also | {self.reference}) / len(self._telling)
-
-    @property
-    def is_many(self) -> bool:
-        """There are few lines."""
-        return False
 
     @property
     def _telling(self) -> list[int]:
@@ -82,13 +78,13 @@ class LineAnswer(Answer):
         right = self.also | {self.reference}
         return one == other or {one, other} <= right
 
-    def is_slip(self, response: int) -> bool:
-        """No line is a slip of another."""
-        return False
-
     def text(self, response: int) -> str:
         """Return the line with its number."""
         return f"line {response + 1}: {self.lines[response].strip()}"
+
+    def said(self, text: str) -> str:
+        """Return the number of the line of a text."""
+        return text.removeprefix("line ").partition(":")[0]
 
     def first_wrong(self, response: int) -> str:
         """Say whether the wrong line comes before or after."""

@@ -9,7 +9,7 @@ from typing import ClassVar
 from core.records.cells import Form
 from core.scene import ClipScene
 from lessons.exercises.answers.answer import CANDIDATES, Answer, NotCheckedError, Verdict, spread
-from lessons.exercises.answers.cells import Dial, Entry, is_blank, read_entry
+from lessons.exercises.answers.cells import Dial, Entry, behind, exact_pair, is_blank, read_entry
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import Number, are_close, number_text, plain_number
 
@@ -159,6 +159,10 @@ class PlaceAnswer(Answer):
             f"{name}: ({number_text(x)}, {number_text(y)})"
             for name, (x, y) in zip(self.names, response, strict=True)
         )
+
+    def said(self, text: str) -> list[list[str]]:
+        """Return x and y of the points of a text."""
+        return list(map(exact_pair, behind(text, [f"{name}: " for name in self.names])))
 
     def first_wrong(self, response: Places) -> str:
         """Name the first point that is wrong."""

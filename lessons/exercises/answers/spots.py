@@ -1,5 +1,6 @@
 """What is wrong with a picture: a pixel that a mistake changed, and the name of the mistake."""
 
+import re
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -37,6 +38,7 @@ class SpotAnswer(Answer):
     """The option that made the picture."""
 
     kind: ClassVar[str] = "spot"
+    is_many: ClassVar[bool] = False
     slip: ClassVar[str] = "A slip: all but one of the pixels differ from the right picture."
 
     def __post_init__(self) -> None:
@@ -74,11 +76,6 @@ class SpotAnswer(Answer):
         columns, rows = self.size
         place = self._share * len(self.wrong) / (columns * rows)
         return place + (0.5 / len(self.options) if self.options else 0.0)
-
-    @property
-    def is_many(self) -> bool:
-        """Answers differ by the mistake and by whether the place is right."""
-        return False
 
     @property
     def form(self) -> Form:
@@ -143,6 +140,12 @@ class SpotAnswer(Answer):
         pixels = ", ".join(map(str, sorted(response.pixels))) or "no pixel"
         named = [] if response.option is None else [self.options[response.option]]
         return "; ".join([pixels, *named])
+
+    def said(self, text: str) -> dict[str, object]:
+        """Return the pixels and the option of a text."""
+        pixels, _, option = text.partition("; ")
+        found = re.findall(r"\((\d+), (\d+)\)", pixels)
+        return {"pixels": [[int(i), int(j)] for i, j in found], "option": option}
 
     def left_out(self, response: Spot) -> str:
         """Say which half is missing."""

@@ -1,5 +1,6 @@
 """Be the rasterizer: one step at a time, each judged at once; a wrong one is tried again or put right."""
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import prod
@@ -8,7 +9,7 @@ from typing import ClassVar
 from core.records.cells import Form, StepLine, StepsState
 from core.records.words import counted
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
-from lessons.exercises.answers.cells import Entry, Value
+from lessons.exercises.answers.cells import Entry, Value, behind, exact, exact_pair
 from lessons.exercises.draws import Draws
 
 Tries = tuple[Value, ...]
@@ -186,6 +187,12 @@ class StepsAnswer(Answer):
             for step, tries in zip(self.steps, response, strict=False)
         )
 
+    def said(self, text: str) -> list[list[str | list[str]]]:
+        """Return the tries of the steps of a text."""
+        steps = self.steps[: text.count("\n") + 1]
+        lines = behind(text, [f"{step.label}: " for step in steps])
+        return [_said_tries(step, line) for step, line in zip(steps, lines, strict=True)]
+
     def left_out(self, response: Run) -> str:
         """Count the steps that are not done."""
         number = self.open_step(response)
@@ -212,6 +219,13 @@ def _is_same_try(step: Entry, one: Value, other: Value) -> bool:
 
 def _try_text(step: Entry, value: Value) -> str:
     return "fixed" if value is FIXED else step.text(value)
+
+
+def _said_tries(step: Entry, line: str) -> list[str | list[str]]:
+    if step.kind == "choice":  # An option may hold ", then" itself.
+        longest_first = sorted((*step.options, "fixed"), key=len, reverse=True)
+        return re.findall("|".join(map(re.escape, longest_first)), line)
+    return [exact_pair(one) if one.startswith("(") else exact(one) for one in line.split(", then ")]
 
 
 def _is_pair(given: object) -> bool:

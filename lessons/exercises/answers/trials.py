@@ -14,7 +14,7 @@ from core.records.cells import Corner, Form
 from core.scene import ClipScene
 from core.settings import FAMILIES, with_method
 from lessons.exercises.answers.answer import CANDIDATES, Answer, NotCheckedError, Verdict, spread
-from lessons.exercises.answers.cells import Dial, Entry, is_blank
+from lessons.exercises.answers.cells import Dial, Entry, behind, exact, is_blank
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 
@@ -59,6 +59,7 @@ class BreakAnswer(Answer):
     """When a method fails, as the question states it: ``a pixel is drawn twice``."""
 
     kind: ClassVar[str] = "break"
+    is_many: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         if self.check(self.reference).score != 1:
@@ -95,11 +96,6 @@ class BreakAnswer(Answer):
                 rest //= count
             scores.append(self.check(tuple(values)).score)
         return sum(scores) / len(scores)
-
-    @property
-    def is_many(self) -> bool:
-        """Answers differ by whether each method fails."""
-        return False
 
     @property
     def form(self) -> Form:
@@ -152,15 +148,15 @@ class BreakAnswer(Answer):
         """Compare which methods fail."""
         return one == other or self._failing(one) == self._failing(other)
 
-    def is_slip(self, response: Values) -> bool:
-        """No number is a slip of another: what runs decides."""
-        return False
-
     def text(self, response: Values) -> str:
         """Return the numbers by name."""
         return "\n".join(
             f"{dial.label} = {number_text(value)}" for dial, value in zip(self.dials, response, strict=True)
         )
+
+    def said(self, text: str) -> list[str]:
+        """Return the numbers of a text."""
+        return list(map(exact, behind(text, [f"{dial.label} = " for dial in self.dials])))
 
     def random(self, draws: Draws) -> Values:
         """Guess every number."""
@@ -209,6 +205,7 @@ class CheapestAnswer(Answer):
     """Of the error and its limit, for sentences."""
 
     kind: ClassVar[str] = "cheapest"
+    is_many: ClassVar[bool] = False
 
     def __post_init__(self) -> None:
         count = 1
@@ -289,11 +286,6 @@ class CheapestAnswer(Answer):
         return sum(scores) / len(scores)
 
     @property
-    def is_many(self) -> bool:
-        """Choices are few."""
-        return False
-
-    @property
     def form(self) -> Form:
         """The families with the costs of their methods."""
         return Form(
@@ -332,15 +324,15 @@ class CheapestAnswer(Answer):
         """Compare the choices; all that earn everything are the same."""
         return one == other or self.check(one).score == self.check(other).score == 1
 
-    def is_slip(self, response: Choices) -> bool:
-        """No choice is a slip of another."""
-        return False
-
     def text(self, response: Choices) -> str:
         """Return the methods by family."""
         return "\n".join(
             f"{family.name}: {family.methods[k]}" for family, k in zip(self.families, response, strict=True)
         )
+
+    def said(self, text: str) -> list[str]:
+        """Return the methods of a text."""
+        return behind(text, [f"{family.name}: " for family in self.families])
 
     def random(self, draws: Draws) -> Choices:
         """Guess every method."""

@@ -1,13 +1,14 @@
 """Attempts of another file are judged again where that is possible, and marked where it is not."""
 
 from datetime import UTC, datetime, timedelta
+from typing import get_args
 
 import pytest
 
-from lessons.attempts.answer_texts import GIVEN, responses_of
-from lessons.attempts.imports import judged_again
+from lessons.attempts.imports import judged_again, responses_of
 from lessons.attempts.practice import progress
 from lessons.attempts.record import Attempt, attempt_of
+from lessons.exercises.answer_parts import AnswerPart
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import ask, judge
@@ -33,7 +34,10 @@ def test_every_answer_can_be_read_again_from_its_text() -> None:
                 judge(question, one).verdict.score for one in responses_of(question, answer.text(response))
             ]
             assert judge(question, response).verdict.score in scores, (template.name, answer.text(response))
-    assert kinds == set(GIVEN), "a type of answer that no exercise has is not tested"
+    parts = get_args(AnswerPart)
+    assert kinds == {get_args(part.model_fields["type"].annotation)[0] for part in parts}, (
+        "a type of answer that no exercise has is not tested"
+    )
 
 
 def test_honest_attempts_stay_as_they_are() -> None:
