@@ -26,8 +26,10 @@ from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.moment import Change, Moment
 from app.session.session import Session
 from app.views.stage_views import StageViews
+from core.stages.declared import stage_of
 from widgets.basics.accessible import announce
 from widgets.basics.controls import column_layout, row_layout
+from widgets.basics.labels import ElidedLabel
 from widgets.basics.scene_outline import SceneOutline
 from widgets.basics.settings_panel import SettingsPanel
 from widgets.basics.side_tabs import SideTabs
@@ -39,7 +41,7 @@ from widgets.timeline.transport import Timeline
 PANES_AT_FIRST = ("inspector", "details", "navigator", "run")
 NESTED_LAYOUTS = 5
 """Layouts around a part of the inspector, up to the window's."""
-MARGINS, PRESENTED_MARGINS = (4, 0, 8, 4), (8, 16, 16, 8)
+MARGINS, PRESENTED_MARGINS = (4, 0, 8, 4), (8, 8, 16, 8)
 """Around the page; presenting, a projector may cut off a little."""
 
 
@@ -126,6 +128,7 @@ class StepPage(Page):
             (run, self.comparing.refresh),
             (cursor, self.comparing.follow_step),
             (pointing, self.comparing.refresh_pointing),
+            (step | run, self._show_place),
             (step, self.predicting.refresh),
             (step | run | pointing, self.narrator.owe),
             (run, self.navigation.refresh),
@@ -154,11 +157,22 @@ class StepPage(Page):
         self.side_tabs.pane_chosen.connect(self.toggle_pane)
         self.columns = StepColumns(self.side_panes, self.main_area, self.column, self)
         self._page_layout = page = column_layout(self, 4, margins=MARGINS)
+        self.place = ElidedLabel(self)
+        self.place.setAccessibleDescription("Stage, step and scene")
+        self.place.hide()
+        page.addWidget(self.place)
         row = row_layout(spacing=4)
         row.addWidget(self.side_tabs)
         row.addWidget(self.columns, 1)
         page.addLayout(row, 1)
         page.addWidget(self.timeline)
+
+    def _show_place(self, moment: Moment) -> None:
+        """Name stage, step and scene; while the user predicts, not how many steps are left."""
+        position, count = moment.cursor.position, moment.steps.count
+        total = "?" if moment.is_predicting and not moment.is_stage_done else f"{count:,}"
+        parts = (stage_of(moment.cursor.stage).short_title, f"step {position:,} of {total}")
+        self.place.setText(" · ".join((*parts, *filter(None, [moment.document.title]))))
 
     def _settle_layouts(self, moment: Moment) -> None:
         """Lay out now what has another size: each layout asks the one around it, and in between all is painted."""
@@ -229,6 +243,9 @@ class StepPage(Page):
         panes = self.desk_panes()
         self._desk_panes = panes if is_presenting else None
         self.side_tabs.setVisible(not is_presenting)
+        self.place.setVisible(is_presenting)
+        self._show_place(self.session.moment)
+        self.stepping.stops_at_ends = is_presenting
         self._page_layout.setContentsMargins(*(PRESENTED_MARGINS if is_presenting else MARGINS))
         self.main_area.set_presenting(is_presenting)
         self.column.set_presenting(is_presenting)

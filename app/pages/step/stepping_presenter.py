@@ -10,6 +10,7 @@ from app.files.state_models import Bookmark, Breakpoints
 from app.pages.page_bar import Page
 from app.pages.step.bookmarks import Bookmarks
 from app.pages.step.breaks import Breaks, line_positions
+from app.session.cursor import Cursor, stepped
 from app.session.moment import Moment
 from app.session.session import Session
 from app.views.chapters import chapters_of
@@ -77,6 +78,9 @@ class SteppingPresenter(QObject):
         self.bookmarks = Bookmarks(session, self.tell, self)
         self.bookmarks.bookmarks_changed.connect(self._show_places)
         self._told = ""
+        self.stops_at_ends = False
+        """Whether a step stops once at the end of each stage, and says so."""
+        self._stopped_at: Cursor | None = None
         timeline.position_requested.connect(session.scrub)
         timeline.step_requested.connect(self.step)
         timeline.ends_requested.connect(self.go_to_end)
@@ -95,6 +99,7 @@ class SteppingPresenter(QObject):
 
     def end_message(self, moment: Moment) -> None:
         """Take the last message back: the cursor or the pin has moved."""
+        self._stopped_at = None
         if self._told:
             text, self._told = self._told, ""
             self.message_ended.emit(text)
@@ -152,13 +157,26 @@ class SteppingPresenter(QObject):
         """Step once at the present level or another, from stage to stage; playing stops at the end of the last one."""
         before = self._session.cursor
         level = before.level if level is None else level
-        if self.stepped_alone(direction, level):
+        if self.stepped_alone(direction, level) or (direction > 0 and self._stops_here(level)):
             return
         self._attempt(
             partial(self._session.step, direction, level), LAST_STEP if direction > 0 else FIRST_STEP
         )
         if self._session.cursor == before:
             self._timeline.show_playing(False)
+
+    def _stops_here(self, level: Level) -> bool:
+        """Say that a stage ends here, unless that is said, it plays, or each step is a stage; return whether it was."""
+        moment, stepped_by_hand = self._session.moment, not self._timeline.is_playing()
+        is_end = moment.is_stage_done and moment.steps.count > 0 and level > Level.STAGE
+        stage = stepped(moment.cursor, moment.trace, 1, level).stage
+        stops = self.stops_at_ends and is_end and stepped_by_hand and stage != moment.cursor.stage
+        if not stops or self._stopped_at == moment.cursor:
+            return False
+        names = (stage_of(name).short_title for name in (moment.cursor.stage, stage))
+        self.tell("{} is finished. The next step begins {}.".format(*names))
+        self._stopped_at = moment.cursor
+        return True
 
     def _attempt(self, action: Callable[[], object], otherwise: str) -> None:
         """Do something that moves the cursor or the pin, or say why it moves neither."""

@@ -291,3 +291,44 @@ def test_escape_ends_run_editor_message_orbiting_pin_and_presenting_in_this_orde
     for number in range(len(there) + 1):
         assert [name for name, is_there in there.items() if is_there()] == list(there)[number:]
         window.run_action("unpin")
+
+
+@pytest.mark.parametrize("size", SIZES, ids=str)
+def test_stage_step_and_scene_are_named(window: MainWindow, size: tuple[int, int]) -> None:
+    session, place = window.session, window.page.place
+    assert not place.isVisible()
+    present(window, size)
+    session.set_stage("raster", 4000)
+    assert (
+        place.text()
+        == f"Raster · step 4,000 of {session.stage_trace.steps.count:,} · Two triangles sharing an edge"
+    )
+    assert place.fontMetrics().horizontalAdvance(place.text()) <= place.width()
+    session.set_predicting(True)
+    assert "step 4,000 of ?" in place.text()
+    window.page.show_view("compare")
+    assert place.isVisible()
+
+
+def test_a_step_stops_at_the_end_of_a_stage_and_says_so(window: MainWindow) -> None:
+    session = window.session
+    present(window, (1280, 720))
+    session.set_stage("cull")
+    for _ in range(2):
+        end = session.cursor
+        QTest.keyClick(window, Qt.Key.Key_PageDown)
+        assert session.cursor == end
+        assert window.presenter.hint.isVisible()
+        assert window.presenter.hint.text() == "Cull is finished. The next step begins Clip."
+        QTest.keyClick(window, Qt.Key.Key_Left)
+        assert session.cursor != end
+        QTest.keyClick(window, Qt.Key.Key_Right)
+        assert session.cursor == end
+    for _ in range(2):
+        QTest.keyClick(window, Qt.Key.Key_Right)
+    assert (session.cursor.stage, session.cursor.position) == ("clip", 0)
+    assert not window.presenter.hint.isVisible()
+    window.presenter.leave()
+    session.set_stage("cull")
+    QTest.keyClick(window, Qt.Key.Key_Right)
+    assert session.cursor.stage == "clip"
