@@ -277,20 +277,16 @@ def mix(step: StepValues) -> Said:
 
 @explains("shade.textured|textured-lit.albedo")
 def albedo(step: StepValues) -> Said:
-    """Texture colour times interpolated colour."""
+    """Texture colour times interpolated colour, if the corners have one."""
     values, texture = step.vector("albedo"), step.vector("texture_color")
-    text = f"{step.pixel_name}: its albedo is {vector_text(values)}, the texture's colour times the interpolated one."
-    channel = outstanding(values[:3])
-    vertex: Part = channel_symbol("colour", channel)
-    if step.has("vertex_color"):
-        vertex = (channel_symbol("colour", channel), step.vector("vertex_color")[channel])
-    return text, equation(
-        (channel_symbol("albedo", channel), values[channel]),
-        "=",
-        (channel_symbol("texture", channel), texture[channel]),
-        r"\cdot",
-        vertex,
-    )
+    channel, has_color = outstanding(values[:3]), step.has("vertex_color")
+    times = " times the interpolated one" if has_color else ""
+    text = f"{step.pixel_name}: its albedo is {vector_text(values)}, the texture's colour{times}."
+    made: list[Part] = [(channel_symbol("albedo", channel), values[channel]), "="]
+    made.append((channel_symbol("texture", channel), texture[channel]))
+    if has_color:
+        made += [r"\cdot", (channel_symbol("colour", channel), step.vector("vertex_color")[channel])]
+    return text, equation(*made)
 
 
 def _level_variables(name: str, which: str) -> dict[str, VariableText]:

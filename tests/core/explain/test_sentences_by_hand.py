@@ -10,6 +10,7 @@ from core import ClipScene, Settings, trace
 from core.explain import formula, sentence
 from core.trace import Explanation, pixel_cuts
 from lessons.scenes import make_scene
+from lessons.slides.scenes import ALL_SCENES
 from tests.core.explain.explained_steps import rare_trace
 
 # The triangle with window corners (1, 1), (7, 1), (1, 7) on 8 x 8 pixels, by hand:
@@ -440,3 +441,13 @@ def test_texture_coordinates_are_a_quotient_of_planes() -> None:
     made = formula(next(e for e in steps if e is not None and e.key.endswith("value-uv")))
     assert made is not None
     assert made.symbolic.endswith(r"u & = & \frac{u/w}{1/w}")
+
+
+def test_the_albedo_of_corners_without_a_colour_is_that_of_the_texture() -> None:
+    shade = trace(ALL_SCENES["zwicker-perspective"].make(), Settings(fill="bounding-box")).stage("shade")
+    found = (shade.explain(position) for position in range(1, shade.steps.count + 1))
+    explanation = next(each for each in found if each is not None and each.key.endswith(".albedo"))
+    assert sentence(explanation, 0, None).endswith("the texture's colour.")
+    made = formula(explanation)
+    assert made is not None
+    assert "colour" not in made.substituted
