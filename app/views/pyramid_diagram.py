@@ -147,7 +147,9 @@ def _sentence(w: Floats, frame: PyramidFrame) -> str:
     else:
         parts.append("Some w ≤ 0: the triangle reaches behind the eye; edge planes decide without clipping.")
     if frame.factor != 1:
-        parts.append(f"The triangle is drawn divided by {number_text(frame.factor, 3)}: the same rays.")
+        parts.append(
+            f"The drawing divides x, y and w by {number_text(frame.factor, 3)}: the rays stay the same."
+        )
     return " ".join(parts)
 
 

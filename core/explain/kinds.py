@@ -4,7 +4,6 @@ import re
 
 _ANY = (
     (r", edge 0:", ":"),
-    (r"one row or block", "one line"),
     (r"on an edge", "at a tie"),
     (r", outside the view, without area, or turned away", " and outside the view"),
     (r"not culled: its (front|back) faces the eye", "not culled"),

@@ -7,6 +7,7 @@ from typing import NamedTuple
 from core.explain.kinds import of_kind
 from core.explain.records import StageCard
 from core.methods import table
+from core.raster.fills.traits import fill_traits
 from core.records.steps import Level
 from core.records.words import counted
 from core.settings import FIELDS
@@ -122,7 +123,12 @@ def skipped_because(stage: str, corner_count: int) -> str:
 
 
 def summary_sentence(
-    stage: str, level: Level, counts: Mapping[str, int], triangle: int | None, corner_count: int = 3
+    stage: str,
+    level: Level,
+    counts: Mapping[str, int],
+    triangle: int | None,
+    corner_count: int = 3,
+    method: str = "",
 ) -> str:
     """Say what a step larger than one operation did.
 
@@ -134,9 +140,15 @@ def summary_sentence(
         The triangle that all rows are about; ``None`` or -1: several, or none.
     corner_count : int, optional
         Corners of what is drawn: 2 of segments, 1 of points, 0 of tables of depths.
+    method : str, optional
+        The method that ran, as ``fill=hierarchy``: of a fill, rows or blocks are stepped.
     """
     known = {name: counts.get(name, 0) for name in ("rows", *MARKS)}
-    group = stage_of(stage).group
+    family, _, name = method.partition("=")
+    group = {"line": "one line"}.get(family, stage_of(stage).group)
+    if family == "fill":
+        # A lane is set up before its spans are filled.
+        group = "one " + fill_traits(name).group_label.lower().split(" or ")[-1 if known["covered"] else 0]
     account = ", ".join(ACCOUNTS[stage](known))
     if known["nan"]:
         account += f", {known['nan']:,} undefined (NaN)"

@@ -150,7 +150,7 @@ DECLARED = (
         heading="Raster",
         tracer="core.trace.raster.trace_raster",
         initial="No pixel has been tested yet.",
-        group="one row or block",
+        group="one row",
         outcomes=("covered",),
     ),
     Stage(

@@ -17,7 +17,7 @@ from widgets.exercises.mark_grid import MarkGrid
 
 MOVE = "First to last, from the top. Drag an item, or choose it and move it with Alt+Up and Alt+Down."
 
-POINT = "Choose the line: click it, or go with the arrows."
+POINT = "Choose the line: click it, or go to it with the arrows."
 
 
 class OrderAnswerView(AnswerView):

@@ -15,7 +15,10 @@ from widgets.exercises.entry_grid import EntryGrid
 from widgets.exercises.mark_grid import NOTHING, MarkGrid
 from widgets.exercises.records import Pixel
 
-HOW = "Click or drag on the picture. By keyboard: arrows go, Space marks, Shift and an arrow take the mark along."
+HOW = (
+    "Click or drag on the picture. By keyboard: the arrows go to a pixel, Space marks it, and Shift with an arrow "
+    "gives the next pixel the same mark."
+)
 
 LEGEND = (
     "Tick: right. Square: missing. Cross: extra. Two bars: double, another triangle or line has the pixel."

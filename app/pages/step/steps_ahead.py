@@ -36,7 +36,7 @@ def sentence_at(step: Step) -> str:
     first = trace.steps.rows_done(trace.steps.back(step.cursor.position, level))
     if level <= Level.GROUP and row > first:
         counts = trace.summary(first, row + 1)
-        said = summary_sentence(trace.stage, level, counts, step.triangle, trace.corner_count)
+        said = summary_sentence(trace.stage, level, counts, step.triangle, trace.corner_count, trace.method)
         return " ".join([said, *remarks(trace, first, row + 1)])
     if level != Level.OPERATION:
         return row_sentence(trace, step.cursor.position)

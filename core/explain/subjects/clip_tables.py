@@ -55,7 +55,7 @@ _CYRUS_BECK = (
     FilledColumn("N", "Outward normal.", lambda step: tuple(step.vector("normal")), "room"),
     FilledColumn(
         "N · D",
-        "Below 0 the edge may enter, above 0 it may leave.",
+        "Below 0: potentially entering. Above 0: potentially leaving.",
         lambda step: step.number("approach"),
         "room",
     ),
@@ -211,7 +211,7 @@ def _ends(step: StepValues) -> str:
     return step.kind.upper().replace("-", " → ")
 
 
-def _hands_on(step: StepValues) -> str:
+def _output(step: StepValues) -> str:
     return {"in-in": "end", "in-out": "new", "out-in": "new, end", "out-out": "nothing"}[step.kind]
 
 
@@ -234,7 +234,7 @@ _EDGES = (
     ),
     FilledColumn("case", "Where its start and its end lie.", _ends, "end_distance"),
     FilledColumn("t", "Where the edge crosses the plane.", lambda step: step.number("t"), "t"),
-    FilledColumn("hands on", "The corners that go on to the next plane.", _hands_on),
+    FilledColumn("output", "The corners that this edge adds to the output.", _output),
     FilledColumn("new corner", "x, y, z and w where it crosses.", _corner, "corner"),
 )
 

@@ -133,13 +133,14 @@ def _disagreeing(values: list[float], weights: list[float], distance: list[float
 def _why_covered(step: StepValues, values: list[float]) -> str:
     ties = [k for k in range(3) if values[k] == 0]
     if ties:
-        return f"covered by triangle {step.triangle}: its centre lies {joined([_on_edge(step, k) for k in ties])}"
+        lies = ", and ".join(_on_edge(step, k) for k in ties)
+        return f"covered by triangle {step.triangle}: its centre lies {lies}"
     distances = step.vector("distance")
     nearest = min(range(3), key=lambda k: distances[k] if math.isfinite(distances[k]) else math.inf)
-    away = f"{_away(step, nearest)} away, " if _away(step, nearest) else ""
+    away = f"{_away(step, nearest)} from the nearest," if _away(step, nearest) else "nearest to"
     return (
-        f"covered by triangle {step.triangle}: it is inside all three edges, the nearest is edge {nearest} "
-        f"({away}E{nearest} = {spoken(values[nearest])})"
+        f"covered by triangle {step.triangle}: it is inside all three edges, {away} edge {nearest} "
+        f"(E{nearest} = {spoken(values[nearest])})"
     )
 
 
@@ -154,7 +155,7 @@ def _why_outside(step: StepValues, values: list[float], owns: list[bool]) -> str
             reasons.append(f"E{k} is {value}, not a number")
     unowned = [_on_edge(step, k) for k in range(3) if values[k] == 0 and not owns[k]]
     if not reasons:
-        return f"not covered by triangle {step.triangle}: its centre lies {joined(unowned)}"
+        return f"not covered by triangle {step.triangle}: its centre lies {', and '.join(unowned)}"
     return f"outside triangle {step.triangle}: {joined(reasons + [f'it lies {text}' for text in unowned])}"
 
 

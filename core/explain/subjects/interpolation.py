@@ -107,7 +107,7 @@ def flat_weights(step: StepValues) -> Said:
     values = step.vector("weights")
     corner = values.index(max(values))
     others = "the other has" if len(values) == 2 else "the others have"
-    text = f"{step.fragment_name}: only corner {corner} counts, {others} weight 0."
+    text = f"{step.fragment_name}: only corner {corner} counts; {others} weight 0."
     return text, equation(*beside(*([(rf"\lambda_{k}", weight)] for k, weight in enumerate(values))))
 
 

@@ -85,7 +85,13 @@ def room(step: StepValues) -> Said:
     side = "inside" if distance > 0 else "outside" if distance < 0 else "on it"
     beginning = f"{border.capitalize()} border, {edge_name(step)}"
     if uses_normals(step):
-        way = "PE, it may enter" if along < 0 else "PL, it may leave" if along > 0 else "parallel"
+        way = (
+            "potentially entering (PE)"
+            if along < 0
+            else "potentially leaving (PL)"
+            if along > 0
+            else "parallel"
+        )
         way = "a point (P₀ = P₁)" if is_point(step) else way
         text = (
             f"{beginning}: N · D = {spoken(along)}, so it is {way}, "
@@ -117,9 +123,9 @@ def crossing(step: StepValues) -> Said:
     along, distance, t = step.number("approach"), step.number("room"), step.number("crossing_t")
     where = "before its first end" if t < 0 else "after its second end" if t > 1 else "between its ends"
     where = {0.0: "at its first end", 1.0: "at its second end"}.get(t, where)
-    quotient, made = "q over p", fraction(("q", distance), ("p", along))
+    quotient, made = "q/p", fraction(("q", distance), ("p", along))
     if uses_normals(step):
-        quotient = "N · (P₀ − Pₑ) over −N · D"
+        quotient = "N · (P₀ − Pₑ) / (−N · D)"
         made = fraction((_FROM_BORDER, -distance), (r"-N \cdot D", -along))
     text = (
         f"The edge crosses the {step.text('border')} border's line at t = {quotient} = {spoken(t)}, {where}."
@@ -277,7 +283,7 @@ def reject(step: StepValues) -> Said:
 def chosen_end(step: StepValues) -> Said:
     """The end that moves: the first one, unless it is inside."""
     k = step.whole("moved_end")
-    text = f"The {('first', 'second')[k]} end is outside{', the first one is not' if k else ''}: it moves."
+    text = f"{('The first', 'Only the second')[k]} end is outside, so it moves."
     return text, equation(
         *comparison(f"c_{k}", r"\ne", float(_codes(step)[k])), *conclusion("moves", "moves")
     )

@@ -232,7 +232,7 @@ def join_rows(parts: list[ClipRows], width: int) -> ClipRows:
 
 
 def clip_edge(start: Floats, end: Floats, d_start: float, d_end: float) -> list[Floats]:
-    """Listing of one edge against one plane: the corners it hands on."""
+    """Listing of one edge against one plane: the corners it outputs."""
     if d_start >= 0 and d_end >= 0:  #: in-in
         return [end]  #: keep
     if d_start >= 0:

@@ -119,6 +119,15 @@ def test_summaries() -> None:
     assert summary_sentence("depth", Level.GROUP, {"rows": 3, "covered": 2, "depth-failed": 1}, 0) == (
         "Triangle 0, one row of pixels: 3 fragments tested, 2 kept, 1 hidden or out of range."
     )
+    for method, group in (
+        ("fill=blocks", "one block"),
+        ("fill=scanline", "one span"),
+        ("line=dda", "one line"),
+    ):
+        said = summary_sentence("raster", Level.GROUP, counts, 3, method=method)
+        assert said.startswith(f"Triangle 3, {group}: ")
+    lane = summary_sentence("raster", Level.GROUP, {"rows": 1}, 3, method="fill=spans")
+    assert lane.startswith("Triangle 3, one lane: ")
     assert summary_sentence("resolve", Level.GROUP, {"rows": 1}, -1) == (
         "One row of pixels: 1 pixel encoded for the display."
     )
