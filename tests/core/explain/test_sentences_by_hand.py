@@ -57,9 +57,8 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.test.decide",
             BRUTE_FORCE,
-            "Pixel (1, 2) is covered by triangle 0: it is inside all three edges, the nearest is edge 1 "
-            "(0.5 px away, E1 "
-            "= 3).",
+            "Pixel (1, 2) is covered by triangle 0: it is inside all three edges, 0.5 px from the "
+            "nearest, edge 1 (E1 = 3).",
         ),
         (
             "raster",
