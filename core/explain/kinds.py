@@ -4,7 +4,6 @@ import re
 
 _ANY = (
     (r", edge 0:", ":"),
-    (r"on an edge", "at a tie"),
     (r", outside the view, without area, or turned away", " and outside the view"),
     (r"not culled: its (front|back) faces the eye", "not culled"),
     (r"none of its edges is", "it is not"),
@@ -65,6 +64,7 @@ _WORDS = {
         (r"edge or untouched triangle", "point"),
         (r"edges or untouched triangles", "points"),
         (r": each cut one becomes a polygon, split into a fan", ""),
+        (r", one line\b", ""),
         (
             r"extends the values of three corners over the triangle.*",
             "gives each pixel the values of its point.",

@@ -41,9 +41,22 @@ def _bin_account(counts: Mapping[str, int]) -> list[str]:
 
 
 def _raster_account(counts: Mapping[str, int]) -> list[str]:
-    tested = counted(counts["covered"] + counts["rejected"], "pixel")
     ties = [f"{counts['tie']:,} on an edge"] if counts["tie"] else []
-    return [f"{tested} tested", f"{counts['covered']:,} covered", *ties]
+    if not counts["tested"]:
+        return [f"{counted(counts['covered'], 'pixel')} covered", *ties]
+    untested = counts["covered"] + counts["rejected"] - counts["tested"]
+    accepted = [f"{untested:,} accepted without a test"] if untested else []
+    return [
+        f"{counted(counts['tested'], 'pixel')} tested",
+        *accepted,
+        f"{counts['covered']:,} covered",
+        *ties,
+    ]
+
+
+def _line_account(counts: Mapping[str, int]) -> list[str]:
+    ties = [f"{counts['tie']:,} at a tie"] if counts["tie"] else []
+    return [f"{counted(counts['covered'], 'pixel')} drawn", *ties]
 
 
 def _depth_account(counts: Mapping[str, int]) -> list[str]:
@@ -135,21 +148,23 @@ def summary_sentence(
     Parameters
     ----------
     counts : mapping
-        ``rows`` and the marks among them, as ``StageTrace.summary`` counts them.
+        ``rows``, pixels ``tested`` and the marks among them, as ``StageTrace.summary`` counts them.
     triangle : int, optional
         The triangle that all rows are about; ``None`` or -1: several, or none.
     corner_count : int, optional
         Corners of what is drawn: 2 of segments, 1 of points, 0 of tables of depths.
     method : str, optional
-        The method that ran, as ``fill=hierarchy``: of a fill, rows or blocks are stepped.
+        The method that ran, as ``fill=hierarchy``: what a group of rows is, and what is done to a pixel.
     """
-    known = {name: counts.get(name, 0) for name in ("rows", *MARKS)}
+    known = {name: counts.get(name, 0) for name in ("rows", "tested", *MARKS)}
     family, _, name = method.partition("=")
-    group = {"line": "one line"}.get(family, stage_of(stage).group)
+    account_of, group = ACCOUNTS[stage], stage_of(stage).group
+    if family == "line":
+        account_of, group = _line_account, "one line"
     if family == "fill":
         # A lane is set up before its spans are filled.
         group = "one " + fill_traits(name).group_label.lower().split(" or ")[-1 if known["covered"] else 0]
-    account = ", ".join(ACCOUNTS[stage](known))
+    account = ", ".join(account_of(known))
     if known["nan"]:
         account += f", {known['nan']:,} undefined (NaN)"
     who = "All triangles" if triangle is None or triangle < 0 else f"Triangle {triangle}"

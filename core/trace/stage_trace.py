@@ -184,11 +184,18 @@ class StageTrace:
         return np.flatnonzero((self.pixel[:, 0] == column) & (self.pixel[:, 1] == row))
 
     def summary(self, first: int, end: int) -> dict[str, int]:
-        """Count the rows from ``first`` to ``end`` (excluded) and their marks."""
-        counts = {"rows": end - first}
+        """Count the rows from ``first`` to ``end`` (excluded), the pixels ``tested`` in them, and their marks."""
+        kinds = [k for k, name in enumerate(self.steps.kinds) if _tests_pixel(self.steps.operations[name])]
+        tested = int(np.count_nonzero(np.isin(self.steps.kind[first:end], kinds))) if kinds else 0
+        counts = {"rows": end - first, "tested": tested}
         for name, flags in self.marks.items():
             counts[name] = int(np.count_nonzero(flags[first:end]))
         return counts
+
+
+def _tests_pixel(done: tuple[Operation, ...]) -> bool:
+    """Return whether a row that does this decides by a test whether its pixel is covered."""
+    return any(operation.name == "decide" and "covered" in operation.sets for operation in done)
 
 
 def no_pixels(count: int) -> Integers:

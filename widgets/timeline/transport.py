@@ -34,7 +34,7 @@ _BUTTONS = (
 _LEVEL_NAMES = {
     Level.STAGE: "Stage",
     Level.TRIANGLE: "Triangle",
-    Level.GROUP: "Row or block",
+    Level.GROUP: "Row",
     Level.PIXEL: "Pixel",
     Level.OPERATION: "Operation",
 }

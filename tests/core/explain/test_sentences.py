@@ -4,12 +4,13 @@ import re
 
 import numpy as np
 
-from core import STAGES, Settings
+from core import STAGES, Settings, trace
 from core.explain import initial_sentence, sentence, summary_sentence
 from core.explain.number_text import exact_text, pair_text, position_text
 from core.records.steps import Level
 from core.records.words import counted, joined
 from core.trace import Explanation
+from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import all_said, explained, rare_trace, said, steps_of
 
 NUMBERS = {
@@ -109,12 +110,16 @@ def test_every_stage_has_a_sentence_before_its_first_step() -> None:
 
 
 def test_summaries() -> None:
-    counts = {"rows": 140, "covered": 57, "rejected": 77, "tie": 2, "nan": 0}
+    counts = {"rows": 140, "tested": 134, "covered": 57, "rejected": 77, "tie": 2, "nan": 0}
     assert summary_sentence("raster", Level.TRIANGLE, counts, 3) == (
         "Triangle 3: 134 pixels tested, 57 covered, 2 on an edge."
     )
     assert summary_sentence("raster", Level.STAGE, {**counts, "nan": 1}, None) == (
         "Whole stage: 134 pixels tested, 57 covered, 2 on an edge, 1 undefined (NaN)."
+    )
+    counts = {"rows": 17, "covered": 12, "tie": 1}
+    assert summary_sentence("raster", Level.GROUP, counts, 0, 3, "line=bresenham") == (
+        "Triangle 0, one line: 12 pixels drawn, 1 at a tie."
     )
     assert summary_sentence("depth", Level.GROUP, {"rows": 3, "covered": 2, "depth-failed": 1}, 0) == (
         "Triangle 0, one row of pixels: 3 fragments tested, 2 kept, 1 hidden or out of range."
@@ -131,6 +136,20 @@ def test_summaries() -> None:
     assert summary_sentence("resolve", Level.GROUP, {"rows": 1}, -1) == (
         "One row of pixels: 1 pixel encoded for the display."
     )
+
+
+def test_a_summary_counts_as_tested_what_is_tested() -> None:
+    """The fill by blocks accepts the pixels of blocks that lie inside; a span and a line test none."""
+    scene, said = make_scene("single-triangle"), {}
+    for choice in ({"fill": "blocks"}, {"fill": "spans"}, {"polygon_mode": "wireframe"}):
+        traced = trace(scene, Settings(**choice)).stage("raster")
+        counts = traced.summary(0, traced.steps.row_count)
+        said[traced.method] = summary_sentence("raster", Level.TRIANGLE, counts, 0, 3, traced.method)
+    assert said == {
+        "fill=blocks": "Triangle 0: 1,064 pixels tested, 256 accepted without a test, 816 covered.",
+        "fill=spans": "Triangle 0: 816 pixels covered.",
+        "line=bresenham": "Triangle 0: 120 pixels drawn, 2 at a tie.",
+    }
 
 
 def test_every_stage_can_be_summed_up() -> None:

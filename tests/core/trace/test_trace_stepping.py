@@ -188,6 +188,7 @@ def test_columns_and_marks_have_a_value_a_row(name):
             assert len(track.rows) == len(track.places) == len(track.values)
             assert not len(track.rows) or track.rows[-1] < rows
         counts = found.summary(0, rows)
+        assert 0 <= counts.pop("tested") <= rows
         assert counts == {"rows": rows} | {mark: int(flags.sum()) for mark, flags in found.marks.items()}
 
 
