@@ -59,6 +59,7 @@ class Settings:
         "Fill rule",
         "raster",
         "core.raster.edges.fill_rule",
+        classical=("shared-edge", "inclusive", "exclusive"),
         taken_by="polygon_mode",
         otherwise="Wireframes are not filled.",
     )

@@ -4,6 +4,7 @@ import re
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from html import escape
 
+from app.help import asked
 from app.help.markup import HelpPage, bullets, link, linked
 from app.help.places import occurrences
 from app.help.reference import family_page, method_page, methods_page
@@ -12,8 +13,10 @@ from app.window.keys import key_text
 from core.methods import table
 from core.settings import FAMILIES
 from lessons.glossary import Term, find_terms, glossary
-from lessons.guide import guide
+from lessons.guide import GuideStep, guide
 
+GUIDES = {"guide": ("guide", "Five-minute guide"), "own_exercise": ("exercise", "Your own exercise")}
+"""Guides to the addresses and titles of their pages."""
 MOST_PLACES = 40
 """Places of a term that its page lists."""
 
@@ -45,17 +48,32 @@ def own_exercise_page() -> HelpPage:
     return HelpPage("Your own exercise", _steps("own_exercise"))
 
 
+def step_page(name: str, number: str) -> HelpPage:
+    """Return one step of a guide, by its number from 1."""
+    step = guide(name)[int(number) - 1]
+    back = link(f"help:{GUIDES[name][0]}", GUIDES[name][1])
+    return HelpPage(f"{number}. {step.title}", f"{_step(step, set())}<p>Step {number} of: {back}</p>")
+
+
 def _steps(name: str) -> str:
     """Return the steps of a guide."""
-    parts, seen = [], set[str]()
-    for number, step in enumerate(guide(name), start=1):
-        text = re.sub(r"\{(\w+)\}", lambda found: _keys_of(found[1]), step.text)
-        runs = " · ".join(link(address, label) for label, address in step.links.items())
-        listing = f"<pre>{escape(step.listing)}</pre>" if step.listing else ""
-        parts.append(
-            f"<h2>{number}. {escape(step.title)}</h2><p>{linked(text, seen)}</p>{listing}<p>▸ {runs}</p>"
-        )
-    return "".join(parts)
+    seen = set[str]()
+    return "".join(
+        f"<h2>{number}. {escape(step.title)}</h2>{_step(step, seen)}"
+        for number, step in enumerate(guide(name), start=1)
+    )
+
+
+def _step(step: GuideStep, seen: set[str]) -> str:
+    """Return a step of a guide without its title; ``seen``: the terms that get no link."""
+    runs = " · ".join(link(address, label) for label, address in step.links.items())
+    listing = f"<pre>{escape(step.listing)}</pre>" if step.listing else ""
+    return f"<p>{linked(_with_keys(step.text), seen)}</p>{listing}<p>▸ {runs}</p>"
+
+
+def _with_keys(text: str) -> str:
+    """Return the text of a step with the keys of its actions."""
+    return re.sub(r"\{(\w+)\}", lambda found: _keys_of(found[1]), text)
 
 
 def _keys_of(action: str) -> str:
@@ -101,7 +119,7 @@ def here_page(keys: str) -> HelpPage:
 
 
 def find_page(query: str) -> HelpPage:
-    """Return what a search finds: terms by name before those by their text, methods, keys."""
+    """Return what a search finds: terms by name before those by text; methods, exercises, slides, guides, keys."""
     words = query.lower().split()
     rows = [row for _, row in sorted(_found(words), key=lambda found: found[0])]
     return HelpPage(f"Results for “{query}”", bullets(rows) or "<p>Nothing was found.</p>")
@@ -123,6 +141,14 @@ def _found(words: list[str]) -> Iterator[tuple[int, str]]:
         if holds(f"{family} {method.title} {method.name} {method.source}"):
             address = f"help:method/{method.family}/{method.name}"
             yield 2, f"{link(address, f'{family}: {method.title}')}. {escape(method.source)}."
+    for text, row in asked.searched():
+        if holds(text):
+            yield 2, row
+    for name, (_, guide_title) in GUIDES.items():
+        for number, step in enumerate(guide(name), start=1):
+            if holds(f"{step.title} {_with_keys(step.text)}"):
+                row = f"{link(f'help:step/{name}/{number}', step.title)}: {guide_title}, step {number}"
+                yield (2 if holds(step.title) else 4), row
     for action in ACTIONS:
         if action.keys and holds(action.title):
             yield 2, f"{link(f'do:action/{action.name}', action.title)}: {escape(key_text(action))}"
@@ -136,6 +162,8 @@ PAGES: Mapping[str, Callable[..., HelpPage]] = {
     "home": home_page,
     "guide": guide_page,
     "exercise": own_exercise_page,
+    "step": step_page,
+    "slide": asked.slide_page,
     "glossary": glossary_page,
     "term": term_page,
     "here": here_page,
@@ -150,5 +178,5 @@ PAGES: Mapping[str, Callable[..., HelpPage]] = {
 
 def page(address: str) -> HelpPage:
     """Return the page of an address such as ``method/fill/blocks``; a KeyError or ValueError: there is none."""
-    kind, *names = address.split("/", 2 if address.startswith(("method/", "variable/")) else 1)
+    kind, *names = address.split("/", 1 if address.startswith("find/") else 2)
     return PAGES[kind](*names)

@@ -159,6 +159,7 @@ class HelpPane(QObject):
             "view": self._show_view,
             "scene": self._open_scene,
             "use": self._use,
+            "exercise": self._ask,
             "printed": self.window.show_printed,
             "compare": lambda name: self._show_result("compare", name),
             "stability": lambda name: self._show_result("stability", name),
@@ -178,6 +179,10 @@ class HelpPane(QObject):
     def _open_scene(self, name: str) -> None:
         self.window.pages.show_page("step")
         self.window.open_path(name)
+
+    def _ask(self, name: str) -> None:
+        self.window.pages.show_page("exercises")
+        self.window.pages.current.open_named(name)  # type: ignore[attr-defined]
 
     def _use(self, family: str, method: str) -> None:
         self.window.pages.show_page("step")

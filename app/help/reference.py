@@ -3,6 +3,7 @@
 from html import escape
 
 import core  # noqa: F401  (its modules register the methods)
+from app.help.asked import exercise_links, exercises_of, scenes_of, slides_of
 from app.help.markup import HelpPage, bullets, facts, link, linked, sentence
 from app.session.printed_run import runnable
 from core import Settings, trace
@@ -57,6 +58,8 @@ def family_page(name: str) -> HelpPage:
             ("Setting", f"<code>{name}</code>"),
             ("Chart", _chart(name)),
             ("Maps", _maps(name)),
+            ("Exercises", ", ".join(exercise_links(exercises_of(name)))),
+            ("Slides", ", ".join(slides_of(name))),
         )
     )
     return HelpPage(family.title, f"{body}<h2>Methods</h2>{bullets(rows)}")
@@ -76,6 +79,9 @@ def method_page(name: str, method_name: str) -> HelpPage:
         ("Settings", escape(takes)),
         ("Chart", _chart(name)),
         ("Map", _maps(name, method_name)),
+        ("Exercises", ", ".join(exercise_links(exercises_of(name)))),
+        ("Slides", ", ".join(slides_of(name))),
+        ("Scenes of the lectures", ", ".join(scenes_of(name, method_name))),
         ("As printed", _printed(name, method_name)),
         ("Command", f"<code>--set {name}={method_name}</code>"),
     ]

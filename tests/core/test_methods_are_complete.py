@@ -109,11 +109,12 @@ def test_methods_are_complete(family: str) -> None:
     assert {name: problems for name, problems in found.items() if problems} == {}
 
 
-def test_a_first_course_has_two_or_three_methods_of_thirteen_families() -> None:
+def test_a_first_course_has_two_or_three_methods_of_fourteen_families() -> None:
     first = {name: family.classical for name, family in FAMILIES.items() if family.classical}
     assert set(first) - {"polygon_mode"} == {
         "cull",
         "clipping",
+        "fill_rule",
         "fill",
         "line",
         "line_clipping",

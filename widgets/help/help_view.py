@@ -1,7 +1,8 @@
 """The pane of Help: one page at a time, with the way back, and a field that finds."""
 
+import re
 from collections.abc import Callable
-from html import escape
+from html import escape, unescape
 from typing import Any
 
 from PySide6.QtCore import QSize, Qt, QUrl, Signal, Slot
@@ -16,6 +17,7 @@ SCHEME = "help"
 """Of addresses of pages; those of any other scheme do something."""
 HOME = "home"
 FIND = "find/"
+LINK = re.compile('href="([^"]+)"')
 Body = tuple[str, str]
 """Title and HTML of a page."""
 
@@ -61,7 +63,9 @@ class HelpView(QWidget):
         self.forward_button = flat_button("→", "Forward", "Forward again", self)
         self.home_button = flat_button("⌂", "Contents of Help", "Contents: guide, glossary, methods", self)
         self.search = QLineEdit(self)
-        self.search.setPlaceholderText("Term, method or key")
+        self._first = ""
+        """Where the first link of what is found leads."""
+        self.search.setPlaceholderText("Find in Help")
         self.search.setAccessibleName("Find in Help")
         self.search.setClearButtonEnabled(True)
         self.close_button = closing_button("Help", self)
@@ -84,6 +88,7 @@ class HelpView(QWidget):
         self.browser.anchorClicked.connect(self._follow)
         self.browser.historyChanged.connect(self._show_history)
         self.search.textChanged.connect(self._find)
+        self.search.returnPressed.connect(self._open_first)
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._style()
         self._show_history()
@@ -120,9 +125,18 @@ class HelpView(QWidget):
     def _find(self, text: str) -> None:
         """Show what is found while one types; the page before comes back with an empty field."""
         if text.strip():
-            self.browser.setHtml(self.browser.html_of(FIND + text.strip()))
+            found = self.browser.html_of(FIND + text.strip())
+            links = LINK.search(found)
+            self._first = unescape(links[1]) if links else ""
+            self.browser.setHtml(found)
         else:
             self.browser.reload()
+
+    @Slot()
+    def _open_first(self) -> None:
+        """Follow the first link of what is found."""
+        if self.search.text().strip() and self._first:
+            self._follow(QUrl(self._first))
 
     @Slot()
     def _show_history(self) -> None:

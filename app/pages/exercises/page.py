@@ -173,6 +173,10 @@ class ExercisesPage(Page):
         self.stack.setCurrentWidget(self.panes)
         self.questions.open(template, seed)
 
+    def open_named(self, name: str) -> None:
+        """Ask a question of the exercise with a name."""
+        self._open(self.exercises.templates[name], None)
+
     @Slot()
     def open_next(self) -> None:
         """Ask what suits the learner, after the answer that is being checked."""

@@ -5,7 +5,8 @@ from functools import cache
 
 import pytest
 
-from app.help.library import find_page, guide_page, page
+from app.help.asked import slides
+from app.help.library import GUIDES, find_page, guide_page, page
 from app.help.places import occurrences, places
 from app.help.reference import listings_of
 from app.session.printed_run import runnable
@@ -16,7 +17,10 @@ from core.settings import FAMILIES
 from core.stages.declared import STAGES
 from core.study.accuracy.families import study_families
 from core.study.stability import experiments
+from lessons.exercises.asked import topics
+from lessons.exercises.catalogue import TEMPLATES
 from lessons.glossary import find_terms, glossary
+from lessons.guide import guide
 from lessons.slides.scenes import ALL_SCENES
 
 
@@ -53,6 +57,7 @@ def test_no_link_is_dead() -> None:
         "compare": {family.name for family in study_families()},
         "stability": {experiment.info.name for experiment in experiments},
         "printed": {printed.name for printed in runnable()},
+        "exercise": set(TEMPLATES),
     }
     dead = [link for link in crawled()[1] if link.partition("/")[2] not in known[link.partition("/")[0]]]
     assert dead == []
@@ -93,10 +98,35 @@ def test_places_of_a_term_name_it() -> None:
         ("depth buffer", "help:term/depth-buffer"),
         ("bresenham", "help:term/bresenham-s-algorithm"),
         ("wu two", "help:method/line/wu"),
+        ("pixels of the vertices", "do:exercise/vertex-pixels"),
+        ("extends to the right", "help:slide/Zwicker/14"),
+        ("who owns a shared edge", "help:step/guide/6"),
     ],
 )
-def test_a_search_finds_terms_methods_and_keys(query: str, first: str) -> None:
+def test_a_search_finds_terms_methods_exercises_slides_and_steps(query: str, first: str) -> None:
     assert re.search(r'href="([^"]+)"', find_page(query).html)[1] == first
+
+
+def test_everything_that_is_asked_and_every_step_of_the_guides_is_found_by_its_title() -> None:
+    titles = {f"do:exercise/{name}": template.title for name, template in TEMPLATES.items()}
+    titles |= {f"help:slide/{s.lecture}/{s.number}": s.topic.name for s in slides()}
+    titles |= {
+        f"help:step/{name}/{number}": step.title
+        for name in GUIDES
+        for number, step in enumerate(guide(name), start=1)
+    }
+    missing = [address for address, title in titles.items() if f'"{address}"' not in find_page(title).html]
+    assert missing == []
+    assert page("slide/Zwicker/14").title == slides()[14].topic.name
+
+
+def test_a_method_links_its_exercises_its_slides_and_scenes() -> None:
+    html = page("method/fill_rule/shared-edge").html
+    assert "do:exercise/owned-edges" in html
+    assert "Zwicker: Shared edges: fill only if the triangle extends to the right" in html
+    assert "do:scene/pellacini-rectangle" in page("method/line/rectangle").html
+    asked = [family for family in FAMILIES if "do:exercise/" in page(f"family/{family}").html]
+    assert set(asked) == {topic.name for topic in topics()["families"] if topic.templates}
 
 
 def test_a_search_for_nothing_known_says_so() -> None:

@@ -51,6 +51,24 @@ def test_f1_on_a_choice_of_methods_explains_the_method(window: MainWindow) -> No
     assert window.help.view.address() == "method/shading/flat"
 
 
+def test_return_opens_the_first_result(window: MainWindow, qtbot: QtBot) -> None:
+    window.help.show_page("home")
+    search = window.help.view.search
+    QTest.keyClicks(search, "no such word")
+    QTest.keyClick(search, Qt.Key.Key_Return)
+    assert window.help.view.address() == "home"
+    search.clear()
+    QTest.keyClicks(search, "wu two")
+    QTest.keyClick(search, Qt.Key.Key_Return)
+    assert window.help.view.address() == "method/line/wu"
+    search.clear()
+    QTest.keyClicks(search, "pixels of the vertices")
+    QTest.keyClick(search, Qt.Key.Key_Return)
+    page = window.pages.current
+    qtbot.waitUntil(lambda: page.question is not None and page.question.template.name == "vertex-pixels")
+    search.clear()
+
+
 def test_typing_finds_and_a_link_shows_the_entry_with_a_way_back(window: MainWindow) -> None:
     window.help.show_page("guide")
     view = window.help.view
