@@ -260,6 +260,8 @@ def plotted(step: StepValues) -> Said:
     along = (center - start[k]) / length if length else 0.0
     away = beside_it - start[1 - k] - along * (end[1 - k] - start[1 - k])
     intensity, edge = step.number("intensity"), f"edge {step.whole('edge')}"
+    if step.explanation.corner_count == 3:
+        edge += f" of triangle {step.triangle}"
     drawn = "is drawn" if intensity == 1 else f"is drawn with intensity {spoken(intensity)}"
     side = (("below", "above"), ("to the left of", "to the right of"))[k][away > 0]
     if not 0 <= along <= 1:

@@ -75,10 +75,20 @@ def said(line: str, key: str, place: int = 0) -> tuple[str, str, str]:
             "bresenham",
             ".plot",
             0,
-            "Pixel (2, 1) is drawn: its centre is at t = 0.125 of edge 2, 0.25 px below the line.",
+            "Pixel (2, 1) is drawn: its centre is at t = 0.125 of edge 2 of triangle 0, 0.25 px below the line.",
         ),
-        ("bresenham", ".plot", 2, "Pixel (5, 2) is drawn: its centre lies at t = 0.5 of edge 2."),
-        ("bresenham", "-start.plot", 0, "Pixel (1, 1) is drawn: its centre lies at the first end of edge 2."),
+        (
+            "bresenham",
+            ".plot",
+            2,
+            "Pixel (5, 2) is drawn: its centre lies at t = 0.5 of edge 2 of triangle 0.",
+        ),
+        (
+            "bresenham",
+            "-start.plot",
+            0,
+            "Pixel (1, 1) is drawn: its centre lies at the first end of edge 2 of triangle 0.",
+        ),
         ("midpoint", ".evaluate", 0, "At x = 2 the line has y = 1.25, with pixel centres at whole numbers."),
         ("midpoint", ".round", 0, "The nearest pixel centre to y = 1.25 is at 1."),
         (
