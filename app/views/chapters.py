@@ -1,10 +1,12 @@
 """The run as chapters: what went into each stage and came out, how long it took, why it is there."""
 
 from core import STAGES, Trace
+from core.antialiasing.sampling import Sampling
 from core.explain.kinds import POLYGON
 from core.explain.stage_texts import skipped_because
 from core.explain.subjects.number_formats import replaced_fill
 from core.records.frame import StageCount
+from core.resolved import resolve
 from core.stages.declared import GEOMETRY_STAGES, stage_of
 from core.trace import TraceSource
 from widgets.timeline.chapter_button import Chapter, ChapterState
@@ -14,6 +16,7 @@ INSERTED_FOR = {"clip": "corners in front of the eye", "blend": 'its pixels blen
 COMPUTED = "No pixel is tested: the ends of the spans are computed."
 """Why the pixels that go into the rasterization are those that come out."""
 _TRIANGLES, _PIXELS, _FRAGMENTS = ("triangles", "tri"), ("pixels", "px"), ("fragments", "frag")
+_SAMPLES, _PIECES = ("samples", "smp"), ("pieces", "pcs")
 Units = tuple[tuple[str, str], tuple[str, str]]
 _PRIMITIVES = {4: ("polygons", "poly"), 2: ("segments", "seg"), 1: ("points", "pt"), 0: ("fragments", "frag")}
 _UNITS = dict.fromkeys(GEOMETRY_STAGES, (_TRIANGLES, _TRIANGLES)) | {
@@ -21,7 +24,7 @@ _UNITS = dict.fromkeys(GEOMETRY_STAGES, (_TRIANGLES, _TRIANGLES)) | {
     "raster": (_PIXELS, _FRAGMENTS),
     "resolve": (_PIXELS, _PIXELS),
 }
-"""What goes into a stage and comes out of it, in words and in signs, where it is not fragments."""
+"""What goes into a stage and comes out, in words and in signs, where it is not fragments; of one sample a pixel."""
 
 
 def traced_counts(trace: Trace) -> dict[str, tuple[int, int]]:
@@ -62,6 +65,7 @@ def chapters_of(trace: Trace, *, current: str, is_predicting: bool) -> list[Chap
     counts, through = trace.source.picture.statistics, traced_counts(trace)
     whole_seconds = sum(count.seconds for count in counts.values())
     is_whole, corner_count = trace.source.triangle is None, trace.source.scene.corner_count
+    sampling = resolve(trace.source.settings).sampling
     chapters = []
     for index, stage in enumerate(STAGES):
         count, (incoming, outgoing) = counts[stage], through[stage]
@@ -72,7 +76,8 @@ def chapters_of(trace: Trace, *, current: str, is_predicting: bool) -> list[Chap
             reason = f"The picture needs only the {count.outgoing:,} that are seen in the end."
         share = count.seconds / whole_seconds if whole_seconds > 0 else 0.0
         words, short = (
-            _counted(_units(stage, corner_count), incoming, outgoing, is_predicting, form) for form in (0, 1)
+            _counted(_units(stage, corner_count, sampling), incoming, outgoing, is_predicting, form)
+            for form in (0, 1)
         )
         duration = (
             "" if is_predicting else f"{count.seconds * 1000:.1f} ms, {100 * share:.0f} % of all stages"
@@ -84,9 +89,13 @@ def chapters_of(trace: Trace, *, current: str, is_predicting: bool) -> list[Chap
     return chapters
 
 
-def _units(stage: str, corner_count: int) -> Units:
+def _units(stage: str, corner_count: int, sampling: Sampling) -> Units:
     """Return what goes into a stage and comes out of it, each in words and in signs."""
     takes, gives = _UNITS.get(stage, (_FRAGMENTS, _FRAGMENTS))
+    if stage == "resolve":
+        takes = _PIECES if sampling.is_area else _SAMPLES if sampling.count > 1 else takes
+    elif sampling.count > 1 and (sampling.side or stage not in ("interpolate", "shade")):
+        takes, gives = (_SAMPLES if unit in (_PIXELS, _FRAGMENTS) else unit for unit in (takes, gives))
     if corner_count == 3:
         return takes, gives
     primitives = _PRIMITIVES[min(corner_count, POLYGON)]

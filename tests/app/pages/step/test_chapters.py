@@ -42,6 +42,23 @@ def test_the_rail_counts_the_rows(antialiasing: str, more: dict[str, str]) -> No
     assert counts["depth"][1] == counts["blend"][0]
 
 
+@pytest.mark.parametrize(
+    ("antialiasing", "counted"),
+    [
+        ("none", "pixels fragments fragments fragments pixels"),
+        ("msaa-4", "samples samples fragments samples samples"),
+        ("ssaa-4", "samples samples samples samples samples"),
+        ("area", "pixels fragments fragments fragments pieces"),
+    ],
+)
+def test_the_rail_names_what_it_counts(antialiasing: str, counted: str) -> None:
+    chapters = chapters_by_stage("single-triangle", antialiasing=antialiasing)
+    given = [chapters[stage].counts.split()[-1] for stage in ("bin", "raster", "shade", "depth")]
+    taken = chapters["resolve"].counts.split(" → ")[0].split()
+    assert [*given, (taken[1:] or ["pixels"])[0]] == counted.split()
+    assert chapters["resolve"].counts.endswith(" pixels")
+
+
 @pytest.mark.parametrize("mode", ["fill", "wireframe"])
 def test_a_triangle_in_focus_is_counted_alone(mode: str) -> None:
     run = trace(make_scene("torus"), Settings(polygon_mode=mode), triangle=1161, region=(246, 251, 24, 16))
