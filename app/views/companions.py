@@ -1,7 +1,6 @@
 """What stands beside the main view where a stage has two sides: the space entered, tables, texture, new depths."""
 
 import numpy as np
-from PySide6.QtGui import QFont
 from PySide6.QtWidgets import QWidget
 
 from app.session.moment import Moment
@@ -10,7 +9,7 @@ from app.views.pointed_pixel import shown_triangle
 from app.views.stage_view import StageView, TextureView
 from app.views.texture_footprint import texture_of
 from core.explain.kinds import of_kind
-from core.explain.step_tables import has_tables, step_table
+from core.explain.step_tables import has_tables, largest_tables, step_table
 from core.records.arrays import Floats
 from core.trace import StageTrace
 from core.trace.geometry_progress import SPACES, spaces_reached
@@ -38,9 +37,12 @@ class Companion(StageView):
         """Return whether it has something to show at the stage of the cursor."""
         return True
 
-    def wanted_width(self, moment: Moment) -> int:
-        """Return the width, in pixels, that it needs to be read as a whole; 0: any. A step does not change it."""
-        return 0
+    def wanted_size(self, moment: Moment, width: int) -> tuple[int, int]:
+        """Return the width that it needs to be read as a whole, and the height that it needs in ``width``, in pixels.
+
+        0: any. A step does not change it.
+        """
+        return 0, 0
 
     def made_from(self) -> object:
         """Return trace, the row of the step, and how many rows are done."""
@@ -82,20 +84,19 @@ class FillingTable(Companion):
         """Return the table."""
         self._view = StepTableView()
         self._view.step_requested.connect(self.session.go_to)
-        self._width: tuple[StageTrace, QFont, int] | None = None
+        self._roomed: StageTrace | None = None
         return self._view
 
     def is_wanted(self, moment: Moment) -> bool:
         """Return whether some row of the stage stands in a table."""
         return has_tables(moment.stage_trace)
 
-    def wanted_width(self, moment: Moment) -> int:
-        """Return the width of the first table of the stage, with a number in every cell."""
-        trace, font = moment.stage_trace, self._view.cells.font()
-        if self._width is None or self._width[0] is not trace or self._width[1] != font:
-            table = step_table(trace, 0)
-            self._width = trace, font, 0 if table is None else self._view.width_of(table)
-        return self._width[2]
+    def wanted_size(self, moment: Moment, width: int) -> tuple[int, int]:
+        """Return the size in which the largest tables of the stage are seen whole."""
+        if self._roomed is not moment.stage_trace:
+            self._roomed = moment.stage_trace
+            self._view.make_room(largest_tables(moment.stage_trace))
+        return self._view.wanted_size(width)
 
     def made_from(self) -> object:
         """Return trace and cursor: a cell appears with its operation."""

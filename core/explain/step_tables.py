@@ -97,9 +97,32 @@ def step_table(trace: StageTrace, position: int) -> StepTable | None:
     return None
 
 
+def largest_tables(trace: StageTrace, count: int = 4) -> list[StepTable]:
+    """Return, filled to the end, the tables of so many units of work of a stage that have the most rows."""
+    load_subjects()
+    steps, found = trace.steps, []
+    for form in _FORMS.get(trace.stage, ()):
+        numbers = [k for k, kind in enumerate(steps.kinds) if kind in form.kinds]
+        rows = np.flatnonzero(np.isin(steps.kind, numbers))
+        if not len(rows):
+            continue
+        ends = _unit_ends(trace, form.level)
+        units = np.searchsorted(ends, rows, "right")
+        largest = np.argsort(-np.bincount(units), kind="stable")[:count]
+        for unit in np.intersect1d(largest, units).tolist():
+            after = int(ends[unit]) if unit < len(ends) else steps.row_count
+            found.append(form.make(trace, rows[units == unit], steps.position_after(after - 1)))
+    return found
+
+
+def _unit_ends(trace: StageTrace, level: Level) -> Integers:
+    """Return behind which rows the steps of a level end."""
+    return trace.steps.triangle_ends if level == Level.TRIANGLE else trace.steps.group_ends
+
+
 def _unit(trace: StageTrace, row: int, level: Level) -> Integers:
     """Return the rows of the step of a level that a row is part of."""
-    ends = trace.steps.triangle_ends if level == Level.TRIANGLE else trace.steps.group_ends
+    ends = _unit_ends(trace, level)
     after = int(np.searchsorted(ends, row, "right"))
     first = int(ends[after - 1]) if after else 0
     return np.arange(first, int(ends[after]) if after < len(ends) else trace.steps.row_count)

@@ -82,6 +82,7 @@ QAbstractItemView:focus { border: 2px solid $focus; }
 QAbstractItemView::item { border: 1px solid transparent; border-width: 1px 0; }
 QAbstractItemView::item:selected { background: $selection; color: $text; border-color: $text; }
 QHeaderView::section { background: $panel; color: $muted_text; border: none; padding: ${u}px; }
+QHeaderView::section:vertical { padding: 0 ${u}px; }
 QTableView { gridline-color: $window; }
 QTableCornerButton::section { background: $panel; border: none; }
 

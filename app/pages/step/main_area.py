@@ -28,6 +28,8 @@ LEAST_ROOM_OF_BOTH = 34
 """Heights of the text below which the area shows one side of a stage only."""
 STACKED_GAIN = 1.05
 """How much larger two pictures alike must be one above the other to lie so."""
+TABLE_AT_MOST, PRESENTED_AT_MOST = 0.44, 0.6
+"""Largest part of the height that a table below the picture takes: it scrolls, but not while presenting."""
 CHOICES_WIDTH, LEAST_CHOICE = 24, 7
 """Heights of the text that the choice of a buffer and its range take, and its box alone at least."""
 
@@ -45,6 +47,7 @@ class MainArea(QWidget):
     def __init__(self, session: Session, views: StageViews, parent: QWidget) -> None:
         super().__init__(parent)
         self._views = views
+        self._table_at_most = TABLE_AT_MOST
         self.grid, self.strip = PixelGrid(self), BufferStrip(self)
         self.compare_view = CompareView(self)
         self.ranges, self.buffer_choice = RangeControl(self), BufferChoice(self)
@@ -129,6 +132,7 @@ class MainArea(QWidget):
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave out the row of views and buffers, or bring it back."""
         self._row.setVisible(not is_presenting)
+        self._table_at_most = PRESENTED_AT_MOST if is_presenting else TABLE_AT_MOST
         self._views.show_figures(not is_presenting)
         self.compare_view.show_choices(not is_presenting)
 
@@ -195,7 +199,7 @@ class MainArea(QWidget):
 
     def _are_stacked(self, companion: Companion) -> bool:
         """Return whether both sides are larger one above the other, or can only be read so."""
-        if companion.wanted_width(self._moment) > self.rows.width() / 2:
+        if companion.wanted_size(self._moment, self.rows.width())[0] > self.rows.width() / 2:
             return True
         raster = self._moment.document.raster
         width, height = self.rows.width() / raster.columns, self.rows.height() / raster.rows
@@ -217,8 +221,12 @@ class MainArea(QWidget):
         self._sides.setDirection(
             QBoxLayout.Direction.TopToBottom if is_stacked else QBoxLayout.Direction.LeftToRight
         )
-        for side, share in enumerate((3, 2) if is_stacked and not companion.is_alike else (1, 1)):
-            # A table below the picture scrolls: the picture is what the step is about.
+        shares = (1, 1)
+        if is_stacked and not companion.is_alike:
+            width, height = self.rows.width(), self.rows.height()
+            below = min(companion.wanted_size(self._moment, width)[1], round(self._table_at_most * height))
+            shares = (height - below, below)
+        for side, share in enumerate(shares):
             self._sides.setStretch(side, share)
         self._main_title.setVisible(companion.is_alike)
         if self._moment.is_predicting:

@@ -8,13 +8,14 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from app.files.open_any import Opened
+from app.files.open_any import Opened, open_any
 from app.window.main_window import MainWindow
 from core import STAGES
 from core.explain.records import Formula
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.message_bar import Message, MessageKind
 from widgets.space.scene_view import SceneView
+from widgets.tables.step_table_view import StepTableView
 
 SIZES = [(1280, 720), (1920, 1080)]
 
@@ -332,3 +333,31 @@ def test_a_step_stops_at_the_end_of_a_stage_and_says_so(window: MainWindow) -> N
     session.set_stage("cull")
     QTest.keyClick(window, Qt.Key.Key_Right)
     assert session.cursor.stage == "clip"
+
+
+@pytest.mark.parametrize("size", SIZES, ids=str)
+@pytest.mark.parametrize(
+    ("scene", "stage"),
+    [
+        ("cube", "cull"),
+        ("polygon-window", "raster"),
+        ("polygon-holes", "raster"),
+        ("connecting-edges", "clip"),
+    ],
+)
+def test_tables_are_seen_whole(window: MainWindow, size: tuple[int, int], scene: str, stage: str) -> None:
+    window.files.show_opened(open_any(scene))
+    present(window, size)
+    page, session = window.page, window.session
+    session.set_stage(stage)
+    page.settle()
+    view = page.main_area.companions[stage].widget
+    assert isinstance(view, StepTableView)
+    for position in np.linspace(0, session.cursor.position, 6).astype(int).tolist():
+        session.go_to(position)
+        page.settle()
+        assert view.isVisible()
+        bars = view.cells.horizontalScrollBar(), view.cells.verticalScrollBar()
+        assert [bar.maximum() for bar in bars] == [0, 0], view.table()
+        assert page.main_view().height() >= 0.38 * page.main_area.height()
+    assert view.cells.font().pixelSize() >= 0.6 * page.sentence.font().pixelSize()
