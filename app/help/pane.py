@@ -54,7 +54,7 @@ class HelpPane(QObject):
         self._made().show()
         if is_new:
             # Only a dock that is laid out takes a width.
-            QTimer.singleShot(0, self._widen)
+            QTimer.singleShot(0, self, self._widen)
 
     def toggle(self) -> None:
         """Show what the widget with the keyboard or under the pointer is about, or else the contents; or close."""

@@ -62,7 +62,7 @@ class _Notice(QWidget):
     def say(self, text: str) -> None:
         """Appear with this text, and with all else that is announced at once: the next one would cut it off."""
         if not self._due:
-            QTimer.singleShot(0, self._appear)
+            QTimer.singleShot(0, self, self._appear)
         self._due.append(text)
 
     @Slot()

@@ -36,7 +36,7 @@ class NumberEdit(QLineEdit):
     def tell(self, reason: str) -> None:
         """Say below the field why its text is not taken, when the keyboard has gone where it goes."""
         self._reason = reason
-        QTimer.singleShot(0, self._show_reason)
+        QTimer.singleShot(0, self, self._show_reason)
 
     @Slot()
     def _show_reason(self) -> None:

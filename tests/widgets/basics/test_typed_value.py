@@ -1,13 +1,14 @@
 import math
 
 import pytest
+import shiboken6
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QHBoxLayout, QLineEdit, QToolTip, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QApplication, QHBoxLayout, QLineEdit, QToolTip, QVBoxLayout, QWidget
 
 from core.explain.number_text import fraction_text, full_text, number_text, parse_number
 from tests.widgets.showing import shown
-from widgets.basics.typed_value import TypedValue
+from widgets.basics.typed_value import NumberEdit, TypedValue
 
 
 @pytest.mark.parametrize(
@@ -225,3 +226,10 @@ def test_a_double_click_takes_the_whole_number_and_a_narrow_field_says_why_it_re
         qtbot.waitUntil(lambda: "expected a number between −100 and 100" in QToolTip.text())
         QToolTip.hideText()
         qtbot.waitUntil(lambda: not QToolTip.isVisible())
+
+
+def test_a_field_that_is_gone_says_nothing(qtbot) -> None:
+    edit = NumberEdit()
+    edit.tell("expected a number")
+    shiboken6.delete(edit)
+    QApplication.processEvents()
