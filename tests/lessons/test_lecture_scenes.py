@@ -91,7 +91,7 @@ def test_a_buffer_of_inverse_w_is_cleared_to_0_and_says_so():
         assert shown is None or "z" not in shown.symbolic
         assert not [each.name for each in variables(step) if "z" in each.name]
     text, _ = account(depth.explain(2), 0, tuple(depth.pixel[0].tolist()))
-    assert "8 is > the buffer's 0" in text
+    assert "8 is larger than the buffer's 0" in text
     assert opened.scene.table.cleared == 0
 
 

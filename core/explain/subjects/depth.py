@@ -118,6 +118,15 @@ def _apart(step: StepValues) -> str:
     return f" ({text})" if text else ""
 
 
+_THAN = {
+    "<": "smaller than",
+    "≤": "smaller than or equal to",
+    ">": "larger than",
+    "≥": "larger than or equal to",
+}
+"""What a comparison is called inside a sentence."""
+
+
 @explains("depth.*.compare", asks=passes, decides=True)
 def compared(step: StepValues) -> Said:
     """The depth test."""
@@ -125,7 +134,7 @@ def compared(step: StepValues) -> Said:
     shown, shown_before, name = spoken(new), spoken(old), quantity_of(step)[0]
     if step.has("comparison"):
         holds, outcome = ("", "passes") if step.flag("passes") else ("not ", "fails")
-        text = f"{outcome}: {shown} is {holds}{step.text('comparison')} the buffer's {shown_before}."
+        text = f"{outcome}: {shown} is {holds}{_THAN[step.text('comparison')]} the buffer's {shown_before}."
     elif math.isnan(new) or math.isnan(old):
         text = f"fails: its {name}, {shown}, cannot be compared with the buffer's {shown_before}."
     elif new == old:

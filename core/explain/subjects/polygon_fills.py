@@ -150,10 +150,10 @@ def _reason(step: StepValues) -> str:
     if step.text("polygon_fill") == "non-zero":
         return f"the winding number is {spoken(step.whole('winding'))}"
     crossed = step.whole("crossed")
-    return f"{crossed} is {'odd' if crossed % 2 else 'even'}"
+    return f"the number of edges to the left, {crossed}, is {'odd' if crossed % 2 else 'even'}"
 
 
-@explains(f"raster.{_INTERVALS}.decide", asks=inside)
+@explains(f"raster.{_INTERVALS}.decide", asks=inside, decides=True)
 def decides(step: StepValues) -> Said:
     """Whether an interval is inside."""
     found = "inside" if step.flag("is_inside") else "outside"
@@ -164,7 +164,10 @@ def decides(step: StepValues) -> Said:
         crossed = step.whole("crossed")
         remainder = r"\; \mathrm{mod} \; 2"
         parts = [(rf"\mathrm{{crossed}} {remainder}", f"{crossed} {remainder}"), "=", ("1", crossed % 2)]
-    return f"It is {found}, since {_reason(step)}.", equation(*parts, *conclusion("inside", found))
+    left, right = step.number("interval_left"), step.number("interval_right")
+    between = f"from x = {spoken(left)} to {spoken(right)}"
+    text = f"Row {step.whole('row')} is {found} {between}, since {_reason(step)}."
+    return text, equation(*parts, *conclusion("inside", found))
 
 
 @explains("raster.active-inside.span")
