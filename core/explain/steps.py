@@ -90,9 +90,8 @@ def row_sentence(trace: StageTrace, position: int) -> str:
     *before, last = (e for e in done if e is not None)
     deciding = [e for e in before if (said := row_of(e.key)) is not None and said.decides]
     *texts, text = (_sentence_of(trace, row, e) for e in (*deciding, last))
-    name = "Pixel ({}, {})".format(*trace.pixel[row])
-    if texts and texts[-1].startswith(name):
-        rest = text.removeprefix(f"{name}: ")
+    name, colon, rest = text.partition(": ")
+    if texts and colon and texts[-1].startswith(name):
         text = rest[:1].upper() + rest[1:]
     return " ".join([*texts, text])
 

@@ -107,7 +107,7 @@ def first_unknown(step: StepValues) -> Said:
     return text, equation((r"\lambda_1", value), "=", quotient)
 
 
-@explains("interpolate.affine-equations.weights", asks=first_weight)
+@explains("interpolate.affine-equations.weights", asks=first_weight, decides=True)
 def rest_of_one(step: StepValues) -> Said:
     """The weight of corner 0 is what is left of 1."""
     weights = step.vector("weights")
@@ -181,7 +181,7 @@ def _quotients(
     return equation(*beside(*quotients))
 
 
-@explains("interpolate.affine-areas.weights", asks=first_weight)
+@explains("interpolate.affine-areas.weights", asks=first_weight, decides=True)
 def shares_of_area(step: StepValues) -> Said:
     """The weight of a corner is the part of the area opposite to it."""
     weights = step.vector("weights")
@@ -256,7 +256,7 @@ def at_the_corner(step: StepValues) -> Said:
     return text, _values_of_lines(step, values, [f"x_{k}, y_{k}" for k in range(3)], _named_corners(step))
 
 
-@explains("interpolate.affine-distances.weights", asks=first_weight)
+@explains("interpolate.affine-distances.weights", asks=first_weight, decides=True)
 def shares_of_distance(step: StepValues) -> Said:
     """The weight of a corner is the pixel's distance from the opposite edge, over the corner's own."""
     weights = step.vector("weights")

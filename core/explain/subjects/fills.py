@@ -163,7 +163,10 @@ def _why_outside(step: StepValues, values: list[float], owns: list[bool]) -> str
 def accepted(step: StepValues) -> Said:
     """A pixel that is covered without a test."""
     is_block = all(math.isnan(step.number(f"crossing_{k}")) for k in range(3))
-    what = "its whole block is inside" if is_block else f"it is in the span of row {step.whole('row')}"
+    what = "its whole block is inside"
+    if not is_block:
+        columns = _columns(step.whole("start"), step.whole("stop"))
+        what = f"it is in the span of row {step.whole('row')}, {columns}"
     values, owns = step.vector("values"), step.flags("owns_tie")
     outside = np.flatnonzero(~is_inside(np.array(values), np.array(owns))).tolist()
     text = f"{step.pixel_name} is covered by triangle {step.triangle} without a test of its own: {what}"
@@ -199,8 +202,7 @@ def span_edge(step: StepValues) -> Said:
 
 
 def _columns(start: int, stop: int) -> str:
-    columns = f"column {start}" if stop == start + 1 else f"columns {start} to {stop - 1}"
-    return f"{columns}: {counted(stop - start, 'pixel')}"
+    return f"column {start}" if stop == start + 1 else f"columns {start} to {stop - 1}"
 
 
 @explains("raster.span.span")
@@ -213,7 +215,7 @@ def span(step: StepValues) -> Said:
     )
     text = f"{name} has no pixel centre inside all three edges."
     if stop > start:
-        text = f"{name} is covered in {_columns(start, stop)}."
+        text = f"{name} is covered in {_columns(start, stop)}: {counted(stop - start, 'pixel')}."
     end: Part = (r"\mathrm{stop}", float(stop))
     return text, equation(("n", float(stop - start)), "=", end, "-", (r"\mathrm{start}", float(start)))
 
@@ -279,7 +281,8 @@ def line_rounded(step: StepValues) -> Said:
     start, stop, row = step.whole("start"), step.whole("stop"), step.whole("row")
     text = f"Row {row}: rounded, both sides lie outside the raster, so nothing is drawn."
     if stop > start:
-        text = f"Row {row}: the sides are rounded and both ends drawn, {_columns(start, stop)}."
+        columns = f"{_columns(start, stop)}: {counted(stop - start, 'pixel')}"
+        text = f"Row {row}: the sides are rounded and both ends drawn, {columns}."
     sides: list[list[Part]] = []
     for k, name in enumerate(_SIDES):
         crossing = step.number(f"crossing_{k}")

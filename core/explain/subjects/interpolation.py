@@ -84,7 +84,7 @@ def first_weight(step: StepValues) -> Asked | None:
     return number(f"What is λ0, the weight of corner 0, at {step.the_pixel}?", weights[0], reveal)
 
 
-@explains("interpolate.perspective|affine.weights", asks=first_weight)
+@explains("interpolate.perspective|affine.weights", asks=first_weight, decides=True)
 def weights(step: StepValues) -> Said:
     """The weights of the corners, parts of the sum."""
     values, whole = step.vector("weights"), step.number("total")
@@ -101,7 +101,7 @@ def weights(step: StepValues) -> Said:
     return f"{text}.", equation(*beside(*quotients))
 
 
-@explains("interpolate.flat.weights", asks=first_weight)
+@explains("interpolate.flat.weights", asks=first_weight, decides=True)
 def flat_weights(step: StepValues) -> Said:
     """The weight of the provoking corner alone."""
     values = step.vector("weights")
@@ -267,7 +267,7 @@ def corrected(step: StepValues) -> Said:
     return text, equation(*beside(*shown))
 
 
-@explains("interpolate.affine-n.weights", asks=first_weight)
+@explains("interpolate.affine-n.weights", asks=first_weight, decides=True)
 def corrected_weights(step: StepValues) -> Said:
     """The weights, linear between the anchors."""
     t, values, (left, right) = step.number("fraction"), step.vector("weights"), step.rows("anchor_weights")

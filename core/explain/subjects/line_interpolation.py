@@ -40,7 +40,7 @@ def second_weight(step: StepValues) -> Asked | None:
     return number(f"What is s, the weight of the second end, at {step.the_pixel}?", s, f"s is {spoken(s)}.")
 
 
-@explains("interpolate.*.weight", asks=second_weight)
+@explains("interpolate.*.weight", asks=second_weight, decides=True)
 def weight(step: StepValues) -> Said:
     """The weights of the ends."""
     s, is_affine = step.number("s"), step.kind == "line-affine"

@@ -1,5 +1,7 @@
 """What decides is said at every level: of a row before what it does, of a larger step behind its counts."""
 
+import re
+
 import pytest
 
 from app.pages.step.steps_ahead import sentence_at
@@ -42,3 +44,14 @@ def test_a_row_says_what_decided_and_what_it_did() -> None:
     (first, *_) = said(make_scene("intersecting"), "depth", Level.PIXEL)
     assert " so it is nearer. The depth buffer now holds " in first
     assert first.count("Pixel (") == 1
+    pixels = said(make_scene("single-triangle"), "interpolate", Level.PIXEL)
+    assert re.fullmatch(
+        r"Pixel \(8, 6\) of triangle 0: corners 0, 1 and 2 have weights .*, their parts of the sum\. "
+        r"Its colour is \(.*\), the weighted sum of the corners' values\.",
+        pixels[0],
+    )
+
+
+def test_a_pixel_of_a_span_names_its_columns() -> None:
+    found = said(make_scene("single-triangle"), "raster", Level.PIXEL, Settings(fill="scanline"))
+    assert any("a test of its own: it is in the span of row 6, columns 8 to 10." in text for text in found)
