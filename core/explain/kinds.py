@@ -7,7 +7,8 @@ _ANY = (
     (r", outside the view, without area, or turned away", " and outside the view"),
     (r"not culled: its (front|back) faces the eye", "not culled"),
     (r"none of its edges is", "it is not"),
-    (r"not on its outline: ", ""),
+    (r"not on its outline: (\w)", r"\1"),
+    (r"drawn for edge 2: ", "drawn: "),
     (r", the nearest\b", ""),
     (r"three weights", "weights"),
 )

@@ -77,15 +77,18 @@ def _fragment_events(
     """Return one event for every covered primitive."""
     blend = resolve(candidates.settings).blend_name
     hidden_by = overwriters(fragments, blend)
+    corner_count = candidates.scene.corner_count
     events = []
     for k, (which, passage) in enumerate(zip(candidates.covering.tolist(), passages, strict=True)):
-        if candidates.geometry.outlines is None:
+        raster = []
+        if corner_count and candidates.geometry.outlines is None:
             raster = raster_links(candidates, which)
-        else:
+        elif corner_count:
             raster = [outline_link(candidates, k)]
         chain = [*_upper_chain(candidates, which), *raster]
-        weights = {"weights": fragments.weights[k], "inverse_w": float(fragments.inverse_w[k])}
-        chain.append(Link("interpolate", "weights", weights))
+        if corner_count in (2, 3):
+            weights = {"weights": fragments.weights[k], "inverse_w": float(fragments.inverse_w[k])}
+            chain.append(Link("interpolate", "weights", weights))
         chain.append(Link("shade", "color", {"color": fragments.color[k]}))
         chain.append(passage.depth_link)
         if passage.passes:

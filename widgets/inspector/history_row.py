@@ -17,8 +17,7 @@ class EntryDelegate(QStyledItemDelegate):
         """Title and values, below each other where the row is narrow, and as many lines as the reason takes."""
         entry: HistoryEntry = index.data(ENTRY_ROLE)
         lines = QFontMetrics(_text_font()).height() + 10
-        has_values = any(value is not None for value in (entry.before, entry.out, entry.after))
-        if has_values and is_stacked(option.rect.width()):
+        if any((entry.before, entry.out, entry.after)) and is_stacked(option.rect.width()):
             lines += QFontMetrics(_text_font()).height() + 2
         return QSize(200, lines + (_reason_room(option.rect, entry).height() + 3 if entry.reason else 0))
 
@@ -45,7 +44,8 @@ class EntryDelegate(QStyledItemDelegate):
         cells = value_columns(box)
         title = QRect(box.left() + 12 + mark_side, top, 0, text_height)
         values_top = top
-        if is_stacked(box.width()):
+        values = entry.before, entry.out, entry.after
+        if is_stacked(box.width()) or not any(values):
             title.setRight(box.right() - 4)
             values_top += text_height + 2
         else:
@@ -54,7 +54,7 @@ class EntryDelegate(QStyledItemDelegate):
         painter.setFont(font)
         painter.setPen(QColor(theme.text))
         painter.drawText(title, _LEFT, QFontMetrics(font).elidedText(entry.title, _ELIDE, title.width()))
-        for cell, value in zip(cells, (entry.before, entry.out, entry.after), strict=True):
+        for cell, value in zip(cells, values, strict=True):
             if value is not None:
                 place = QRect(cell.left(), values_top, cell.width(), text_height)
                 self._paint_value(painter, place, value)

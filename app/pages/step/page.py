@@ -85,6 +85,8 @@ class StepPage(Page):
         self.pixel_menu.origin_requested.connect(self.go_to_writer)
         self.asking = AskThis(session, self)
         self.pixel_menu.question_requested.connect(self.ask_value)
+        for pixels in (self.grid, self.strip, self.compare_view):
+            pixels.pixel_clicked.connect(self._show_clicked)
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.main_area.view_changed.connect(self._follow_view)
@@ -102,6 +104,11 @@ class StepPage(Page):
         self._order = self._order_of_parts()
         """What shows a moment after which change, one after the other."""
         session.changed.connect(self._follow)
+
+    @Slot()
+    def _show_clicked(self) -> None:
+        """Show the history of a clicked pixel, also of one that was pinned before."""
+        self.column.show_history(self.session.moment)
 
     def _order_of_parts(self) -> tuple[tuple[Change, Callable[[Moment], object]], ...]:
         document, step, pin, pointing = Change.DOCUMENT, Change.STEP, Change.PIN, Change.POINTING

@@ -165,7 +165,9 @@ def _lines(history: PixelHistory) -> Lines:
             event.is_rejected,
         )
         lines.append((entry, event.triangle if event.triangle >= 0 else None))
-    lines += [(HistoryEntry(text, is_rejected=True), None) for text in count_sentences(history)]
+    for text in count_sentences(history):
+        count, _, reason = text.partition(": ")
+        lines.append((HistoryEntry(count, reason=reason[:1].upper() + reason[1:], is_rejected=True), None))
     return lines
 
 

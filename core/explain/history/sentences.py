@@ -10,7 +10,7 @@ from typing import Any
 from core.explain.number_text import exact_text, pair_text, steps_apart
 from core.pixel_history.records import Link, PixelEvent, PixelHistory
 from core.raster.edges.snapping import SUBPIXELS
-from core.records.words import counted
+from core.records.words import counted, joined
 
 Values = Mapping[str, Any]
 Sentence = str | Callable[[Values], str]
@@ -35,13 +35,18 @@ def event_title(event: PixelEvent) -> str:
 
 
 def event_reason(event: PixelEvent) -> str:
-    """Return why an event was kept or rejected, in one line; clipping on the way there comes first."""
+    """Return why an event was kept or rejected; clipping on the way there comes first.
+
+    Of a fragment: a sentence for each of coverage, weights, depth test and blending, as far as it came.
+    """
     links = [event.reason]
+    if event.kind == "fragment":
+        links = [link for link in event.chain if link.stage in ("raster", "interpolate", "depth", "blend")]
+    first = link_sentence(links[0])
     clip = event.link("clip")
     if clip is not None and clip is not event.reason and clip.key == "clipped":
-        links.insert(0, clip)
-    text = "; ".join(_words(link) for link in links)
-    return text[0].upper() + text[1:] + "."
+        first = f"{link_sentence(clip)[:-1]}; {_words(links[0])}."
+    return " ".join([first, *map(link_sentence, links[1:])])
 
 
 def count_sentences(history: PixelHistory) -> tuple[str, ...]:
@@ -308,20 +313,21 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ("raster", "outside-span"): lambda v: f"outside the span of this row, {_span(v)}; {_not_here(v)}",
     ("raster", "row-not-drawn"): lambda v: f"the fill as printed draws no span in this row; {_not_here(v)}",
     ("raster", "in-polygon"): lambda v: (
-        f"covered: {_crossed(v)} to its left, {_pixels(v['distance'])} from edge {v['edge']}"
+        f"covered, with {_crossed(v)} to the left; edge {v['edge']} is {_pixels(v['distance'])} away"
     ),
     ("raster", "outside-polygon"): lambda v: (
-        f"outside: {_crossed(v)} to its left, and edge {v['edge']} is {_pixels(v['distance'])} away"
+        f"the pixel centre is outside, with {_crossed(v)} to the left; "
+        f"edge {v['edge']} is {_pixels(v['distance'])} away"
     ),
     ("raster", "clipped-polygon"): "clipped away: nothing of it lies in the clip window",
     ("raster", "on-outline"): lambda v: (
-        f"on edge {v['edge']}, the pixel centre {_pixels(v['distance'])} from the exact line"
+        f"drawn for edge {v['edge']}: the pixel centre is {_pixels(v['distance'])} from the exact line"
     ),
     ("raster", "off-outline"): lambda v: (
         f"not on its outline: the pixel centre is {_pixels(v['distance'])} from edge {v['edge']}, the nearest"
     ),
     ("raster", "no-outline"): "none of its edges is drawn near the window",
-    ("interpolate", "weights"): lambda v: "weights " + ", ".join(exact_text(w) for w in v["weights"]),
+    ("interpolate", "weights"): lambda v: f"weights {joined([exact_text(w) for w in v['weights']])}",
     ("shade", "color"): lambda v: "colour " + ", ".join(exact_text(c) for c in v["color"]),
     ("depth", "passed"): lambda v: f"passed the depth test: {_compared(v, 'against')}",
     ("depth", "failed"): lambda v: f"failed the depth test: {_compared(v, 'is not nearer than')}",

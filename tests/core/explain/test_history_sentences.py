@@ -107,13 +107,19 @@ def test_depth_tests_name_whom_they_met():
     z = np.array([[0.0] * 3, [0.5] * 3, [0.0] * 3, [-0.5] * 3])
     scene = window_scene(LOWER_LEFT, LOWER_LEFT, LOWER_LEFT, LOWER_LEFT, z=z)
     history = ask(scene, 3, 3)
+    covered = "Covered: in the span of this row, columns 2 to 7. Weights 0.625, 0.1875 and 0.1875."
+    passed = f"{covered} Passed the depth test:"
+    failed = f"{covered} Failed the depth test:"
     assert [(event_title(event), event_reason(event)) for event in history.events] == [
         ("Initial value", "Nothing is written here yet."),
         ("Clear", "The background colour and the farthest depth."),
-        ("Triangle 0", "Written, later overwritten by triangle 3."),
-        ("Triangle 1", "Failed the depth test: 0.75 is not nearer than triangle 0 (0.5)."),
-        ("Triangle 2", "Failed the depth test: equal to triangle 0 (0.5), and a tie keeps the stored depth."),
-        ("Triangle 3", "Written and visible."),
+        (
+            "Triangle 0",
+            f"{passed} 0.5 against the cleared depth (1). Written, later overwritten by triangle 3.",
+        ),
+        ("Triangle 1", f"{failed} 0.75 is not nearer than triangle 0 (0.5)."),
+        ("Triangle 2", f"{failed} equal to triangle 0 (0.5), and a tie keeps the stored depth."),
+        ("Triangle 3", f"{passed} 0.25 against triangle 0 (0.5). Written and visible."),
     ]
     depth = history.fragments[0].link("depth")
     assert depth is not None
