@@ -85,10 +85,10 @@ def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | N
 
 def row_sentence(trace: StageTrace, position: int) -> str:
     """Return the sentence of the operation just done, behind those of the same row that chose what it does."""
-    row, operation = trace.steps.row_at(position)
-    done = [trace.explain(position - back) for back in range(operation, -1, -1)]
-    *before, last = (e for e in done if e is not None)
-    deciding = [e for e in before if (said := row_of(e.key)) is not None and said.decides]
+    row, _ = trace.steps.row_at(position)
+    last = trace.explain(position)
+    assert last is not None
+    deciding = [e for e in last.earlier if (said := row_of(e.key)) is not None and said.decides]
     *texts, text = (_sentence_of(trace, row, e) for e in (*deciding, last))
     name, colon, rest = text.partition(": ")
     if texts and colon and texts[-1].startswith(name):

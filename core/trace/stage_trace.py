@@ -151,8 +151,10 @@ class StageTrace:
             values = self.variables(row)
             self._latest.clear()
             self._latest[row] = values
-        *earlier, done = (self._done(row, values, k) for k in range(operation + 1))
-        return replace(done, earlier=tuple(earlier))
+        done: tuple[Explanation, ...] = ()
+        for k in range(operation + 1):
+            done = (*done, replace(self._done(row, values, k), earlier=done))
+        return done[-1]
 
     def _done(self, row: int, values: Mapping[str, Value], operation: int) -> Explanation:
         """Explain one operation of a row with its variables."""
