@@ -7,10 +7,8 @@ from PySide6.QtCore import QEvent, QObject, QTimer, Signal, Slot
 from PySide6.QtWidgets import QWidget
 
 from app.background.workers import Job
-from app.pages.page_bar import Page
+from app.pages.page_bar import Page, percent_done
 from widgets.basics.message_bar import Progress
-
-PERCENT = 100
 
 
 @dataclass(frozen=True)
@@ -64,8 +62,7 @@ class BackgroundTask(QObject):
 
     @Slot(object, str)
     def _show_progress(self, fraction: float | None, doing: str) -> None:
-        done = 0 if fraction is None else round(fraction * PERCENT)
-        self._tell_progress(Progress(self._doing(doing), done, 0 if fraction is None else PERCENT))
+        self._tell_progress(percent_done(fraction, self._doing(doing)))
 
     def _tell_progress(self, progress: Progress | None) -> None:
         """Show how far it is, on the page and to those who listen: each percent once, not each of a thousand cases."""

@@ -8,6 +8,7 @@ from PySide6.QtCore import QByteArray, QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QApplication, QSplitter, QStackedWidget, QTabBar, QWidget
 
+from app.background.workers import Job
 from app.session.moment import Change
 from app.session.session import Session
 from core.explain.records import Formula
@@ -59,6 +60,11 @@ class Caption:
     formula: Formula | None = None
 
 
+def percent_done(fraction: float | None, doing: str) -> Progress:
+    """Return what is told of a job that has done a fraction of its work; ``None``: nobody knows how much."""
+    return Progress(doing, 0, 0) if fraction is None else Progress(doing, round(100 * fraction), 100)
+
+
 class Page(QWidget):
     """One page of the window. What it does not say otherwise, a page does not do."""
 
@@ -88,6 +94,19 @@ class Page(QWidget):
 
     action_requested = Signal(str)
     """Name of an action of ``app.window.actions.ACTIONS`` that is another page's, or shows another page."""
+
+    def follow(self, job: Job) -> None:
+        """Show how far a job of the page has come, until it has ended."""
+        job.progressed.connect(self._tell_progress)
+        job.ended.connect(self._tell_end)
+
+    @Slot(object, str)
+    def _tell_progress(self, fraction: float | None, doing: str) -> None:
+        self.work_progressed.emit(percent_done(fraction, doing))
+
+    @Slot()
+    def _tell_end(self) -> None:
+        self.work_progressed.emit(None)
 
     def tell(self, text: str) -> None:
         """Tell the user something; nothing is wrong."""

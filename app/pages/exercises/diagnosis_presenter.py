@@ -25,7 +25,6 @@ from lessons.diagnosis_text import pixels_text, right_text, scene_text
 from lessons.exercises.scene_digest import scene_digest
 from lessons.mistakes.twin import same_scene
 from lessons.os_errors import problem_text
-from widgets.basics.message_bar import Progress as Done
 from widgets.exercises.diagnosis_view import DiagnosisView
 from widgets.exercises.records import DiagnosisRecord, FoundRun
 from widgets.grid.buffer import GridBuffer
@@ -58,18 +57,15 @@ class DiagnosisPresenter(QObject):
     """It must not be seen any more: an exercise asks about its scene."""
     step_requested = Signal(object)
     """A `StepRequest`."""
-    work_progressed = Signal(object)
     refused = Signal(str)
 
     def __init__(self, session: Session, view: DiagnosisView, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._session, self._view = session, view
         self._diagnosed: _Diagnosed | None = None
-        self._job = Job(self, expected=(OSError, ValueError, MemoryError))
-        self._job.progressed.connect(self._tell_progress)
-        self._job.ended.connect(self._end_progress)
-        self._job.succeeded.connect(self._show)
-        self._job.failed.connect(self._refuse)
+        self.job = Job(self, expected=(OSError, ValueError, MemoryError))
+        self.job.succeeded.connect(self._show)
+        self.job.failed.connect(self._refuse)
         view.open_requested.connect(self.ask_picture)
         view.run_requested.connect(self._show_run)
         session.changed.connect(self._hide_asked)
@@ -77,11 +73,11 @@ class DiagnosisPresenter(QObject):
     @property
     def is_working(self) -> bool:
         """Whether a picture is being compared."""
-        return self._job.is_running
+        return self.job.is_running
 
     def stop(self) -> None:
         """End all work."""
-        self._job.shut_down()
+        self.job.shut_down()
 
     @Slot()
     def ask_picture(self) -> None:
@@ -107,15 +103,7 @@ class DiagnosisPresenter(QObject):
             found = diagnose(scene, document.settings, drawn, report)
             return _Diagnosed(Path(path).name, document, scene, drawn, found)
 
-        self._job.start(work)
-
-    @Slot(object, str)
-    def _tell_progress(self, fraction: float, doing: str) -> None:
-        self.work_progressed.emit(Done(doing, round(100 * fraction), 100))
-
-    @Slot()
-    def _end_progress(self) -> None:
-        self.work_progressed.emit(None)
+        self.job.start(work)
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:

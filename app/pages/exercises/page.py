@@ -91,7 +91,7 @@ class ExercisesPage(Page):
         self.diagnosis.hidden.connect(self.show_question)
         self.diagnosis.step_requested.connect(self.step_requested)
         for presenter in (self.diagnosis, self.progress):
-            presenter.work_progressed.connect(self.work_progressed)
+            self.follow(presenter.job)
         self.progress.user_changed.connect(self._set_user)
         self.progress.attempts_added.connect(self.exercises.begin)
         self.progress.message_sent.connect(self.message_sent)

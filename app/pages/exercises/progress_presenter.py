@@ -22,7 +22,6 @@ from lessons.attempts.practice import progress
 from lessons.attempts.record import Attempt, exported_attempts, is_name, read_attempts_json
 from lessons.mistakes.shelf import MISTAKES
 from lessons.os_errors import problem_text
-from widgets.basics.message_bar import Progress as Done
 from widgets.exercises.progress_view import MistakeRecord, ProgressView, StageProgress
 
 KINDS = "Answers (*.json);;All files (*)"
@@ -38,17 +37,14 @@ class ProgressPresenter(QObject):
     """Answers were imported."""
     message_sent = Signal(str)
     refused = Signal(str)
-    work_progressed = Signal(object)
 
     def __init__(self, view: ProgressView, parent: QObject | None = None) -> None:
         super().__init__(parent)
         self._view = view
         self._user = ""
-        self._importing = Job(self, expected=(OSError, ValueError, MemoryError))
-        self._importing.progressed.connect(self._tell_progress)
-        self._importing.ended.connect(self._end_progress)
-        self._importing.succeeded.connect(self._take_imported)
-        self._importing.failed.connect(self._refuse_import)
+        self.job = Job(self, expected=(OSError, ValueError, MemoryError))
+        self.job.succeeded.connect(self._take_imported)
+        self.job.failed.connect(self._refuse_import)
         view.user_chosen.connect(self._choose_user)
         view.export_requested.connect(self._export)
         view.import_requested.connect(self._import)
@@ -123,15 +119,7 @@ class ProgressPresenter(QObject):
             added = attempt_file().add_all(imported.attempts)
             return " ".join([f"Imported {counted(added, 'answer')} from {name}.", *imported.sentences])
 
-        self._importing.start(work)
-
-    @Slot(object, str)
-    def _tell_progress(self, fraction: float, doing: str) -> None:
-        self.work_progressed.emit(Done(doing, round(100 * fraction), 100))
-
-    @Slot()
-    def _end_progress(self) -> None:
-        self.work_progressed.emit(None)
+        self.job.start(work)
 
     @Slot(object)
     def _take_imported(self, said: str) -> None:
@@ -145,11 +133,11 @@ class ProgressPresenter(QObject):
     @property
     def is_working(self) -> bool:
         """Whether answers are being imported."""
-        return self._importing.is_running
+        return self.job.is_running
 
     def stop(self) -> None:
         """End all work."""
-        self._importing.shut_down()
+        self.job.shut_down()
 
 
 def _place(count: object) -> int:
