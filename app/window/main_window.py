@@ -59,7 +59,7 @@ class MainWindow(ActionWindow):
         assert isinstance(step_page, StepPage)
         self.page = step_page
         self._raster = self.session.document.raster
-        """The one that is shown: another one is told, for pixels have other sizes and numbers then."""
+        """The raster that is shown; a notice names the next one, in which pixels have other sizes and numbers."""
         self._closes_unsaved = self._starts_over = False
         self._offered = ""
         """Path of the state that the message bar offers to open."""

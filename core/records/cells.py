@@ -38,7 +38,7 @@ class Cell(ABC):
         """Return a value as somebody would type it."""
 
     def understood(self, given: str) -> str:
-        """Return a text as it is understood; ValueError with a sentence where it means nothing."""
+        """Return how an answer was read, as text; ValueError with a sentence where it means nothing."""
         return self.text(self.read(given))
 
 
@@ -119,7 +119,7 @@ class Form:
     labels: tuple[str, ...] = ()
     """Of the rows."""
     items: tuple[str, ...] = ()
-    """What there is to choose from, to put in order or to point at, in the order in which it is listed."""
+    """The things to choose, sort or point at, in the order of the list."""
     is_several: bool = False
     """Whether several items may be chosen."""
     size: tuple[int, int] = (1, 1)
@@ -133,6 +133,6 @@ class Form:
     snapped: Callable[[float], str] = str
     """The text of the nearest coordinate that a point can have."""
     told: Callable[[Any], str] | None = None
-    """What is said of the answer as it is given."""
+    """The sentence shown beside a complete answer before it is checked."""
     state: Callable[[Any], StepsState] | None = None
     """From the tries of every step so far; ValueError with a sentence where the last try means nothing."""

@@ -107,7 +107,7 @@ def print_as(function: Callable[..., Any], text: str) -> None:
 
 
 def without_labels(text: str) -> str:
-    """Return a text for `print_as` as it is shown."""
+    """Return a text given to `print_as` without its labels: what the reader sees."""
     return "\n".join(line.partition("#:")[0].rstrip() for line in text.splitlines())
 
 

@@ -40,7 +40,7 @@ def judged_again(
     templates : mapping
         All exercises that are known, by name.
     now : datetime
-        In UTC: what is dated later is told.
+        In UTC: answers with a later date are reported.
     report : callable, optional
         Is called with the fraction that is done, and with what is being done.
     """

@@ -72,7 +72,7 @@ class CataloguePresenter(QObject):
         """Of the learner, in the order of time."""
         self._choice: Choice | None = None
         self._wants_next = False
-        """Whether what suits the learner is to be opened as soon as it is chosen."""
+        """Whether to open the exercise that suits the learner as soon as one is chosen."""
         self._current = ""
         self._shown: list[str] = []
         """Names of all exercises in the order of the catalogue."""

@@ -26,8 +26,8 @@ VARIABLE_LINES = 6
 class InspectorColumn(QTabWidget):
     """Everything about the step just done, one below the other, where the window is low in a pane that scrolls.
 
-    A click on a pixel puts its history in the place of the step, and the next step puts the step back, unless the
-    user has chosen the history. What the step says changes its own parts only: the column keeps its width, and so the
+    A click on a pixel shows its history instead of the step, and the next step brings the step back, unless the user
+    has chosen the history. What the step says changes its own parts only: the column keeps its width, and so the
     picture its place; the listing moves only for a formula that is the tallest of its stage.
     """
 
