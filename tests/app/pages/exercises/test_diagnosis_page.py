@@ -17,6 +17,7 @@ from core import render
 from core.framebuffer.display import to_display
 from lessons.small_scenes import triangle_scene
 from tests.app.pages.exercises.acting import LEFT
+from widgets.basics.message_bar import Progress
 from widgets.grid.overlay import MaskOverlay
 
 pytestmark = pytest.mark.shared_window
@@ -51,7 +52,11 @@ def test_the_mistake_of_a_picture_is_named_marked_and_stepped(
     )
     path = tmp_path / "homework.png"
     Image.fromarray(np.ascontiguousarray(to_display(wrong.color).pixels[::-1, :, :3])).save(path)
+    worked: list[Progress | None] = []
+    small.pages.page("exercises").work_progressed.connect(worked.append)
     page = dropped(small, path)
+    assert worked[0] == Progress("comparing", 0, 100)
+    assert worked[-1] is None
     view = page.diagnosis_view
     assert page.main_view() is view
     assert view.about.text().startswith(

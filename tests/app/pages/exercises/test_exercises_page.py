@@ -25,6 +25,7 @@ from lessons.exercises.catalogue import SUBJECTS, TEMPLATES
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Question, ask, judge
 from tests.app.pages.exercises.acting import LEFT, Page, check, paint
+from widgets.basics.message_bar import Progress
 from widgets.exercises.catalogue import Catalogue
 from widgets.exercises.pixel_answer import LEGEND, PixelAnswerView
 from widgets.exercises.records import ExerciseEntry, ExerciseGroup
@@ -202,9 +203,12 @@ def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path
     said: list[str] = []
     shown.message_sent.connect(said.append)
     shown.edit_refused.connect(said.append)
+    worked: list[Progress | None] = []
+    shown.work_progressed.connect(worked.append)
     for name in ("answers.json", "nothing.json"):
         shown.progress.import_from(str(tmp_path / name))
         shown.settle()
+    assert worked == [Progress("judging answers", 0, 100), None, None]
     assert said[0] == "Imported 0 answers from answers.json. 1 answer judged again."
     assert said[1].startswith("The answers were not imported: ")
     assert said[1].endswith("nothing.json cannot be read or written: no such file or directory.")
