@@ -119,6 +119,7 @@ def test_bad_input_is_one_sentence(
     assert wanted in refused(code, "exercise", *arguments, *paths, cwd=tmp_path)
 
 
+@pytest.mark.slow  # test_templates holds the same of every template
 def test_the_selftest_passes_for_one_seed() -> None:
     tested = run_program("exercise", "selftest", "--seeds", "1")
     assert tested.returncode == 0, tested.stdout

@@ -12,6 +12,7 @@ from app.files.open_any import Opened, open_any
 from app.window.main_window import MainWindow
 from core import STAGES
 from core.explain.records import Formula
+from tests.covering import in_turns
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.message_bar import Message, MessageKind
 from widgets.space.scene_view import SceneView
@@ -335,17 +336,17 @@ def test_a_step_stops_at_the_end_of_a_stage_and_says_so(window: MainWindow) -> N
     assert session.cursor.stage == "clip"
 
 
-@pytest.mark.parametrize("size", SIZES, ids=str)
-@pytest.mark.parametrize(
-    ("scene", "stage"),
-    [
+@in_turns(
+    size=SIZES,
+    table=[
         ("cube", "cull"),
         ("polygon-window", "raster"),
         ("polygon-holes", "raster"),
         ("connecting-edges", "clip"),
     ],
 )
-def test_tables_are_seen_whole(window: MainWindow, size: tuple[int, int], scene: str, stage: str) -> None:
+def test_tables_are_seen_whole(window: MainWindow, size: tuple[int, int], table: tuple[str, str]) -> None:
+    scene, stage = table
     window.files.show_opened(open_any(scene))
     present(window, size)
     page, session = window.page, window.session

@@ -18,7 +18,7 @@ from core.trace.source import TraceSource
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
 from tests.core.trace.trace_cases import CASES, CHOICES, MIXES, SCENES, name_of, settings_of, small_scene
-from tests.covering import in_turn
+from tests.covering import in_turn, is_everything
 
 PIXEL_LIMIT = 6
 
@@ -91,7 +91,11 @@ def test_smoothed_lines_under_ray_casting(line):
     check_pixels(scene, settings, some_pixels(scene))
 
 
-@pytest.mark.parametrize(("name", "choice"), CASES, ids=name_of)
+@pytest.mark.parametrize(
+    ("name", "choice"),
+    CASES if is_everything() else in_turn(SCENES, [*CHOICES, *MIXES]),
+    ids=name_of,
+)
 def test_history_ends_in_the_picture(name, choice):
     scene = SCENES[name]
     check_pixels(scene, settings_of(choice, scene), some_pixels(scene))

@@ -12,7 +12,7 @@ from core.study.planner.costs import Costs
 from core.study.planner.planning import STAGES
 from core.study.planner.trials import difference, shown
 
-SCENES, ALL_SCENES = 28, 210
+SCENES, ALL_SCENES = 14, 210
 TOLERANCES = (
     Tolerance(),
     Tolerance.exact(),
