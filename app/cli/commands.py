@@ -44,6 +44,7 @@ COMMANDS = (
     Command("study", "measure the methods of a family: speed against accuracy", "app.cli.study"),
     Command("stress", "map where methods fail, and make failing cases small", "app.cli.stress"),
     Command("plan", "choose the cheapest methods that a scene needs, within a tolerance", "app.cli.plan"),
+    Command("lesson", "list the lessons of the course, print one, check lesson files", "app.cli.lesson"),
     Command("exercise", "ask questions by seed, check answers and exercise files", "app.cli.exercise"),
     Command("diagnose", "say which mistake or method makes a picture", "app.cli.diagnose"),
     Command("bench", "measure the core against other libraries", "app.cli.bench"),

@@ -2,29 +2,41 @@
 
 import argparse
 import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from app.usage import PROGRAM
 from lessons.exercises.question import Template
 
+if TYPE_CHECKING:
+    from app.files.folder_list import FolderList  # With Qt, see below.
 
-def add_parser(parsers: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
-    """Add the action."""
-    folders = parsers.add_parser("folders", help="list the folders of own exercises", allow_abbrev=False)
+
+def add_parser(
+    parsers: "argparse._SubParsersAction[argparse.ArgumentParser]", what: str = "exercises"
+) -> None:
+    """Add the action for folders of own exercises, or of ``what`` else."""
+    folders = parsers.add_parser("folders", help=f"list the folders of own {what}", allow_abbrev=False)
     change = folders.add_mutually_exclusive_group()
-    change.add_argument("--add", metavar="FOLDER", help="look for exercises in this folder, too")
+    change.add_argument("--add", metavar="FOLDER", help=f"look for {what} in this folder, too")
     change.add_argument("--remove", metavar="FOLDER", help="look no more in this folder; its files stay")
+
+
+def change_folders(options: argparse.Namespace, folders: "FolderList", own: Path) -> int:
+    """Add or remove a folder, and list all."""
+    if options.add is not None:
+        folders.add(options.add)
+    if options.remove is not None:
+        folders.remove(options.remove)
+    print("\n".join(map(str, (own, *folders.added()))))
+    return 0
 
 
 def run(options: argparse.Namespace) -> int:
     """Add or remove a folder, and list all."""
-    from app.files.exercise_folders import add_folder, added_folders, own_folder, remove_folder
+    from app.files.exercise_folders import FOLDERS, own_folder
 
-    if options.add is not None:
-        add_folder(options.add)
-    if options.remove is not None:
-        remove_folder(options.remove)
-    print("\n".join(map(str, (own_folder(), *added_folders()))))
-    return 0
+    return change_folders(options, FOLDERS, own_folder())
 
 
 def known_templates() -> dict[str, Template]:

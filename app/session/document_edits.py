@@ -5,9 +5,9 @@ from dataclasses import replace
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.session.document import Document, fit_region, focus_on, same_view
-from app.session.scene_edits import join_shared, split_shared
 from app.session.session import Session
 from core.scene import ClipScene
+from lessons.scene_edits import join_shared, split_shared
 
 
 class DocumentEdits(QObject):

@@ -10,7 +10,6 @@ from math import inf
 
 import numpy as np
 
-from app.session.scene_edits import set_clip_corner
 from core.geometry.culling import plane_distances
 from core.geometry.matrices import projection, transform, world_to_camera
 from core.geometry.polygon_clipping.segments import clip_segments
@@ -20,6 +19,7 @@ from core.records.arrays import Floats, Integers
 from core.records.primitives import Primitives, own_corners
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
 from core.trace import scene_triangle_count
+from lessons.scene_edits import set_clip_corner
 from widgets.space.orbit import Orbit
 
 FIELD_OF_VIEW = 0.7

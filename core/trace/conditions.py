@@ -1,15 +1,16 @@
 """Conditions of breakpoints: ``E0 < 0.5 and not covered``, read safely, evaluated on all rows at once.
 
-Only names of a trace's variables, numbers, texts in quotes, arithmetic, comparisons, and / or / not are known.
-The text is parsed, never executed as Python.
+Only names of a trace's variables, numbers, texts in quotes, arithmetic, comparisons, and / or / not are known; where
+a reader offers functions, calls of these, too. The text is parsed, never executed as Python.
 """
 
 import ast
 import operator
+import re
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 import numpy as np
 
@@ -35,7 +36,22 @@ _COMPARISONS: dict[type[ast.cmpop], Callable[[Any, Any], Any]] = {
     ast.Eq: operator.eq,
     ast.NotEq: operator.ne,
 }
+_METHOD = re.compile(r"[\w.-]+")
 _WANTED = "a condition compares variables and numbers, as E0 < 0.5 and not covered"
+
+
+class Names(Protocol):
+    """What the names in a condition stand for, on R rows."""
+
+    @property
+    def row_count(self) -> int:
+        """R."""
+
+    def value(self, name: str) -> Any:
+        """Return (R, ...) or a single value; ValueError where there is no such name."""
+
+    def call(self, name: str, given: Sequence[ast.expr], chosen: Mapping[str, str]) -> Any:
+        """Return what a function gives for checked nodes, and methods by family; ValueError where it gives none."""
 
 
 @dataclass(frozen=True)
@@ -50,20 +66,46 @@ class Condition:
 
         Raises ValueError for a name that the stage does not have, a list without an index, or a result that is no flag.
         """
+        return self.holds_of(TraceNames(trace))
+
+    def holds_of(self, names: Names) -> Flags:
+        """Return (R,) bool, the rows on which it holds where the names stand for this; ValueError as `holds`."""
         with np.errstate(all="ignore"):
-            found = np.asarray(_evaluate(self.tree, trace))
+            found = np.asarray(evaluate(self.tree, names))
         if found.dtype != np.bool_:
             raise ValueError(f"{_WANTED}; {self.text} is not true or false")
-        return np.broadcast_to(found, (trace.steps.row_count,))
+        return np.broadcast_to(found, (names.row_count,))
 
 
-def parse_condition(text: str) -> Condition:
+@dataclass(frozen=True, eq=False)
+class TraceNames:
+    """The variables of a stage, on all of its rows."""
+
+    trace: StageTrace
+
+    @property
+    def row_count(self) -> int:
+        """R."""
+        return self.trace.steps.row_count
+
+    def value(self, name: str) -> Any:
+        """Return a column or an element of it, a constant, ``kind`` or ``triangle``."""
+        return _column(name, self.trace)
+
+    def call(self, name: str, given: Sequence[ast.expr], chosen: Mapping[str, str]) -> Any:
+        """Refuse: the conditions of a trace have no functions."""
+        raise ValueError(f"{_WANTED}; {name} is no function here")
+
+
+def parse_condition(text: str, functions: Collection[str] = ()) -> Condition:
     """Read a condition.
 
     Parameters
     ----------
     text : str
         For example ``E0 < 0.5``, ``weights[2] >= 0 and covered``, ``verdict == "outside"``.
+    functions : collection of str
+        Names that may be called, as ``drawn(3, 4)`` or ``differs(depth="z-16")``.
 
     Raises
     ------
@@ -87,12 +129,12 @@ def parse_condition(text: str) -> Condition:
             tree = ast.parse(text.strip(), mode="eval").body
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ValueError(f"{_WANTED}; {text.strip()} cannot be read") from None
-    _check(tree)
+    _check(tree, functions)
     return Condition(text.strip(), tree)
 
 
-def _check(node: ast.expr) -> None:
-    """Refuse everything but names, numbers, texts, arithmetic, comparisons and logic."""
+def _check(node: ast.expr, functions: Collection[str]) -> None:
+    """Refuse everything but names, numbers, texts, arithmetic, comparisons, logic and calls of ``functions``."""
     match node:
         case ast.Name():
             return
@@ -101,7 +143,7 @@ def _check(node: ast.expr) -> None:
         case ast.Subscript(value=ast.Name(), slice=ast.Constant(value=int(index))) if index is not True:
             return
         case ast.UnaryOp(op=ast.USub() | ast.UAdd() | ast.Not(), operand=operand):
-            return _check(operand)
+            return _check(operand, functions)
         case ast.BinOp(left=left, op=op, right=right) if type(op) in _ARITHMETIC:
             parts = [left, right]
         case ast.BoolOp(values=parts):
@@ -110,35 +152,47 @@ def _check(node: ast.expr) -> None:
             type(op) in _COMPARISONS for op in ops
         ):
             parts = [left, *others]
+        case ast.Call(func=ast.Name(id=name), args=parts, keywords=keywords) if name in functions:
+            for keyword in keywords:
+                if keyword.arg is None or not _METHOD.fullmatch(spelled(keyword.value)):
+                    raise ValueError(f"{_WANTED}; expected {name}(depth=z-16), got {ast.unparse(node)}")
         case _:
             raise ValueError(f"{_WANTED}; {ast.unparse(node)} is neither")
     for part in parts:
-        _check(part)
+        _check(part, functions)
 
 
-def _evaluate(node: ast.expr, trace: StageTrace) -> Any:
-    """Return the value of a checked node on all rows."""
+def spelled(node: ast.expr) -> str:
+    """Return a method or a mark as it is spelled, in quotes or without: ``z-16`` reads as a difference."""
+    return str(node.value) if isinstance(node, ast.Constant) else ast.unparse(node).replace(" ", "")
+
+
+def evaluate(node: ast.expr, names: Names) -> Any:
+    """Return the value of a checked node on all rows; ValueError as `Condition.holds`."""
     match node:
         case ast.Name(id=name):
-            return _single(name, _column(name, trace))
+            return _single(name, names.value(name))
         case ast.Constant(value=value):
             return _constant(value)
         case ast.Subscript(value=ast.Name(id=name), slice=ast.Constant(value=int(index))):
-            return _element(name, _column(name, trace), index)
+            return _element(name, names.value(name), index)
         case ast.UnaryOp(op=ast.Not(), operand=operand):
-            return ~_flags(operand, trace)
+            return ~_flags(operand, names)
         case ast.UnaryOp(op=op, operand=operand):
-            value = _numbers(operand, trace)
+            value = _numbers(operand, names)
             return -value if isinstance(op, ast.USub) else value
         case ast.BinOp(left=left, op=op, right=right):
-            return _ARITHMETIC[type(op)](_numbers(left, trace), _numbers(right, trace))
+            return _ARITHMETIC[type(op)](_numbers(left, names), _numbers(right, names))
         case ast.BoolOp(op=op, values=parts):
-            found = [_flags(part, trace) for part in parts]
+            found = [_flags(part, names) for part in parts]
             return np.logical_and.reduce(found) if isinstance(op, ast.And) else np.logical_or.reduce(found)
         case ast.Compare(left=left, ops=ops, comparators=others):
-            values = [_evaluate(part, trace) for part in (left, *others)]
+            values = [evaluate(part, names) for part in (left, *others)]
             pairs = zip(values, ops, values[1:], strict=False)
             return np.logical_and.reduce([_compare(first, op, second) for first, op, second in pairs])
+        case ast.Call(func=ast.Name(id=name), args=parts, keywords=keywords):
+            chosen = {str(each.arg): spelled(each.value) for each in keywords}
+            return np.asarray(names.call(name, parts, chosen))
     raise ValueError(f"{_WANTED}; {ast.unparse(node)} is neither")
 
 
@@ -155,17 +209,17 @@ def _constant(value: object) -> Any:
     return np.asarray(value) if isinstance(value, bool | str) else np.asarray(value, np.float64)
 
 
-def _numbers(node: ast.expr, trace: StageTrace) -> Any:
+def _numbers(node: ast.expr, names: Names) -> Any:
     """Return numbers to calculate with; yes counts as 1."""
-    value = np.asarray(_evaluate(node, trace))
+    value = np.asarray(evaluate(node, names))
     if value.dtype.kind not in "fiub":
         raise ValueError(f"{ast.unparse(node)} is a text and has no arithmetic")
     return value.astype(np.float64)
 
 
-def _flags(node: ast.expr, trace: StageTrace) -> Any:
+def _flags(node: ast.expr, names: Names) -> Any:
     """Return yes or no, to be joined by and, or, not."""
-    value = np.broadcast_to(_evaluate(node, trace), (trace.steps.row_count,))
+    value = np.broadcast_to(evaluate(node, names), (names.row_count,))
     if value.dtype != np.bool_:
         raise ValueError(f"{ast.unparse(node)} is not true or false; compare it with something")
     return value

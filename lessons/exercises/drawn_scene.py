@@ -6,16 +6,18 @@ from fractions import Fraction
 
 import numpy as np
 
+from core.assembly.depth_tables import table_scene
 from core.framebuffer.display import to_display
 from core.records.frame import Frame
 from core.scene import AnyScene, ClipScene
 from core.study.planner.trials import difference
+from lessons.depth_tables import depth_table
 from lessons.exercises.answers.pixels import Pixels
 from lessons.exercises.draws import Draws
 from lessons.exercises.fields import Range
 from lessons.exercises.numbers import number_text
 from lessons.exercises.record import ScenePart
-from lessons.scenes import make_scene
+from lessons.slides.scenes import scene_named
 from lessons.small_scenes import segment_scene, triangle_scene
 
 Corner = tuple[Fraction, Fraction]
@@ -98,7 +100,10 @@ def draw_scene(part: ScenePart, draws: Draws) -> DrawnScene:
     ]
     places = tuple(tuple((x, y) for x, y, *_ in row) for row in corners)
     if part.builtin is not None:
-        scene: AnyScene = replace(make_scene(part.builtin), size=(columns, rows))
+        scene: AnyScene = replace(scene_named(part.builtin).make(), size=(columns, rows))
+    elif part.patches:
+        scene = table_scene(depth_table(*part.patches, test=part.test))
+        more.extend(f"Patch {number}:\n{patch.strip()}" for number, patch in enumerate(part.patches))
     elif part.segments:
         ends = [(tuple(a), tuple(b)) for a, b in np.array(places, float).tolist()]
         scene = segment_scene(ends, (columns, rows))

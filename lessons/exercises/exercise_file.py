@@ -10,7 +10,7 @@ from typing import Any
 from core import Settings
 from core.scene import AnyScene, ClipScene
 from core.settings import settings_from_texts
-from lessons.exercises.answer_parts import ChoicePart, PixelPart, PlacePart
+from lessons.exercises.answer_parts import AnswerPart, ChoicePart, PixelPart, PlacePart
 from lessons.exercises.answers.pixels import NothingToMarkError, Pixels
 from lessons.exercises.drawn_scene import Corner, draw_scene, seen_pixels
 from lessons.exercises.draws import Draws
@@ -98,7 +98,7 @@ def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:
             return None
         raise
     scene = None if drawn is None else drawn.scene
-    mistakes = {} if scene is None else _wrong_pixels(exercise, scene, settings)
+    mistakes = {} if scene is None else wrong_pixels(part, exercise.mistakes, scene, settings)
     # The outline of a scene is shown while its question is asked: not where it would show a corner to be placed.
     is_hidden = isinstance(exercise.answer, PlacePart) and bool(exercise.answer.corner)
     drawn_of = None if is_hidden else scene
@@ -121,12 +121,14 @@ def _with_coordinates(hint: str, corners: Sequence[Corner]) -> str:
     return re.sub(COORDINATE, lambda found: factor_text(corners[int(found[2])]["xy".index(found[1])]), hint)
 
 
-def _wrong_pixels(exercise: Exercise, scene: AnyScene, settings: Settings) -> dict[str, Pixels]:
-    """Return what the mistakes make of the scene."""
-    if not exercise.mistakes:
+def wrong_pixels(
+    answer: AnswerPart, mistakes: Sequence[str], scene: AnyScene, settings: Settings
+) -> dict[str, Pixels]:
+    """Return what mistakes make of a scene whose pixels are to be marked; ValueError where they cannot be drawn."""
+    if not mistakes:
         return {}
     if not isinstance(scene, ClipScene):
         raise ValueError("expected triangles or segments in the window where mistakes are named, got a mesh")
-    assert isinstance(exercise.answer, PixelPart)
-    triangle = exercise.answer.triangle
-    return {name: seen_pixels(SHELF[name].draw(scene, settings), triangle) for name in exercise.mistakes}
+    if not isinstance(answer, PixelPart) or answer.art is not None:
+        raise ValueError("expected an answer that is found by drawing: pixels without art")
+    return {name: seen_pixels(SHELF[name].draw(scene, settings), answer.triangle) for name in mistakes}

@@ -11,8 +11,8 @@ from core.settings import settings_from_texts
 from lessons.exercises.answers.pixels import SIDE_LIMIT
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import LARGEST, Number, is_infinite, read_number
-from lessons.mistakes.shelf import twin_named
-from lessons.scenes import built_in_scene
+from lessons.mistakes.shelf import RULES, twin_named
+from lessons.slides.scenes import scene_named
 
 COORDINATE_LIMIT = 4096
 """Farthest place of a corner in pixels."""
@@ -73,8 +73,12 @@ def _known_mistake(given: object) -> str:
     return twin_named(given if isinstance(given, str) else repr(given)).name
 
 
+def _known_rule_or_mistake(given: object) -> str:
+    return str(given) if given in RULES else _known_mistake(given)
+
+
 def _known_scene(given: object) -> str:
-    return built_in_scene(given if isinstance(given, str) else repr(given)).name
+    return scene_named(given if isinstance(given, str) else repr(given)).name
 
 
 def _known_stage(given: object) -> str:
@@ -104,6 +108,8 @@ def _settings(given: object) -> dict[str, str]:
 
 
 MistakeName = Annotated[str, BeforeValidator(_known_mistake)]
+AnyMistake = Annotated[str, BeforeValidator(_known_rule_or_mistake)]
+"""A faulty run or a wrong formula."""
 SceneName = Annotated[str, BeforeValidator(_known_scene)]
 StageName = Annotated[str, BeforeValidator(_known_stage)]
 SettingTexts = Annotated[dict[str, str], BeforeValidator(_settings)]

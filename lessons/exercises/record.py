@@ -5,6 +5,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, model_validator
 
+from core.records.depth_table import MOST_PATCHES
 from core.scene import CORNER_COUNTS
 from lessons.exercises.answer_parts import AnswerPart
 from lessons.exercises.draws import SEED_LIMIT
@@ -41,11 +42,15 @@ class ScenePart(Part):
     """Of every corner of every triangle, what is interpolated: as many numbers as all others have."""
     alpha: list[list[Coordinate]] = Field(default_factory=list)
     """Of every corner of every triangle, from 0 to 1; the values before it are its red, green and blue."""
+    patches: list[Text] = Field(default_factory=list, max_length=MOST_PATCHES)
+    """Depths in whole numbers, patch by patch in the order of drawing, row by row from the top, ``-`` for none."""
+    test: Literal["less", "less-equal", "greater", "greater-equal"] = "less"
+    """How a depth of a patch must compare with the buffer's to pass."""
 
     @model_validator(mode="after")
     def _has_one_content(self) -> "ScenePart":
-        if sum(map(bool, (self.builtin, self.triangles, self.segments))) != 1:
-            raise ValueError("expected either builtin, triangles or segments")
+        if sum(map(bool, (self.builtin, self.triangles, self.segments, self.patches))) != 1:
+            raise ValueError("expected either builtin, triangles, segments or patches")
         for kind, primitives in (("triangles", self.triangles), ("segments", self.segments)):
             count = CORNER_COUNTS[kind]
             for number, corners in enumerate(primitives):

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from difflib import get_close_matches
 
 import numpy as np
 
@@ -290,3 +291,11 @@ LECTURE_SCENES = {
 
 ALL_SCENES = {scene.name: scene for scene in (*CATALOGUE, *(s for of in LECTURE_SCENES.values() for s in of))}
 """Every scene that can be opened by name: the built-in ones, then those of the lectures."""
+
+
+def scene_named(name: str) -> BuiltInScene:
+    """Return the scene of a name, or raise ValueError with names that are near it."""
+    if name not in ALL_SCENES:
+        near = get_close_matches(name, ALL_SCENES) or ["single-triangle"]
+        raise ValueError(f"expected a built-in scene such as {', '.join(near)}, got {name!r:.60}")
+    return ALL_SCENES[name]

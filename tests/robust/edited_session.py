@@ -15,11 +15,11 @@ sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 from PySide6.QtCore import QTimer
 
 from app.session.document import Document, open_document
-from app.session.scene_edits import set_value
 from app.window import start
 from app.window.appearance import the_application
 from app.window.main_window import MainWindow
 from core.scene import Scene
+from lessons.scene_edits import set_value
 from lessons.scenes import built_in_scene
 
 LONGEST_PAUSE = 900

@@ -9,7 +9,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job
 from app.files.attempts import attempt_file
-from app.files.exercise_folders import add_folder, all_templates
+from app.files.exercise_folders import FOLDERS, all_templates
 from app.files.unfinished_answers import UnfinishedFile
 from core import STAGES
 from core.records.words import counted
@@ -237,7 +237,7 @@ class CataloguePresenter(QObject):
     def add_folder(self, folder: str) -> None:
         """Take a folder of own exercises into the catalogue."""
         try:
-            add_folder(folder)
+            FOLDERS.add(folder)
         except (OSError, ValueError) as problem:
             self.refused.emit(f"The folder was not added: {problem_text(problem)}.")
         else:

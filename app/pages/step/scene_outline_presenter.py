@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QWidget
 from app.pages.page_bar import Page
 from app.session.document import Document, focus_on
 from app.session.moment import Moment
-from app.session.scene_edits import outline, set_values
+from app.session.scene_values import outline
 from app.session.session import Session
 from core.explain.kinds import of_kind
 from core.families import WholeNumber
@@ -17,6 +17,7 @@ from core.methods import table
 from core.settings import DEFAULTS, FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
 from core.stages.declared import DECLARED, stage_of
 from core.stages.needs import refusal
+from lessons.scene_edits import set_values
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
 

@@ -9,8 +9,8 @@ from app.pages.page_bar import Page
 from app.pages.step.grid_records import outlined_triangles
 from app.session.document import Document
 from app.session.drag_gestures import DragGestures
-from app.session.scene_edits import move_corner
 from app.session.session import Session
+from lessons.scene_edits import move_corner
 from widgets.grid.pixel_grid import PixelGrid
 
 

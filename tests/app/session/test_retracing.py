@@ -11,13 +11,13 @@ from pytestqt.qtbot import QtBot
 
 import app.session.session
 from app.session.document import TEACHING_LIMIT, Document, focus_on, open_document
-from app.session.scene_edits import move_corner
 from app.session.session import Session
 from app.session.tracing import QUICK_SECONDS, RESTING_SECONDS
 from core import ClipScene, Settings
 from core.trace import Trace, source
 from core.trace.incremental.draft import Draft
 from core.trace.incremental.retrace import Retrace
+from lessons.scene_edits import move_corner
 
 pytestmark = pytest.mark.shared_window
 

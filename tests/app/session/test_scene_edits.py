@@ -5,18 +5,18 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.session.scene_edits import (
+from app.session.scene_values import outline
+from core import ClipScene, Scene
+from core.geometry.vertex_stage import transform_vertices
+from lessons.scene_edits import (
     clip_of_window,
     join_shared,
     move_corner,
-    outline,
     set_value,
     set_values,
     split_shared,
     window_of_clip,
 )
-from core import ClipScene, Scene
-from core.geometry.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
 from widgets.basics.scene_outline import OutlineGroup
 

@@ -7,10 +7,10 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.session.document import TeachingRaster, fit_region, focus_on, open_document
-from app.session.scene_edits import move_corner
 from app.session.session import Session
 from core import STAGES, ClipScene
 from core.records.steps import Level
+from lessons.scene_edits import move_corner
 from lessons.scenes import make_scene
 
 

@@ -7,10 +7,10 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER, Document, open_document
-from app.session.scene_edits import move_corner
 from app.session.session import Session
 from app.window.main_window import MainWindow
 from core import ClipScene, Settings
+from lessons.scene_edits import move_corner
 from lessons.scenes import make_scene
 
 pytestmark = pytest.mark.shared_window

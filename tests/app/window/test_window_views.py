@@ -12,10 +12,10 @@ from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
 from app.session.document import focus_on, open_document
-from app.session.scene_edits import clip_of_window
 from app.window.main_window import MainWindow
 from core import STAGES, ClipScene, Settings
 from core.records.steps import Level
+from lessons.scene_edits import clip_of_window
 from lessons.scenes import built_in_scene, scene_names
 from tests.core.trace.trace_cases import LEFT_OUT
 from tests.covering import in_turn, is_everything

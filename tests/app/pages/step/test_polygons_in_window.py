@@ -10,11 +10,12 @@ from app.pages.step.polygon_overlays import polygon_overlays
 from app.pages.step.scene_outline_presenter import settings_records
 from app.pages.step.step_mark import step_mark
 from app.session.document import STEPPED, open_document
-from app.session.scene_edits import outline, set_value
+from app.session.scene_values import outline
 from app.window.main_window import MainWindow
 from core import ClipScene
 from core.records.steps import Level
 from core.settings import settings_from_texts
+from lessons.scene_edits import set_value
 from lessons.scenes import built_in_scene
 
 pytestmark = pytest.mark.shared_window

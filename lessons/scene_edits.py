@@ -1,20 +1,16 @@
 """Edits of a scene: each takes a frozen scene and returns the edited one, or says what was wrong."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import replace
-from math import degrees, radians
+from math import radians
 
 import numpy as np
 
-from core.explain.kinds import of_kind
 from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
 from core.records.clip_region import region_in_window, region_of_window
-from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, PointLight, Scene
-from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue
+from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
 
-TYPED_TRIANGLES = 24
-"""Triangles whose corners the outline lists."""
 WINDOW_NAMES = ("x", "y", "depth", "w")
 BORDERS = ("left", "bottom", "right", "top")
 
@@ -97,13 +93,6 @@ def join_shared(scene: AnyScene) -> AnyScene:
     return replace(scene, shared=names.reshape(-1, scene.corner_count))
 
 
-def outline(scene: AnyScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
-    """Return the typed values of a scene; window coordinates are those of a raster of ``size``."""
-    if isinstance(scene, ClipScene):
-        return _clip_outline(scene, triangle, size)
-    return (_camera_outline(scene.camera), *_light_outline(scene), *_mesh_outline(scene))
-
-
 def set_value(scene: AnyScene, path: str, value: float, size: tuple[int, int]) -> AnyScene:
     """Return the scene with the value at ``path`` of its outline replaced.
 
@@ -146,7 +135,7 @@ def set_values(scene: AnyScene, values: Mapping[str, float], size: tuple[int, in
 
 def _set_clip_window(scene: ClipScene, values: Mapping[str, float], size: tuple[int, int]) -> ClipScene:
     """Return the scene with numbers of its clip window, by their paths, replaced; the raster itself is none."""
-    window = _clip_window(scene, size)
+    window = clip_window(scene, size)
     for path, value in values.items():
         _, row, name = path.split("/")
         place = BORDERS.index(name) if window.ndim == 1 else (int(row), "xy".index(name))
@@ -155,22 +144,11 @@ def _set_clip_window(scene: ClipScene, values: Mapping[str, float], size: tuple[
     return replace(scene, clip_region=None if is_raster else region_of_window(window, size))
 
 
-def _clip_window(scene: ClipScene, size: tuple[int, int]) -> Floats:
+def clip_window(scene: ClipScene, size: tuple[int, int]) -> Floats:
     """Return left, bottom, right, top (4,), or corners (M, 2), in pixels."""
     if scene.clip_region is None:
         return np.array([0.0, 0.0, *size])
     return region_in_window(scene.clip_region, size)
-
-
-def _clip_window_outline(scene: ClipScene, size: tuple[int, int]) -> OutlineGroup:
-    window = _clip_window(scene, size)
-    if window.ndim == 1:
-        rows = [_vector_row("clip-window/0", "borders", window, BORDERS)]
-    else:
-        rows = [
-            _vector_row(f"clip-window/{k}", f"corner {k}", corner, "xy") for k, corner in enumerate(window)
-        ]
-    return OutlineGroup("clip-window", "Clip window", tuple(rows))
 
 
 def _set_camera(camera: Camera, names: list[str], value: float) -> Camera:
@@ -181,97 +159,6 @@ def _set_camera(camera: Camera, names: list[str], value: float) -> Camera:
     if names[-1] == "field_of_view":
         return replace(camera, field_of_view=radians(value))
     return replace(camera, **{names[-1]: value})  # type: ignore[arg-type]
-
-
-def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
-    if scene.table is not None:
-        return ()
-    shown = range(min(len(scene.clip), TYPED_TRIANGLES)) if triangle is None else [triangle]
-    window, colors = window_of_clip(scene.clip, size), transform_vertices(scene).colors
-    groups = []
-    for index in shown:
-        rows = []
-        for corner in range(scene.corner_count):
-            path = f"corner/{index}/{corner}"
-            if not np.isfinite(window[index, corner]).all():
-                rows.append(
-                    OutlineRow(
-                        path,
-                        f"vertex {corner}",
-                        vertex=colors[corner],
-                        note="at w = 0: no place in the window",
-                    )
-                )
-                continue
-            values = tuple(
-                OutlineValue(name, float(number))
-                for name, number in zip(WINDOW_NAMES, window[index, corner], strict=True)
-            )
-            rows.append(OutlineRow(path, f"vertex {corner}", values, vertex=colors[corner]))
-        title = of_kind(f"Triangle {index}", scene.corner_count)
-        groups.append(OutlineGroup(f"triangle/{index}", title, tuple(rows)))
-    if scene.corner_count == 2 or scene.corner_count > 3 or scene.clip_region is not None:
-        groups.append(_clip_window_outline(scene, size))
-    return tuple(groups)
-
-
-def _vector_row(path: str, label: str, vector: Floats, names: Sequence[str] = "xyz") -> OutlineRow:
-    values = tuple(OutlineValue(name, float(number)) for name, number in zip(names, vector, strict=True))
-    return OutlineRow(path, label, values)
-
-
-def _camera_outline(camera: Camera) -> OutlineGroup:
-    angle = OutlineValue("field_of_view", degrees(camera.field_of_view))
-    height = OutlineValue("view_height", camera.view_height)
-    is_perspective = camera.projection == "perspective"
-    rows = [
-        _vector_row("camera/eye", "eye", camera.eye),
-        _vector_row("camera/target", "target", camera.target),
-        _vector_row("camera/up", "up", camera.up),
-        OutlineRow(
-            "camera/lens",
-            "view angle, °" if is_perspective else "view height",
-            (angle if is_perspective else height,),
-        ),
-        OutlineRow(
-            "camera/range", "near, far", (OutlineValue("near", camera.near), OutlineValue("far", camera.far))
-        ),
-    ]
-    return OutlineGroup("camera", f"Camera, {camera.projection}", tuple(rows))
-
-
-def _light_outline(scene: Scene) -> list[OutlineGroup]:
-    groups = []
-    for index, light in enumerate(scene.lights):
-        where = "direction" if isinstance(light, DirectionalLight) else "position"
-        vector = light.position if isinstance(light, PointLight) else light.direction
-        rows = (
-            _vector_row(f"light/{index}/{where}", where, vector),
-            _vector_row(f"light/{index}/color", "colour", light.color, "rgb"),
-        )
-        title = "Directional light" if isinstance(light, DirectionalLight) else "Point light"
-        groups.append(OutlineGroup(f"light/{index}", f"{title} {index}", rows, is_open=False))
-    return groups
-
-
-def _mesh_outline(scene: Scene) -> list[OutlineGroup]:
-    groups = []
-    for index, mesh in enumerate(scene.meshes):
-        counts = f"{len(mesh.triangles):,} triangles, {len(mesh.positions):,} vertices"
-        texture = (
-            f"texture {mesh.texture.pixels.shape[1]}×{mesh.texture.pixels.shape[0]}" if mesh.texture else ""
-        )
-        rows = [OutlineRow(f"mesh/{index}/counts", counts, note=texture)]
-        rows += [
-            OutlineRow(
-                f"mesh/{index}/{name}",
-                name,
-                (OutlineValue(name, getattr(mesh.material, name), 0, 10000 if name == "shininess" else 1),),
-            )
-            for name in ("ambient", "diffuse", "specular", "shininess")
-        ]
-        groups.append(OutlineGroup(f"mesh/{index}", mesh.name, tuple(rows), is_open=False))
-    return groups
 
 
 def _mesh_of_vertex(scene: Scene, vertex: int) -> tuple[int, int]:

@@ -1,0 +1,159 @@
+"""``rasterscope lesson``: the lessons of the course as text, checked, and which slides of the lectures they cover."""
+
+import argparse
+import sys
+from collections.abc import Iterator
+from itertools import chain
+from pathlib import Path
+from textwrap import indent
+
+from app.cli.exercise_folders import add_parser, change_folders
+from app.usage import PROGRAM
+from core.stages.declared import stage_of
+from lessons.course.catalogue import Course, chapters
+from lessons.course.lesson_file import Lesson, read_lesson
+from lessons.course.questions import question_of
+from lessons.course.slides import coverage, slides
+from lessons.course.state import States
+from lessons.course.validation import validate
+
+DESCRIPTION = (
+    """List the lessons, print one, check a lesson that a lecturer wrote, or say which slides they cover."""
+)
+EXAMPLES = """examples:
+  rasterscope lesson list
+  rasterscope lesson list --by-stage
+  rasterscope lesson show shared-edges
+  rasterscope lesson validate my-lesson.toml
+  rasterscope lesson coverage
+  rasterscope lesson folders --add my-lessons
+"""
+WIDTH = 72
+"""Characters of the names of slides."""
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the command takes."""
+    parsers = parser.add_subparsers(dest="action", required=True, metavar="ACTION")
+    listed = parsers.add_parser("list", help="list the lessons", allow_abbrev=False)
+    listed.add_argument("--by-stage", action="store_true", help="in the order of the stages")
+    show = parsers.add_parser("show", help="print a lesson with answers and notes", allow_abbrev=False)
+    show.add_argument("name", metavar="NAME", help="a lesson of the list, or a .toml file")
+    check = parsers.add_parser("validate", help="check lesson files", allow_abbrev=False)
+    check.add_argument("paths", metavar="PATH", nargs="+", help="a .toml file")
+    add_parser(parsers, "lessons")
+    parsers.add_parser(
+        "coverage", help="list every slide with its lessons, or why none has it", allow_abbrev=False
+    )
+
+
+def run(options: argparse.Namespace) -> int:
+    """Do what the action asks."""
+    if options.action == "folders":
+        from app.files.lesson_folders import (  # Qt takes a moment: not before it is needed.
+            FOLDERS,
+            own_folder,
+        )
+
+        return change_folders(options, FOLDERS, own_folder())
+    course = known_course()
+    if options.action == "list":
+        print("\n".join(list_lines(course, options.by_stage)))
+    elif options.action == "show":
+        print("\n".join(lesson_lines(lesson_named(course, options.name))))
+    elif options.action == "validate":
+        for path in options.paths:
+            lesson = read_lesson(Path(path))
+            validate(lesson, {*course.lessons, *chain(*chapters().values()), lesson.name})
+            print(f"{path}: {lesson.title}, {len(lesson.steps)} steps: all that it says holds")
+    else:
+        print("\n".join(coverage_lines(course)))
+    return 0
+
+
+def known_course() -> Course:
+    """Return all lessons, of the program and of folders; what is skipped is said on stderr."""
+    from app.files.lesson_folders import whole_course
+
+    course = whole_course()
+    for sentence in course.problems:
+        print(f"{PROGRAM}: warning: skipped: {sentence}", file=sys.stderr)
+    return course
+
+
+def lesson_named(course: Course, name: str) -> Lesson:
+    """Return a lesson by its name, or that of a file by its path; ValueError where there is none."""
+    return read_lesson(Path(name)) if name.endswith(".toml") else course.named(name)
+
+
+def list_lines(course: Course, by_stage: bool) -> Iterator[str]:
+    """Yield the lessons, part by part."""
+    if by_stage:
+        parts = {stage_of(stage).short_title: [*lessons] for stage, lessons in course.by_stage.items()}
+    else:
+        parts = {
+            title: [course.lessons[name] for name in names if name in course.lessons]
+            for title, names in chapters().items()
+        }
+        listed = {lesson.name for lessons in parts.values() for lesson in lessons}
+        parts["Other lessons"] = [lesson for name, lesson in course.lessons.items() if name not in listed]
+    for title, lessons in parts.items():
+        if lessons:
+            yield title
+        for lesson in lessons:
+            yield f"  {lesson.name:<22} {lesson.minutes:>2} min  {lesson.title}: {lesson.question}"
+
+
+def lesson_lines(lesson: Lesson) -> Iterator[str]:
+    """Yield a lesson step by step; ValueError where a question cannot be drawn."""
+    part, states = lesson.part, States(lesson)
+    yield f"{lesson.title} ({lesson.minutes} minutes)"
+    yield lesson.question
+    for title, said in (
+        ("Before", ", ".join(part.needs)),
+        ("Asked first", part.recall or ""),
+        ("Closes with", ", ".join(part.exercises)),
+        ("One can now answer", part.answers or ""),
+        ("Then", f"{part.next.lesson}: {part.next.text}" if part.next else ""),
+    ):
+        if said:
+            yield f"{title}: {said}"
+    for number, step in enumerate(lesson.steps):
+        yield from ("", f"{number + 1}. {step.kind}", indent(step.text, "   "))
+        if step.task:
+            yield f"   {step.task}"
+        yield f"   [{state_text(states, number)}]"
+        if step.answer is not None:
+            answer = question_of(lesson, number, states).draft.answer
+            yield f"   Right: {answer.text(answer.reference)}"
+        for wrong in step.wrong:
+            yield f"   {wrong.given}: {wrong.says}"
+        if step.show:
+            yield f"   Opens: {step.show}"
+        if step.after:
+            yield f"   Then: {' '.join(step.after.split())}"
+    if part.notes:
+        yield from ("", "Notes", part.notes)
+
+
+def state_text(states: States, number: int) -> str:
+    """Return in a line what is open at a step."""
+    state = states.of_step(number)
+    columns, rows = state.scene.size
+    said = [f"{state.title}, {columns} x {rows}", state.stage, f"at {state.place.at}"]
+    if state.pixel:
+        said.append(f"pixel {state.pixel}")
+    if state.other is not None or state.printed:
+        said.append(f"A | B {state.printed}".strip())
+    return ", ".join(said)
+
+
+def coverage_lines(course: Course) -> Iterator[str]:
+    """Yield every slide, with its lessons or a reason."""
+    covered = coverage(course.lessons.values())
+    found = sum(bool(covered[slide.name]) for slide in slides())
+    reasons = sum(bool(slide.reason) and not covered[slide.name] for slide in slides())
+    yield f"{len(slides())} slides: {found} in lessons, {reasons} with a reason, {len(slides()) - found - reasons} open"
+    for slide in slides():
+        where = ", ".join(covered[slide.name])
+        yield f"  {slide.name:<{WIDTH}} {where or (f'- {slide.reason}' if slide.reason else 'open')}"

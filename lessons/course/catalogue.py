@@ -1,0 +1,108 @@
+"""The lessons that ship with the program, in the order of learning, and those of a lecturer's own folders."""
+
+import tomllib
+from collections.abc import Iterable
+from dataclasses import dataclass
+from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
+
+from core import STAGES
+from lessons.course.lesson_file import Lesson, read_lesson
+from lessons.os_errors import os_error_reason
+
+FOLDER = Path(__file__).parent
+DATA = ("order.toml", "slides.toml")
+"""Files of the folder that are no lessons."""
+FILE_LIMIT = 100
+"""Most lessons of a folder."""
+
+
+@dataclass(frozen=True, eq=False)
+class Course:
+    """Lessons by name in the order in which they are listed, and what could not be read."""
+
+    lessons: dict[str, Lesson]
+    problems: tuple[str, ...] = ()
+    """A sentence for each file or folder that was skipped: which one, where, and what was expected."""
+
+    def named(self, name: str) -> Lesson:
+        """Return a lesson; ValueError where there is none."""
+        if name not in self.lessons:
+            near = get_close_matches(name, self.lessons) or list(self.lessons)[:1]
+            raise ValueError(f"expected a lesson such as {', '.join(near)}, got {name!r:.60}")
+        return self.lessons[name]
+
+    def after(self, lesson: Lesson) -> Lesson | None:
+        """Return the lesson that follows: the one that it names, or the next of the list; ``None``: there is none."""
+        if lesson.part.next is not None:
+            return self.lessons.get(lesson.part.next.lesson)
+        names = list(self.lessons)
+        place = names.index(lesson.name) + 1 if lesson.name in self.lessons else len(names)
+        return self.lessons[names[place]] if place < len(names) else None
+
+    @property
+    def by_stage(self) -> dict[str, list[Lesson]]:
+        """All lessons under the stage in which each begins, in the order of the stages."""
+        found: dict[str, list[Lesson]] = {stage: [] for stage in STAGES}
+        for lesson in self.lessons.values():
+            found[lesson.stage].append(lesson)
+        return {stage: lessons for stage, lessons in found.items() if lessons}
+
+
+def chapters() -> dict[str, list[str]]:
+    """Return the names of the lessons in the order of learning, chapter by chapter."""
+    order: dict[str, list[str]] = tomllib.loads((FOLDER / "order.toml").read_text(encoding="utf-8"))
+    return order
+
+
+@cache
+def shipped() -> Course:
+    """Return the lessons that ship with the program, read once; those that are not in the order come last."""
+    found, problems = _read(sorted(FOLDER.glob("*.toml")), {}, skipped=DATA)
+    order = [name for names in chapters().values() for name in names]
+    names = [name for name in order if name in found] + [name for name in found if name not in order]
+    return Course({name: found[name] for name in names}, tuple(problems))
+
+
+def with_folders(folders: Iterable[Path]) -> Course:
+    """Return the shipped lessons, then those of folders, whose ``.toml`` files all are lessons."""
+    course = shipped()
+    found, problems = dict(course.lessons), list(course.problems)
+    for folder in folders:
+        try:
+            paths = sorted(path for path in folder.iterdir() if path.suffix.lower() == ".toml")
+        except OSError as problem:
+            problems.append(f"{folder}: expected a folder of lessons: {os_error_reason(problem)}")
+            continue
+        if len(paths) > FILE_LIMIT:
+            problems.append(
+                f"{folder}: expected up to {FILE_LIMIT} lessons, got {len(paths)}: the first are read"
+            )
+        more, skipped = _read(paths[:FILE_LIMIT], found)
+        found |= more
+        problems += skipped
+    return Course(found, tuple(problems))
+
+
+def _read(
+    paths: Iterable[Path], taken: dict[str, Lesson], skipped: Iterable[str] = ()
+) -> tuple[dict[str, Lesson], list[str]]:
+    """Read lessons whose names are not taken, and say why others are not read."""
+    found: dict[str, Lesson] = {}
+    problems = []
+    for path in paths:
+        if path.name in skipped:
+            continue
+        try:
+            lesson = read_lesson(path)
+        except ValueError as problem:
+            problems.append(str(problem))
+        except OSError as problem:
+            problems.append(f"{path}: expected a lesson: {os_error_reason(problem)}")
+        else:
+            if lesson.name in taken or lesson.name in found:
+                problems.append(f"{path}: expected another name: there is a lesson {lesson.name} already")
+            else:
+                found[lesson.name] = lesson
+    return found, problems
