@@ -26,9 +26,7 @@ if TYPE_CHECKING:
         Opening,
     )  # At run time all studies would come along: not before they are wanted.
 
-COVERED = (
-    "Hidden while an exercise asks about this scene. P on the Step page, or Model answer, ends the question."
-)
+COVERED = "Hidden while an exercise or a lesson asks about this scene. P on the Step page ends the question."
 """What stands for a page that would show what is asked about."""
 
 

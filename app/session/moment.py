@@ -18,6 +18,8 @@ class Change(Flag):
 
     DOCUMENT = auto()
     """Another scene, other settings, focus or raster: the trace is a new one, and the cursor may have moved along."""
+    OPENED = auto()
+    """That document is no edit of the one before: it was opened."""
     CURSOR = auto()
     """Another step of the same trace, or another stage."""
     PIN = auto()
@@ -125,7 +127,7 @@ class Moment(Step):
     hover: Pixel | None = None
     """The pixel under the pointer."""
     is_asked_about: bool = False
-    """Whether an exercise asks about the open scene: no page may show it."""
+    """Whether an exercise or a lesson asks about the open scene: no page may show it."""
 
     @property
     def pointed_places(self) -> tuple[Pixel | None, Pixel | None]:

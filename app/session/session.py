@@ -40,7 +40,8 @@ class Session(QObject):
         self._history = History(document, held_arrays)
         self._moment = Moment(document.make_trace(), cursor_for(document.scene, Cursor()), document=document)
         self._visited = History(self.cursor)
-        self._asked_scene = ""
+        self._asked: dict[str, tuple[str, bool]] = {}
+        """By who asks: the digest of a scene, and whether it is the open one."""
         self._plan: PlanReport | None = None
         self._resting = QTimer(self)
         """Runs from the last move of a drag until it rests."""
@@ -111,22 +112,35 @@ class Session(QObject):
 
     # Editing.
 
-    def open(self, document: Document, trace: Trace | None = None, cursor: Cursor | None = None) -> None:
+    def open(
+        self,
+        document: Document,
+        trace: Trace | None = None,
+        cursor: Cursor | None = None,
+        *,
+        pin: Pixel | None = None,
+        is_predicting: bool | None = None,
+    ) -> None:
         """Show another document, with its trace if that is there already, at a cursor; undo leads back.
 
-        Raises ValueError if it cannot be traced; nothing changes.
+        ``is_predicting``: whether what comes next is hidden from now on; ``None``: as before. Raises ValueError if the
+        document cannot be traced; nothing changes.
         """
         self.tracing.cancel()
         if trace is None:
             trace = trace_now(document, (cursor or self.cursor).stage)
         self._history.put(document)
+        also = Change.OPENED | Change.PIN
+        if is_predicting not in (None, self.is_predicting):
+            self._moment = replace(self._moment, is_predicting=bool(is_predicting))
+            also |= Change.PREDICTING
         self._moment = replace(
-            self._moment, cursor=cursor_for(document.scene, self.cursor), pin=None, hover=None
+            self._moment, cursor=cursor_for(document.scene, self.cursor), pin=pin, hover=None
         )
         if cursor is not None:
             cursor = placed(cursor, trace, cursor.position)
             self._remember(cursor)
-        self._document_replaced(trace, cursor, Change.PIN)
+        self._document_replaced(trace, cursor, also)
 
     def edit(self, document: Document, gesture: str = "") -> None:
         """Take over an edited document; edits of one ``gesture`` are undone together.
@@ -287,6 +301,22 @@ class Session(QObject):
         """Go to a position, of another stage if it is named, while a slider is dragged: not remembered."""
         self._move(placed(self.cursor, self.trace, position, stage))
 
+    def jump(self, cursor: Cursor, pin: Pixel | None, is_predicting: bool) -> None:
+        """Go to a place of the run with a pixel pinned, and hide what comes next from there or show it, all at once."""
+        cursor = placed(cursor, self.trace, cursor.position)
+        pin = None if pin is None or not self._moment.has_pixel(pin) else pin
+        before = self._moment
+        what = NOTHING
+        for change, old, new in (
+            (Change.CURSOR, before.cursor, cursor),
+            (Change.PIN, before.pin, pin),
+            (Change.PREDICTING, before.is_predicting, is_predicting),
+        ):
+            what |= NOTHING if old == new else change
+        if what:
+            self._remember(cursor)
+            self._become(what, cursor=cursor, pin=pin, is_predicting=is_predicting)
+
     def set_stage(self, stage: str, position: int | None = None) -> None:
         """Go to another stage, to its end unless a position is given."""
         self._jump(placed(self.cursor, self.trace, position, stage))
@@ -379,16 +409,20 @@ class Session(QObject):
 
     @property
     def is_asked_about(self) -> bool:
-        """Whether an exercise asks about the open scene: no page may show it."""
+        """Whether an exercise or a lesson asks about the open scene: no page may show it."""
         return self._moment.is_asked_about
 
     @property
-    def asked_scene(self) -> str:
-        """Digest of the scene that an exercise asks about, open or not; empty: none."""
-        return self._asked_scene
+    def asked_scenes(self) -> frozenset[str]:
+        """Digests of the scenes that exercises and lessons ask about, open or not."""
+        return frozenset(scene for scene, _ in self._asked.values() if scene)
 
-    def set_asked(self, scene: str, *, is_open: bool) -> None:
-        """Keep a scene with this digest from being shown, and the open one if it ``is_open``; empty: none."""
-        if (scene, is_open) != (self._asked_scene, self.is_asked_about):
-            self._asked_scene = scene
-            self._become(Change.ASKED, is_asked_about=is_open)
+    def set_asked(self, scene: str, *, is_open: bool, by: str = "exercise") -> None:
+        """Keep a scene with this digest from being shown, and the open one if it ``is_open``; empty: none.
+
+        ``by`` says who asks: each asks about one scene at a time.
+        """
+        before = self._asked.get(by, ("", False))
+        self._asked[by] = scene, is_open
+        if self._asked[by] != before:
+            self._become(Change.ASKED, is_asked_about=any(is_open for _, is_open in self._asked.values()))

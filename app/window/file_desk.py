@@ -15,15 +15,14 @@ from app.files.open_any import Opened, open_any
 from app.files.state_files import EXTENSION, OutsideSourceError, State, StateFileError, save_state
 from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings
-from app.pages.step.looks import look_of, show_look
+from app.pages.step.looks import show_state, state_of
 from app.pages.step.page import StepPage
-from app.session.cursor import Cursor, cursor_at
+from app.session.cursor import cursor_at
 from app.session.tracing import trace_now
 from app.window.appearance import Appearance
 from app.window.work_progress import WorkProgress
 from core import Trace
 from core.records.sentences import sentences
-from core.records.steps import Level
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
 READ_OUTSIDE = "Read outside its folder"
@@ -123,11 +122,7 @@ class FileActions(QObject):
             page.views.look_from({})
             page.column.show_step()
             return
-        session.open(opened.document, trace, Cursor(state.stage, state.position, Level(state.level)))
-        page.stepping.set_places(state.bookmarks, state.breakpoints)
-        session.set_pin(state.pin)
-        show_look(page, state.look)
-        page.column.show_step()
+        show_state(page, state, trace)
         self._appearance.grow_text_to(state.look.text_size)
 
     @Slot(object)
@@ -152,17 +147,7 @@ class FileActions(QObject):
 
     def state(self) -> State:
         """Return what a state file keeps."""
-        cursor = self._session.cursor
-        return State(
-            document=self._session.document,
-            stage=cursor.stage,
-            position=cursor.position,
-            level=int(cursor.level),
-            pin=self._session.pin,
-            bookmarks=tuple(self._page.stepping.bookmarks.marks),
-            breakpoints=self._page.stepping.breaks.record(),
-            look=look_of(self._page, self._appearance.text_size),
-        )
+        return state_of(self._page, self._appearance.text_size)
 
     def ask_save(self) -> None:
         """Ask where the state is to be saved, and save it."""

@@ -21,7 +21,7 @@ class KeptQuestion(QObject):
             kept = read_answers()
         except (OSError, ValueError):
             return  # The page says what is wrong with the file.
-        self._hidden = kept.hidden
+        self._hidden, self._asked = kept.hidden, kept.asked_scene
         if kept.asked_scene:
             session.set_asked(kept.asked_scene, is_open=False)
             session.changed.connect(self._follow)
@@ -41,5 +41,5 @@ class KeptQuestion(QObject):
         elif scene is not self._seen:
             self._seen = scene
             is_hidden = self._hidden == (document.title, document.path)
-            if is_hidden or scene_digest(scene) == self._session.asked_scene:
+            if is_hidden or scene_digest(scene) == self._asked:
                 self._pages.page("exercises").resume()

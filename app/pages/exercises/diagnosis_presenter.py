@@ -168,7 +168,7 @@ class DiagnosisPresenter(QObject):
         if (
             Change.ASKED in what
             and self._diagnosed is not None
-            and scene_digest(self._diagnosed.document.scene) == self._session.asked_scene
+            and scene_digest(self._diagnosed.document.scene) in self._session.asked_scenes
         ):
             self._diagnosed = None
             self.hidden.emit()

@@ -36,7 +36,7 @@ WHAT = (
     "through every stage of the pipeline, forwards and backwards."
 )
 MOST_RECENT = 6
-HIDDEN = "Hidden while an exercise asks about this scene"
+HIDDEN = "Hidden while an exercise or a lesson asks about this scene"
 """What stands for the picture of a scene."""
 OF_MESH = 8
 """Size of the picture of a mesh, in those of the cards' unit: it is shown smaller, so that its edges are smooth."""
@@ -185,9 +185,9 @@ class StartPage(Page):
         self.cards.show_picture(name, display_image(pixels))
 
     def _hide_asked(self) -> None:
-        """Hide the picture of a scene that an exercise asks about."""
-        asked = self._session.asked_scene
-        self.cards.hide_pictures({name for name, digest in self._digests.items() if digest == asked}, HIDDEN)
+        """Hide the picture of a scene that an exercise or a lesson asks about."""
+        asked = self._session.asked_scenes
+        self.cards.hide_pictures({name for name, digest in self._digests.items() if digest in asked}, HIDDEN)
 
     # What is done.
 

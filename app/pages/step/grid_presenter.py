@@ -130,6 +130,14 @@ class GridPresenter(QObject):
         self._grid.show_step(mark)
         self._strip.show_step(mark)
 
+    def show_only(self, buffer: str) -> None:
+        """Show a buffer of the stage at hand, empty: its first one, with what is over it at first."""
+        stage = self._moment.cursor.stage
+        self._chosen = {**self._chosen, stage: buffer} if buffer else {}
+        self._own_ranges.clear()
+        self._shown_overlays = dict(DEFAULT_OVERLAYS)
+        self._show_again()
+
     def look(self) -> GridLook:
         """Return what the user has chosen to see."""
         view, overlays = self._grid.view(), self._shown_overlays

@@ -1,11 +1,45 @@
-"""How the Step page shows the run, as a state file keeps it."""
+"""What the Step page shows, and how, as a state file keeps it."""
 
+from typing import TYPE_CHECKING
+
+from app.files.state_files import State
 from app.files.state_models import Look, OrbitRecord, TextSize
-from app.pages.step.page import StepPage
+from app.session.cursor import Cursor
+from core import Trace
+from core.records.steps import Level
 from widgets.space.orbit import Orbit
 
+if TYPE_CHECKING:
+    from app.pages.step.page import StepPage
 
-def look_of(page: StepPage, text_size: TextSize) -> Look:
+
+def state_of(page: "StepPage", text_size: TextSize) -> State:
+    """Return what a state file keeps."""
+    moment, stepping = page.session.moment, page.stepping
+    return State(
+        document=moment.document,
+        stage=moment.cursor.stage,
+        position=moment.cursor.position,
+        level=int(moment.cursor.level),
+        pin=moment.pin,
+        bookmarks=tuple(stepping.bookmarks.marks),
+        breakpoints=stepping.breaks.record(),
+        look=look_of(page, text_size),
+    )
+
+
+def show_state(page: "StepPage", state: State, trace: Trace | None = None) -> None:
+    """Show what a state file has kept, with its trace if that is there already."""
+    session = page.session
+    page.timeline.show_playing(False)
+    session.open(state.document, trace, Cursor(state.stage, state.position, Level(state.level)))
+    page.stepping.set_places(state.bookmarks, state.breakpoints)
+    session.set_pin(state.pin)
+    show_look(page, state.look)
+    page.column.show_step()
+
+
+def look_of(page: "StepPage", text_size: TextSize) -> Look:
     """Return how the page shows the run, in text of a size in percent."""
     return Look(
         view=page.current_view(),
@@ -21,7 +55,7 @@ def look_of(page: StepPage, text_size: TextSize) -> Look:
     )
 
 
-def show_look(page: StepPage, look: Look) -> None:
+def show_look(page: "StepPage", look: Look) -> None:
     """Show the run as it was shown."""
     page.main_area.views_by_hand = dict(look.views)
     page.comparing.set_buffer(look.other_buffer)

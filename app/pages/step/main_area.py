@@ -58,7 +58,9 @@ class MainArea(QWidget):
         self.view_bar.setExpanding(False)
         self.view_bar.setAccessibleName("Main view")
         self.view_stack = QStackedWidget(self)
-        self._add_view("pixels", "Pixels", self.grid)
+        self._pixels = QStackedWidget(self)
+        self._pixels.addWidget(self.grid)
+        self._add_view("pixels", "Pixels", self._pixels)
         for name, title, widget in views.widgets:
             self._add_view(name, title, widget)
         self._add_view("compare", "A | B", self.compare_view)
@@ -255,7 +257,17 @@ class MainArea(QWidget):
     def shown(self) -> QWidget:
         """Return the widget of the main view: of A | B the three pictures, without what is around."""
         widget = self.view_stack.currentWidget()
+        if widget is self._pixels:
+            return self._pixels.currentWidget() or self.grid
         return self.compare_view.figure if widget is self.compare_view or widget is None else widget
+
+    def show_asked(self, picture: PixelGrid | None) -> None:
+        """Show the picture on which a question is answered in place of the pixels; ``None``: the pixels again."""
+        shown = picture or self.grid
+        if self._pixels.indexOf(shown) < 0:
+            self._pixels.addWidget(shown)
+        self._pixels.setCurrentWidget(shown)
+        self._choices.setEnabled(shown is self.grid)
 
     def show_view(self, name: str) -> None:
         """Show a main view by its name."""

@@ -21,6 +21,7 @@ from app.pages.step.navigator_presenter import NavigatorPresenter
 from app.pages.step.pixel_menu import PixelMenu
 from app.pages.step.prediction_presenter import PredictionPresenter
 from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
+from app.pages.step.side_column import SideColumn
 from app.pages.step.step_columns import StepColumns
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.moment import Change, Moment
@@ -65,6 +66,7 @@ class StepPage(Page):
         self.grid, self.strip = self.main_area.grid, self.main_area.strip
         self.compare_view, self.ranges = self.main_area.compare_view, self.main_area.ranges
         self.column = column = InspectorColumn(self)
+        self.side = SideColumn(column, self)
         self.card, self.sentence, self.formula = column.card, column.sentence, column.formula
         self.listing, self.variables, self.history = column.listing, column.variables, column.history
         self.prediction = column.prediction
@@ -162,7 +164,7 @@ class StepPage(Page):
             self.side_tabs.add_tab(pane.name, pane.title, f"Show or fold away: {pane.title} ({pane.key})")
             self.side_panes.addWidget(pane.make(self))
         self.side_tabs.pane_chosen.connect(self.toggle_pane)
-        self.columns = StepColumns(self.side_panes, self.main_area, self.column, self)
+        self.columns = StepColumns(self.side_panes, self.main_area, self.side, self)
         self._page_layout = page = column_layout(self, 4, margins=MARGINS)
         self.place = ElidedLabel(self)
         self.place.setAccessibleDescription("Stage, step and scene")
@@ -272,7 +274,7 @@ class StepPage(Page):
 
     def focus_panes(self) -> list[QWidget]:
         """Return the views' row, the run, the inspector, and what is at the side."""
-        return [self.main_area, self.timeline, self.column, self]
+        return [self.main_area, self.timeline, self.side, self]
 
     def view_names(self) -> list[str]:
         """Return the names of the main views."""

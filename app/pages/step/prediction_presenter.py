@@ -36,6 +36,8 @@ class PredictionPresenter(QObject):
         self._asked: Prediction | None = None
         self._guesses: Guesses | None = None
         self._right = self._count = 0
+        self.is_active = False
+        """Whether it asks: a lesson hides what comes next for a question of its own."""
         view.answer_given.connect(self._answer)
         view.reveal_requested.connect(self._reveal)
         view.next_requested.connect(self._next)
@@ -43,6 +45,7 @@ class PredictionPresenter(QObject):
 
     def set_active(self, is_active: bool) -> None:
         """Start asking, or stop and show everything."""
+        self.is_active = is_active
         self._right = self._count = 0
         self._view.show_count(0, 0)
         self._session.set_predicting(is_active)
@@ -111,5 +114,5 @@ class PredictionPresenter(QObject):
 
     def refresh(self, moment: Moment) -> None:
         """Ask for what comes next, while the user predicts."""
-        if moment.is_predicting:
+        if moment.is_predicting and self.is_active:
             self._ask()

@@ -1,0 +1,213 @@
+"""The pane of a lesson beside the picture: text, task, the form of an answer, what came of it, and where to go next."""
+
+from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
+
+from core.records.cells import Form
+from widgets.basics.accessible import announce
+from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
+from widgets.basics.flow_layout import FlowLayout
+from widgets.basics.labels import set_role, text_label
+from widgets.basics.marks import Mark, mark_pixmap
+from widgets.basics.theme import current_theme, theme_notifier
+from widgets.exercises.answer_forms import make_view
+from widgets.exercises.answer_view import AnswerView
+from widgets.exercises.mark_grid import MarkGrid
+from widgets.lessons.records import LessonFeedback, LessonStepRecord
+from widgets.lessons.step_dots import StepDots
+
+_MARKS = {True: Mark.RIGHT, False: Mark.WRONG}
+
+
+class LessonView(QWidget):
+    """Shows a `LessonStepRecord`; what is to be done is asked for by signals."""
+
+    back_requested = Signal()
+    next_requested = Signal()
+    return_requested = Signal()
+    """The state of the step is to be opened again."""
+    step_chosen = Signal(int)
+    close_requested = Signal()
+    check_requested = Signal()
+    reveal_requested = Signal()
+    """What is right is to be shown, or the step that refutes the last answer."""
+    link_chosen = Signal(str)
+    """Address of what is to be opened."""
+    answer_changed = Signal()
+
+    def __init__(self, grid: MarkGrid, parent: QWidget | None = None) -> None:
+        """Make an empty pane; ``grid`` is the picture on which answers are marked."""
+        super().__init__(parent)
+        self.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
+        self.setProperty("role", "panel")
+        self.setAccessibleName("Lesson")
+        self._grid = grid
+        self._feedback: LessonFeedback | None = None
+        self._record: LessonStepRecord | None = None
+        self.answer: AnswerView | None = None
+        self.title = text_label("", self, role="strong", wraps=True)
+        self.place = text_label("", self, role="muted")
+        self.close_button = flat_button(
+            "✕", "Close the lesson", "Close the lesson: what was open before it comes back", self
+        )
+        self.text = text_label("", self, wraps=True, is_selectable=True, name="What this step is about")
+        self.kind = text_label("", self, role="strong", name="What is to be done")
+        self.note = text_label("", self, role="muted", wraps=True)
+        self.check_button = self._button("Check", "Check the answer (Return)", self.check_requested)
+        self.reveal_button = self._button(
+            "Reveal", "Show what is right: the step counts as seen (Ctrl+M)", self.reveal_requested
+        )
+        self.back_button = self._button("Back", "Previous step of the lesson (Page Up)", self.back_requested)
+        self.next_button = self._button("Next", "Next step of the lesson (Page Down)", self.next_requested)
+        self.next_button.setProperty("role", "primary")
+        self.return_button = self._button(
+            "Return here",
+            "Open this step of the lesson as it was at first (Ctrl+Home)",
+            self.return_requested,
+        )
+        self.dots = StepDots(self)
+        self._icon = QLabel(self)
+        self.feedback = text_label("", self, wraps=True, is_selectable=True, name="What came of it")
+        self._links = FlowLayout(spacing=8)
+        self._arrange()
+        self.close_button.clicked.connect(self.close_requested)
+        self.dots.step_chosen.connect(self.step_chosen)
+        theme_notifier().theme_changed.connect(self._follow_theme)
+
+    def _button(self, text: str, tip: str, signal: Signal) -> QPushButton:
+        button = button_with_tip(text, tip, self)
+        button.clicked.connect(signal)
+        return button
+
+    def _arrange(self) -> None:
+        head, result = row_layout(spacing=8), row_layout(spacing=8)
+        head.addWidget(self.title, 1)
+        head.addWidget(self.place, 0, Qt.AlignmentFlag.AlignTop)
+        head.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
+        result.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
+        result.addWidget(self.feedback, 1)
+        checks, ways = FlowLayout(spacing=8), FlowLayout(spacing=8)
+        for button in (self.check_button, self.reveal_button):
+            checks.addWidget(button)
+        for widget in (self.back_button, self.next_button, self.return_button, self.dots):
+            ways.addWidget(widget)
+        column = column_layout(self, 6, margins=(8, 6, 4, 8))
+        column.addLayout(head)
+        column.addWidget(self.text)
+        column.addWidget(self.kind)
+        self._answer_place = column_layout(spacing=4)
+        column.addLayout(self._answer_place)
+        column.addWidget(self.note)
+        column.addLayout(checks)
+        column.addLayout(result)
+        column.addLayout(self._links)
+        column.addLayout(ways)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
+
+    # What is shown.
+
+    def show_step(self, record: LessonStepRecord, form: Form | None) -> AnswerView | None:
+        """Show a step; return the form for its answer, if it asks for one."""
+        self._record = record
+        self.title.setText(record.title)
+        self.text.setText(record.text)
+        self.text.setVisible(bool(record.text))
+        self.kind.setText(record.kind)
+        self.kind.setVisible(bool(record.kind))
+        self._show_links(record.links)
+        self._show_form(form)
+        self.show_note("")
+        self.show_feedback(None)
+        self.show_standings(record)
+        announce(self, ". ".join(filter(None, (self.spoken_place(), record.text, record.kind))))
+        return self.answer
+
+    def show_standings(self, record: LessonStepRecord) -> None:
+        """Show how far the learner is with the steps."""
+        self._record = record
+        self.place.setText(record.place)
+        self.dots.show_standings(record.standings, record.number)
+        self.back_button.setEnabled(record.number > 0)
+        self.next_button.setText(record.next_title or "Next")
+        self.next_button.setToolTip(f"{record.next_title or 'Next step of the lesson'} (Page Down)")
+
+    def spoken_place(self) -> str:
+        """Return title and step for a screen reader."""
+        return "" if self._record is None else f"{self._record.title}, {self._record.place}"
+
+    def _show_links(self, links: tuple[tuple[str, str], ...]) -> None:
+        while self._links.count():
+            old = self._links.takeAt(0).widget()
+            old.hide()
+            old.deleteLater()
+        for address, title in links:
+            button = button_with_tip(title, f"Open: {title}", self)
+            button.setObjectName(address)
+            button.clicked.connect(self._choose_link)
+            self._links.addWidget(button)
+            button.show()
+
+    @Slot()
+    def _choose_link(self) -> None:
+        self.link_chosen.emit(self.sender().objectName())
+
+    def _show_form(self, form: Form | None) -> None:
+        if self.answer is not None:
+            self.answer.release()
+            self._answer_place.removeWidget(self.answer)
+            self.answer.hide()
+            self.answer.deleteLater()
+            self.answer = None
+        if form is not None:
+            self.answer = make_view(form, self._grid, self)
+            self.answer.note_changed.connect(self.show_note)
+            self.answer.answer_changed.connect(self.answer_changed)
+            self._answer_place.addWidget(self.answer)
+            self.answer.show()
+        self.set_asking(form is not None)
+
+    def set_asking(self, is_asking: bool) -> None:
+        """Take an answer, or only show what was given."""
+        self.check_button.setVisible(is_asking)
+        self.reveal_button.setVisible(is_asking)
+        if self.answer is not None:
+            self.answer.set_open(is_asking)
+
+    @Slot(str)
+    def show_note(self, text: str) -> None:
+        """Say how the answer is understood, or why it is not checked yet."""
+        self.note.setText(text)
+        self.note.setVisible(bool(text))
+        announce(self, text)
+
+    def show_feedback(self, feedback: LessonFeedback | None) -> None:
+        """Show what came of the task, and say it; ``None``: nothing yet."""
+        self._feedback = feedback
+        self.feedback.setVisible(feedback is not None)
+        self._follow_theme()
+        if feedback is not None:
+            self.feedback.setText("\n".join(feedback.sentences))
+            set_role(self.feedback, {True: "good", False: "bad", None: ""}[feedback.is_right])
+            announce(self, self.feedback.text())
+
+    def show_away(self, is_away: bool) -> None:
+        """Offer to return where the learner has left the state of the step."""
+        self.return_button.setEnabled(is_away)
+
+    @Slot()
+    def _follow_theme(self) -> None:
+        mark = None if self._feedback is None else _MARKS.get(self._feedback.is_right)  # type: ignore[arg-type]
+        self._icon.setVisible(mark is not None)
+        if mark is not None:
+            self._icon.setPixmap(mark_pixmap(mark, current_theme().text_px + 4, self.devicePixelRatioF()))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Press a button with Return; elsewhere Return checks the answer."""
+        focused = self.focusWidget()
+        if event.key() not in (Qt.Key.Key_Return, Qt.Key.Key_Enter) or event.modifiers():
+            super().keyPressEvent(event)
+        elif isinstance(focused, QPushButton):
+            focused.click()
+        elif self.check_button.isVisible():
+            self.check_requested.emit()

@@ -1,0 +1,49 @@
+"""What the pane of a lesson shows: a step, what came of its task, and the end of the lesson."""
+
+from dataclasses import dataclass
+from enum import Enum
+
+MOST_WRONG = 2
+"""Wrong answers after which the step that refutes the last one is offered."""
+
+
+class Standing(Enum):
+    """How far somebody is with a step; the value is the word for it."""
+
+    OPEN = "open"
+    SEEN = "seen"
+    DONE = "done"
+
+
+@dataclass(frozen=True)
+class LessonStepRecord:
+    """One step of a lesson, or its end."""
+
+    title: str
+    """Of the lesson."""
+    text: str
+    number: int
+    """Of the step, from 0; the number of steps: the end."""
+    standings: tuple[Standing, ...]
+    """Of all steps."""
+    kind: str = ""
+    """What is to be done, as ``Predict``; empty: nothing."""
+    links: tuple[tuple[str, str], ...] = ()
+    """Address and title of what can be opened from here: exercises, pages."""
+    next_title: str = ""
+    """What Next opens, where it is not the next step."""
+
+    @property
+    def place(self) -> str:
+        """Where the step is in the lesson."""
+        is_end = self.number == len(self.standings)
+        return "the end" if is_end else f"step {self.number + 1} of {len(self.standings)}"
+
+
+@dataclass(frozen=True)
+class LessonFeedback:
+    """What came of a task."""
+
+    sentences: tuple[str, ...]
+    is_right: bool | None = None
+    """Whether it is done; ``None``: neither right nor wrong."""
