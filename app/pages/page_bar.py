@@ -87,6 +87,9 @@ class Page(QWidget):
     help_requested = Signal(str)
     """Address of a page of Help, as ``family/fill``."""
 
+    link_requested = Signal(str)
+    """What is to be opened, as links of Help say it: ``exercise/shared-edge``."""
+
     preference_changed = Signal(str, object)
     """Name and value of a field of ``app.files.preferences.Preferences`` that the user has changed."""
 

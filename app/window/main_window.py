@@ -193,6 +193,7 @@ class MainWindow(ActionWindow):
         page.action_requested.connect(self.run_action)
         page.open_requested.connect(self.open_path)
         page.help_requested.connect(self.help.show_page)
+        page.link_requested.connect(self.help.follow)
         page.preference_changed.connect(self.memory.remember)
         self.memory.restore_page(page)
 

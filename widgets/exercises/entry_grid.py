@@ -47,7 +47,8 @@ class EntryGrid(QWidget):
         layout.setHorizontalSpacing(4)
         layout.setVerticalSpacing(4)
         for column, name in enumerate(columns):
-            layout.addWidget(text_label(name, self, role="muted"), 0, 1 + 2 * column)
+            if name:
+                layout.addWidget(text_label(name, self, role="muted"), 0, 1 + 2 * column)
             layout.setColumnStretch(1 + 2 * column, 4)
         for row, label in enumerate(labels):
             layout.addWidget(text_label(label, self), 1 + row, 0)

@@ -1,11 +1,14 @@
 """The room of a lesson's pane: as high as it needs, and where that is too much it scrolls."""
 
-from PySide6.QtCore import QEvent, QObject, QSize, Qt
-from PySide6.QtWidgets import QFrame, QScrollArea, QSizePolicy, QWidget
+from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtWidgets import QFrame, QScrollArea, QWidget
 
 
 class LessonScroll(QScrollArea):
-    """Holds the pane; its height is that of its content at its width, where the column has so much."""
+    """Holds the pane; the column gives it the height that it wants, as far as there is so much."""
+
+    height_changed = Signal()
+    """The pane wants another height."""
 
     def __init__(self, content: QWidget, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -13,27 +16,22 @@ class LessonScroll(QScrollArea):
         self.setWidgetResizable(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
         self.setWidget(content)
 
-    def wanted_height(self) -> int:
-        """Return the height at which nothing scrolls."""
-        content = self.widget()
-        layout = content.layout()
-        if layout is None:
-            return content.sizeHint().height()
-        return layout.totalHeightForWidth(max(self.width(), 1))
-
-    def sizeHint(self) -> QSize:
-        """Return that height."""
-        return QSize(self.widget().sizeHint().width(), self.wanted_height())
-
-    def minimumSizeHint(self) -> QSize:
-        """Return no height: the column says how much there is."""
-        return QSize(0, 0)
+    def take_room(self, width: int, most: int) -> None:
+        """Be as high as the content needs in a column of a width, and at ``most`` so high: then it scrolls."""
+        layout = self.widget().layout()
+        wanted = 0 if layout is None else layout.totalHeightForWidth(width)
+        # Not as Qt sees fit: where a bar makes the text higher, it would keep the bar for that.
+        policies = Qt.ScrollBarPolicy
+        self.setVerticalScrollBarPolicy(
+            policies.ScrollBarAlwaysOff if wanted <= most else policies.ScrollBarAsNeeded
+        )
+        self.setFixedHeight(min(wanted, most))
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
-        """Ask for another height when the content has changed."""
-        if watched is self.widget() and event.type() == QEvent.Type.LayoutRequest:
-            self.updateGeometry()
-        return super().eventFilter(watched, event)
+        """Tell that the content has changed."""
+        done = super().eventFilter(watched, event)
+        if event.type() == QEvent.Type.LayoutRequest and watched is self.widget():
+            self.height_changed.emit()
+        return done

@@ -1,7 +1,7 @@
 """The pane of a lesson beside the picture: text, task, the form of an answer, what came of it, and where to go next."""
 
-from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtCore import QRectF, Qt, Signal, Slot
+from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen, QPixmap
 from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
 
 from core.records.cells import Form
@@ -9,7 +9,7 @@ from widgets.basics.accessible import announce
 from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
 from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import set_role, text_label
-from widgets.basics.marks import Mark, mark_pixmap
+from widgets.basics.marks import Mark, draw_mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.exercises.answer_forms import make_view
 from widgets.exercises.answer_view import AnswerView
@@ -18,6 +18,20 @@ from widgets.lessons.records import LessonFeedback, LessonStepRecord
 from widgets.lessons.step_dots import StepDots
 
 _MARKS = {True: Mark.RIGHT, False: Mark.WRONG}
+
+
+def task_pixmap(is_done: bool, side: int, ratio: float) -> QPixmap:
+    """Return the box of a task, ticked when it is done."""
+    pixmap = QPixmap(round(side * ratio), round(side * ratio))
+    pixmap.setDevicePixelRatio(ratio)
+    pixmap.fill(Qt.GlobalColor.transparent)
+    with QPainter(pixmap) as painter:
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setPen(QPen(QColor(current_theme().text), 1.4))
+        painter.drawRoundedRect(QRectF(1, 1, side - 2, side - 2), 2, 2)
+        if is_done:
+            draw_mark(painter, Mark.RIGHT, QRectF(2, 2, side - 4, side - 4))
+    return pixmap
 
 
 class LessonView(QWidget):
@@ -51,8 +65,10 @@ class LessonView(QWidget):
         self.close_button = flat_button(
             "✕", "Close the lesson", "Close the lesson: what was open before it comes back", self
         )
+        self.lead = text_label("", self, role="muted", wraps=True)
         self.text = text_label("", self, wraps=True, is_selectable=True, name="What this step is about")
-        self.kind = text_label("", self, role="strong", name="What is to be done")
+        self._task_icon = QLabel(self)
+        self.task = text_label("", self, role="strong", wraps=True, name="What is to be done")
         self.note = text_label("", self, role="muted", wraps=True)
         self.check_button = self._button("Check", "Check the answer (Return)", self.check_requested)
         self.reveal_button = self._button(
@@ -81,10 +97,12 @@ class LessonView(QWidget):
         return button
 
     def _arrange(self) -> None:
-        head, result = row_layout(spacing=8), row_layout(spacing=8)
+        head, task, result = row_layout(spacing=8), row_layout(spacing=8), row_layout(spacing=8)
         head.addWidget(self.title, 1)
         head.addWidget(self.place, 0, Qt.AlignmentFlag.AlignTop)
         head.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
+        task.addWidget(self._task_icon, 0, Qt.AlignmentFlag.AlignTop)
+        task.addWidget(self.task, 1)
         result.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
         result.addWidget(self.feedback, 1)
         checks, ways = FlowLayout(spacing=8), FlowLayout(spacing=8)
@@ -94,8 +112,9 @@ class LessonView(QWidget):
             ways.addWidget(widget)
         column = column_layout(self, 6, margins=(8, 6, 4, 8))
         column.addLayout(head)
+        column.addWidget(self.lead)
         column.addWidget(self.text)
-        column.addWidget(self.kind)
+        column.addLayout(task)
         self._answer_place = column_layout(spacing=4)
         column.addLayout(self._answer_place)
         column.addWidget(self.note)
@@ -111,22 +130,22 @@ class LessonView(QWidget):
         """Show a step; return the form for its answer, if it asks for one."""
         self._record = record
         self.title.setText(record.title)
-        self.text.setText(record.text)
-        self.text.setVisible(bool(record.text))
-        self.kind.setText(record.kind)
-        self.kind.setVisible(bool(record.kind))
+        for label, text in ((self.lead, record.lead), (self.text, record.text), (self.task, record.task)):
+            label.setText(text)
+            label.setVisible(bool(text))
         self._show_links(record.links)
         self._show_form(form)
         self.show_note("")
         self.show_feedback(None)
         self.show_standings(record)
-        announce(self, ". ".join(filter(None, (self.spoken_place(), record.text, record.kind))))
+        announce(self, ". ".join(filter(None, (self.spoken_place(), record.lead, record.text, record.task))))
         return self.answer
 
     def show_standings(self, record: LessonStepRecord) -> None:
         """Show how far the learner is with the steps."""
         self._record = record
         self.place.setText(record.place)
+        self._follow_theme()
         self.dots.show_standings(record.standings, record.number)
         self.back_button.setEnabled(record.number > 0)
         self.next_button.setText(record.next_title or "Next")
@@ -197,10 +216,16 @@ class LessonView(QWidget):
 
     @Slot()
     def _follow_theme(self) -> None:
+        theme, ratio = current_theme(), self.devicePixelRatioF()
+        record = self._record
+        self._task_icon.setVisible(record is not None and bool(record.task))
+        if record is not None and record.task:
+            self._task_icon.setPixmap(task_pixmap(record.is_done, theme.text_px + 3, ratio))
+            self._task_icon.setAccessibleName("done" if record.is_done else "to do")
         mark = None if self._feedback is None else _MARKS.get(self._feedback.is_right)  # type: ignore[arg-type]
         self._icon.setVisible(mark is not None)
         if mark is not None:
-            self._icon.setPixmap(mark_pixmap(mark, current_theme().text_px + 4, self.devicePixelRatioF()))
+            self._icon.setPixmap(mark_pixmap(mark, theme.text_px + 4, ratio))
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Press a button with Return; elsewhere Return checks the answer."""

@@ -26,12 +26,19 @@ class LessonStepRecord:
     """Of the step, from 0; the number of steps: the end."""
     standings: tuple[Standing, ...]
     """Of all steps."""
-    kind: str = ""
-    """What is to be done, as ``Predict``; empty: nothing."""
+    lead: str = ""
+    """What the lesson is about, where it begins; empty: nothing."""
+    task: str = ""
+    """What is to be done, as ``Predict`` or in a sentence; empty: nothing."""
     links: tuple[tuple[str, str], ...] = ()
     """Address and title of what can be opened from here: exercises, pages."""
     next_title: str = ""
     """What Next opens, where it is not the next step."""
+
+    @property
+    def is_done(self) -> bool:
+        """Whether the task is done."""
+        return self.number < len(self.standings) and self.standings[self.number] is Standing.DONE
 
     @property
     def place(self) -> str:

@@ -131,11 +131,13 @@ class GridPresenter(QObject):
         self._strip.show_step(mark)
 
     def show_only(self, buffer: str) -> None:
-        """Show a buffer of the stage at hand, empty: its first one, with what is over it at first."""
+        """Show a buffer of the stage at hand alone; empty: its first one, with what is over it at first."""
         stage = self._moment.cursor.stage
-        self._chosen = {**self._chosen, stage: buffer} if buffer else {}
+        self._chosen = {stage: buffer} if buffer else {}
         self._own_ranges.clear()
         self._shown_overlays = dict(DEFAULT_OVERLAYS)
+        if buffer:
+            self._shown_overlays[stage] = frozenset({"nan"})
         self._show_again()
 
     def look(self) -> GridLook:

@@ -36,6 +36,7 @@ class InspectorColumn(QTabWidget):
         self._listing_lines = LISTING_LINES
         self._tallest = 0
         """Height of the tallest formula of the stage so far."""
+        self._is_presenting, self._is_card_wanted = False, True
         self._is_history_chosen = False
         """Whether the user wants to see histories while stepping."""
         self.card, self.formula, self.listing = StageCardView(self), FormulaView(self), ListingView(self)
@@ -107,8 +108,18 @@ class InspectorColumn(QTabWidget):
 
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave out the stage's card, or bring it back."""
-        self.card.setVisible(not is_presenting)
+        self._is_presenting = is_presenting
+        self._show_card()
         self._listing_lines = PRESENTED_LINES if is_presenting else LISTING_LINES
+        self.fit()
+
+    def show_card(self, is_wanted: bool) -> None:
+        """Show the stage's card, but not while presenting; or leave it out for something else that stands there."""
+        self._is_card_wanted = is_wanted
+        self._show_card()
+
+    def _show_card(self) -> None:
+        self.card.setVisible(self._is_card_wanted and not self._is_presenting)
         self.fit()
 
     def show_formula(self, formula: Formula | None, is_new_stage: bool) -> None:

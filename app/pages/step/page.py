@@ -15,6 +15,7 @@ from app.pages.step.event_choice import EventChoice
 from app.pages.step.grid_presenter import GridPresenter
 from app.pages.step.inspector_column import InspectorColumn
 from app.pages.step.inspector_presenter import InspectorPresenter
+from app.pages.step.lesson_presenter import LessonPresenter
 from app.pages.step.main_area import MainArea
 from app.pages.step.narrator import StepNarrator
 from app.pages.step.navigator_presenter import NavigatorPresenter
@@ -99,6 +100,7 @@ class StepPage(Page):
         self.grids.look_changed.connect(self.look_changed)
         self.comparing.look_changed.connect(self.look_changed)
         self.views.refused.connect(self.edit_refused)
+        self.lessons = LessonPresenter(self)
         self._desk_panes: list[str] | None = None
         """While presenting, the panes that come back after it."""
         self._lay_out()
@@ -274,7 +276,7 @@ class StepPage(Page):
 
     def focus_panes(self) -> list[QWidget]:
         """Return the views' row, the run, the inspector, and what is at the side."""
-        return [self.main_area, self.timeline, self.side, self]
+        return [self.main_area, *self.side.panes(), self.timeline, self]
 
     def view_names(self) -> list[str]:
         """Return the names of the main views."""
@@ -323,7 +325,7 @@ class StepPage(Page):
                 break
             QThread.msleep(10)
         self._settle_layouts(self.session.moment)
-        while self.views.is_drawing or self.navigation.is_drawing:
+        while self.views.is_drawing or self.navigation.is_drawing or self.lessons.is_working:
             QCoreApplication.processEvents()
             QThread.msleep(5)
 
@@ -379,6 +381,7 @@ class StepPage(Page):
         """Play no further, and end drawing in the background."""
         self.timeline.show_playing(False)
         self.comparing.stop()
+        self.lessons.stop()
         self.views.stop()
         self.navigation.stop()
 

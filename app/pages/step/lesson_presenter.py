@@ -1,0 +1,190 @@
+"""Lessons on the Step page: opening and closing them, what was open before, and what is kept of them."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.background.workers import Job
+from app.files.state_files import State
+from app.pages.step.looks import show_state, state_of
+from core import Trace
+
+if TYPE_CHECKING:
+    # Lessons are imported when the first one is opened.
+    from app.pages.step.lesson_walk import LessonWalk
+    from app.pages.step.page import StepPage
+    from lessons.course.catalogue import Course
+    from lessons.course.lesson_file import Lesson
+
+NONE_OPEN = "No lesson is open. The Start page (Alt+0) lists them."
+
+
+@dataclass(frozen=True, eq=False)
+class _Desk:
+    """What was open before a lesson."""
+
+    state: State
+    trace: Trace
+
+
+@dataclass(frozen=True, eq=False)
+class _Found:
+    """A lesson that was read."""
+
+    course: "Course"
+    lesson: "Lesson"
+    step: int
+
+
+class LessonPresenter(QObject):
+    """Opens lessons; their pane is made with the first one."""
+
+    opened = Signal()
+    """A lesson is shown now, or another step of it."""
+    closed = Signal()
+
+    def __init__(self, page: "StepPage") -> None:
+        super().__init__(page)
+        self._page = page
+        self._walk: LessonWalk | None = None
+        self._desk: _Desk | None = None
+        self.last: tuple[str, int] | None = None
+        """Name and step of the lesson that was shown last."""
+        self._job = Job(self)
+        self._job.succeeded.connect(self._begin)
+        self._job.failed.connect(self._refuse)
+
+    @property
+    def walk(self) -> "LessonWalk | None":
+        """The lesson that is open."""
+        walk = self._walk
+        return None if walk is None or walk.lesson is None else walk
+
+    @property
+    def is_open(self) -> bool:
+        """Whether a lesson is open."""
+        return self.walk is not None
+
+    @property
+    def is_working(self) -> bool:
+        """Whether a lesson is being read, or something in it is being worked on."""
+        return self._job.is_running or (self._walk is not None and self._walk.is_working)
+
+    def stop(self) -> None:
+        """End all work."""
+        self._job.shut_down()
+        if self._walk is not None:
+            self._walk.stop()
+
+    # Opening and closing.
+
+    def open(self, name: str, step: int = 0) -> None:
+        """Open a lesson by its name, at one of its steps from 0; what is open now comes back when it is closed."""
+        self._job.call(lambda: _found(name, step))
+
+    @Slot(object)
+    def _begin(self, found: _Found) -> None:
+        from app.pages.step.lesson_walk import LessonWalk
+        from widgets.lessons.records import Standing
+
+        page = self._page
+        if self._walk is None:
+            self._walk = walk = LessonWalk(page)
+            walk.left.connect(self._leave)
+            walk.place_changed.connect(self._remember)
+            walk.view.close_requested.connect(self.close)
+        if not self.is_open:
+            self._desk = _Desk(state_of(page, 100), page.session.trace)
+        page.side.show_lesson(self._walk.scroll)
+        page.column.show_card(False)
+        self._walk.begin(found.course, found.lesson, found.step, [Standing.OPEN] * len(found.lesson.steps))
+
+    @Slot(object)
+    def _refuse(self, error: Exception) -> None:
+        self._page.refuse(f"The lesson cannot be opened: {error}. The open scene is unchanged.")
+
+    @Slot()
+    def _remember(self) -> None:
+        walk = self.walk
+        if walk is not None and walk.lesson is not None:
+            self.last = walk.lesson.name, walk.number
+            self.opened.emit()
+
+    @Slot()
+    def close(self) -> None:
+        """Close the lesson: what was open before it is open again."""
+        desk = self._desk
+        if self.walk is not None and desk is not None:
+            self._put_away()
+            show_state(self._page, desk.state, desk.trace)
+            self.closed.emit()
+
+    @Slot()
+    def _leave(self) -> None:
+        """Close the lesson, since something else was opened."""
+        desk = self._desk
+        if desk is not None:
+            self._put_away()
+            if desk.state.look.panes is not None:
+                self._page.show_desk_panes(desk.state.look.panes)
+            self._page.tell("The lesson is closed. Ctrl+Home opens it again at this step.")
+            self.closed.emit()
+
+    def _put_away(self) -> None:
+        assert self._walk is not None
+        self._desk = None
+        self._walk.end()
+        self._page.side.show_lesson(None)
+        self._page.column.show_card(True)
+
+    # By key.
+
+    def _do(self, act: "Callable[[LessonWalk], object]") -> None:
+        """Do something in the lesson that is open, or say that none is."""
+        walk = self.walk
+        if walk is None:
+            self._page.tell(NONE_OPEN)
+        else:
+            act(walk)
+
+    def next(self) -> None:
+        """Go to the next step."""
+        self._do(lambda walk: walk.next())
+
+    def back(self) -> None:
+        """Go to the previous step."""
+        self._do(lambda walk: walk.back())
+
+    def return_here(self) -> None:
+        """Open the step as it was at first; without a lesson, the one that was open last."""
+        if self.walk is None and self.last is not None:
+            self.open(*self.last)
+        else:
+            self._do(lambda walk: walk.return_here())
+
+    def check(self) -> None:
+        """Check the answer."""
+        self._do(lambda walk: walk.answers.check())
+
+    def reveal(self) -> None:
+        """Show what is right."""
+        self._do(lambda walk: walk.reveal())
+
+    def advance(self) -> None:
+        """Go on in front of a class: show the answer of an open question first."""
+        self._do(lambda walk: walk.reveal() if walk.answers.is_open else walk.next())
+
+    def start_over(self) -> None:
+        """Go to the first step."""
+        self._do(lambda walk: walk.go(0))
+
+
+def _found(name: str, step: int) -> _Found:
+    """Read the lessons, and import all that shows them."""
+    import app.pages.step.lesson_walk  # noqa: F401
+    from lessons.course.catalogue import shipped
+
+    course = shipped()
+    return _Found(course, course.named(name), step)

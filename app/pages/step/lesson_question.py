@@ -1,0 +1,220 @@
+"""The question of a step that is to be predicted: takes the answer, has it judged, and says what is wrong with it."""
+
+from dataclasses import dataclass
+from typing import Any
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.background.workers import Job
+from app.pages.exercises.answer_pictures import Live, is_live, live, marks_of, size_of
+from app.pages.exercises.scene_outline import outline_of
+from core.records.cells import Marks
+from lessons.course.lesson_file import Lesson
+from lessons.course.questions import Outcome, outcome_of
+from lessons.exercises.answers.answer import NotCheckedError, Response
+from lessons.exercises.question import Question
+from lessons.mistakes.shelf import MISTAKES
+from widgets.exercises.answer_view import AnswerView
+from widgets.exercises.mark_grid import MarkGrid
+from widgets.grid.geometry import GridGeometry
+from widgets.lessons.lesson_view import LessonView
+from widgets.lessons.records import MOST_WRONG, LessonFeedback
+
+RIGHT, SHOWN = "Right.", "This is the answer."
+
+
+@dataclass(frozen=True, eq=False)
+class LessonQuestion:
+    """What a step asks, with the outline of its scene."""
+
+    lesson: Lesson
+    number: int
+    question: Question
+    outline: GridGeometry | None
+
+    @property
+    def is_on_picture(self) -> bool:
+        """Whether it is answered on a picture."""
+        return self.question.draft.answer.kind in ("pixels", "spot", "places", "break")
+
+
+@dataclass(frozen=True, eq=False)
+class JudgedAnswer:
+    """An answer that is judged."""
+
+    asked: LessonQuestion
+    given: object
+    response: Response
+    outcome: Outcome
+    marks: Marks
+
+
+def question_with_outline(lesson: Lesson, number: int, question: Question) -> LessonQuestion:
+    """Return a question with the outline of its scene."""
+    return LessonQuestion(lesson, number, question, outline_of(question.draft, question.template.stage))
+
+
+class LessonAnswers(QObject):
+    """Asks one question at a time in the lesson's pane."""
+
+    judged = Signal(object)
+    """A `JudgedAnswer`."""
+
+    def __init__(self, view: LessonView, grid: MarkGrid, parent: QObject) -> None:
+        super().__init__(parent)
+        self._view, self._grid = view, grid
+        self.asked: LessonQuestion | None = None
+        self.is_open = False
+        """Whether an answer is wanted."""
+        self.last: JudgedAnswer | None = None
+        """The last answer; ``None``: there is none yet."""
+        self.wrong_count = 0
+        self._left_out: object = None
+        self._judging, self._drawing = Job(self), Job(self)
+        self._judging.succeeded.connect(self._show_judged)
+        self._drawing.succeeded.connect(self._show_live)
+        view.check_requested.connect(self.check)
+        view.answer_changed.connect(self._follow_answer)
+
+    @property
+    def is_working(self) -> bool:
+        """Whether an answer is being judged or drawn."""
+        return self._judging.is_running or self._drawing.is_running
+
+    def stop(self) -> None:
+        """End all work."""
+        self.end()
+        self._judging.shut_down()
+        self._drawing.shut_down()
+
+    def end(self) -> None:
+        """Ask nothing any more."""
+        self.asked, self.is_open, self.last, self.wrong_count = None, False, None, 0
+        self._judging.cancel()
+        self._drawing.cancel()
+
+    def begin(self, asked: LessonQuestion) -> None:
+        """Ask a question, whose form is in the pane already; the picture is empty."""
+        self.end()
+        self.asked, self.is_open, self._left_out = asked, True, None
+        draft = asked.question.draft
+        size = size_of(draft)
+        if size is not None:
+            self._grid.show_raster(size, asked.outline, draft.pixel)
+        self._draw_live()
+
+    @property
+    def _form(self) -> AnswerView:
+        assert self._view.answer is not None
+        return self._view.answer
+
+    @Slot()
+    def _follow_answer(self) -> None:
+        """Forget what was found of another answer."""
+        if self.is_open:
+            self._form.show_marks(None)
+            self._view.show_feedback(None)
+            self._draw_live()
+
+    def _draw_live(self) -> None:
+        """Draw what is shown of an answer while it is given."""
+        if self.asked is None or not is_live(self.asked.question.draft):
+            return
+        draft, given = self.asked.question.draft, self._form.given()
+
+        def work() -> Live:
+            try:
+                response = draft.answer.read(given)
+            except NotCheckedError:
+                response = None
+            return live(draft, response)
+
+        self._drawing.call(work)
+
+    @Slot(object)
+    def _show_live(self, shown: Live) -> None:
+        self._grid.show_geometry(shown.outline)
+        self._grid.show_picture(shown.picture, shown.overlays)
+
+    def fill(self, response: Response) -> None:
+        """Fill the form with an answer, as if the learner had given it."""
+        if self.asked is not None:
+            self._form.show_given(self.asked.question.draft.answer.given(response))
+            self._follow_answer()
+
+    @Slot()
+    def check(self) -> None:
+        """Judge the answer; what means nothing yet is not judged and costs nothing."""
+        asked = self.asked
+        if asked is None or not self.is_open or self._judging.is_running:
+            return
+        answer, given = asked.question.draft.answer, self._form.given()
+        try:
+            if unread := self._form.unread():
+                raise NotCheckedError(unread)
+            response = answer.read(given)
+        except NotCheckedError as problem:
+            self._view.show_note(f"Not checked yet: {problem}.")
+            return
+        left_out = answer.left_out(response)
+        if left_out and given != self._left_out:
+            self._left_out = given
+            self._view.show_note(f"{left_out}. Check anyway? Then choose Check again.")
+            return
+        self._view.show_note("")
+
+        def work() -> JudgedAnswer:
+            outcome = outcome_of(asked.lesson, asked.number, asked.question, response)
+            return JudgedAnswer(
+                asked, given, response, outcome, marks_of(asked.question, outcome.judgement.verdict)
+            )
+
+        self._judging.call(work)
+
+    @Slot(object)
+    def _show_judged(self, judged: JudgedAnswer) -> None:
+        if judged.asked is not self.asked:
+            return
+        self.last = judged
+        if self._form.given() == judged.given:
+            self._form.show_marks(judged.marks)
+        if judged.outcome.is_right:
+            self.close()
+        else:
+            self.wrong_count += 1
+            self._view.show_feedback(LessonFeedback(wrong_sentences(judged), is_right=False))
+        self.judged.emit(judged)
+
+    def close(self) -> None:
+        """Take no answer any more; what was given stays in sight."""
+        self.is_open = False
+        self._view.set_asking(False)
+
+    def show_right(self) -> None:
+        """Fill in the right answer, and take none any more."""
+        if self.asked is not None:
+            answer: Any = self.asked.question.draft.answer
+            self._drawing.cancel()
+            self._form.show_marks(None)
+            self._form.show_given(answer.given(answer.reference))
+            self._draw_live()
+            self.close()
+
+    @property
+    def is_evidence_wanted(self) -> bool:
+        """Whether the learner was wrong so often that the step which refutes the answer is offered."""
+        return self.is_open and self.wrong_count >= MOST_WRONG
+
+
+def wrong_sentences(judged: JudgedAnswer) -> tuple[str, ...]:
+    """Return what is said of a wrong answer: its belief, or its mistake by name, or at least where it goes wrong."""
+    judgement, draft = judged.outcome.judgement, judged.asked.question.draft
+    if judged.outcome.wrong is not None:
+        return (" ".join(judgement.reason.split()),)
+    named = tuple(MISTAKES[name].sentence for name in judgement.mistakes)
+    said = (
+        named
+        or tuple(judgement.sentences)
+        or tuple(filter(None, [draft.answer.first_wrong(judged.response)]))
+    )
+    return (f"Not yet: {judgement.verdict.counts}.", *said)

@@ -1,0 +1,164 @@
+"""The states of a lesson on the Step page: traced off the GUI thread, the next one ahead, each one entry of undo."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from threading import Lock
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.background.workers import Job
+from app.pages.step.lesson_question import LessonQuestion
+from app.session.cursor import Cursor, cursor_at
+from app.session.document import Document, TeachingRaster
+from app.session.printed_run import settings_of
+from app.session.tracing import trace_now
+from core import Settings, Trace
+from core.records.steps import Level
+from core.trace.run_to import START
+from lessons.course.state import State
+
+if TYPE_CHECKING:
+    from app.pages.step.page import StepPage
+
+KEPT = 3
+"""Documents that are kept with their traces: of the step that is shown, of the next one, and of what is revealed."""
+PANES = ("inspector", "run")
+"""Panes that are shown beside those that a state names."""
+
+
+@dataclass(frozen=True, eq=False)
+class OpenState:
+    """A state that is traced, and what is asked about it."""
+
+    state: State
+    document: Document
+    trace: Trace
+    cursor: Cursor
+    asked: LessonQuestion | None = None
+
+
+Wanted = tuple[State, LessonQuestion | None]
+
+
+class LessonStates(QObject):
+    """Traces states and shows them; states of one scene and the same settings share a document."""
+
+    refused = Signal(object)
+    """Why a state cannot be opened: the exception."""
+
+    def __init__(self, page: "StepPage") -> None:
+        super().__init__(page)
+        self._page = page
+        self._known: tuple[OpenState, ...] = ()
+        """The newest last."""
+        self._alone = Lock()
+        """Held while a state is traced: who wants what is being prepared takes that."""
+        self._show: Callable[[OpenState], None] | None = None
+        self._wanting, self._preparing = Job(self), Job(self)
+        self._wanting.succeeded.connect(self._take)
+        self._wanting.failed.connect(self.refused)
+        self._preparing.failed.connect(self._leave_out)
+
+    @property
+    def is_working(self) -> bool:
+        """Whether a state that is wanted is being traced."""
+        return self._wanting.is_running
+
+    def stop(self) -> None:
+        """End all work."""
+        self._wanting.shut_down()
+        self._preparing.shut_down()
+
+    def forget(self) -> None:
+        """Forget what was traced, and want nothing any more."""
+        self._wanting.cancel()
+        self._preparing.cancel()
+        self._known = ()
+
+    def want(self, make: Callable[[], Wanted], show: Callable[[OpenState], None]) -> None:
+        """Trace a state, and hand it to ``show``, unless another one is wanted by then."""
+        self._show = show
+        self._wanting.call(partial(self._open, make))
+
+    def prepare(self, make: Callable[[], Wanted | None]) -> None:
+        """Trace a state that may be wanted next."""
+        self._preparing.call(partial(self._open, make))
+
+    def _open(self, make: Callable[[], Wanted | None]) -> OpenState | None:
+        """Trace a state, in a thread of its own."""
+        with self._alone:
+            wanted = make()
+            if wanted is None:
+                return None
+            made = opened(*wanted, self._known)
+            others = tuple(each for each in self._known if each.document is not made.document)
+            self._known = (*others, made)[-KEPT:]
+            return made
+
+    @Slot(object)
+    def _take(self, made: OpenState) -> None:
+        if self._show is not None:
+            self._show(made)
+
+    @Slot(object)
+    def _leave_out(self, error: Exception) -> None:
+        """Say nothing: who goes to that step is told."""
+
+    def show(self, shown: OpenState, *, is_hidden: bool) -> None:
+        """Show a state, and hide what comes after it if it ``is_hidden``: one entry of undo, or none."""
+        page, state, session = self._page, shown.state, self._page.session
+        page.timeline.show_playing(False)
+        if session.document is shown.document:
+            session.jump(shown.cursor, state.pixel, is_hidden)
+        else:
+            session.open(shown.document, shown.trace, shown.cursor, pin=state.pixel, is_predicting=is_hidden)
+            page.stepping.set_places()
+            page.grid.fit()
+            page.views.look_from({})
+        page.grids.focus_on(max(session.moment.triangle, 0))
+        page.grids.show_only(state.buffer)
+        page.main_area.views_by_hand.clear()
+        self._show_view(state)
+        page.column.show_step()
+
+    def _show_view(self, state: State) -> None:
+        """Show A | B where the state has a B, else its view, or the one of its stage."""
+        page = self._page
+        if state.printed:
+            page.comparing.show_printed(state.printed, seeks=state.place.at == START)
+        elif state.other is not None:
+            page.comparing.set_differences(state.settings.differences(state.other))
+        if state.printed or state.other is not None:
+            page.show_view(state.view or "compare")
+            if state.pixel is not None and state.other is not None:
+                page.comparing.meet_at(state.pixel)
+        elif state.view:
+            page.show_view(state.view)
+        else:
+            page.show_own_view()
+
+
+def _settings(state: State) -> Settings:
+    """Return the settings of A: beside a listing as printed, those under which both run the same listing."""
+    if not state.printed:
+        return state.settings
+    raster = TeachingRaster(*state.scene.size)
+    mine, _ = settings_of(state.printed, Document(state.scene, raster, state.settings))
+    return mine
+
+
+def opened(state: State, asked: LessonQuestion | None, known: tuple[OpenState, ...]) -> OpenState:
+    """Trace a state, or take the trace of a ``known`` one that has the same; ValueError where it cannot be opened."""
+    for each in known:
+        same = each.state.scene is state.scene and each.state.triangle == state.triangle
+        if same and each.document.settings == _settings(state):
+            document, run = each.document, each.trace
+            break
+    else:
+        raster = TeachingRaster(*state.scene.size)
+        document = Document(state.scene, raster, _settings(state), state.triangle, title=state.title)
+        run = trace_now(document, state.stage)
+    run.stage(state.stage)
+    return OpenState(state, document, run, cursor_at(state.place, run, Level.PIXEL), asked)
