@@ -134,7 +134,7 @@ class _Names:
     def value(self, name: str) -> Any:
         """Return a count, or a variable of the row that was just done."""
         if name in COUNTS:
-            return np.asarray(FUNCTIONS[name](self.situation, [], {}))
+            return np.asarray(FUNCTIONS[name][0](self.situation, [], {}))
         found = self.situation.trace
         row, _ = found.steps.row_at(self.situation.position)
         values = np.asarray(TraceNames(found).value(name))
@@ -161,11 +161,12 @@ class _Names:
         try:
             if name in ARITHMETIC:
                 return ARITHMETIC[name](*values)
-            return FUNCTIONS[name](situation, values, chosen)
+            function, counts = FUNCTIONS[name]
+            if len(values) in counts:
+                return function(situation, values, chosen)
         except (TypeError, IndexError, OverflowError):
-            raise ValueError(
-                f"{name} does not take {', '.join(map(ast.unparse, given)) or 'nothing'}"
-            ) from None
+            pass
+        raise ValueError(f"{name} does not take {', '.join(map(ast.unparse, given)) or 'nothing'}")
 
 
 def _pixel(frame: Frame, x: float, y: float) -> tuple[int, int]:
@@ -314,28 +315,28 @@ def near(one: Any, other: Any) -> Any:
 
 Function = Callable[[Situation, list[Any], Mapping[str, str]], Any]
 
-FUNCTIONS: dict[str, Function] = {
-    "drawn": _drawn,
-    "twice": _twice,
-    "seen": _seen,
-    "owner": _owner,
-    "differs": _differs,
-    "unlike": _unlike,
-    "tested": _tested,
-    "decisions": _decisions,
-    "colors": _colors,
-    "rows": _rows,
-    "attribute": _attribute,
-    "u": _u,
-    "v": _v,
-    "linear": _linear,
-    "shown": _shown,
-    "stored": _stored,
-    "buffer": _buffer,
-    "value": _value,
-    "place": _place,
+FUNCTIONS: dict[str, tuple[Function, tuple[int, ...]]] = {
+    "drawn": (_drawn, (0, 2)),
+    "twice": (_twice, (0,)),
+    "seen": (_seen, (1,)),
+    "owner": (_owner, (2,)),
+    "differs": (_differs, (0,)),
+    "unlike": (_unlike, (0,)),
+    "tested": (_tested, (0,)),
+    "decisions": (_decisions, (0,)),
+    "colors": (_colors, (0,)),
+    "rows": (_rows, (0, 1)),
+    "attribute": (_attribute, (3,)),
+    "u": (_u, (2,)),
+    "v": (_v, (2,)),
+    "linear": (_linear, (3,)),
+    "shown": (_shown, (3,)),
+    "stored": (_stored, (2,)),
+    "buffer": (_buffer, (3, 4)),
+    "value": (_value, (2, 3, 4)),
+    "place": (_place, (3,)),
 }
-"""What a quoted number may ask; each takes the situation, numbers or texts, and methods by family."""
+"""What a quoted number may ask, and how many numbers or texts it takes."""
 ARITHMETIC: dict[str, Callable[..., Any]] = {
     "near": near,
     "abs": np.abs,

@@ -1,0 +1,166 @@
+"""Lessons hold: each one says what is so, and a broken one is refused with file, line and what was expected."""
+
+import re
+from itertools import chain
+from pathlib import Path
+
+import pytest
+
+from lessons.course.catalogue import FOLDER, chapters, shipped, with_folders
+from lessons.course.lesson_file import Lesson, read_lesson
+from lessons.course.slides import coverage, slides
+from lessons.course.state import States
+from lessons.course.validation import validate
+from tests.lessons.course.lesson_texts import GOOD
+
+FILES = sorted(path for path in FOLDER.glob("*.toml") if path.name not in ("order.toml", "slides.toml"))
+
+
+def lesson_of(folder: Path, text: str, name: str = "whose-pixel") -> Lesson:
+    path = folder / f"{name}.toml"
+    path.write_text(text, encoding="utf-8")
+    return read_lesson(path)
+
+
+@pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
+def test_a_lesson_says_what_is_so(path: Path) -> None:
+    validate(read_lesson(path), shipped().lessons)
+
+
+def test_the_order_names_each_lesson_once() -> None:
+    assert shipped().problems == ()
+    names = list(chain(*chapters().values()))
+    assert sorted(names) == [path.stem for path in FILES]
+    assert list(shipped().lessons) == names
+    assert sorted(lesson.name for lessons in shipped().by_stage.values() for lesson in lessons) == sorted(
+        names
+    )
+
+
+def test_each_slide_is_covered_or_has_a_reason() -> None:
+    covered = coverage(shipped().lessons.values())
+    assert [slide.name for slide in slides() if bool(covered[slide.name]) == bool(slide.reason)] == []
+
+
+def test_the_next_lesson_is_the_named_one_or_the_next_in_the_list() -> None:
+    course = shipped()
+    lessons = list(course.lessons.values())
+    for lesson, following in zip(lessons, [*lessons[1:], None], strict=True):
+        named = lesson.part.next
+        assert course.after(lesson) is (course.lessons[named.lesson] if named else following)
+
+
+def test_a_good_lesson_holds(tmp_path: Path) -> None:
+    validate(lesson_of(tmp_path, GOOD), [])
+
+
+FAILS = 'fails = { weak = { fill_rule = "inclusive" }, robust = { fill_rule = "shared-edge" }, by = "twice" }'
+BROKEN = [
+    ("version = 1", "version = 2", "version: expected 1"),
+    ("minutes = 5", 'minutes = "5"', "minutes: expected a whole number, got '5'"),
+    ("minutes = 5", "minuets = 5", "expected minutes here, which is missing"),
+    ("[state]", "[stage]", "stage: unknown 'stage', expected state"),
+    ("Sixteen triangles", "word " * 60 + "triangles", "step.0: expected at most 60 words"),
+    ("Sixteen, and", "word " * 41 + "and", "step.1.after: expected at most 40 words, got "),
+    (
+        'kind = "break"',
+        'kind = "look"\nafter = "x"\n[[step]]\nkind = "look"',
+        "step.3: expected text here, which is missing",
+    ),
+    ('"fan"', '"fann"', "step.0.state.scene: expected a built-in scene such as fan, got 'fann'"),
+    ('"fan"', '"../fan.obj"', "step.0.state.scene: expected a built-in scene such as"),
+    ('"fan"', '"sphere"', "step.0.state: expected a size of up to 96 x 72 pixels, got 512 x 512"),
+    ('fill = "bounding-box"', 'fill = "boxes"', "state.settings: fill must be one of"),
+    ("pixel = [32, 24]", "pixel = [64, 24]", "expected a pixel of the 64 x 48 there are, got [64, 24]"),
+    ('"overdraw"', '"over"', "step.0.state.buffer: expected one of coverage, edge 0"),
+    ("twice == 185", "twice == 186", "step.0.check.1: expected twice == 186, but twice is 185"),
+    ("twice == 185", "__import__('os') == 1", "step.0.check.1: a condition compares"),
+    ("twice == 185", "twicer == 185", "step.0.check.1: the stage raster has no variable twicer"),
+    ("drawn(32, 24)", "drawn(32)", "step.0.check.0: drawn does not take 32"),
+    ("2: E1", "9: E1", "step.1.reveal: no step of raster meets 9: E1 == 0 and covered"),
+    ("weights[0] == 0.75", "weights[0] == 0.25", "expected weights[0] == 0.25, but weights[0] is"),
+    ("given = 25", "given = 16", "step.1.wrong.0.given: expected a wrong answer, got the right one"),
+    ("given = 25", 'given = "x"', "step.1.wrong.0.given: expected an answer"),
+    ('mistake = "all', 'mistake = "no', "step.1.wrong.0.mistake: expected a mistake such as"),
+    ('at = "tie"', 'at = "nan"', "step.1.wrong.0.at: no step of raster meets nan"),
+    ('answer = { type = "numbers", values = [16] }', "", "expected an answer in a step of kind predict"),
+    ("triangle = 0 }", "triangle = 2 }", "step.2.answer: expected a triangle from 0 to 1, got 2"),
+    ('"all-edges-exclusive"]', '"corner-for-center", "no"]', "step.2.mistakes.1: expected a mistake"),
+    (FAILS, 'least = ["covered", 1]', "step.3.until: expected a condition that does not hold from the start"),
+    (
+        "solution = { corners = [[0, 2, 4.25, 4.25]] }",
+        "",
+        "expected until together with its recorded solution",
+    ),
+    (
+        "[[0, 2, 4.25, 4.25]]",
+        "[[0, 2, 4.5, 4]]",
+        "step.3.solution: expected a solution after which fails holds",
+    ),
+    ("[[0, 2, 4.25, 4.25]]", "[[2, 2, 4, 4]]", "step.3.solution: expected a corner of the scene, got [2, 2]"),
+    ("[[0, 2, 4.25, 4.25]]", "[[0, 2, 64.25, 64.25]]", "expected a solution after which keeps holds"),
+    ('keeps = ["window"', 'keeps = ["door"', "step.3.until: expected one of scene, size, camera"),
+    ('["shared-edge"]', '["shared-edges"]', "exercises.0: expected one that there is, got 'shared-edges'"),
+    ("minutes = 5", 'minutes = 5\nneeds = ["none"]', "needs.0: expected one that there is, got 'none'"),
+    ("minutes = 5", 'minutes = 5\ncovers = ["LMU: none"]', "covers.0: expected one that there is"),
+    ("minutes = 5", 'minutes = 5\nrecall = "none"', "recall: expected an exercise, got 'none'"),
+]
+
+
+@pytest.mark.parametrize(("old", "new", "said"), BROKEN, ids=[f"{said:.60}" for _, _, said in BROKEN])
+def test_a_broken_lesson_is_refused(tmp_path: Path, old: str, new: str, said: str) -> None:
+    before, _, after = GOOD.partition(old)
+    with pytest.raises(ValueError, match=r"^[^\n]*whose-pixel\.toml: line \d+: [^\n]*$") as refusal:
+        validate(lesson_of(tmp_path, before + new + after), ["whose-pixel"])
+    _, line, sentence = re.split(r": line (\d+): ", str(refusal.value))
+    assert said in sentence
+    changed = range(before.count("\n") + 1, (before + new).count("\n") + 2)
+    named = (before + new + after).split("\n")[int(line) - 1]
+    assert int(line) in {1, *changed} or named.startswith("[[step]]"), named
+
+
+def test_two_steps_to_look_at_do_not_follow_each_other(tmp_path: Path) -> None:
+    look = '[[step]]\nkind = "look"\ntext = "And here?"\n\n[[step]]\nkind = "predict"\ntext = "How many'
+    with pytest.raises(ValueError, match=r"line 2\d: step\.1\.kind: expected a task after a step to look at"):
+        lesson_of(tmp_path, GOOD.replace('[[step]]\nkind = "predict"\ntext = "How many', look))
+
+
+def test_a_lesson_has_four_to_six_steps(tmp_path: Path) -> None:
+    with pytest.raises(ValueError, match="expected at least 4 items"):
+        lesson_of(tmp_path, GOOD[: GOOD.index('[[step]]\nkind = "break"')])
+    with pytest.raises(ValueError, match="line 1: expected a lesson, with"):
+        lesson_of(tmp_path, GOOD[: GOOD.index("[[step]]")])
+
+
+def test_the_rest_of_a_folder_opens(tmp_path: Path) -> None:
+    for name, text in {"mine": GOOD, "shared-edges": GOOD, "broken": "version = ", "Bad name": GOOD}.items():
+        (tmp_path / f"{name}.toml").write_text(text)
+    with (tmp_path / "huge.toml").open("wb") as file:
+        file.truncate(50_000_000)
+    (tmp_path / "bytes.toml").write_bytes(b"\xff\xfe")
+    (tmp_path / "folder.toml").mkdir()
+    course = with_folders([tmp_path, tmp_path / "none"])
+    assert [*course.lessons] == [*shipped().lessons, "mine"]
+    assert len(course.problems) == 7
+    assert f"{tmp_path / 'huge.toml'}: expected a file of up to 64 KiB" in course.problems
+    taken = f"{tmp_path / 'shared-edges.toml'}: expected another name: there is a lesson shared-edges already"
+    assert taken in course.problems
+    with pytest.raises(ValueError, match="expected a lesson such as shared-edges, got 'shared-edge'"):
+        course.named("shared-edge")
+
+
+def test_states_join_settings_and_replace_the_rest(tmp_path: Path) -> None:
+    lesson = lesson_of(tmp_path, GOOD)
+    states = States(lesson)
+    first, second, third = (states.of_step(number) for number in range(3))
+    assert (first.settings.fill, first.settings.fill_rule) == ("bounding-box", "inclusive")
+    assert (first.stage, first.buffer, first.pixel) == ("raster", "overdraw", (32, 24))
+    assert (second.stage, second.buffer, second.pixel) == ("raster", "", None)
+    assert second.scene is third.scene, "two steps on one scene share it"
+    reveal = states.of_reveal(1)
+    assert reveal is not None
+    assert reveal.scene is second.scene
+    assert (second.position(second.run), reveal.position(reveal.run) > 0) == (0, True)
+    refuting = states.of_wrong(1, 0)
+    assert refuting is not None
+    assert refuting.place.at == "tie"
