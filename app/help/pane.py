@@ -160,6 +160,8 @@ class HelpPane(QObject):
             "scene": self._open_scene,
             "use": self._use,
             "exercise": self._ask,
+            "lesson": self._open_lesson,
+            "plan": lambda: self.window.pages.show_page("plan"),
             "printed": self.window.show_printed,
             "compare": lambda name: self._show_result("compare", name),
             "stability": lambda name: self._show_result("stability", name),
@@ -183,6 +185,10 @@ class HelpPane(QObject):
     def _ask(self, name: str) -> None:
         self.window.pages.show_page("exercises")
         self.window.pages.current.open_named(name)  # type: ignore[attr-defined]
+
+    def _open_lesson(self, name: str) -> None:
+        self.window.pages.show_page("step")
+        self.window.page.lessons.open(name)
 
     def _use(self, family: str, method: str) -> None:
         self.window.pages.show_page("step")

@@ -18,6 +18,7 @@ from app.window.keys import (
     EXPERIMENTS,
     FILES,
     HELP,
+    LESSONS,
     MAPS,
     MEASURING,
     PAGES,
@@ -343,6 +344,14 @@ ACTIONS: tuple[Action, ...] = (
         *(_stage(k) for k in range(len(STAGES))),
         Row("next_stage", "Ctrl+PgDown", "Next stage", lambda w: w.stepping.go_to_stage(1)),
         Row("previous_stage", "Ctrl+PgUp", "Previous stage", lambda w: w.stepping.go_to_stage(-1)),
+    ),
+    *_rows("step", LESSONS, "Lesson", lambda w: w.page.lessons)(
+        Row("lesson_next", "PgDown", "Next step of the lesson", lambda p: p.next()),
+        Row("lesson_back", "PgUp", "Previous step of the lesson", lambda p: p.back()),
+        Row("lesson_return", "Ctrl+Home", "Return to the lesson’s step", lambda p: p.return_here()),
+        Row("lesson_check", "Ctrl+Return", "Check the answer", lambda p: p.check()),
+        Row("lesson_reveal", "Ctrl+M", "Show what is right", lambda p: p.reveal(), ends_group=True),
+        Row("lesson_close", "", "Close the lesson", lambda p: p.close()),
     ),
     *_rows("step", POINTING, "", lambda w: w.stepping)(
         Row("pin_left", "Alt+Left", "Move the pin left", lambda p: p.move_pin(-1, 0)),

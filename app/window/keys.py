@@ -52,6 +52,7 @@ STEPPING, POINTING, STAGE_GROUP, RUNNING, VIEWING, EDITING, FILES, PAGES = (
     "Pages",
 )
 HELP = "Help"
+LESSONS = "Lessons"
 PRESENTING = "Presenting"
 MEASURING = "Measuring"
 EXPERIMENTS = "Experiments"
@@ -64,8 +65,13 @@ LOCAL_KEYS = (
     KeyAction("next_control", ("Tab", "Shift+Tab"), "Next, previous control", PAGES),
     KeyAction("next_button", ("Left", "Right"), "In a row of buttons: the neighbouring button", PAGES),
     KeyAction("move_border", ("Left", "Right", "Up", "Down"), "On a border between panes: move it", PAGES),
-    KeyAction("clicker_next", ("PgDown", "PgUp"), "Presenting: step forward, back", PRESENTING),
-    KeyAction("clicker_start", ("F5",), "Presenting: start of the run", PRESENTING),
+    KeyAction(
+        "clicker_next",
+        ("PgDown", "PgUp"),
+        "Presenting: step forward, back; in a lesson: answer and next step, previous step",
+        PRESENTING,
+    ),
+    KeyAction("clicker_start", ("F5",), "Presenting: start of the run, or of the lesson", PRESENTING),
     KeyAction("clicker_black", ("B", "."), "Presenting: black screen, and back", PRESENTING),
     *on_page(
         "step",

@@ -113,6 +113,7 @@ class MainWindow(ActionWindow):
         menus.scene_chosen.connect(self.open_path)
         menus.recent_chosen.connect(self.open_path)
         menus.printed_chosen.connect(self.show_printed)
+        menus.lesson_chosen.connect(page.lessons.open)
         menus.raster_chosen.connect(self.edits.choose_raster)
         menus.theme_chosen.connect(self.appearance.set_theme)
         self.presenter.presenting_changed.connect(self.help.put_aside)

@@ -25,6 +25,7 @@ MENUS = (
     "Edit",
     "Step",
     "Stage",
+    "Lesson",
     "Raster",
     "Compare",
     "Stability",
@@ -46,6 +47,8 @@ class Menus(QObject):
     """Path of a file."""
     printed_chosen = Signal(str)
     """Name of a listing as a slide prints it."""
+    lesson_chosen = Signal(str)
+    """Name of a lesson."""
     raster_chosen = Signal(int, int)
     """Columns and rows for the whole view."""
     theme_chosen = Signal(str)
@@ -63,6 +66,7 @@ class Menus(QObject):
         self.scene_menu = QMenu("Built-in &scenes", window)
         self.lecture_menu = QMenu("Scenes of the &lectures", window)
         self.printed_menu = QMenu("As &printed, beside the right method", window)
+        self.lesson_menu = QMenu("&Open lesson", window)
         self.scale_group = QActionGroup(self)
         self.bookmark_menu = QMenu("Boo&kmarks", window)
         self.theme_group, self.text_size_group = QActionGroup(self), QActionGroup(self)
@@ -91,6 +95,9 @@ class Menus(QObject):
         self.printed_menu.setToolTipsVisible(True)
         self.printed_menu.aboutToShow.connect(self._fill_printed)
         self.printed_menu.triggered.connect(self._choose_printed)
+        menus["Lesson"].addMenu(self.lesson_menu)
+        self.lesson_menu.aboutToShow.connect(self._fill_lessons)
+        self.lesson_menu.triggered.connect(self._choose_lesson)
         self._add_themes(menus["View"])
         self._add_text_sizes(menus["View"])
         for menu in (self.recent_menu, self.earlier_menu):
@@ -141,6 +148,25 @@ class Menus(QObject):
             made.setToolTip(printed.slide)
             made.setStatusTip(f"A | B: the right method beside the listing as printed on “{printed.slide}”")
             made.setData(printed.name)
+
+    @Slot()
+    def _fill_lessons(self) -> None:
+        """List the lessons as they are now: those of own folders may have changed."""
+        from app.files.lesson_folders import whole_course
+
+        self.lesson_menu.clear()
+        with suppress(OSError):
+            for lesson in whole_course().lessons.values():
+                made = self.lesson_menu.addAction(lesson.title)
+                made.setToolTip(lesson.question)
+                made.setStatusTip(lesson.question)
+                made.setData(lesson.name)
+        if self.lesson_menu.isEmpty():
+            self.lesson_menu.addAction("No lessons can be read").setEnabled(False)
+
+    @Slot(QAction)
+    def _choose_lesson(self, action: QAction) -> None:
+        self.lesson_chosen.emit(action.data())
 
     @Slot(QAction)
     def _choose_printed(self, action: QAction) -> None:

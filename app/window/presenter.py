@@ -18,6 +18,8 @@ CLICKER = {
     Qt.Key.Key_Period: "black",
 }
 """What the keys that clickers send do while presenting."""
+IN_LESSONS = {"step_forward": "advance", "step_back": "back", "start": "start_over"}
+"""What the same keys do while a lesson is open, by the names of `LessonPresenter`."""
 ARROWS = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down)
 HINT_ROOM = 32
 """Width of a hint around its text, in logical pixels."""
@@ -161,7 +163,9 @@ class Presenter(QObject):
             self._blank.raise_()
         elif not is_black:
             self._window.pages.show_page("step")
-            if action == "start":
+            if self._window.page.lessons.is_open:
+                getattr(self._window.page.lessons, IN_LESSONS[action])()
+            elif action == "start":
                 self._window.page.stepping.choose_stage(0)
             else:
                 self._window.run_action(action)

@@ -16,11 +16,12 @@ class LessonScroll(QScrollArea):
         self.setWidgetResizable(True)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+        self._content = content
         self.setWidget(content)
 
     def take_room(self, width: int, most: int) -> None:
         """Be as high as the content needs in a column of a width, and at ``most`` so high: then it scrolls."""
-        layout = self.widget().layout()
+        layout = self._content.layout()
         wanted = 0 if layout is None else layout.totalHeightForWidth(width)
         # Not as Qt sees fit: where a bar makes the text higher, it would keep the bar for that.
         policies = Qt.ScrollBarPolicy
@@ -32,6 +33,6 @@ class LessonScroll(QScrollArea):
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Tell that the content has changed."""
         done = super().eventFilter(watched, event)
-        if event.type() == QEvent.Type.LayoutRequest and watched is self.widget():
+        if event.type() == QEvent.Type.LayoutRequest and watched is self._content:
             self.height_changed.emit()
         return done

@@ -1,8 +1,8 @@
 """The pane of a lesson beside the picture: text, task, the form of an answer, what came of it, and where to go next."""
 
-from PySide6.QtCore import QRectF, Qt, Signal, Slot
+from PySide6.QtCore import QRectF, Qt, Signal, SignalInstance, Slot
 from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen, QPixmap
-from PySide6.QtWidgets import QLabel, QPushButton, QSizePolicy, QWidget
+from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from core.records.cells import Form
 from widgets.basics.accessible import announce
@@ -86,12 +86,13 @@ class LessonView(QWidget):
         self._icon = QLabel(self)
         self.feedback = text_label("", self, wraps=True, is_selectable=True, name="What came of it")
         self._links = FlowLayout(spacing=8)
+        self._link_buttons: list[QPushButton] = []
         self._arrange()
         self.close_button.clicked.connect(self.close_requested)
         self.dots.step_chosen.connect(self.step_chosen)
         theme_notifier().theme_changed.connect(self._follow_theme)
 
-    def _button(self, text: str, tip: str, signal: Signal) -> QPushButton:
+    def _button(self, text: str, tip: str, signal: SignalInstance) -> QPushButton:
         button = button_with_tip(text, tip, self)
         button.clicked.connect(signal)
         return button
@@ -122,7 +123,6 @@ class LessonView(QWidget):
         column.addLayout(result)
         column.addLayout(self._links)
         column.addLayout(ways)
-        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Minimum)
 
     # What is shown.
 
@@ -156,15 +156,17 @@ class LessonView(QWidget):
         return "" if self._record is None else f"{self._record.title}, {self._record.place}"
 
     def _show_links(self, links: tuple[tuple[str, str], ...]) -> None:
-        while self._links.count():
-            old = self._links.takeAt(0).widget()
+        for old in self._link_buttons:
+            self._links.removeWidget(old)
             old.hide()
             old.deleteLater()
+        self._link_buttons.clear()
         for address, title in links:
             button = button_with_tip(title, f"Open: {title}", self)
             button.setObjectName(address)
             button.clicked.connect(self._choose_link)
             self._links.addWidget(button)
+            self._link_buttons.append(button)
             button.show()
 
     @Slot()

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from PySide6.QtCore import QPointF, QSize, Qt, QTimer, Signal, Slot
+from PySide6.QtCore import QEvent, QPointF, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QColor, QIcon, QKeyEvent, QPainter, QPixmap, QPolygonF
 from PySide6.QtWidgets import QButtonGroup, QComboBox, QLabel, QSizePolicy, QToolButton, QWidget
 
@@ -169,11 +169,18 @@ class Timeline(QWidget):
             self.speed_box.setCurrentIndex(place)
             self._choose_speed(place)
 
+    def event(self, event: QEvent) -> bool:
+        """Keep Page Down and Page Up from the window, while the chapters or the bar have the focus."""
+        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride and _leap(event):
+            event.accept()
+            return True
+        return super().event(event)
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Leap through the run with Page Down and Page Up, while the chapters or the bar have the focus."""
-        leaps = {Qt.Key.Key_PageDown: 1, Qt.Key.Key_PageUp: -1}
-        if event.key() in leaps and event.modifiers() == Qt.KeyboardModifier.NoModifier:
-            self.leap_requested.emit(leaps[Qt.Key(event.key())])
+        """Leap through the run with these keys."""
+        leap = _leap(event)
+        if leap:
+            self.leap_requested.emit(leap)
         else:
             super().keyPressEvent(event)
 
@@ -381,3 +388,10 @@ def _transport_icon(name: str, side: int) -> QIcon:
             painter.end()
             icon.addPixmap(pixmap, mode)
     return icon
+
+
+def _leap(event: QKeyEvent) -> int:
+    """Return where a key leaps: on (1), back (-1), or nowhere (0)."""
+    leaps = {Qt.Key.Key_PageDown: 1, Qt.Key.Key_PageUp: -1}
+    is_plain = event.modifiers() == Qt.KeyboardModifier.NoModifier
+    return leaps.get(Qt.Key(event.key()), 0) if is_plain else 0

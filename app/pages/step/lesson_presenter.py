@@ -52,7 +52,7 @@ class LessonPresenter(QObject):
         self._desk: _Desk | None = None
         self.last: tuple[str, int] | None = None
         """Name and step of the lesson that was shown last."""
-        self._job = Job(self)
+        self._job = Job(self, expected=(ValueError, OSError, MemoryError))
         self._job.succeeded.connect(self._begin)
         self._job.failed.connect(self._refuse)
 
@@ -80,9 +80,13 @@ class LessonPresenter(QObject):
 
     # Opening and closing.
 
-    def open(self, name: str, step: int = 0) -> None:
-        """Open a lesson by its name, at one of its steps from 0; what is open now comes back when it is closed."""
-        self._job.call(lambda: _found(name, step))
+    @Slot(str)
+    def open(self, lesson: "Lesson | str", step: int = 0) -> None:
+        """Open a lesson, or that of a name, at one of its steps from 0.
+
+        What is open now comes back when the lesson is closed.
+        """
+        self._job.call(lambda: _found(lesson, step))
 
     @Slot(object)
     def _begin(self, found: _Found) -> None:
@@ -181,10 +185,15 @@ class LessonPresenter(QObject):
         self._do(lambda walk: walk.go(0))
 
 
-def _found(name: str, step: int) -> _Found:
-    """Read the lessons, and import all that shows them."""
+def _found(lesson: "Lesson | str", step: int) -> _Found:
+    """Read the lessons, and import all that shows them: off the GUI thread."""
     import app.pages.step.lesson_walk  # noqa: F401
-    from lessons.course.catalogue import shipped
+    from app.files.lesson_folders import whole_course
+    from lessons.course.catalogue import FOLDER
+    from lessons.course.validation import validate
 
-    course = shipped()
-    return _Found(course, course.named(name), step)
+    course = whole_course()
+    found = course.named(lesson) if isinstance(lesson, str) else lesson
+    if found.path.parent != FOLDER:
+        validate(found, course.lessons)
+    return _Found(course, found, step)
