@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from datetime import datetime
 
 from core.records.words import counted
+from lessons.attempts.lesson_steps import is_of_lesson
 from lessons.attempts.record import ANSWER_LIMIT, NOT_CHECKED, Attempt
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Question, Template, ask, judge
@@ -33,6 +34,8 @@ def judged_again(
 ) -> Imported:
     """Judge attempts again; those whose question or answer is not known are marked, with no more points than there are.
 
+    Steps of lessons earn no points, so they are taken as they are.
+
     Parameters
     ----------
     attempts : sequence of Attempt
@@ -51,6 +54,9 @@ def judged_again(
     for number, attempt in enumerate(attempts):
         if report is not None:
             report(number / len(attempts), "judging answers")
+        if is_of_lesson(attempt):
+            judged.append(attempt.model_copy(update={"points": 0.0, "most": 0}))
+            continue
         place = attempt.template, attempt.seed
         template = _template(attempt.template, templates)
         is_known = template is not None and template.version == attempt.version

@@ -7,6 +7,7 @@ from datetime import UTC, datetime, timedelta
 from hashlib import sha256
 from itertools import combinations, count, islice
 
+from lessons.attempts.lesson_steps import is_of_lesson
 from lessons.attempts.record import NOT_CHECKED, Attempt
 from lessons.exercises.draws import SEED_LIMIT
 from lessons.exercises.question import Question, Template, ask
@@ -42,7 +43,8 @@ def next_question(
     Parameters
     ----------
     attempts : sequence of Attempt
-        Those of the user, in the order of time; what is dated later than now does not count.
+        Those of the user, in the order of time; what is dated later than now does not count. Steps of lessons are never
+        asked again, but the mistakes that were made in them are.
     templates : mapping
         By name, in the order in which new ones are asked.
     user : str
@@ -74,12 +76,50 @@ def next_question(
         if told is not None:
             names = " and ".join(last.mistakes)
             return Choice(told, f"An answer of today can come from {names}: this question tells them apart.")
+    brought = _brought_back([attempt for attempt in attempts if attempt.at <= now], templates, user)
+    if brought is not None and explained is None:
+        return brought
     for template, reason in _in_turn(day, templates, now):
         for seed in _fresh_seeds(known, template, user):
             try:
                 return Choice(ask(template, seed), reason, explained)
             except ValueError:
                 continue  # A teacher's ranges may leave a seed without a question.
+    return None
+
+
+def _brought_back(attempts: Sequence[Attempt], templates: Mapping[str, Template], user: str) -> Choice | None:
+    """Return a question that shows a mistake made in a lesson, the latest first, if none has since shown it."""
+    shown: set[str] = set()
+    for attempt in reversed(attempts):
+        if not is_of_lesson(attempt):
+            shown.update(attempt.asked)
+            continue
+        for mistake in attempt.mistakes:
+            if mistake in shown:
+                continue
+            shown.add(mistake)
+            question = _showing(mistake, attempt.stage, attempts, templates, user)
+            if question is not None:
+                said = mistake.replace("-", " ")
+                return Choice(question, f"In a lesson an answer came from this mistake: {said}.")
+    return None
+
+
+def _showing(
+    mistake: str, stage: str, attempts: Sequence[Attempt], templates: Mapping[str, Template], user: str
+) -> Question | None:
+    """Return a question of a stage in which a mistake shows; ``None``: none of its templates has one."""
+    for template in templates.values():
+        if template.stage != stage:
+            continue
+        for seed in islice(_fresh_seeds(attempts, template, user), 1):
+            try:
+                question = ask(template, seed)
+            except ValueError:
+                continue
+            if mistake in question.draft.mistakes:
+                return question
     return None
 
 
@@ -273,7 +313,10 @@ class Progress:
 
 
 def progress(attempts: Sequence[Attempt]) -> Progress:
-    """Return what a user has reached, from the attempts of this user; corrections do not count."""
+    """Return what a user has reached, from the attempts of this user; corrections do not count.
+
+    Of lessons only the mistakes count: they earn no points.
+    """
     made: dict[tuple[str, str], int] = defaultdict(int)
     asked: dict[tuple[str, str], int] = defaultdict(int)
     best: dict[str, float] = {}
@@ -284,6 +327,8 @@ def progress(attempts: Sequence[Attempt]) -> Progress:
         for mistake in attempt.asked:
             asked[attempt.stage, mistake] += 1
             made[attempt.stage, mistake] += mistake in attempt.mistakes
+        if is_of_lesson(attempt):
+            continue
         best[attempt.template] = max(best.get(attempt.template, 0), attempt.points)
         if attempt.is_checked:
             sure[attempt.template] = max(sure.get(attempt.template, 0), attempt.points)

@@ -47,7 +47,10 @@ kind = "break"
 text = "Move the shared corner until E = 0 counts twice."
 state = { at = "end", shared = true, scene = { size = [6, 6], triangles = [
     [[0.25, 0.25], [4.25, 0.25], [4.25, 4]], [[0.25, 0.25], [4.25, 4], [0.25, 4.25]]] } }
-until = { fails = { weak = { fill_rule = "inclusive" }, robust = { fill_rule = "shared-edge" }, by = "twice" }, keeps = ["window", "settings"] }
 solution = { corners = [[0, 2, 4.25, 4.25]] }
 check_after = ["twice == 0", "twice(fill_rule=inclusive) == 4"]
+
+[step.until]
+fails = { weak = { fill_rule = "inclusive" }, robust = { fill_rule = "shared-edge" }, by = "twice" }
+keeps = ["window", "settings"]
 """

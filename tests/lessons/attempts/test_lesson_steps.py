@@ -1,0 +1,117 @@
+"""Progress in lessons is kept among the attempts; practice asks of a lesson's mistakes, never of its steps."""
+
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+
+import pytest
+
+from lessons.attempts.imports import judged_again
+from lessons.attempts.lesson_steps import (
+    Standing,
+    begin_anew,
+    lesson_attempt,
+    next_place,
+    place_in,
+    standings,
+)
+from lessons.attempts.practice import next_question, progress
+from lessons.attempts.record import Attempt, attempt_of, exported_attempts, read_attempts_json
+from lessons.course.catalogue import Course
+from lessons.course.lesson_file import Lesson, read_lesson
+from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.question import judge
+from tests.lessons.course.lesson_texts import GOOD
+
+NOW = datetime(2026, 11, 23, 12, tzinfo=UTC)
+OPEN, SEEN, DONE = Standing.OPEN, Standing.SEEN, Standing.DONE
+
+
+@pytest.fixture
+def course(tmp_path: Path) -> Course:
+    lessons = {}
+    for name in ("one", "two"):
+        path = tmp_path / f"{name}.toml"
+        path.write_text(GOOD)
+        lessons[name] = read_lesson(path)
+    return Course(lessons)
+
+
+def tried(lesson: Lesson, step: int, score: float, minute: int, mistakes: tuple[str, ...] = ()) -> Attempt:
+    at = NOW + timedelta(minutes=minute)
+    return lesson_attempt("me", lesson, step, at, score=score, mistakes=mistakes, asked=mistakes)
+
+
+def test_steps_are_open_seen_or_done_until_a_lesson_begins_anew(course: Course) -> None:
+    one, two = course.lessons.values()
+    attempts: list[Attempt] = []
+    for step, score, wanted, goes_on in (
+        (1, 0, (DONE, SEEN, OPEN, OPEN), 1),
+        (1, 1, (DONE, DONE, OPEN, OPEN), 2),
+        (1, 0, (DONE, DONE, OPEN, OPEN), 2),
+        (3, 1, (DONE, DONE, OPEN, DONE), 4),
+    ):
+        attempts.append(tried(one, step, score, len(attempts)))
+        assert (standings(attempts, one), place_in(attempts, one)) == (wanted, goes_on)
+    assert standings(attempts, two) == (OPEN,) * 4
+    place = next_place(attempts, course)
+    assert place is not None
+    assert (place.lesson, place.step) == (two, 0)
+    attempts.append(begin_anew("me", one, NOW))
+    assert standings(attempts, one) == (OPEN,) * 4
+    anew = next_place(attempts, course)
+    assert anew is not None
+    assert (anew.lesson, anew.step) == (one, 0)
+
+
+def test_who_is_new_begins_at_the_first_and_who_has_all_is_finished(course: Course) -> None:
+    one, two = course.lessons.values()
+    first = next_place([], course)
+    assert first is not None
+    assert (first.lesson, first.step) == (one, 0)
+    done = [tried(lesson, step, 1, step) for lesson in (two, one) for step in (1, 2, 3)]
+    assert next_place(done[:3], course) is not None
+    assert next_place(done, course) is None
+    assert next_place([], Course({})) is None
+
+
+def test_another_question_is_another_step(course: Course) -> None:
+    one = course.named("one")
+    one.path.write_text(GOOD.replace('text = "How many', 'text = "Now how many'))
+    assert read_lesson(one.path).revision == one.revision
+    one.path.write_text(GOOD.replace("values = [16]", "values = [17]"))
+    assert standings([tried(one, 1, 1, 0)], read_lesson(one.path)) == (OPEN,) * 4
+
+
+def test_a_mistake_of_a_lesson_is_asked_in_practice_and_its_step_never(course: Course) -> None:
+    one = course.named("one")
+    attempts = [tried(one, 1, 0, -3, ("all-edges-inclusive",)), tried(one, 2, 1, -2)]
+    choice = next_question(attempts, TEMPLATES, "me", NOW)
+    assert choice is not None
+    assert choice.reason == "In a lesson an answer came from this mistake: all edges inclusive."
+    assert "all-edges-inclusive" in choice.question.draft.mistakes
+    question = choice.question
+    right = question.draft.answer.reference
+    answered = attempt_of("me", question, right, judge(question, right), 20, NOW)
+    later = next_question([*attempts, answered], TEMPLATES, "me", NOW)
+    assert later is not None
+    assert later.reason == "This one is new."
+    without = next_question([tried(one, 1, 0, -3)], TEMPLATES, "me", NOW)
+    assert without is not None
+    assert without.question.template.name == next(iter(TEMPLATES))
+
+
+def test_lessons_count_mistakes_and_no_points(course: Course) -> None:
+    attempts = [tried(course.named("one"), 1, 0, 0, ("all-edges-inclusive",))]
+    reached = progress(attempts)
+    assert [(each.stage, each.mistake, each.made) for each in reached.mistakes] == [
+        ("raster", "all-edges-inclusive", 1)
+    ]
+    assert (reached.points, reached.tried) == (0, {})
+
+
+def test_steps_of_lessons_are_exported_and_imported_as_they_are(course: Course) -> None:
+    attempts = [tried(course.named("one"), 1, 1, 0), begin_anew("me", course.named("one"), NOW)]
+    read = read_attempts_json(exported_attempts(attempts, "answers.json"), "answers.json")
+    assert [*judged_again(read, TEMPLATES, NOW + timedelta(days=1)).attempts] == attempts
+    given = attempts[0].model_copy(update={"points": 7.0, "most": 9})
+    assert judged_again([given], TEMPLATES, NOW + timedelta(days=1)).attempts == (attempts[0],)
