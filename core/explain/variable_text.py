@@ -32,13 +32,29 @@ class VariableText:
 
 VARIABLES: dict[str, dict[str, VariableText]] = {}
 """Stage to its variables in the order of the algorithm; what is not here stays hidden."""
+OF_KIND: dict[str, dict[str, VariableText]] = {}
+"""``stage.kind`` to variables that rows of the kind have in the place of those of the same name."""
 HIDDEN: dict[str, frozenset[str]] = {}
 """``stage.kind`` to the variables that rows of the kind do not use."""
 
 
-def shows(stage: str, variables: Mapping[str, VariableText]) -> None:
-    """Enter variables of a stage, behind those that it has."""
-    VARIABLES.setdefault(stage, {}).update(variables)
+def shows(where: str, variables: Mapping[str, VariableText]) -> None:
+    """Enter variables of a stage, behind those that it has, or of some kinds of its rows, ``stage.kind|kind``.
+
+    Raises ValueError for a name that has another text there: what is shown never hangs on the order of imports.
+    """
+    stage, _, kinds = where.partition(".")
+    for key in [f"{stage}.{kind}" for kind in kinds.split("|")] if kinds else [stage]:
+        held = (OF_KIND if kinds else VARIABLES).setdefault(key, {})
+        twice = [name for name, text in variables.items() if held.get(name, text) != text]
+        if twice:
+            raise ValueError(f"{key} has a variable {twice[0]} already")
+        held.update(variables)
+
+
+def variables_of(stage: str, kind: str) -> dict[str, VariableText]:
+    """Return the variables of one kind of rows, in the order of the algorithm."""
+    return VARIABLES.get(stage, {}) | OF_KIND.get(f"{stage}.{kind}", {})
 
 
 def hides(kinds: str, names: Iterable[str]) -> None:
@@ -70,7 +86,7 @@ def held_values(step: StepValues) -> list[Held]:
     explanation, hidden = step.explanation, HIDDEN.get(f"{step.stage}.{step.kind}", frozenset())
     values, order = explanation.values, {name: k for k, name in enumerate(explanation.known)}
     found: dict[str, list[tuple[int, str, VariableText]]] = {}
-    for name, text in VARIABLES.get(step.stage, {}).items():
+    for name, text in variables_of(step.stage, step.kind).items():
         needed = name if text.after == "itself" else text.after
         if name not in values or name in hidden or (needed != GIVEN and needed not in order):
             continue

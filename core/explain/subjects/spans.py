@@ -219,6 +219,11 @@ shows(
         ),
         "drawn_before": VariableText("before k", "Pixels that earlier passes have drawn.", "rank"),
         "rank": VariableText("rank", "Index of the pixel in the order of execution, over all triangles."),
+    },
+)
+shows(
+    "raster.lane-row",
+    {
         "dx": given(
             "dx#", "Extent of the edge to the right: the numerator's change from row to row.", "edges"
         ),

@@ -181,6 +181,7 @@ def set_up_per_edge(corners: CornerPositions) -> tuple[Floats, Floats, Floats, F
     doubled_area = orient(corners)
     sign = np.sign(doubled_area)
     a, b, c = sign * a, sign * b, sign * c
+    unprojected = unprojected[doubled_area[unprojected] != 0]
     if len(unprojected):
         leave_out_turned(corners, unprojected, a, b, c)
     return a.T, b.T, c.T, doubled_area

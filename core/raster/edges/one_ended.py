@@ -146,7 +146,7 @@ def leave_out_turned(
     corners : CornerPositions
         Of P triangles.
     unprojected : (U,) int64
-        The triangles with a corner that is not projected.
+        The triangles that have an area and a corner that is not projected.
     a, b, c : (3, P) float64
         Edge functions, inside positive. An edge left out becomes 1 everywhere; but -1, so that nothing is drawn, if
         the third corner is in front and only too far away: the given triangle is thin as a whole then.

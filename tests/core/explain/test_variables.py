@@ -12,7 +12,7 @@ from core.explain.latex import plain_text
 from core.explain.records import Variable
 from core.explain.step_values import StepValues
 from core.explain.steps import load_subjects
-from core.explain.variable_text import GIVEN, HIDDEN, VARIABLES
+from core.explain.variable_text import GIVEN, HIDDEN, VARIABLES, VariableText, shows, variables_of
 from core.trace import Explanation
 from tests.core.explain.explained_steps import all_said, rare_trace
 from widgets.inspector.variables import VariablesView, value_text
@@ -41,9 +41,9 @@ def test_what_is_known_is_shown_and_nothing_from_later() -> None:
         hidden = HIDDEN.get(f"{step.stage}.{step.kind}", frozenset())
         shown = {variable.name for variable in found}
         # Columns of one name are one variable at different times.
-        of_stage, known = VARIABLES[step.stage], explanation.known
+        of_stage, known = variables_of(step.stage, step.kind), explanation.known
         earlier = {v.name for v in found if v.column in known or of_stage[v.column].after == GIVEN}
-        for name, text in VARIABLES[step.stage].items():
+        for name, text in of_stage.items():
             if name not in explanation.values or not np.size(explanation.values[name]):
                 continue
             label = (text.label if isinstance(text.label, str) else text.label(step)).replace("#", "0")
@@ -68,6 +68,15 @@ def test_a_decision_value_has_its_format_and_its_bits() -> None:
 def test_every_stage_has_its_variables() -> None:
     load_subjects()
     assert set(VARIABLES) == set(STAGES)
+
+
+def test_no_variable_has_two_texts() -> None:
+    # "Subtracting 2 · dx = NaN" was said where the spans' dx# was imported behind the lines' dx.
+    load_subjects()
+    with pytest.raises(ValueError, match="raster has a variable dx already"):
+        shows("raster", {"dx": VariableText("dx#", "Extent of the edge.")})
+    found = at("raster", "raster.lane-row.edge-0", 0, Settings(fill="spans"))
+    assert [found[f"dx{k}"].now for k in range(3)] == [-6.0, 0.0, 6.0]
 
 
 def test_a_decision_shows_snapped_values_and_unsnapped_weights_apart() -> None:

@@ -4,13 +4,14 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import assume, given
+from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from core.methods import table
 from core.raster.coverage import examine_pixels
 from core.raster.edges.edge_functions import covers, cross, edge_coefficients, edge_value, is_inside, orient
 from core.raster.edges.fill_rule import exclusive, inclusive, owns, shared_edge
+from core.raster.edges.one_ended import edge_left_out
 from core.raster.edges.snapping import place_corners
 from core.raster.pixel_runs import make_raster
 from tests.core.drawing import edges_of, facing_of, runs_of
@@ -141,6 +142,8 @@ def test_listing_of_the_tie_rule(a: float, b: float) -> None:
 
 
 @given(ANY_TRIANGLES)
+@example(([[[0, 0, 0, -3], [0, 0, 0, 0.25], [0, 0, 0, 0.25]]], (1, 1)))  # No area: corners on one point.
+@example(([[[-3, 0, 0, -1], [0, 0, 0, 1], [0.0005, 0, 0, 1]]], (8, 8)))
 def test_listing_of_one_edge_function(case) -> None:
     clip, size = case
     edges = edges_of(clip, size)
@@ -152,6 +155,13 @@ def test_listing_of_one_edge_function(case) -> None:
             if corners.is_projected[t, ends].all():
                 (x1, y1), (x2, y2) = corners.decided[t, ends].tolist()
                 expected = edge_coefficients(x1, y1, 1.0, x2, y2, 1.0, sign)
+                if sign and not corners.is_projected[t, k]:
+                    opposite = [
+                        float(edge_value(edges.a[t, j], edges.b[t, j], edges.c[t, j], *corners.decided[t, j]))
+                        for j in ends
+                    ]
+                    w = float(corners.homogeneous[t, k, 2])
+                    expected = edge_left_out(*opposite, w) or expected
                 assert (edges.a[t, k], edges.b[t, k], edges.c[t, k]) == expected
             elif not corners.is_projected[t, ends].any():
                 expected = edge_coefficients(*corners.homogeneous[t, ends].ravel().tolist(), sign)
