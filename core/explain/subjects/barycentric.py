@@ -1,27 +1,17 @@
 """Barycentric coordinates three ways: two equations, areas, distances from the edges."""
 
-from core.explain.digits import number_latex, signed_latex, spoken
+from core.explain.digits import number_latex, remainder_note, signed_latex, spoken
 from core.explain.equation import Part, beside, difference, equation, fraction, linear_parts
 from core.explain.records import Formula
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
-from core.explain.subjects.interpolation import first_weight
+from core.explain.subjects.interpolation import below_zero, first_weight
 from core.explain.variable_text import GIVEN, VariableText, hides, shows
 from core.records.words import joined
 
 
 def _listed(values: list[float]) -> str:
     return joined([spoken(value) for value in values])
-
-
-def _negative(weights: list[float]) -> str:
-    """Return what weights below 0 mean, as the end of a sentence."""
-    below = [str(k) for k, weight in enumerate(weights) if weight < 0]
-    return (
-        f"; weight {joined(below)} is below 0, as coverage uses snapped corners and weights use unsnapped ones"
-        if below
-        else ""
-    )
 
 
 def _row(names: tuple[str, str, str], values: list[float]) -> list[Part]:
@@ -113,7 +103,7 @@ def rest_of_one(step: StepValues) -> Said:
     weights = step.vector("weights")
     text = (
         f"{step.fragment_name}: corner 0 has the rest of 1, so corners 0, 1 and 2 have weights "
-        f"{_listed(weights)}{_negative(weights)}."
+        f"{_listed(weights)}{below_zero(weights)}."
     )
     made: list[Part] = [(r"\lambda_0", weights[0]), "=", "1"]
     for k in (1, 2):
@@ -188,7 +178,7 @@ def shares_of_area(step: StepValues) -> Said:
     text = (
         f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(weights)}, the parts of the area "
         "opposite to them"
-        f"{_negative(weights)}."
+        f"{below_zero(weights)}."
     )
     symbols = [(f"2A_{k}", "2A") for k in range(3)]
     return text, _quotients(step, symbols, step.vector("areas"), [step.number("whole_area")] * 3)
@@ -223,7 +213,8 @@ def line_functions(step: StepValues) -> Said:
     corners = _named_corners(step)
     text = (
         f"{step.fragment_name}: each edge has a function a x + b y + c that is 0 on its line; opposite to "
-        f"corner 0 it has a = {spoken(a[0])}, b = {spoken(b[0])}, c = {spoken(c[0])}."
+        f"corner 0 it has a = {spoken(a[0])}, b = {spoken(b[0])}, c = {spoken(c[0])}"
+        f"{remainder_note([a[0], b[0], c[0]])}."
     )
     (x1, y1), (x2, y2) = corners[1:]
     products = " - ".join(
@@ -243,7 +234,7 @@ def at_the_pixel(step: StepValues) -> Said:
     values, x, y = step.vector("at_pixel"), step.number("x"), step.number("y")
     text = (
         f"{step.fragment_name}: the functions of the edges opposite to corners 0, 1 and 2 are {_listed(values)} here, "
-        "the distances from the edges times their lengths."
+        f"the distances from the edges times their lengths{remainder_note(values)}."
     )
     return text, _values_of_lines(step, values, ["x, y"] * 3, [(("x", x), ("y", y))] * 3)
 
@@ -262,7 +253,7 @@ def shares_of_distance(step: StepValues) -> Said:
     weights = step.vector("weights")
     text = (
         f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(weights)}: how far the pixel is from the "
-        f"opposite edge, as a part of how far the corner is{_negative(weights)}."
+        f"opposite edge, as a part of how far the corner is{below_zero(weights)}."
     )
     symbols = [(_line_name(k), _line_name(k, f"x_{k}, y_{k}")) for k in range(3)]
     return text, _quotients(step, symbols, step.vector("at_pixel"), step.vector("at_corner"))

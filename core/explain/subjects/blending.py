@@ -1,6 +1,6 @@
 """Blending: how a fragment's colour enters the colour buffer. Formulas have the channel that changes most."""
 
-from core.explain.digits import signed_latex, spoken, vector_text
+from core.explain.digits import is_remainder, remainder_note, signed_latex, spoken, vector_text
 from core.explain.equation import channel_symbol, equation, outstanding
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
@@ -23,17 +23,24 @@ def opaque(step: StepValues) -> Said:
     channel = _channel(step)
     new = (channel_symbol("new", channel), step.vector("after")[channel])
     source = (channel_symbol("source", channel), step.vector("source")[channel])
-    return f"{step.pixel_name}: the fragment's colour {after} replaces {before}.", equation(new, "=", source)
+    text = f"{step.pixel_name}: the fragment's colour {after} replaces {before}{remainder_note(step.vector('after'))}."
+    return text, equation(new, "=", source)
 
 
 @explains("blend.over|line-over.source")
 def over_source(step: StepValues) -> Said:
     """What of the buffer shows through."""
     alpha = step.vector("source")[3]
+    before = vector_text(step.vector("before"))
     text = (
         f"{step.pixel_name}: the fragment's alpha is {spoken(alpha)}, "
-        f"so {spoken(1 - alpha)} of the buffer's colour, {vector_text(step.vector('before'))}, shows through."
+        f"so {spoken(1 - alpha)} of the buffer's colour, {before}, shows through."
     )
+    if is_remainder(1 - alpha):
+        text = (
+            f"{step.pixel_name}: the fragment's alpha is 1 up to rounding, which leaves s = {spoken(1 - alpha)}, "
+            f"so the buffer's colour, {before}, does not show through."
+        )
     return text, equation(("s", 1 - alpha), "=", "1", "-", (_ALPHA, alpha))
 
 
@@ -47,16 +54,19 @@ def over_color(step: StepValues) -> Said:
     """Fragment over buffer."""
     source, before, after = (step.vector(name) for name in ("source", "before", "after"))
     channel = _channel(step)
-    return f"{step.pixel_name}: fragment over buffer gives {vector_text(after)}.", equation(
-        (channel_symbol("new", channel), after[channel]),
-        "=",
-        (channel_symbol("source", channel), source[channel]),
-        r"\cdot",
-        (_ALPHA, source[3]),
-        "+",
-        (channel_symbol("buffer", channel), before[channel]),
-        r"\cdot",
-        (rf"(1 - {_ALPHA})", f"(1 - {signed_latex(source[3])})"),
+    return (
+        f"{step.pixel_name}: fragment over buffer gives {vector_text(after)}{remainder_note(after)}.",
+        equation(
+            (channel_symbol("new", channel), after[channel]),
+            "=",
+            (channel_symbol("source", channel), source[channel]),
+            r"\cdot",
+            (_ALPHA, source[3]),
+            "+",
+            (channel_symbol("buffer", channel), before[channel]),
+            r"\cdot",
+            (rf"(1 - {_ALPHA})", f"(1 - {signed_latex(source[3])})"),
+        ),
     )
 
 
@@ -79,14 +89,17 @@ def additive_color(step: StepValues) -> Said:
     source, before, after = (step.vector(name) for name in ("source", "before", "after"))
     channel = _channel(step)
     above = ", more than the display can show" if max(after[:3]) > 1 else ""
-    return f"{step.pixel_name}: fragment plus buffer gives {vector_text(after)}{above}.", equation(
-        (channel_symbol("new", channel), after[channel]),
-        "=",
-        (channel_symbol("source", channel), source[channel]),
-        r"\cdot",
-        (_ALPHA, source[3]),
-        "+",
-        (channel_symbol("buffer", channel), before[channel]),
+    return (
+        f"{step.pixel_name}: fragment plus buffer gives {vector_text(after)}{above}{remainder_note(after)}.",
+        equation(
+            (channel_symbol("new", channel), after[channel]),
+            "=",
+            (channel_symbol("source", channel), source[channel]),
+            r"\cdot",
+            (_ALPHA, source[3]),
+            "+",
+            (channel_symbol("buffer", channel), before[channel]),
+        ),
     )
 
 
@@ -94,7 +107,8 @@ def additive_color(step: StepValues) -> Said:
 def written(step: StepValues) -> Said:
     """The mix in the buffer."""
     after, before = (vector_text(step.vector(name)) for name in ("after", "before"))
-    return f"{step.pixel_name}: the colour buffer now holds {after} instead of {before}."
+    note = remainder_note(step.vector("after"))
+    return f"{step.pixel_name}: the colour buffer now holds {after} instead of {before}{note}."
 
 
 shows(

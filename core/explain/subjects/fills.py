@@ -5,7 +5,7 @@ from functools import partial
 
 import numpy as np
 
-from core.explain.digits import number_latex, signed_latex, spoken, vector_text
+from core.explain.digits import is_remainder, number_latex, signed_latex, spoken, vector_text
 from core.explain.equation import (
     Part,
     all_of,
@@ -126,7 +126,9 @@ def _disagreeing(values: list[float], weights: list[float], distance: list[float
     return [
         k
         for k in range(3)
-        if abs(distance[k]) <= SNAP_DISTANCE and (values[k] < 0 < weights[k] or weights[k] < 0 <= values[k])
+        if abs(distance[k]) <= SNAP_DISTANCE
+        and not is_remainder(weights[k])
+        and (values[k] < 0 < weights[k] or weights[k] < 0 <= values[k])
     ]
 
 

@@ -2,7 +2,7 @@
 
 import math
 
-from core.explain.digits import number_latex, signed_latex, spoken, vector_text
+from core.explain.digits import is_remainder, number_latex, remainder_note, signed_latex, spoken, vector_text
 from core.explain.equation import (
     Part,
     beside,
@@ -17,7 +17,7 @@ from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import ATTRIBUTES, StepValues, component_names
 from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given, hides, shows
-from core.records.words import joined
+from core.records.words import joined, noun_of
 
 ATTRIBUTE_NAMES = {
     "color": "colour",
@@ -84,15 +84,24 @@ def first_weight(step: StepValues) -> Asked | None:
     return number(f"What is λ0, the weight of corner 0, at {step.the_pixel}?", weights[0], reveal)
 
 
+def below_zero(weights: list[float]) -> str:
+    """Return what weights below 0, or 0 up to rounding, mean, as the end of a sentence."""
+    below = [str(k) for k, weight in enumerate(weights) if weight < 0 and not is_remainder(weight)]
+    text = remainder_note(weights)
+    if below:
+        verb = "is" if len(below) == 1 else "are"
+        text += f"; {noun_of(len(below), 'weight')} {joined(below)} {verb} below 0, as coverage uses snapped corners "
+        text += "and weights use unsnapped ones"
+    return text
+
+
 @explains("interpolate.perspective|affine.weights", asks=first_weight, decides=True)
 def weights(step: StepValues) -> Said:
     """The weights of the corners, parts of the sum."""
     values, whole = step.vector("weights"), step.number("total")
     text = f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(values)}, their parts of the sum"
-    below = [str(k) for k in range(3) if values[k] < 0]
-    if below:
-        text += f"; weight {joined(below)} is below 0, as coverage uses snapped corners and weights use unsnapped ones"
-    elif any(map(math.isnan, values)):
+    text += below_zero(values)
+    if any(map(math.isnan, values)):
         text += "; NaN means that the sum is 0"
     quotients: list[list[Part]] = [
         [(rf"\lambda_{k}", values[k]), "=", fraction((f"n_{k}", part), ("n", whole), k)]
@@ -117,7 +126,8 @@ def _value(step: StepValues, how: str) -> str:
     values = step.vector(name)
     shown = spoken(values[0]) if len(values) == 1 else vector_text(values)
     title = ATTRIBUTE_NAMES.get(name, name.replace("_", " "))
-    return f"{step.fragment_name}: its {title} {'are' if name == 'uv' else 'is'} {shown}, {how}."
+    verb = "are" if name == "uv" else "is"
+    return f"{step.fragment_name}: its {title} {verb} {shown}, {how}{remainder_note(values)}."
 
 
 def _component(step: StepValues, corners: list[list[float]]) -> tuple[str, float, list[float]]:
@@ -276,7 +286,7 @@ def corrected_weights(step: StepValues) -> Said:
     )
     text = (
         f"{step.fragment_name}: {spoken(1 - t)} of the left and {spoken(t)} of the right anchor's weights give "
-        f"corners 0, 1 and 2 the weights {_listed(values)}{rest}."
+        f"corners 0, 1 and 2 the weights {_listed(values)}{rest}{remainder_note(values)}."
     )
     sums: list[list[Part]] = [
         [

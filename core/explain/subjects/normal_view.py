@@ -1,6 +1,6 @@
 """Culling by N . V: the face normal, the vector to the face, their product."""
 
-from core.explain.digits import signed_latex, spoken, vector_text
+from core.explain.digits import remainder_note, signed_latex, spoken, vector_text
 from core.explain.equation import Part, comparison, conclusion, equation, vector_latex
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -25,7 +25,7 @@ def normal(step: StepValues) -> Said:
     value = step.vector("normal")
     text = (
         f"Triangle {step.triangle}: its normal is N = {vector_text(value)}, the cross product of two of its sides in "
-        "camera space, on the side from which the corners run counter-clockwise."
+        f"camera space, on the side from which the corners run counter-clockwise{remainder_note(value)}."
     )
     return text, equation(*_cross("N", value, _sides(step, "eye_corners"), "p"))
 
@@ -34,7 +34,10 @@ def normal(step: StepValues) -> Said:
 def stored(step: StepValues) -> Said:
     """The same in object space, before anything is transformed."""
     value = step.vector("stored")
-    text = f"Triangle {step.triangle}: its normal in object space is n = {vector_text(value)}, as the mesh may keep it."
+    text = (
+        f"Triangle {step.triangle}: its normal in object space is n = {vector_text(value)}, as the mesh may keep "
+        f"it{remainder_note(value)}."
+    )
     return text, equation(*_cross("n", value, _sides(step, "object_corners"), "o"))
 
 
@@ -63,7 +66,7 @@ def carried(step: StepValues) -> Said:
     elif determinant == 0:
         text += ", since it has no inverse"
     made = equation(("N", vector_latex(value)), "=", r"A^{-T}", ("n", vector_latex(step.vector("stored"))))
-    return f"{text}.", made
+    return f"{text}{remainder_note(value)}.", made
 
 
 @explains("cull.back-normal|back-axis|back-stored-normal.view")

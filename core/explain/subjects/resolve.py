@@ -5,7 +5,7 @@ Of many samples those of equal colour are one summand; of more than `MOST` colou
 
 import math
 
-from core.explain.digits import number_latex, spoken, vector_text
+from core.explain.digits import number_latex, remainder_note, spoken, vector_text
 from core.explain.equation import CHANNEL_LETTERS, Part, equation, fraction, outstanding
 from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
@@ -79,7 +79,8 @@ def samples(step: StepValues) -> Said:
 def averaged(step: StepValues) -> Said:
     """The weighted mean."""
     channel, color, weights = _channel(step), step.vector("linear"), _weights(step)
-    text = f"{step.pixel_name}: the weighted mean of its samples is {vector_text(color)}, in linear light."
+    text = f"{step.pixel_name}: the weighted mean of its samples is {vector_text(color)}, in linear light"
+    text += f"{remainder_note(color)}."
     letter, total = CHANNEL_LETTERS[channel], sum(weight for weight, _ in weights)
     terms: list[list[Part]] = [
         [fraction((f"w_{name}", weight), ("W", total)), r"\cdot", (f"{letter}_{name}", value)]
@@ -130,7 +131,7 @@ def clipped(step: StepValues) -> Said:
     channel = outstanding(clamped)
     letter = CHANNEL_LETTERS[channel]
     numbers = rf"\min(\max({number_latex(linear[channel])}, 0), 1)"
-    return f"{step.pixel_name}: {text}.", equation(
+    return f"{step.pixel_name}: {text}{remainder_note(clamped)}.", equation(
         (f"c_{letter}", clamped[channel]), "=", (rf"\min(\max({letter}, 0), 1)", numbers)
     )
 
@@ -139,7 +140,8 @@ def clipped(step: StepValues) -> Said:
 def encoded(step: StepValues) -> Said:
     """The sRGB curve, the part that the value is on."""
     color, clamped = step.vector("encoded"), step.vector("clipped")
-    text = f"{step.pixel_name}: the sRGB curve turns the linear colour into {vector_text(color)}."
+    text = f"{step.pixel_name}: the sRGB curve turns the linear colour into {vector_text(color)}"
+    text += f"{remainder_note(color)}."
     channel = outstanding(clamped)
     letter, value = CHANNEL_LETTERS[channel], clamped[channel]
     result: list[Part] = [(f"s_{letter}", color[channel]), "="]

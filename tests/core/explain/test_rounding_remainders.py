@@ -1,0 +1,68 @@
+"""A number that only rounding keeps from 0 is said to be 0 up to rounding; numbers that decide are never said so."""
+
+import re
+
+import pytest
+
+from core import STAGES, Settings, trace
+from core.explain import sentence
+from core.explain.digits import remainder_note
+from core.trace import StageTrace
+from lessons.slides.scenes import ALL_SCENES
+from tests.core.explain.explained_steps import places_of, step_at
+
+TINY = re.compile(r"e−1[4-9]\b")
+"""A size that sums of numbers around 1 leave of a 0."""
+
+
+def said(stage: StageTrace, operation: str) -> list[str]:
+    """Return the sentences of all steps of an operation."""
+    rows = range(len(stage.steps.kind))
+    found = []
+    for row in rows:
+        kind = stage.kind_of(row)
+        names = [done.name for done in stage.steps.operations[kind]]
+        if operation in names:
+            explanation = stage.explain(int(stage.steps.starts[row]) + 1 + names.index(operation))
+            assert explanation is not None
+            column, line = stage.pixel[row].tolist()
+            found.append(sentence(explanation, int(stage.triangle[row]), (column, line)))
+    return found
+
+
+@pytest.mark.parametrize(
+    ("scene", "stage", "operation", "settings"),
+    [
+        ("fan", "interpolate", "weights", {}),
+        ("fan", "interpolate", "weights", {"interpolation": "affine-distances"}),
+        ("jubair-backfaces", "cull", "normal", {"cull": "back-normal"}),
+        ("single-triangle", "blend", "source", {"blend": "over"}),
+        ("zwicker-perspective", "interpolate", "weights", {"interpolation": "affine-distances"}),
+    ],
+)
+def test_a_remainder_is_said_to_be_one(scene, stage, operation, settings) -> None:
+    texts = said(trace(ALL_SCENES[scene].make(), Settings(**settings)).stage(stage), operation)
+    tiny = [text for text in texts if TINY.search(text)]
+    assert tiny
+    for text in tiny:
+        assert "up to rounding" in text
+        assert "is below 0" not in text
+
+
+def test_alpha_of_one_lets_nothing_through() -> None:
+    texts = said(trace(ALL_SCENES["single-triangle"].make(), Settings(blend="over")).stage("blend"), "source")
+    assert any("the fragment's alpha is 1 up to rounding" in text for text in texts)
+    assert not any("alpha is 1, so 1.11" in text for text in texts)
+
+
+def test_what_decides_is_never_a_remainder() -> None:
+    # 64 e-15 pixels of area decide in the exact format as 64 pixels do.
+    for name in ("shared-edge", "jubair-cyrus-beck"):
+        traced = trace(ALL_SCENES[name].make(), Settings(coverage="exact"))
+        for place in places_of(traced):
+            if place[1].stage not in STAGES[: STAGES.index("interpolate")]:
+                continue
+            explanation, triangle, pixel = step_at(place)
+            assert "up to rounding" not in sentence(explanation, triangle, pixel)
+    assert remainder_note([1e-12, 1.0]) == remainder_note([1e-16]) == remainder_note([0.0, 5.0]) == ""
+    assert "1" in remainder_note([1e-16, 1.0])
