@@ -94,7 +94,8 @@ def undrawn_values(candidates: PixelCandidates, triangle: int) -> dict[str, Any]
     values = edge_values(edges, tests, 0)
     is_in_front = bool((edges.corners.homogeneous[..., 2] > 0).any())
     return values | {
-        "would_cover": is_in_front and values["doubled_area"] != 0 and bool(values["inside"].all())
+        "fill_rule": candidates.settings.fill_rule,
+        "would_cover": is_in_front and values["doubled_area"] != 0 and bool(values["inside"].all()),
     }
 
 
@@ -116,6 +117,8 @@ def edge_values(edges: EdgeFunctions, tests: EdgeTests, k: int) -> dict[str, Any
         "inside": inside,
         "ties": tests.values[k] == 0,
         "owns_tie": edges.owns_tie[k],
+        "a": edges.shown_a[k],
+        "b": edges.shown_b[k],
         "edge": edge,
         "value": float(tests.values[k, edge]),
         "distance": float(distance[edge]),
@@ -133,7 +136,7 @@ def raster_links(candidates: PixelCandidates, k: int) -> list[Link]:
     """
     values = edge_values(candidates.edges, candidates.edge_tests, k)
     box = tuple(int(getattr(candidates.boxes, name)[k]) for name in Boxes._fields[1:])
-    values["box"] = box
+    values |= {"box": box, "fill_rule": candidates.settings.fill_rule}
     if candidates.geometry.polygons is not None:
         return [polygon_link(candidates, candidates.geometry.polygons, k)]
     if candidates.geometry.outlines is not None:

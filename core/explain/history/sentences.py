@@ -8,6 +8,7 @@ from math import isfinite
 from typing import Any
 
 from core.explain.number_text import exact_text, pair_text, steps_apart
+from core.explain.subjects.edges import tie_reason
 from core.pixel_history.records import Link, PixelEvent, PixelHistory
 from core.raster.edges.snapping import SUBPIXELS
 from core.records.words import counted, joined
@@ -126,9 +127,17 @@ def _missed(values: Values) -> str:
 
 
 def _tie(values: Values) -> str:
-    on_edge = [k for k in range(3) if values["ties"][k] and not values["owns_tie"][k]]
-    names = " and ".join(f"edge {k}" for k in on_edge)
-    return f"the pixel centre is exactly on {names}, which the triangle does not own"
+    return f"the pixel centre is exactly on {_owned(values, owns=False)}"
+
+
+def _owned(values: Values, *, owns: bool) -> str:
+    """Return the edges on which a centre lies and which the triangle owns, or does not, each with the rule."""
+    return " and ".join(
+        f"edge {k}, which the triangle {'owns' if owns else 'does not own'} because "
+        + tie_reason(values["a"][k], values["b"][k], owns, values["fill_rule"])
+        for k in range(3)
+        if values["ties"][k] and bool(values["owns_tie"][k]) == owns
+    )
 
 
 def _not_here(values: Values) -> str:
@@ -174,9 +183,14 @@ def _missed_edge(values: Values) -> str:
 
 def _accepted(values: Values) -> str:
     if "start" in values:
-        outside = "" if values["inside"].all() else f", although {_not_here(values)}"
+        outside = _on_own_edges(values) if values["inside"].all() else f", although {_not_here(values)}"
         return f"covered: in the span of this row, {_span(values)}{outside}"
-    return f"covered: {_block(values)} lies wholly inside"
+    return f"covered: {_block(values)} lies wholly inside{_on_own_edges(values)}"
+
+
+def _on_own_edges(values: Values) -> str:
+    """Return what must be said of a covered centre that lies on an edge."""
+    return f"; the pixel centre is exactly on {_owned(values, owns=True)}" if values["ties"].any() else ""
 
 
 def _crossed(values: Values) -> str:
@@ -190,8 +204,7 @@ def _edge_margin(values: Values) -> str:
 
 
 def _on_edge(values: Values) -> str:
-    names = " and ".join(f"edge {k}" for k in range(3) if values["ties"][k])
-    return f"covered: the pixel centre is exactly on {names}, which the triangle owns"
+    return f"covered: the pixel centre is exactly on {_owned(values, owns=True)}"
 
 
 def _clipped(values: Values) -> str:

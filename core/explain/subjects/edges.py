@@ -239,6 +239,20 @@ def tie_reason(a: float, b: float, owns: bool, rule: str) -> str:
     return "it is a level bottom edge" if owns else "it is a level top edge"
 
 
+def on_edge(step: StepValues, k: int) -> str:
+    """Say that a centre lies on an edge, and who owns it."""
+    owns = step.flags("owns_tie")[k]
+    reason = tie_reason(step.vector("a")[k], step.vector("b")[k], owns, step.fill_rule(k))
+    return f"exactly on edge {k}, which the triangle {'owns' if owns else 'does not own'} because {reason}"
+
+
+def on_own_edges(step: StepValues) -> str:
+    """Say of a pixel that is covered without a test which edges it lies on, as the end of a sentence."""
+    owns, values = step.flags("owns_tie"), step.vector("values")
+    edges = [on_edge(step, k) for k in range(3) if values[k] == 0 and owns[k]]
+    return f"; its centre lies {', and '.join(edges)}" if edges else ""
+
+
 @explains("edges.edge|anchored-edge|inverse-edge.tie")
 def tie(step: StepValues) -> Said:
     """Whether the triangle owns the pixel centres on an edge."""

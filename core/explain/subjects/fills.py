@@ -21,7 +21,7 @@ from core.explain.equation import (
 from core.explain.records import Asked, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
-from core.explain.subjects.edges import tie_reason
+from core.explain.subjects.edges import on_edge, on_own_edges
 from core.explain.subjects.number_formats import equals, number_format
 from core.explain.subjects.spans import OF_LANE, OF_PASS, OF_SPANS
 from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given, hides, shows
@@ -52,13 +52,6 @@ def _away(step: StepValues, edge: int) -> str:
     return f"{spoken(distance)} px" if math.isfinite(distance) else ""
 
 
-def _on_edge(step: StepValues, k: int) -> str:
-    """Say that a centre lies on an edge, and who owns it."""
-    owns = step.flags("owns_tie")[k]
-    reason = tie_reason(step.vector("a")[k], step.vector("b")[k], owns, step.fill_rule(k))
-    return f"exactly on edge {k}, which the triangle {'owns' if owns else 'does not own'} because {reason}"
-
-
 @explains("raster.test.edge")
 def edge_value(step: StepValues) -> Said:
     """One edge function at a pixel's centre."""
@@ -68,7 +61,7 @@ def edge_value(step: StepValues) -> Said:
     if math.isnan(value):
         text += f", which is not a number, so it is outside edge {k}."
     elif value == 0:
-        text += f": it lies {_on_edge(step, k)}."
+        text += f": it lies {on_edge(step, k)}."
     elif value > 0:
         text += f", so it is inside edge {k}{f', {away} away' if away else ''}."
     else:
@@ -135,7 +128,7 @@ def _disagreeing(values: list[float], weights: list[float], distance: list[float
 def _why_covered(step: StepValues, values: list[float]) -> str:
     ties = [k for k in range(3) if values[k] == 0]
     if ties:
-        lies = ", and ".join(_on_edge(step, k) for k in ties)
+        lies = ", and ".join(on_edge(step, k) for k in ties)
         return f"covered by triangle {step.triangle}: its centre lies {lies}"
     distances = step.vector("distance")
     nearest = min(range(3), key=lambda k: distances[k] if math.isfinite(distances[k]) else math.inf)
@@ -155,7 +148,7 @@ def _why_outside(step: StepValues, values: list[float], owns: list[bool]) -> str
             reasons.append(beyond if math.isfinite(distance) else f"edge {k} has E{k} = {value}")
         elif math.isnan(values[k]):
             reasons.append(f"E{k} is {value}, not a number")
-    unowned = [_on_edge(step, k) for k in range(3) if values[k] == 0 and not owns[k]]
+    unowned = [on_edge(step, k) for k in range(3) if values[k] == 0 and not owns[k]]
     if not reasons:
         return f"not covered by triangle {step.triangle}: its centre lies {', and '.join(unowned)}"
     return f"outside triangle {step.triangle}: {joined(reasons + [f'it lies {text}' for text in unowned])}"
@@ -174,8 +167,8 @@ def accepted(step: StepValues) -> Said:
     text = f"{step.pixel_name} is covered by triangle {step.triangle} without a test of its own: {what}"
     if outside:
         listed = joined([f"E{k} = {spoken(values[k])}" for k in outside])
-        text += f"; its own test would reject it ({listed})"
-    return f"{text}."
+        return f"{text}; its own test would reject it ({listed})."
+    return f"{text}{on_own_edges(step)}."
 
 
 @explains("raster.span.edge")

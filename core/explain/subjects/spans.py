@@ -7,6 +7,7 @@ from core.explain.equation import Part, beside, comparison, conclusion, equation
 from core.explain.number_text import pair_text
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
+from core.explain.subjects.edges import on_own_edges
 from core.explain.variable_text import VariableText, given, shows
 from core.records.words import counted
 
@@ -167,8 +168,9 @@ def pixel_drawn(step: StepValues) -> Said:
     """The place of a pixel in the order of execution."""
     rank, before, place = (step.whole(name) for name in ("rank", "drawn_before", "place"))
     text = (
-        f"{step.pixel_name} is covered without a test of its own, and its rank is {rank}: {counted(before, 'pixel')} "
-        f"of earlier passes and {counted(place, 'pixel')} of this one are drawn before it."
+        f"{step.pixel_name} is covered by triangle {step.triangle} without a test of its own, and its rank is {rank}: "
+        f"{counted(before, 'pixel')} of earlier passes and {counted(place, 'pixel')} of this one are drawn before it"
+        f"{on_own_edges(step)}."
     )
     terms = (r"\mathrm{before}_k", float(before)), "+", (r"\mathrm{place}", float(place))
     return text, equation((r"\mathrm{rank}", float(rank)), "=", *terms)

@@ -58,7 +58,7 @@ def all_texts(history: PixelHistory) -> list[str]:
             0,
             {"fill": "bounding-box"},
             "Triangle 0 has no fragment here:"
-            " the pixel centre is exactly on edge 0, which the triangle does not own.",
+            " the pixel centre is exactly on edge 0, which the triangle does not own because it is a right edge.",
         ),
         (
             (9, 9),
@@ -179,3 +179,14 @@ def test_no_key_is_without_a_sentence_and_no_sentence_without_a_key():
         *("back-facing", "front-facing", "degenerate", "behind-eye"),
         *("outside-plane", "clipped-away", "outside-box", "missed", "no-fragment"),
     }
+
+
+@pytest.mark.parametrize("fill", ["spans", "scanline", "hierarchy", "brute-force"])
+@pytest.mark.parametrize(
+    ("rule", "why"), [("shared-edge", "it is a left edge"), ("inclusive", "the inclusive rule")]
+)
+def test_a_pixel_on_an_edge_says_who_owns_it_and_why_with_every_fill(fill: str, rule: str, why: str) -> None:
+    # Centre (3.5, 1.5) lies on the left edge of this triangle.
+    history = ask(window_scene([(3.5, 0.5), (7.5, 0.5), (3.5, 6.5)]), 3, 1, fill=fill, fill_rule=rule)
+    said = " ".join(map(event_reason, history.events))
+    assert f"exactly on edge 1, which the triangle owns because {why}" in said

@@ -185,7 +185,8 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.pass.draw",
             Settings(fill="spans"),
-            "Pixel (2, 2) is covered without a test of its own, and its rank is 6: 5 pixels of earlier passes "
+            "Pixel (2, 2) is covered by triangle 0 without a test of its own, and its rank is 6: "
+            "5 pixels of earlier passes "
             "and 1 pixel of this one are drawn before it.",
         ),
         (
