@@ -5,6 +5,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from core.methods import table
+from core.raster.lines.points import OPERATIONS, POINT, point_listing
 from core.raster.lines.records import check_segments
 from core.raster.lines.traits import line_set_up, line_traits
 from core.raster.lines.wireframe import line_parameter
@@ -59,11 +60,15 @@ def trace_lines(source: TraceSource) -> StageTrace:
     columns |= line_traits(line).columns(columns)
 
     method = table.get("line", line)
-    operations = method.operations
+    assert method.listing is not None, f"{line} has no listing"
+    operations, listed = method.operations, listing(method.listing)
+    kind = _kind(columns, tuple(operations), line_traits(line).pixels_in_column)
+    if geometry.vertices.corner_count == 1:
+        operations, listed = {POINT: OPERATIONS}, listing(point_listing)
+        kind = np.zeros(count, np.int64)
     kinds = (*FILL_OPERATIONS, *operations)
     triangle = geometry.primitives.triangle[fragments.primitive]
-    assert method.listing is not None, f"{line} has no listing"
-    listings = dict.fromkeys(operations, listing(method.listing))
+    listings = dict.fromkeys(operations, listed)
     every, place = np.arange(count), source.place
     unknown = np.full(raster.shape, np.nan)
     found = StageTrace(
@@ -71,7 +76,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
         method=f"line={line}",
         steps=Steps(
             kinds=kinds,
-            kind=len(FILL_OPERATIONS) + _kind(columns, tuple(operations), line_traits(line).pixels_in_column),
+            kind=len(FILL_OPERATIONS) + kind,
             operations={**FILL_OPERATIONS, **operations},
             triangle_ends=ends_of(triangle),
             group_ends=ends_of(segment),
@@ -124,6 +129,8 @@ def _given(operations: Mapping[str, tuple[Operation, ...]], columns: Columns) ->
     }
     first, *later = shown
     left = {"major_before": "major", "minor_before": "minor", "sum_before": "decision"}
+    if not later:
+        return {}
     every = set().union(*shown.values()) | ({"decision"} if "sum_advanced" in shown[first] else set())
     before = [name for name, now in left.items() if now in every and np.isfinite(columns[name]).any()]
     held = shown[first] | shown[later[0]]

@@ -28,6 +28,7 @@ from core.explain.subjects.line_names import (
     line_method,
     sum_name,
 )
+from core.explain.variable_text import given, shows
 from core.raster.lines.traits import line_traits
 from core.records.words import counted, joined
 
@@ -184,3 +185,42 @@ def line_intercept(step: StepValues) -> Said:
         f"{MINOR} = {spoken(m)} · {MAJOR} {'−' if b < 0 else '+'} {spoken(abs(b))}{swapped}."
     )
     return text, equation(("b", b), "=", (f"{MINOR}_0", y0), "-", ("m", m), r"\cdot", (f"{MAJOR}_0", x0))
+
+
+def column_of_point(step: StepValues) -> Asked | None:
+    """Ask for the column of the pixel that contains a point."""
+    x, column = step.vector("window_start")[0], step.whole("column")
+    text = f"Point {step.triangle} has x = {spoken(x)}. In which column is its pixel?"
+    return number(text, column, f"x = {spoken(x)} lies in column {column}.")
+
+
+@explains("raster.point.pixel", asks=column_of_point, decides=True)
+def pixel_of_point(step: StepValues) -> Said:
+    """The pixel that contains a point."""
+    x, y = step.vector("window_start")
+    column, row = step.whole("column"), step.whole("row")
+    text = f"Point {step.triangle} at {vector_text([x, y])} lies in pixel ({column}, {row})"
+    center = step.number("center")
+    if 0.5 in (column + center - x, row + center - y):
+        text += ", as the left and the lower border of a pixel belong to it"
+    found: list[list[Part]] = []
+    for name, found_at, axis, at in (("column", column, "x", x), ("row", row, "y", y)):
+        inside = f"{axis} - c", f"{number_latex(at)} - {number_latex(center)}"
+        symbols, numbers = (rf"\lfloor {of} + \frac{{1}}{{2}} \rfloor" for of in inside)
+        found.append([(rf"\mathrm{{{name}}}", float(found_at)), "=", (symbols, numbers)])
+    return f"{text}.", equation(*beside(*found))
+
+
+@explains("raster.point.plot")
+def point_drawn(step: StepValues) -> Said:
+    """The pixel of a point is drawn."""
+    return f"{step.pixel_name} is drawn: it contains point {step.triangle}."
+
+
+shows(
+    "raster.point",
+    {
+        "window_start": given("x, y", "The point in the window, in pixels."),
+        "center": given("c", "Where a pixel's centre lies from its number: 0.5, or 0."),
+    },
+)

@@ -5,8 +5,10 @@ import re
 import pytest
 
 from core import STAGES, Settings, trace
-from core.explain import formula, variables
+from core.explain import formula, sentence, variables
 from core.explain.latex import plain_text
+from core.methods import table
+from core.raster.lines.points import point_listing
 from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import steps_of
 
@@ -36,3 +38,20 @@ def test_a_value_along_an_edge_is_that_of_its_ends() -> None:
     assert made is not None
     assert re.fullmatch(r". = \(1 − s\) · (.)_0 \+ s · \1_1", plain_text(made.symbolic)), made.symbolic
     assert re.findall(r"\\vertex\{(\d)\}", made.symbolic) == ["2", "0"]
+
+
+@pytest.mark.parametrize("line", ["bresenham", "midpoint", "wu"])
+@pytest.mark.parametrize("pixel_center", ["half", "integer"])
+def test_a_point_has_its_pixel_and_no_decision_of_a_line(line: str, pixel_center: str) -> None:
+    stage = trace(make_scene("points"), Settings(line=line, pixel_center=pixel_center)).stage("raster")
+    center = stage.constants["center"]
+    for row, pixel in enumerate(stage.pixel.tolist()):
+        x, y = stage.columns["window_start"][row].tolist()
+        assert point_listing(x, y, center) == [tuple(pixel)]
+        for position in range(int(stage.steps.starts[row]) + 1, int(stage.steps.starts[row + 1]) + 1):
+            made = stage.explain(position)
+            assert made is not None
+            text = sentence(made, int(stage.triangle[row]), (pixel[0], pixel[1]))
+            assert f"oint {stage.triangle[row]} " in text or f"point {stage.triangle[row]}." in text
+            assert not {"D", "dx", "m", "y", "first end"} & {variable.name for variable in variables(made)}
+    assert stage.kind_of(0) == "point"
