@@ -183,6 +183,9 @@ class Page(QWidget):
     def keep_results(self) -> None:
         """Show the results of the last start of the window, and keep those that come for the next one."""
 
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Leave out what an audience does not need, or bring it back."""
+
     def leave(self) -> None:
         """Stop what nobody sees: another page is shown now."""
 

@@ -22,6 +22,7 @@ from lessons.os_errors import problem_text
 from widgets.basics.controls import button_with_tip, column_layout, flat_button
 from widgets.basics.labels import ElidedLabel, Readout
 from widgets.basics.pane_splitter import PaneSplitter
+from widgets.basics.run_panel import RunPanel
 from widgets.charts.family_list import FamilyList
 
 
@@ -40,13 +41,23 @@ class WorkPage(Page):
         self._jobs, self._work, self._opened = jobs, work, opened
 
     def lay_out(
-        self, left: QWidget, above: Sequence[tuple[QWidget, int]], below: QWidget, spacing: int = 4
+        self,
+        left: QWidget,
+        controls: RunPanel,
+        above: Sequence[tuple[QWidget, int]],
+        below: QWidget,
+        spacing: int = 4,
     ) -> None:
-        """Put ``left`` beside the widgets ``above``, each with its stretch, and ``below``."""
+        """Put ``left`` beside the controls, the widgets ``above``, each with its stretch, and ``below``."""
         top = _WrappingPane(self)
         layout = column_layout(top, spacing)
+        self.place = ElidedLabel(self)
+        self.place.hide()
+        layout.addWidget(self.place)
+        layout.addWidget(controls)
         for widget, stretch in above:
             layout.addWidget(widget, stretch)
+        self._controls, self._below = controls, below
         self.panes = splitter(Qt.Orientation.Vertical, ((top, 3, 440), (below, 2, 280)), self)
         # Where all of it has no room, as in large type on a low screen, it scrolls: nothing lies over something else.
         scroll = QScrollArea(self)
@@ -54,15 +65,42 @@ class WorkPage(Page):
         scroll.setWidgetResizable(True)
         scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self.columns = SideColumns(left, scroll, self)
+        self._desk: tuple[dict[str, str], bool] | None = None
+        """While presenting, the sizes of the panes at the desk, and whether nothing was opened."""
         page = column_layout(self, margins=(8, 4, 8, 8))
         page.addWidget(self.columns)
+
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Leave the room to the result: only what is opened of it shares the room."""
+        if is_presenting == (self._desk is not None):
+            return
+        if is_presenting:
+            self._desk = self.layout_state(), self._below.isHidden()
+        self.place.setVisible(is_presenting and bool(self.place.text()))
+        for widget in self.for_the_desk():
+            widget.setVisible(not is_presenting)
+        self._controls.set_brief(is_presenting)
+        if is_presenting:
+            self._below.hide()
+        elif self._desk is not None:
+            layout, is_hidden = self._desk
+            self._below.setHidden(is_hidden)
+            self.restore_layout(layout)
+            self._desk = None
+
+    def for_the_desk(self) -> list[QWidget]:
+        """Return what is left out while presenting, beside most of the controls."""
+        return []
 
     def dismiss(self) -> bool:
         """Cancel the work, or else close what is opened."""
         if self._work.is_running:
             self._work.cancel()
             return True
-        return self._opened.dismiss()
+        was_open = self._opened.dismiss()
+        if self._desk is not None:
+            self._below.hide()
+        return was_open
 
     def is_busy(self) -> bool:
         """Return whether the work runs."""
@@ -155,12 +193,27 @@ class ResultPage(WorkPage):
         self.kept.found.connect(results.take_kept)
         results.result_taken.connect(self._keep)
         results.shown_text_changed.connect(self.shown_text.setText)
+        results.shown_text_changed.connect(self._show_place)
 
     def list_column(self, heights: tuple[int, int]) -> QSplitter:
         """Return the list over the figures, which begin with these ``heights`` in pixels."""
         panes = ((self.entries, 3, heights[0]), (self.readout, 1, heights[1]))
         self.left = splitter(Qt.Orientation.Vertical, panes, self)
         return self.left
+
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Leave the room to the result, and name it."""
+        self._show_place()
+        super().set_presenting(is_presenting)
+
+    def for_the_desk(self) -> list[QWidget]:
+        """Return the list and the figures: keys go through the list."""
+        return [self.columns.left]
+
+    @Slot()
+    def _show_place(self) -> None:
+        """Name what is shown, as the list does."""
+        self.place.setText(self.results.choice.title)
 
     # What a page says.
 

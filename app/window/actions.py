@@ -32,6 +32,8 @@ from app.window.keys import (
 )
 from app.window.parts import WindowParts
 from app.window.presenter import Presenter
+from app.window.remembering import Remembering
+from app.window.scene_groups import next_entry, scene_groups
 from core.scene import ClipScene
 from core.stages.declared import STAGES, stage_of
 
@@ -50,6 +52,7 @@ class ActionWindow(WindowParts):
     help: HelpPane
     presenter: Presenter
     focus_walk: FocusWalk
+    memory: Remembering
 
     @property
     def stepping(self) -> SteppingPresenter:
@@ -250,6 +253,12 @@ def _end_message(w: ActionWindow) -> bool:
     if was_shown:
         w.messages.dismiss()
     return was_shown
+
+
+def _choose_scene(w: ActionWindow) -> None:
+    """Offer the states beside the last one, recent files and built-in scenes; the next one is at hand."""
+    groups = scene_groups(w.files.states(), w.memory.preferences.recent_files)
+    w.overlays.choose_scene(groups, next_entry(groups, w.files.shown))
 
 
 def _fit_to_triangle(w: ActionWindow) -> None:
@@ -594,6 +603,16 @@ ACTIONS: tuple[Action, ...] = (
     ),
     *_rows("", FILES, "File", _window)(
         Row("open_file", "Ctrl+O", "Open mesh or state…", lambda w: w.files.ask_file()),
+        Row("choose_scene", "Ctrl+Shift+O", "Open a scene or state from a list…", _choose_scene),
+        Row(
+            "next_state", "Ctrl+Shift+PgDown", "Next state of the folder", lambda w: w.files.open_neighbour(1)
+        ),
+        Row(
+            "previous_state",
+            "Ctrl+Shift+PgUp",
+            "Previous state of the folder",
+            lambda w: w.files.open_neighbour(-1),
+        ),
         Row("save_state", "Ctrl+S", "Save state…", lambda w: w.files.ask_save(), ends_group=True),
         Row("export_view", "Ctrl+E", "Export view…", _export),
         Row("copy_view", "Ctrl+Shift+C", "Copy view", _copy),

@@ -13,6 +13,8 @@ from app.files.file_names import is_text
 from app.files.mesh_files import EXTENSIONS, OpeningCancelledError, OutsideMeshError
 from app.files.open_any import Opened, open_any
 from app.files.state_files import EXTENSION, OutsideSourceError, State, StateFileError, save_state
+from app.files.state_folder import neighbour_of, states_beside
+from app.files.user_folders import preferences_folder
 from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings
 from app.pages.step.looks import show_state, state_of
@@ -23,6 +25,7 @@ from app.window.appearance import Appearance
 from app.window.work_progress import WorkProgress
 from core import Trace
 from core.records.sentences import sentences
+from lessons.os_errors import problem_text
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
 READ_OUTSIDE = "Read outside its folder"
@@ -50,6 +53,10 @@ class FileActions(QObject):
         self._pages = pages
         self.target = ""
         """What was to be opened last."""
+        self.shown = ""
+        """The file that is shown, absolute, or the name of the scene; empty: what the window began with."""
+        self.state_path = ""
+        """The state that was opened or saved last, absolute; empty: none. The states beside it come next."""
         self.job = Job(self, expected=(OpeningCancelledError, ValueError, OSError, MemoryError))
         self.progress = WorkProgress(self.job, page.session.tracing, messages, self)
         self.freeing = Freeing(self)
@@ -92,6 +99,9 @@ class FileActions(QObject):
     @Slot(object)
     def _show_result(self, result: tuple[Opened, Trace]) -> None:
         opened, trace = result
+        self.shown = opened.path or self.target
+        if opened.state is not None and not _is_in_preferences(opened.path):
+            self.state_path = opened.path
         self.ended.emit(True)
         self.show_opened(opened, trace)
         self.freeing.ask()
@@ -124,6 +134,33 @@ class FileActions(QObject):
             return
         show_state(page, state, trace)
         self._appearance.grow_text_to(state.look.text_size)
+
+    # The states of a folder.
+
+    def states(self) -> list[str]:
+        """Return the paths of the states beside the last one; none where their folder cannot be read any more."""
+        try:
+            return states_beside(self.state_path) if self.state_path else []
+        except OSError:
+            return []
+
+    def open_neighbour(self, direction: int) -> None:
+        """Open the next state of the folder (1), or the one before (-1)."""
+        if not self.state_path:
+            self._tell("Open or save a state first: the states of its folder follow each other.")
+            return
+        folder = Path(self.state_path).parent
+        try:
+            states = states_beside(self.state_path)
+        except OSError as error:
+            self._tell(f"The folder {folder} cannot be read: {problem_text(error)}", MessageKind.ERROR)
+            return
+        place = neighbour_of(self.state_path, states, direction)
+        if place is None:
+            self._tell(f"There is no {'next' if direction > 0 else 'previous'} state in {folder.name}.")
+            return
+        self._tell(f"State {place + 1} of {len(states)}: {Path(states[place]).stem}")
+        self.path_chosen.emit(states[place])
 
     @Slot(object)
     def _tell_failed(self, error: Exception) -> None:
@@ -163,5 +200,14 @@ class FileActions(QObject):
         except (OSError, StateFileError) as error:
             self._tell(f"The state was not saved: {error}", MessageKind.ERROR)
         else:
+            self.state_path = self.shown = str(Path(path).absolute())
             self.file_used.emit(path)
             self._tell(f"Saved {Path(path).name}.")
+
+
+def _is_in_preferences(path: str) -> bool:
+    """Return whether a state is what a window has left: nobody goes through these."""
+    try:
+        return Path(path).parent == preferences_folder().absolute()
+    except OSError:  # This user has no such folder.
+        return False

@@ -71,7 +71,15 @@ LOCAL_KEYS = (
         "Presenting: step forward, back; in a lesson: answer and next step, previous step",
         PRESENTING,
     ),
-    KeyAction("clicker_start", ("F5",), "Presenting: start of the run, or of the lesson", PRESENTING),
+    *on_page(
+        "step",
+        KeyAction(
+            "clicker_start",
+            ("F5",),
+            "Presenting: start of the run or of the lesson; at the start, open a scene or state",
+            PRESENTING,
+        ),
+    ),
     KeyAction("clicker_black", ("B", "."), "Presenting: black screen, and back", PRESENTING),
     *on_page(
         "step",

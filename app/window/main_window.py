@@ -131,6 +131,8 @@ class MainWindow(ActionWindow):
         self.overlays.triangle_requested.connect(self.edits.focus_triangle)
         self.edits.edit_pointless.connect(self._tell_pointless)
         self.files.path_chosen.connect(self.open_path)
+        self.overlays.scenes.chosen.connect(self.open_path)
+        self.overlays.scenes.other_wanted.connect(self.files.ask_file)
         self.files.message_sent.connect(notices.show_message)
         self.exports.message_sent.connect(notices.show_message)
         menus.scale_chosen.connect(self.exports.set_scale)
@@ -381,8 +383,11 @@ class MainWindow(ActionWindow):
 
     @Slot(bool)
     def _end_opening(self, is_shown: bool) -> None:
-        """Leave the start page for what was opened there; what could not be opened leaves it, or leads to it."""
-        if is_shown and self.pages.current_name == "start":
+        """Leave the start page for what was opened there; what could not be opened leaves it, or leads to it.
+
+        Presenting, any page is left for what was opened: nobody sees the bar of pages.
+        """
+        if is_shown and (self.pages.current_name == "start" or self.presenter.is_presenting):
             self.pages.show_page("step")
         elif not is_shown and self._starts_over:
             self.pages.show_page("start")

@@ -1,6 +1,6 @@
-"""What lies over the page: the page of all keys, and the bar that asks for a pixel or a condition."""
+"""What lies over the page: the page of all keys, the list of scenes, the bar that asks for a pixel or a condition."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from PySide6.QtCore import QObject, Signal, Slot
 from PySide6.QtWidgets import QWidget
@@ -12,6 +12,7 @@ from core.explain.kinds import of_kind
 from core.trace.conditions import variable_names
 from widgets.basics.ask_bar import AskBar
 from widgets.basics.key_help import KeyEntry, KeyHelp
+from widgets.basics.quick_chooser import Entry, QuickChooser
 
 
 class Overlays(QObject):
@@ -29,6 +30,7 @@ class Overlays(QObject):
         self.key_help.closed.connect(self.key_help.hide)
         self.key_help.change_wanted.connect(self.change_keys)
         self.keys = KeyDesk(window, actions)
+        self.scenes = QuickChooser("Open", "File…", "Open a mesh or a state from any folder", window)
         self.ask_bar = AskBar(window)
         self.ask_bar.text_entered.connect(self._take_answer)
 
@@ -36,6 +38,7 @@ class Overlays(QObject):
         """Show the keys of a page and those of all pages."""
         self.show_keys(name)
         self.ask_bar.hide()
+        self.scenes.hide()
 
     def show_keys(self, name: str) -> None:
         """Show the keys as they are now on the page of keys."""
@@ -46,7 +49,7 @@ class Overlays(QObject):
     def place(self) -> None:
         """Keep what lies over the page inside of it."""
         inside = self._below.geometry()
-        for whole in (self.key_help, self.keys.editor):
+        for whole in (self.key_help, self.keys.editor, self.scenes):
             if whole.isVisible():
                 whole.setGeometry(inside.adjusted(24, 24, -24, -24))
         if self.ask_bar.isVisible():
@@ -56,7 +59,7 @@ class Overlays(QObject):
 
     def close_top(self) -> bool:
         """Close the overlay on top; return whether there was one."""
-        for overlay in (self.keys.editor, self.key_help, self.ask_bar):
+        for overlay in (self.keys.editor, self.key_help, self.scenes, self.ask_bar):
             if overlay.isVisible():
                 overlay.hide()
                 return True
@@ -76,6 +79,11 @@ class Overlays(QObject):
         self.keys.show_table()
         self.place()
         self.keys.editor.raise_()
+
+    def choose_scene(self, groups: Mapping[str, Sequence[Entry]], first: str) -> None:
+        """Offer what can be opened, beginning at the entry ``first``."""
+        self.scenes.ask(groups, first)
+        self.place()
 
     def ask_pixel(self) -> None:
         """Ask for a pixel to pin."""

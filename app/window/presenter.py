@@ -6,25 +6,31 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLabel, QLineEdit, QWidget
 
+from app.pages.page_bar import Page
 from app.window.appearance import the_application
 from app.window.parts import WindowParts
+from core import STAGES
 from widgets.basics.theme import current_theme
 
 CLICKER = {
     Qt.Key.Key_PageDown: "step_forward",
     Qt.Key.Key_PageUp: "step_back",
-    Qt.Key.Key_F5: "start",
+    Qt.Key.Key_F5: "start",  # At the start: open something else.
     Qt.Key.Key_B: "black",
     Qt.Key.Key_Period: "black",
 }
 """What the keys that clickers send do while presenting."""
 IN_LESSONS = {"step_forward": "advance", "step_back": "back", "start": "start_over"}
 """What the same keys do while a lesson is open, by the names of `LessonPresenter`."""
+PAGES_TO_STEP = ("start", "step")
+"""Pages on which F5 is the clicker's: on the others it measures, runs, analyses or checks."""
 ARROWS = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down)
 HINT_ROOM = 32
 """Width of a hint around its text, in logical pixels."""
 PRESENTED_PANES = ("inspector",)
-"""Panes that are shown at first, but beside A | B: each of its pictures has a sentence of its own."""
+"""Panes that are shown at first, but beside a view of the whole width."""
+WHOLE_WIDTH = ("compare", "flow")
+"""Views without a pane beside them: each picture of A | B has a sentence of its own, Flow is of the whole run."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +50,7 @@ class Presenter(QObject):
     def __init__(self, window: WindowParts) -> None:
         super().__init__(window)
         self._desk: _Desk | None = None
-        self._is_comparing = False
+        self._is_whole_width = False
         self._blank = QWidget(window)
         self._blank.setStyleSheet("background: #000000")
         self._blank.setAttribute(Qt.WidgetAttribute.WA_StyledBackground)
@@ -56,6 +62,7 @@ class Presenter(QObject):
         self.hint.hide()
         window.statusBar().messageChanged.connect(self._show_hint)
         window.page.main_area.view_changed.connect(self._follow_view)
+        window.pages.page_made.connect(self._take_page)
 
     @property
     def _window(self) -> WindowParts:
@@ -82,20 +89,26 @@ class Presenter(QObject):
         self._desk = _Desk(window.appearance.name, window.windowState(), page.layout_state())
         window.menuBar().hide()
         window.pages.show_bar(False)
-        page.set_presenting(True)
-        self._is_comparing = page.current_view() == "compare"
-        page.show_panes(() if self._is_comparing else PRESENTED_PANES)
+        for each in window.pages.made:
+            each.set_presenting(True)
+        self._is_whole_width = page.current_view() in WHOLE_WIDTH
+        page.show_panes(() if self._is_whole_width else PRESENTED_PANES)
         window.appearance.set_theme("presenter-dark" if current_theme().is_dark else "presenter")
         the_application().installEventFilter(self)
         self.presenting_changed.emit(True)
 
     @Slot(str)
     def _follow_view(self, name: str) -> None:
-        """Give A | B the whole width, and the step its words again beside another view."""
-        is_comparing = name == "compare"
-        if self.is_presenting and is_comparing != self._is_comparing:
-            self._is_comparing = is_comparing
-            self._window.page.show_panes(() if is_comparing else PRESENTED_PANES)
+        """Give some views the whole width, and the step its words again beside another view."""
+        is_whole_width = name in WHOLE_WIDTH
+        if self.is_presenting and is_whole_width != self._is_whole_width:
+            self._is_whole_width = is_whole_width
+            self._window.page.show_panes(() if is_whole_width else PRESENTED_PANES)
+
+    @Slot(object)
+    def _take_page(self, page: Page) -> None:
+        """Arrange a page that is shown for the first time."""
+        page.set_presenting(self.is_presenting)
 
     def leave(self) -> None:
         """Go back to the desk: the window as it was."""
@@ -108,7 +121,8 @@ class Presenter(QObject):
         self.hint.hide()
         window.menuBar().show()
         window.pages.show_bar(True)
-        page.set_presenting(False)
+        for each in window.pages.made:
+            each.set_presenting(False)
         window.setWindowState(desk.window_state)
         window.appearance.set_theme(desk.theme)
         page.restore_layout(desk.layout)
@@ -145,7 +159,8 @@ class Presenter(QObject):
 
     def _takes(self, event: QKeyEvent) -> bool:
         """Return whether a key is a clicker's."""
-        return event.key() in CLICKER and _is_for_all(event)
+        is_of_page = event.key() == Qt.Key.Key_F5 and self._window.pages.current_name not in PAGES_TO_STEP
+        return event.key() in CLICKER and not is_of_page and _is_for_all(event)
 
     def _steps(self, event: QKeyEvent) -> bool:
         """Return whether it is asked who wants an arrow that is pressed on the Step page: the window does."""
@@ -165,10 +180,17 @@ class Presenter(QObject):
             self._window.pages.show_page("step")
             if self._window.page.lessons.is_open:
                 getattr(self._window.page.lessons, IN_LESSONS[action])()
-            elif action == "start":
-                self._window.page.stepping.choose_stage(0)
-            else:
+            elif action != "start":
                 self._window.run_action(action)
+            elif self._is_at_start():
+                self._window.run_action("choose_scene")
+            else:
+                self._window.page.stepping.choose_stage(0)
+
+    def _is_at_start(self) -> bool:
+        """Return whether nothing of the run is done: going to its start would change nothing."""
+        cursor = self._window.session.cursor
+        return cursor.stage == STAGES[0] and cursor.position == 0
 
     # Hints, whose bar is out of sight.
 

@@ -42,6 +42,8 @@ class RunPanel(QWidget):
         self.rows = column_layout(self, 8, margins=(8, 8, 8, 8))
         self.intro = text_label(intro, self, name="What this page shows", wraps=True, is_selectable=True)
         self.rows.addWidget(self.intro)
+        self._controls: list[QWidget] = []
+        """Rows of controls; the last one starts the work."""
         self.start_button.clicked.connect(self.start_requested)
         self.cancel_button.clicked.connect(self.cancel_requested)
 
@@ -72,9 +74,16 @@ class RunPanel(QWidget):
         for control in controls:
             flow.addWidget(_labelled(*control) if isinstance(control, tuple) else control)
         self.rows.addWidget(row)
+        self._controls.append(row)
         return flow
 
     # Showing.
+
+    def set_brief(self, is_brief: bool) -> None:
+        """Leave the introduction and all rows but the last out, or bring them back."""
+        for widget in (self.intro, *self._controls[:-1]):
+            widget.setVisible(not is_brief)
+        self.keep_height()
 
     def show_progress(self, progress: Progress | None) -> None:
         """Show how far the work has come; ``None``: nothing runs."""

@@ -1,5 +1,6 @@
 """The run as a few phases side by side: what goes into each, what comes out, and the stages in it."""
 
+from bisect import bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -9,7 +10,7 @@ from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QScrollArea, QSizePol
 
 from widgets.basics.controls import column_layout
 from widgets.basics.labels import set_role, text_label
-from widgets.basics.theme import current_theme
+from widgets.basics.theme import current_theme, theme_notifier
 
 WIDTH_IN_TYPE = 57
 """Width that the phases side by side need, in sizes of their type."""
@@ -122,6 +123,7 @@ class Phases(QScrollArea):
         self.setWidget(self._content)
         self.setWidgetResizable(True)
         self.setFrameShape(QScrollArea.Shape.NoFrame)
+        theme_notifier().theme_changed.connect(self._fit_type)
 
     @Slot(object)
     def show_cards(self, cards: Sequence[PhaseCard]) -> None:
@@ -147,11 +149,28 @@ class Phases(QScrollArea):
         super().resizeEvent(event)
         self._fit_type()
 
+    @Slot()
     def _fit_type(self) -> None:
-        """Make the type smaller where the phases would not fit side by side in that of the theme."""
-        size = max(self.width() // WIDTH_IN_TYPE, _LEAST_PX)
-        is_narrow = size < current_theme().text_px
-        style = f"QLabel, QToolButton {{ font-size: {size}px; }}" if is_narrow else ""
+        """Take the largest type, up to the theme's, in which the phases fit side by side and from top to bottom."""
+        largest = min(max(self.width() // WIDTH_IN_TYPE, _LEAST_PX), current_theme().text_px)
+        sizes = range(_LEAST_PX, largest + 1)
+        self._set_type(largest)
+        if self._needs_height() > self.height():
+            self._set_type(sizes[max(bisect_right(sizes, self.height(), key=self._height_in) - 1, 0)])
+
+    def _height_in(self, size: int) -> int:
+        """Return the height that the phases need in a size of type."""
+        self._set_type(size)
+        return self._needs_height()
+
+    def _needs_height(self) -> int:
+        return self._grid.heightForWidth(self.width())
+
+    def _set_type(self, size: int) -> None:
+        title = round(size * current_theme().title_px / current_theme().text_px)
+        style = (
+            f"QLabel, QToolButton {{ font-size: {size}px; }} QLabel[role=title] {{ font-size: {title}px; }}"
+        )
         if style != self._content.styleSheet():
             self._content.setStyleSheet(style)
 

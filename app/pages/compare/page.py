@@ -52,8 +52,8 @@ class ComparePage(ResultPage):
             self.results, self.jobs, (*charts, self.legend), self.table, self.pictures, self
         )
         self.join_results(self.jobs, self.results, self.opened)
-        above = ((self.controls, 0), (self._tabs(), 1), (self.shown_text, 0))
-        self.lay_out(self.list_column((300, 360)), above, self.pictures)
+        above = ((self._tabs(), 1), (self.shown_text, 0))
+        self.lay_out(self.list_column((300, 360)), self.controls, above, self.pictures)
         self.setFocusProxy(self.scatter)
 
     def _tabs(self) -> QWidget:

@@ -53,8 +53,8 @@ class StabilityPage(ResultPage):
         )
         self.seen = splitter(Qt.Orientation.Vertical, ((self.maps, 1, 200), (curves, 1, 200)), self)
         self.seen.setAccessibleName("Maps")
-        above = ((self.controls, 0), (self.seen, 1), (self._foot(), 0))
-        self.lay_out(self.list_column((360, 300)), above, self.case)
+        above = ((self.seen, 1), (self._foot(), 0))
+        self.lay_out(self.list_column((360, 300)), self.controls, above, self.case)
         self.setFocusProxy(self.maps)
         self.case.save_requested.connect(self.ask_save_case)
 

@@ -7,7 +7,6 @@ import pytest
 from core import STAGES, Settings, trace
 from core.explain import formula, sentence, variables
 from core.explain.latex import plain_text
-from core.methods import table
 from core.raster.lines.points import point_listing
 from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import steps_of

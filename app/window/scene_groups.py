@@ -1,0 +1,40 @@
+"""What can be opened without a dialog: the states of a folder, files that were open, built-in scenes, by headings."""
+
+import os
+from collections.abc import Iterable, Sequence
+from pathlib import Path
+
+from app.files.file_names import shown_name
+from lessons.scenes import CATALOGUE, BuiltInScene
+from lessons.slides.scenes import LECTURE_SCENES, LECTURES
+
+Entry = tuple[str, str]
+"""What is opened, and its title."""
+
+
+def scene_groups(states: Sequence[str], recent: Iterable[str]) -> dict[str, list[Entry]]:
+    """Return what can be opened by headings: ``states`` of one folder, recent files that are still there, scenes."""
+    others = [path for path in recent if path not in states and os.path.isfile(path)]
+    groups = {"Recent files": _files(others), "Scenes": _scenes(CATALOGUE)}
+    groups |= {LECTURES[name]: _scenes(scenes) for name, scenes in LECTURE_SCENES.items()}
+    if states:
+        titled = [(path, shown_name(Path(path).stem)) for path in states]
+        groups = {f"States in {shown_name(Path(states[0]).parent.name)}": titled, **groups}
+    return groups
+
+
+def _files(paths: Iterable[str]) -> list[Entry]:
+    return [(path, shown_name(Path(path).name)) for path in paths]
+
+
+def _scenes(scenes: Iterable[BuiltInScene]) -> list[Entry]:
+    return [(scene.name, scene.title) for scene in scenes]
+
+
+def next_entry(groups: dict[str, list[Entry]], shown: str) -> str:
+    """Return what comes after the entry that is shown, in the same group; or else the first of all."""
+    for entries in groups.values():
+        names = [name for name, _ in entries]
+        if shown in names:
+            return names[min(names.index(shown) + 1, len(names) - 1)]
+    return next((entries[0][0] for entries in groups.values() if entries), "")
