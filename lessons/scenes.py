@@ -8,7 +8,7 @@ from numpy.typing import ArrayLike
 
 from core.assembly.primitives import assemble
 from core.records.arrays import Floats, checked
-from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Mesh, Scene
+from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene
 from lessons.depth_tables import two_triangles
 from lessons.polygons import connecting_edges, pentagram, polygon_with_holes, weiler_atherton
 from lessons.run_place import FIRST_STEP, RunPlace
@@ -203,6 +203,20 @@ def textured_floor() -> Scene:
     return Scene((floor(),), camera, (sun(),), PICTURE_SIZE)
 
 
+def lit_floor() -> Scene:
+    """A floor of two large triangles: the light mirrored in its middle is far from every corner."""
+    lying = Mesh(
+        positions=np.array([[-4.0, 0.0, -8.0], [4.0, 0.0, -8.0], [4.0, 0.0, 0.0], [-4.0, 0.0, 0.0]]),
+        triangles=np.array([[0, 2, 1], [0, 3, 2]]),
+        normals=np.tile([0.0, 1.0, 0.0], (4, 1)),
+        faces=np.array([0, 0]),
+        material=Material(ambient=0.1, diffuse=0.3, specular=0.6, shininess=40.0),
+        name="lit floor",
+    )
+    camera = Camera(eye=np.array([0.0, 2.0, 2.0]), target=np.array([0.0, 0.5, -4.0]), near=0.5, far=30.0)
+    return Scene((lying,), camera, (PointLight(np.array([0.0, 2.0, -10.0])),), TEACHING_SIZE)
+
+
 def sun() -> DirectionalLight:
     """Return light from above left."""
     return DirectionalLight(np.array([0.4, -0.8, -0.7]))
@@ -366,6 +380,13 @@ CATALOGUE = (
         "Two large triangles with a repeated checkerboard show what perspective does to texture coordinates.",
         textured_floor,
         RunPlace("interpolate", "column == 24 and row == 16", "value-uv"),
+    ),
+    BuiltInScene(
+        "lit-floor",
+        "Lit floor",
+        "A light is mirrored in the middle of two large triangles: Phong shading shows it, Gouraud shading loses it.",
+        lit_floor,
+        RunPlace("shade", "column == 31 and row == 20", pixel=(31, 20)),
     ),
     BuiltInScene(
         "cube",

@@ -69,6 +69,11 @@ def most_cyan(shown: Shown) -> int:
     return int(np.abs(pixels - (0, 255, 255)).max(axis=2).min())
 
 
+def brightest(shown: Shown, **chosen: str) -> float:
+    """The largest channel of any pixel, linear."""
+    return round(float(shown.frame(**chosen).color[..., :3].max()), 3)
+
+
 def unlike(shown: Shown, **chosen: str) -> int:
     return int((shown.frame().color != shown.frame(**chosen).color).any(axis=2).sum())
 
@@ -96,6 +101,7 @@ CLAIMS = {
     "depth-table": lambda s: is_clear_of(s, np.inf),
     "z-fighting": lambda s: unlike(s, depth="z-24") > 300 and unlike(s, depth="z-16") == 0,
     "textured-floor": lambda s: unlike(s, interpolation="affine") > 1000,
+    "lit-floor": lambda s: (brightest(s), brightest(s, shading="gouraud")) == (0.787, 0.221),
     "cube": lambda s: (s.document.triangle_count, len(np.unique(s.ids() // 2)) - 1) == (12, 3),
     "teapot": lambda s: s.document.triangle_count == 2256,
     "sphere": lambda s: s.document.triangle_count == 2208 and "lit" in s.kinds("shade"),
