@@ -184,6 +184,14 @@ def read_answers() -> UnfinishedAnswers:
     return _answers(read_input(_path(), SIZE_LIMIT))
 
 
+def learner() -> str:
+    """Return who answers, as it is kept; the usual name where that cannot be read."""
+    try:
+        return read_answers().user
+    except (OSError, ValidationError):
+        return DEFAULT_USER
+
+
 def _answers(content: bytes) -> UnfinishedAnswers:
     return UnfinishedAnswers.model_validate_json(content).model_copy(update={"version": VERSION})
 

@@ -87,6 +87,9 @@ class Page(QWidget):
     help_requested = Signal(str)
     """Address of a page of Help, as ``family/fill``."""
 
+    lesson_requested = Signal(str, int)
+    """Name and step, from 0, of a lesson that is to be opened."""
+
     link_requested = Signal(str)
     """What is to be opened, as links of Help say it: ``exercise/shared-edge``."""
 

@@ -197,6 +197,7 @@ class MainWindow(ActionWindow):
         page.open_requested.connect(self.open_path)
         page.help_requested.connect(self.help.show_page)
         page.link_requested.connect(self.help.follow)
+        page.lesson_requested.connect(self._open_lesson)
         page.preference_changed.connect(self.memory.remember)
         self.memory.restore_page(page)
 
@@ -212,6 +213,12 @@ class MainWindow(ActionWindow):
     @Slot()
     def _show_step(self) -> None:
         self.pages.show_page("step")
+
+    @Slot(str, int)
+    def _open_lesson(self, name: str, step: int) -> None:
+        """Open a lesson on the Step page, at one of its steps from 0."""
+        self.pages.show_page("step")
+        self.page.lessons.open(name, step)
 
     @Slot(str)
     def _ask_question(self, line: str) -> None:

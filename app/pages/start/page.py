@@ -1,4 +1,4 @@
-"""The start page: what the program is, what to press, files to open, and the built-in scenes with their pictures."""
+"""The start page: what the program is, what to press, files to open, the lessons, and the scenes as pictures."""
 
 import os
 from collections.abc import Callable
@@ -13,6 +13,7 @@ from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QCheckBox, QPush
 
 from app.background.workers import Job, Progress
 from app.pages.page_bar import Page
+from app.pages.start.lessons import LessonsPresenter
 from app.session.moment import Change
 from app.session.session import Session
 from core.fast_path.draw import draw_picture
@@ -25,6 +26,7 @@ from widgets.basics.controls import button_with_tip, column_layout, row_layout
 from widgets.basics.image import display_image
 from widgets.basics.labels import text_label
 from widgets.basics.theme import current_theme, theme_notifier
+from widgets.start.lesson_list import LessonList
 from widgets.start.scene_cards import PICTURE, SceneCards, SceneEntry
 
 if TYPE_CHECKING:
@@ -54,7 +56,7 @@ SIDE = 300
 
 
 class StartPage(Page):
-    """Left what to begin with, right the scenes."""
+    """Left what to begin with, right the lessons and the scenes."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -67,6 +69,15 @@ class StartPage(Page):
             {title: [SceneEntry(s.name, s.title, s.card) for s in scenes] for title, scenes in groups.items()}
         )
         self.cards.scene_chosen.connect(self.open_requested)
+        self.lesson_list = LessonList(self)
+        self.lessons = LessonsPresenter(self.lesson_list, self)
+        self.lessons.lesson_requested.connect(self.lesson_requested)
+        self.lessons.place_changed.connect(self._show_place)
+        self.lessons.refused.connect(self.edit_refused)
+        self.lesson_button = button_with_tip("", "Open the lesson in which you go on", self)
+        self.lesson_button.clicked.connect(self.lessons.go_on)
+        self.lesson_button.setProperty("role", "primary")
+        self.lesson_button.hide()
         self.begin_button = button_with_tip(
             "Begin with one triangle", "Open the scene with one triangle", self
         )
@@ -82,7 +93,7 @@ class StartPage(Page):
         self._recent = QWidget(self)
         self._recent_rows = column_layout(self._recent, 4)
         row = row_layout(self, 16, margins=(16, 8, 8, 8))
-        self._panes = _scrolled(self._side(), "Begin"), _scrolled(self._scenes(), "Scenes")
+        self._panes = _scrolled(self._side(), "Begin"), _scrolled(self._scenes(), "Lessons and scenes")
         row.addWidget(self._panes[0])
         row.addWidget(self._panes[1], 1)
         theme_notifier().theme_changed.connect(self._set_widths)
@@ -104,12 +115,13 @@ class StartPage(Page):
         layout.addWidget(text_label("Rasterscope", side, role="title"))
         layout.addWidget(text_label(WHAT, side, wraps=True))
         layout.addSpacing(8)
+        layout.addWidget(self.lesson_button)
         layout.addWidget(self.begin_button)
         layout.addWidget(self.now_label)
         layout.addSpacing(8)
         for button in (self.open_button, self.guide_button, self.keys_button):
             layout.addWidget(button)
-        hint = "Or drop a file on the window: OBJ, PLY, STL, OFF, glTF, GLB."
+        hint = "Or drop a file on the window: OBJ, PLY, STL, OFF, glTF, GLB, or a lesson."
         layout.addWidget(text_label(hint, side, role="muted", wraps=True))
         layout.addSpacing(8)
         layout.addWidget(text_label("Recent files", side, role="strong"))
@@ -121,6 +133,8 @@ class StartPage(Page):
     def _scenes(self) -> QWidget:
         pane = QWidget(self)
         layout = column_layout(pane, 8, margins=(0, 8, 8, 8))
+        layout.addWidget(self.lesson_list)
+        layout.addSpacing(8)
         layout.addWidget(self.cards)
         layout.addStretch(1)
         return pane
@@ -157,10 +171,18 @@ class StartPage(Page):
         title = self._session.document.title or "a scene"
         self.now_label.setText(f"Open now: {title}. Press Right for its next step, Left to go back.")
 
+    @Slot()
+    def _show_place(self) -> None:
+        """Offer the lesson with which to begin, or in which to go on."""
+        place = self.lessons.place
+        self.lesson_button.setText("" if place is None else place.button)
+        self.lesson_button.setVisible(place is not None)
+        self._set_widths()
+
     @property
     def is_drawing(self) -> bool:
-        """Whether pictures are still being drawn."""
-        return self._job.is_running
+        """Whether pictures are still being drawn, or lessons read."""
+        return self._job.is_running or self.lessons.job.is_running
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Give the left column the width that its text needs, if the scenes keep most of the page."""
@@ -173,8 +195,9 @@ class StartPage(Page):
         self._panes[0].setFixedWidth(max(wanted, self._side_pane.minimumSizeHint().width()))
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Draw the pictures when they are first seen."""
+        """Draw the pictures when they are first seen; list the lessons as they are now."""
         super().showEvent(event)
+        self.lessons.refresh()
         if not self._job.is_running and not all(card.has_picture() for card in self.cards.cards):
             self._job.start_in_parts(draw_pictures)
 
@@ -240,8 +263,9 @@ class StartPage(Page):
         self._job.cancel()
 
     def stop(self) -> None:
-        """End drawing."""
+        """End drawing and reading."""
         self._job.shut_down()
+        self.lessons.job.shut_down()
 
 
 def draw_pictures(

@@ -161,7 +161,7 @@ def test_keys_scroll_the_scenes_wherever_the_keyboard_is(window: MainWindow, pag
 def test_the_page_is_reached_by_tab_from_begin_to_the_last_group(window: MainWindow, page: StartPage) -> None:
     page.begin_button.setFocus(Qt.FocusReason.TabFocusReason)
     reached = [QApplication.focusWidget()]
-    for _ in range(20):
+    for _ in range(40):
         QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Tab)
         reached.append(QApplication.focusWidget())
     wanted = [page.begin_button, page.open_button, page.guide_button, page.keys_button, page.always_box]
