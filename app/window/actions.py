@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
 
 from app.help.pane import HelpPane
 from app.pages.step.bookmarks import BOOKMARKS
+from app.pages.step.copy_state import copy_state
 from app.pages.step.page import PANES, Pane, SidePane, StepPage
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.pages.step.view_keys import ZOOM, choose_vertex, move_view, nudge_vertex, zoom
@@ -361,6 +362,9 @@ ACTIONS: tuple[Action, ...] = (
         Row("lesson_check", "Ctrl+Return", "Check the answer", lambda p: p.check()),
         Row("lesson_reveal", "Ctrl+M", "Show what is right", lambda p: p.reveal(), ends_group=True),
         Row("lesson_close", "", "Close the lesson", lambda p: p.close()),
+    ),
+    *_rows("step", LESSONS, "Lesson", lambda w: w.page)(
+        Row("lesson_copy", "", "Copy this state for a lesson", copy_state),
     ),
     *_rows("step", POINTING, "", lambda w: w.stepping)(
         Row("pin_left", "Alt+Left", "Move the pin left", lambda p: p.move_pin(-1, 0)),
