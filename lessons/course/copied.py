@@ -9,7 +9,7 @@ import numpy as np
 
 from core import Settings, Trace
 from core.records.arrays import Floats
-from core.scene import AnyScene, ClipScene, Scene
+from core.scene import AnyScene, ClipScene, PointLight, Scene
 from core.settings import settings_from_texts, settings_record
 from core.trace import StageTrace
 from core.trace.run_to import END
@@ -166,11 +166,13 @@ def _moved_camera(scene: Scene, base: Scene) -> dict[str, Any] | None:
         found["camera"] = camera
     lights = []
     for number, (mine, its) in enumerate(zip(scene.lights, base.lights, strict=True)):
-        vectors = [getattr(each, "position", getattr(each, "direction", None)) for each in (mine, its)]
+        place, its_place = (
+            each.position if isinstance(each, PointLight) else each.direction for each in (mine, its)
+        )
         if type(mine) is not type(its) or not np.array_equal(mine.color, its.color):
             return None
-        if not np.array_equal(*vectors):
-            lights.append([number, *vectors[0].tolist()])
+        if not np.array_equal(place, its_place):
+            lights.append([number, *place.tolist()])
     return found | ({"light": lights} if lights else {})
 
 
