@@ -7,6 +7,7 @@ from PySide6.QtGui import QCloseEvent, QContextMenuEvent, QDragEnterEvent, QDrop
 from PySide6.QtWidgets import QLabel, QStatusBar
 
 from app.background.workers import ending_within
+from app.files.lesson_folders import is_lesson_file
 from app.files.preferences import Preferences
 from app.help.pane import HelpPane
 from app.pages.page_bar import COVERED, Page, Pages
@@ -249,7 +250,8 @@ class MainWindow(ActionWindow):
         self.menus.show_kind(document.scene.corner_count)
         if document.raster != self._raster:
             self._raster = document.raster
-            self.notices.tell(f"Raster: {document.raster.label.lower()}.")
+            if not self.page.lessons.is_open:  # There every step may have another one.
+                self.notices.tell(f"Raster: {document.raster.label.lower()}.")
         self._show_pointed()
 
     @Slot()
@@ -376,7 +378,10 @@ class MainWindow(ActionWindow):
         ``allows_outside``: files that it names may be read from outside its folder.
         """
         name = page_of_file(path)
-        if name:
+        if is_lesson_file(path):
+            self.pages.show_page("step")
+            self.page.lessons.open_path(path)
+        elif name:
             self.pages.show_page(name)
             self.pages.current.open_path(path)
         else:

@@ -19,10 +19,14 @@ class LessonScroll(QScrollArea):
         self._content = content
         self.setWidget(content)
 
+    def height_for(self, width: int) -> int:
+        """Return the height that the content needs in a column of a width."""
+        layout = self._content.layout()
+        return 0 if layout is None else layout.totalHeightForWidth(width)
+
     def take_room(self, width: int, most: int) -> None:
         """Be as high as the content needs in a column of a width, and at ``most`` so high: then it scrolls."""
-        layout = self._content.layout()
-        wanted = 0 if layout is None else layout.totalHeightForWidth(width)
+        wanted = self.height_for(width)
         # Not as Qt sees fit: where a bar makes the text higher, it would keep the bar for that.
         policies = Qt.ScrollBarPolicy
         self.setVerticalScrollBarPolicy(

@@ -61,7 +61,7 @@ class LessonView(QWidget):
         self._record: LessonStepRecord | None = None
         self.answer: AnswerView | None = None
         self.title = text_label("", self, role="strong", wraps=True)
-        self.place = text_label("", self, role="muted")
+        self.place = text_label("", self, role="muted", name="Step of the lesson")
         self.close_button = flat_button(
             "✕", "Close the lesson", "Close the lesson: what was open before it comes back", self
         )
@@ -148,12 +148,13 @@ class LessonView(QWidget):
         self._follow_theme()
         self.dots.show_standings(record.standings, record.number)
         self.back_button.setEnabled(record.number > 0)
+        self.next_button.setEnabled(record.has_next)
         self.next_button.setText(record.next_title or "Next")
         self.next_button.setToolTip(f"{record.next_title or 'Next step of the lesson'} (Page Down)")
 
     def spoken_place(self) -> str:
         """Return title and step for a screen reader."""
-        return "" if self._record is None else f"{self._record.title}, {self._record.place}"
+        return "" if self._record is None else f"{self._record.title}, step {self._record.place}"
 
     def _show_links(self, links: tuple[tuple[str, str], ...]) -> None:
         for old in self._link_buttons:

@@ -34,6 +34,8 @@ class LessonStepRecord:
     """Address and title of what can be opened from here: exercises, pages."""
     next_title: str = ""
     """What Next opens, where it is not the next step."""
+    has_next: bool = True
+    """Whether anything follows."""
 
     @property
     def is_done(self) -> bool:
@@ -44,7 +46,7 @@ class LessonStepRecord:
     def place(self) -> str:
         """Where the step is in the lesson."""
         is_end = self.number == len(self.standings)
-        return "the end" if is_end else f"step {self.number + 1} of {len(self.standings)}"
+        return "end" if is_end else f"{self.number + 1} of {len(self.standings)}"
 
 
 @dataclass(frozen=True)

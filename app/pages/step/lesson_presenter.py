@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal, Slot
@@ -87,6 +88,10 @@ class LessonPresenter(QObject):
         What is open now comes back when the lesson is closed.
         """
         self._job.call(lambda: _found(lesson, step))
+
+    def open_path(self, path: str) -> None:
+        """Open the lesson of a file."""
+        self._job.call(lambda: _found(Path(path), 0))
 
     @Slot(object)
     def _begin(self, found: _Found) -> None:
@@ -185,15 +190,19 @@ class LessonPresenter(QObject):
         self._do(lambda walk: walk.go(0))
 
 
-def _found(lesson: "Lesson | str", step: int) -> _Found:
+def _found(wanted: "Lesson | str | Path", step: int) -> _Found:
     """Read the lessons, and import all that shows them: off the GUI thread."""
     import app.pages.step.lesson_walk  # noqa: F401
     from app.files.lesson_folders import whole_course
     from lessons.course.catalogue import FOLDER
+    from lessons.course.lesson_file import read_lesson
     from lessons.course.validation import validate
 
     course = whole_course()
-    found = course.named(lesson) if isinstance(lesson, str) else lesson
-    if found.path.parent != FOLDER:
-        validate(found, course.lessons)
-    return _Found(course, found, step)
+    if isinstance(wanted, str):
+        lesson = course.named(wanted)
+    else:
+        lesson = read_lesson(wanted) if isinstance(wanted, Path) else wanted
+    if lesson.path.parent != FOLDER:
+        validate(lesson, {*course.lessons, lesson.name})
+    return _Found(course, lesson, step)

@@ -208,11 +208,13 @@ class LessonWalk(QObject):
         self._has_peeked = self._is_revealed = False
         page = self._page
         is_hidden = asked is not None or (step is None and self._begins_hidden())
+        page.tell("")  # What was said of the step before no longer holds.
         self._show(shown, is_hidden=is_hidden)
         page.show_desk_panes((*PANES, *shown.state.panes))
         form = None if asked is None else asked.question.draft.answer.form
         self.view.show_step(self._record(), form)
         self.view.reveal_button.setText(REVEAL)
+        page.side.let_inspector_give_way(asked is not None and shown.cursor.position == 0)
         if asked is not None:
             self.answers.begin(asked)
         page.main_area.show_asked(self.grid if asked is not None and asked.is_on_picture else None)
@@ -245,19 +247,19 @@ class LessonWalk(QObject):
 
     def _end_record(self, lesson: Lesson) -> LessonStepRecord:
         part, following = lesson.part, self.following
-        said = [f"You can now answer: {part.answers}" if part.answers else ""]
-        said.append("Now without help:" if part.exercises and following is None else "")
+        said = [f"You can now answer: {paragraphs(part.answers)}" if part.answers else ""]
         if following is not None:
             question = part.next.text if part.next is not None else following.question
-            said.append(f"Next: {following.title}. {question}")
+            said.append(f"Next: {following.title}. {paragraphs(question)}")
         links = tuple((f"exercise/{name}", f"Exercise: {TEMPLATES[name].title}") for name in part.exercises)
         return LessonStepRecord(
             title=lesson.title,
-            text="\n".join(filter(None, said)),
+            text="\n".join(filter(None, said)) or "This is the end of the lesson.",
             number=self.number,
             standings=tuple(self.standings),
             links=links,
             next_title="Next lesson",
+            has_next=following is not None,
         )
 
     def _stand(self, standing: Standing) -> None:
@@ -287,7 +289,7 @@ class LessonWalk(QObject):
         if Change.OPENED in what:
             self.left.emit()
             return
-        if self.answers.is_open and not self._session.is_predicting:
+        if self.answers.is_open and not self._session.is_predicting and not self._is_revealed:
             self._show_right()
         elif self.answers.is_open and Change.CURSOR in what and self._is_ahead() and not self._has_peeked:
             self._has_peeked = True
@@ -360,6 +362,8 @@ class LessonWalk(QObject):
 
     def _show_revealed(self, shown: OpenState, *, keeps_picture: bool = False) -> None:
         """Show the state of the answer; marks on a picture stay in sight where there is no other to be seen."""
+        self._page.tell("")
+        self._page.side.let_inspector_give_way(False)
         self._show(shown, is_hidden=False)
         if not keeps_picture:
             self._page.main_area.show_asked(None)
@@ -390,6 +394,10 @@ class LessonWalk(QObject):
         run = OtherRun(self._session.document.scene, scene, f"with the mistake: {name.replace('-', ' ')}")
         page.comparing.set_differences(state.settings.differences(other), run)
         page.show_view("compare")
+        if state.pixel is not None:
+            self._session.set_pin(state.pixel)
+            page.comparing.meet_at(state.pixel)
+            page.tell("")
 
 
 def paragraphs(text: str) -> str:

@@ -1,6 +1,6 @@
 """The right column of the Step page: the pane of a lesson while one is open, and the inspector below it."""
 
-from PySide6.QtCore import QEvent, QObject, Slot
+from PySide6.QtCore import QEvent, QObject, Qt, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QWidget
 
@@ -20,8 +20,11 @@ class SideColumn(QWidget):
         super().__init__(parent)
         self._inspector = inspector
         self._lesson: LessonScroll | None = None
+        self._gives_way = False
         self._layout = column_layout(self, 4)
-        self._layout.addWidget(inspector, 1)
+        self._below = QWidget(self)
+        column_layout(self._below).addWidget(inspector)
+        self._layout.addWidget(self._below, 1)
         inspector.installEventFilter(self)
 
     def show_lesson(self, lesson: LessonScroll | None) -> None:
@@ -32,10 +35,15 @@ class SideColumn(QWidget):
             self._lesson.hide()
         is_new, self._lesson = lesson is not self._lesson, lesson
         if lesson is not None and is_new:
-            self._layout.insertWidget(0, lesson)
+            self._layout.insertWidget(0, lesson, 0, Qt.AlignmentFlag.AlignTop)
             lesson.height_changed.connect(self._divide)
             lesson.show()
         self._follow()
+
+    def let_inspector_give_way(self, gives_way: bool) -> None:
+        """Leave the inspector out where the lesson needs the room: nothing has been stepped that it could show."""
+        self._gives_way = gives_way
+        self._divide()
 
     def panes(self) -> list[QWidget]:
         """Return both, as far as they are there."""
@@ -49,11 +57,15 @@ class SideColumn(QWidget):
     @Slot()
     def _divide(self) -> None:
         """Give the lesson the height that it wants, unless the inspector would have too little."""
-        if self._lesson is not None:
-            line = 1.5 * current_theme().text_px
-            least = 0 if self._inspector.isHidden() else round(INSPECTOR_LINES * line)
-            most = max(self.height() - least, self.height() // 2)
-            self._lesson.take_room(self.width(), most)
+        if self._lesson is None:
+            self._below.show()
+            return
+        least = round(INSPECTOR_LINES * 1.5 * current_theme().text_px)
+        has_room = self._lesson.height_for(self.width()) + least <= self.height()
+        is_inspected = not self._inspector.isHidden() and (has_room or not self._gives_way)
+        self._below.setVisible(is_inspected)
+        most = max(self.height() - least, self.height() // 2) if is_inspected else self.height()
+        self._lesson.take_room(self.width(), most)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Divide another height."""
