@@ -361,6 +361,7 @@ ACTIONS: tuple[Action, ...] = (
         Row("lesson_return", "Ctrl+Home", "Return to the lesson’s step", lambda p: p.return_here()),
         Row("lesson_check", "Ctrl+Return", "Check the answer", lambda p: p.check()),
         Row("lesson_reveal", "Ctrl+M", "Show what is right", lambda p: p.reveal(), ends_group=True),
+        Row("lesson_anew", "", "Begin the lesson anew", lambda p: p.begin_anew()),
         Row("lesson_close", "", "Close the lesson", lambda p: p.close()),
     ),
     *_rows("step", LESSONS, "Lesson", lambda w: w.page)(

@@ -23,7 +23,7 @@ class LessonStepRecord:
     """Of the lesson."""
     text: str
     number: int
-    """Of the step, from 0; the number of steps: the end."""
+    """Of the step, from 0; below: what comes before the first; the number of steps: the end."""
     standings: tuple[Standing, ...]
     """Of all steps."""
     lead: str = ""
@@ -34,19 +34,22 @@ class LessonStepRecord:
     """Address and title of what can be opened from here: exercises, pages."""
     next_title: str = ""
     """What Next opens, where it is not the next step."""
+    has_previous: bool = True
     has_next: bool = True
-    """Whether anything follows."""
+    """Whether anything comes before, and whether anything follows."""
 
     @property
     def is_done(self) -> bool:
         """Whether the task is done."""
-        return self.number < len(self.standings) and self.standings[self.number] is Standing.DONE
+        is_step = 0 <= self.number < len(self.standings)
+        return is_step and self.standings[self.number] is Standing.DONE
 
     @property
     def place(self) -> str:
         """Where the step is in the lesson."""
-        is_end = self.number == len(self.standings)
-        return "end" if is_end else f"{self.number + 1} of {len(self.standings)}"
+        if not 0 <= self.number < len(self.standings):
+            return "end" if self.number > 0 else "before"
+        return f"{self.number + 1} of {len(self.standings)}"
 
 
 @dataclass(frozen=True)

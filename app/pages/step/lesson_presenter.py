@@ -14,6 +14,8 @@ from core import Trace
 
 if TYPE_CHECKING:
     # Lessons are imported when the first one is opened.
+    from app.pages.step.lesson_attempts import LessonAttempts, Progress
+    from app.pages.step.lesson_question import JudgedAnswer
     from app.pages.step.lesson_walk import LessonWalk
     from app.pages.step.page import StepPage
     from lessons.course.catalogue import Course
@@ -36,7 +38,8 @@ class _Found:
 
     course: "Course"
     lesson: "Lesson"
-    step: int
+    step: int | None
+    progress: "Progress"
 
 
 class LessonPresenter(QObject):
@@ -50,6 +53,8 @@ class LessonPresenter(QObject):
         super().__init__(page)
         self._page = page
         self._walk: LessonWalk | None = None
+        self.attempts: LessonAttempts
+        """What is kept; made with the first lesson."""
         self._desk: _Desk | None = None
         self.last: tuple[str, int] | None = None
         """Name and step of the lesson that was shown last."""
@@ -71,19 +76,22 @@ class LessonPresenter(QObject):
     @property
     def is_working(self) -> bool:
         """Whether a lesson is being read, or something in it is being worked on."""
-        return self._job.is_running or (self._walk is not None and self._walk.is_working)
+        if self._walk is None:
+            return self._job.is_running
+        return self._job.is_running or self._walk.is_working or self.attempts.is_working
 
     def stop(self) -> None:
         """End all work."""
         self._job.shut_down()
         if self._walk is not None:
             self._walk.stop()
+            self.attempts.stop()
 
     # Opening and closing.
 
     @Slot(str)
-    def open(self, lesson: "Lesson | str", step: int = 0) -> None:
-        """Open a lesson, or that of a name, at one of its steps from 0.
+    def open(self, lesson: "Lesson | str", step: int | None = None) -> None:
+        """Open a lesson, or that of a name, at one of its steps from 0; ``None``: at its beginning.
 
         What is open now comes back when the lesson is closed.
         """
@@ -91,24 +99,39 @@ class LessonPresenter(QObject):
 
     def open_path(self, path: str) -> None:
         """Open the lesson of a file."""
-        self._job.call(lambda: _found(Path(path), 0))
+        self._job.call(lambda: _found(Path(path), None))
 
     @Slot(object)
     def _begin(self, found: _Found) -> None:
-        from app.pages.step.lesson_walk import LessonWalk
-        from widgets.lessons.records import Standing
-
-        page = self._page
-        if self._walk is None:
-            self._walk = walk = LessonWalk(page)
-            walk.left.connect(self._leave)
-            walk.place_changed.connect(self._remember)
-            walk.view.close_requested.connect(self.close)
+        page, walk = self._page, self._walk or self._make()
         if not self.is_open:
             self._desk = _Desk(state_of(page, 100), page.session.trace)
-        page.side.show_lesson(self._walk.scroll)
+        self.attempts.user = found.progress.user
+        if found.progress.trouble:
+            page.refuse(found.progress.trouble)
+        page.side.show_lesson(walk.scroll)
         page.column.show_card(False)
-        self._walk.begin(found.course, found.lesson, found.step, [Standing.OPEN] * len(found.lesson.steps))
+        walk.begin(found.course, found.lesson, found.step, found.progress.standings)
+
+    def _make(self) -> "LessonWalk":
+        """Make what shows lessons."""
+        from app.pages.step.lesson_attempts import LessonAttempts
+        from app.pages.step.lesson_walk import LessonWalk
+
+        self._walk, self.attempts = walk, attempts = LessonWalk(self._page), LessonAttempts(self)
+        attempts.failed.connect(self._page.edit_refused)
+        walk.left.connect(self._leave)
+        walk.place_changed.connect(self._remember)
+        walk.task_ended.connect(self._keep)
+        walk.view.close_requested.connect(self.close)
+        return walk
+
+    @Slot(int, float, object)
+    def _keep(self, number: int, score: float, judged: "JudgedAnswer | None") -> None:
+        """Keep what became of a step; in front of a class nobody learns for himself."""
+        walk = self.walk
+        if walk is not None and walk.lesson is not None and not self._page.is_presenting:
+            self.attempts.keep(walk.lesson, number, score, judged)
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
@@ -185,15 +208,26 @@ class LessonPresenter(QObject):
         """Go on in front of a class: show the answer of an open question first."""
         self._do(lambda walk: walk.reveal() if walk.answers.is_open else walk.next())
 
+    def begin_anew(self) -> None:
+        """Begin the lesson once more: what was done of it counts no longer."""
+
+        def act(walk: "LessonWalk") -> None:
+            if walk.lesson is not None:
+                self.attempts.begin_anew(walk.lesson)
+                walk.begin_anew()
+
+        self._do(act)
+
     def start_over(self) -> None:
         """Go to the first step."""
-        self._do(lambda walk: walk.go(0))
+        self._do(lambda walk: walk.go(walk.first))
 
 
-def _found(wanted: "Lesson | str | Path", step: int) -> _Found:
+def _found(wanted: "Lesson | str | Path", step: int | None) -> _Found:
     """Read the lessons, and import all that shows them: off the GUI thread."""
     import app.pages.step.lesson_walk  # noqa: F401
     from app.files.lesson_folders import whole_course
+    from app.pages.step.lesson_attempts import progress_in
     from lessons.course.catalogue import FOLDER
     from lessons.course.lesson_file import read_lesson
     from lessons.course.validation import validate
@@ -205,4 +239,4 @@ def _found(wanted: "Lesson | str | Path", step: int) -> _Found:
         lesson = read_lesson(wanted) if isinstance(wanted, Path) else wanted
     if lesson.path.parent != FOLDER:
         validate(lesson, {*course.lessons, lesson.name})
-    return _Found(course, lesson, step)
+    return _Found(course, lesson, step, progress_in(lesson))

@@ -1,6 +1,7 @@
 """The question of a step that is to be predicted: takes the answer, has it judged, and says what is wrong with it."""
 
 from dataclasses import dataclass
+from time import monotonic
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal, Slot
@@ -12,7 +13,7 @@ from core.records.cells import Marks
 from lessons.course.lesson_file import Lesson
 from lessons.course.questions import Outcome, outcome_of
 from lessons.exercises.answers.answer import NotCheckedError, Response
-from lessons.exercises.question import Question
+from lessons.exercises.question import Question, judge
 from lessons.mistakes.shelf import MISTAKES
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.mark_grid import MarkGrid
@@ -29,13 +30,22 @@ class LessonQuestion:
 
     lesson: Lesson
     number: int
+    """Of the step; below 0: it is an exercise of an earlier lesson."""
     question: Question
     outline: GridGeometry | None
 
     @property
     def is_on_picture(self) -> bool:
-        """Whether it is answered on a picture."""
+        """Whether a picture is shown with it: one that it is answered on, or that of an exercise."""
+        if self.number < 0:
+            return size_of(self.question.draft) is not None
         return self.question.draft.answer.kind in ("pixels", "spot", "places", "break")
+
+    def outcome(self, response: Response) -> Outcome:
+        """Judge an answer that was read."""
+        if self.number < 0:
+            return Outcome(judge(self.question, response))
+        return outcome_of(self.lesson, self.number, self.question, response)
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +57,8 @@ class JudgedAnswer:
     response: Response
     outcome: Outcome
     marks: Marks
+    seconds: float
+    """Since the question was asked."""
 
 
 def question_with_outline(lesson: Lesson, number: int, question: Question) -> LessonQuestion:
@@ -70,6 +82,7 @@ class LessonAnswers(QObject):
         """The last answer; ``None``: there is none yet."""
         self.wrong_count = 0
         self._left_out: object = None
+        self._begun = monotonic()
         self._judging, self._drawing = Job(self), Job(self)
         self._judging.succeeded.connect(self._show_judged)
         self._drawing.succeeded.connect(self._show_live)
@@ -96,7 +109,7 @@ class LessonAnswers(QObject):
     def begin(self, asked: LessonQuestion) -> None:
         """Ask a question, whose form is in the pane already; the picture is empty."""
         self.end()
-        self.asked, self.is_open, self._left_out = asked, True, None
+        self.asked, self.is_open, self._left_out, self._begun = asked, True, None, monotonic()
         draft = asked.question.draft
         size = size_of(draft)
         if size is not None:
@@ -162,12 +175,12 @@ class LessonAnswers(QObject):
             self._view.show_note(f"{left_out}. Check anyway? Then choose Check again.")
             return
         self._view.show_note("")
+        begun = self._begun
 
         def work() -> JudgedAnswer:
-            outcome = outcome_of(asked.lesson, asked.number, asked.question, response)
-            return JudgedAnswer(
-                asked, given, response, outcome, marks_of(asked.question, outcome.judgement.verdict)
-            )
+            outcome = asked.outcome(response)
+            marks = marks_of(asked.question, outcome.judgement.verdict)
+            return JudgedAnswer(asked, given, response, outcome, marks, monotonic() - begun)
 
         self._judging.call(work)
 

@@ -1,12 +1,14 @@
 """One lesson that is walked: its steps, what is asked in them, what is done, and where it leads."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
+from random import SystemRandom
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.pages.step.ab_choice import OtherRun
+from app.pages.step.lesson_evidence import has_refuting_step, mistake_of, show_mistake
 from app.pages.step.lesson_question import (
     RIGHT,
     SHOWN,
@@ -14,18 +16,20 @@ from app.pages.step.lesson_question import (
     LessonAnswers,
     question_with_outline,
 )
+from app.pages.step.lesson_records import end_record, paragraphs, recall_record, step_record
 from app.pages.step.lesson_states import PANES, LessonStates, OpenState, Wanted
 from app.pages.step.lesson_watch import LessonWatch
 from app.session.moment import Change
-from core.scene import ClipScene
+from core import STAGES
 from lessons.course.catalogue import Course
 from lessons.course.lesson_file import Lesson
 from lessons.course.questions import question_of
 from lessons.course.record import StepPart
 from lessons.course.state import States
 from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.question import ask
 from lessons.exercises.scene_digest import scene_digest
-from lessons.mistakes.shelf import SHELF
+from lessons.run_place import RunPlace
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.lessons.lesson_scroll import LessonScroll
 from widgets.lessons.lesson_view import LessonView
@@ -34,14 +38,10 @@ from widgets.lessons.records import LessonFeedback, LessonStepRecord, Standing
 if TYPE_CHECKING:
     from app.pages.step.page import StepPage
 
-KINDS = {
-    "look": "",
-    "predict": "Predict",
-    "do": "Do it",
-    "break": "Break it",
-    "measure": "Measure",
-}
-"""What a step wants to be done, by its kind."""
+RECALL = -1
+"""Number of what comes before the first step: an exercise of an earlier lesson."""
+SEEDS = 10_000
+"""Seeds of that exercise."""
 DONE = "Done."
 PEEKED = "You have stepped on. An answer counts as seen now."
 SHOW_ME, REVEAL = "Show me", "Reveal"
@@ -69,12 +69,16 @@ class LessonWalk(QObject):
         self.watch = LessonWatch(page.session, self)
         self.lesson: Lesson | None = None
         self.number = 0
-        """Of the step that is shown, or will be in a moment; the number of steps: the end."""
+        """Of the step that is shown; below 0: what comes before the first; the number of steps: the end."""
+        self._next_number = 0
+        """Of the one that is wanted, and shown in a moment."""
         self.standings: list[Standing] = []
         self._course = Course({})
         self._made: States | None = None
-        self._shown: OpenState | None = None
-        """What was opened last for the step."""
+        self._home: OpenState | None = None
+        """Where the step began."""
+        self._seed = 0
+        """Of the exercise that comes first."""
         self._is_showing = self._has_peeked = self._is_revealed = False
         self._connect()
 
@@ -104,16 +108,24 @@ class LessonWalk(QObject):
 
     # Going through the lesson.
 
-    def begin(self, course: Course, lesson: Lesson, number: int, standings: Sequence[Standing]) -> None:
-        """Open a lesson at one of its steps."""
+    def begin(
+        self, course: Course, lesson: Lesson, number: int | None, standings: Sequence[Standing]
+    ) -> None:
+        """Open a lesson at one of its steps; ``None``: at its beginning."""
         self._course, self.lesson, self.standings = course, lesson, list(standings)
         self._made = States(lesson)
+        self._seed = SystemRandom().randrange(SEEDS)
         self.states.forget()
-        self.go(min(max(number, 0), len(lesson.steps)))
+        self.go(self.first if number is None else min(max(number, self.first), len(lesson.steps)))
+
+    def begin_anew(self) -> None:
+        """Go to the beginning, with nothing done."""
+        if self.lesson is not None:
+            self.begin(self._course, self.lesson, None, [Standing.OPEN] * len(self.lesson.steps))
 
     def end(self) -> None:
         """Leave the lesson; what is open stays."""
-        self.lesson = self._shown = None
+        self.lesson = self._home = None
         self.states.forget()
         self._end_task()
         self._session.set_predicting(False)
@@ -126,37 +138,44 @@ class LessonWalk(QObject):
 
     @property
     def step(self) -> StepPart | None:
-        """The step that is shown; ``None``: the end."""
+        """The step that is shown; ``None``: what comes before the first one, or the end."""
         assert self.lesson is not None
-        return self.lesson.steps[self.number] if self.number < len(self.lesson.steps) else None
+        is_step = 0 <= self.number < len(self.lesson.steps)
+        return self.lesson.steps[self.number] if is_step else None
 
     @property
     def following(self) -> Lesson | None:
         """The next lesson."""
         return None if self.lesson is None else self._course.after(self.lesson)
 
+    @property
+    def first(self) -> int:
+        """The number of what a lesson begins with."""
+        return RECALL if self.lesson is not None and self.lesson.part.recall is not None else 0
+
     @Slot(int)
     def go(self, number: int) -> None:
         """Open a step, or the end of the lesson."""
         if self.lesson is not None:
-            self.number = number
-            self.states.want(partial(self._wanted, self.lesson, number), self._show_step)
+            self._next_number = number
+            show = partial(self._show_step, self.lesson, number)
+            self.states.want(partial(self._wanted, self.lesson, number), show)
 
     @Slot()
     def next(self) -> None:
         """Go to the next step, or from the end to the next lesson."""
         if self.lesson is None:
             return
-        if self.number < len(self.lesson.steps):
-            self.go(self.number + 1)
+        if self._next_number < len(self.lesson.steps):
+            self.go(self._next_number + 1)
         elif self.following is not None:
             self._page.lessons.open(self.following.name)
 
     @Slot()
     def back(self) -> None:
         """Go to the previous step."""
-        if self.number > 0:
-            self.go(self.number - 1)
+        if self._next_number > self.first:
+            self.go(self._next_number - 1)
 
     @Slot()
     def return_here(self) -> None:
@@ -165,15 +184,20 @@ class LessonWalk(QObject):
 
     def _wanted(self, lesson: Lesson, number: int) -> Wanted:
         """Return the state of a step, and what it asks; of the end, where the next lesson begins."""
+        states = self._states_of(lesson)
+        if number < 0 and lesson.part.recall is not None:
+            question = ask(TEMPLATES[lesson.part.recall], self._seed)
+            first = states.of_step(0)
+            before = replace(first, place=RunPlace(first.stage))
+            return before, question_with_outline(lesson, number, question)
         if number < len(lesson.steps):
-            states = self._states_of(lesson)
             state = states.of_step(number)
             if lesson.steps[number].answer is None:
                 return state, None
             return state, question_with_outline(lesson, number, question_of(lesson, number, states))
         following = self._course.after(lesson)
         if following is None:
-            return self._states_of(lesson).of_step(number - 1), None
+            return states.of_step(number - 1), None
         return States(following).of_step(0), None
 
     def _states_of(self, lesson: Lesson) -> States:
@@ -195,13 +219,14 @@ class LessonWalk(QObject):
         digest = scene_digest(shown.document.scene) if is_hidden else ""
         self._session.set_asked(digest, is_open=is_hidden, by="lesson")
         self.states.show(shown, is_hidden=is_hidden)
-        self._shown = shown
         self._is_showing = False
         self._show_away()
 
-    def _show_step(self, shown: OpenState) -> None:
+    def _show_step(self, lesson: Lesson, number: int, shown: OpenState) -> None:
         """Show the step that was wanted."""
-        assert self.lesson is not None
+        if lesson is not self.lesson:
+            return
+        self.number, self._home = number, shown
         step, asked = self.step, shown.asked
         self.answers.end()
         self.watch.end()
@@ -231,48 +256,27 @@ class LessonWalk(QObject):
         return following is not None and following.steps[0].answer is not None
 
     def _record(self) -> LessonStepRecord:
-        lesson, step = self.lesson, self.step
+        lesson, home = self.lesson, self._home
         assert lesson is not None
-        if step is None:
-            return self._end_record(lesson)
-        return LessonStepRecord(
-            title=lesson.title,
-            text=paragraphs(step.text),
-            number=self.number,
-            standings=tuple(self.standings),
-            lead=lesson.question if self.number == 0 else "",
-            task=paragraphs(step.task or "") or KINDS[step.kind],
-            links=((step.show, "Open it"),) if step.show else (),
-        )
-
-    def _end_record(self, lesson: Lesson) -> LessonStepRecord:
-        part, following = lesson.part, self.following
-        said = [f"You can now answer: {paragraphs(part.answers)}" if part.answers else ""]
-        if following is not None:
-            question = part.next.text if part.next is not None else following.question
-            said.append(f"Next: {following.title}. {paragraphs(question)}")
-        links = tuple((f"exercise/{name}", f"Exercise: {TEMPLATES[name].title}") for name in part.exercises)
-        return LessonStepRecord(
-            title=lesson.title,
-            text="\n".join(filter(None, said)) or "This is the end of the lesson.",
-            number=self.number,
-            standings=tuple(self.standings),
-            links=links,
-            next_title="Next lesson",
-            has_next=following is not None,
-        )
+        if self.number < 0 and home is not None and home.asked is not None:
+            return recall_record(lesson, home.asked.question, self.standings)
+        if self.step is None:
+            return end_record(lesson, self.following, self.standings)
+        return step_record(lesson, self.number, self.standings)
 
     def _stand(self, standing: Standing) -> None:
         """Show how far the learner is with the step; what is done stays so."""
+        if self.step is None:
+            return
         before = self.standings[self.number]
         if before is not Standing.DONE and before is not standing:
             self.standings[self.number] = standing
             self.view.show_standings(self._record())
 
     def _show_away(self) -> None:
-        """Say whether the learner has left what the step has opened."""
-        shown, session = self._shown, self._session
-        is_there = shown is not None and session.document is shown.document and session.cursor == shown.cursor
+        """Say whether the learner has left where the step began."""
+        home, session = self._home, self._session
+        is_there = home is not None and session.document is home.document and session.cursor == home.cursor
         self.view.show_away(not is_there)
 
     @Slot(object)
@@ -298,10 +302,8 @@ class LessonWalk(QObject):
 
     def _is_ahead(self) -> bool:
         """Return whether the cursor has gone beyond where the question is asked."""
-        from core import STAGES
-
-        assert self._shown is not None
-        here, there = self._session.cursor, self._shown.cursor
+        assert self._home is not None
+        here, there = self._session.cursor, self._home.cursor
         places = [(STAGES.index(cursor.stage), cursor.position) for cursor in (here, there)]
         return places[0] > places[1]
 
@@ -312,7 +314,7 @@ class LessonWalk(QObject):
         if is_right:
             self._stand(Standing.DONE if is_first else Standing.SEEN)
             self._conclude(RIGHT, is_right=True)
-        elif self.answers.is_evidence_wanted and self._evidence() is not None:
+        elif self._has_evidence():
             self.view.reveal_button.setText(SHOW_ME)
         self.task_ended.emit(self.number, float(is_right and is_first), judged)
 
@@ -325,17 +327,37 @@ class LessonWalk(QObject):
         self.view.show_feedback(LessonFeedback((DONE, *after), is_right=True))
         self.task_ended.emit(self.number, 1.0, None)
 
+    def _has_evidence(self) -> bool:
+        """Return whether the step or the run that refutes the last answer is offered."""
+        judged, step = self.answers.last, self.step
+        if judged is None or step is None or self._is_revealed or not self.answers.is_evidence_wanted:
+            return False
+        return has_refuting_step(judged, step) or bool(mistake_of(judged))
+
     @Slot()
     def reveal(self) -> None:
-        """Show the step that refutes the last answer, where that is offered, or else what is right."""
-        evidence = self._evidence() if self.answers.is_evidence_wanted and not self._is_revealed else None
-        if evidence is not None:
+        """Show what refutes the last answer, where that is offered, or else what is right."""
+        if self._has_evidence():
             self._is_revealed = True
             self._stand(Standing.SEEN)
             self.view.reveal_button.setText(REVEAL)
-            evidence()
+            self._refute()
         elif self.answers.is_open:
             self._show_right()
+
+    def _refute(self) -> None:
+        judged, step, states, home = self.answers.last, self.step, self._made, self._home
+        assert judged is not None
+        assert step is not None
+        assert states is not None
+        assert home is not None
+        if has_refuting_step(judged, step):
+            self.states.want(
+                partial(_refuting, states, self.number, judged.outcome.wrong), self._show_revealed
+            )
+        else:
+            self._show_revealed(home)
+            show_mistake(self._page, home.state, mistake_of(judged))
 
     def _show_right(self) -> None:
         """Show what is right: the step is seen, not done."""
@@ -347,18 +369,15 @@ class LessonWalk(QObject):
 
     def _conclude(self, said: str, is_right: bool | None) -> None:
         """Show what comes after the answer."""
-        step, asked = self.step, self.answers.asked
-        assert step is not None
-        after = () if step.after is None else (paragraphs(step.after),)
-        self.view.show_feedback(LessonFeedback((said, *after), is_right=is_right))
-        lesson, number, states = self.lesson, self.number, self._made
-        assert lesson is not None
-        assert states is not None
-        if step.reveal is not None:
-            self.states.want(partial(_revealed, states, number), self._show_revealed)
-        elif self._shown is not None:
-            is_marked = asked is not None and asked.is_on_picture
-            self._show_revealed(self._shown, keeps_picture=is_marked)
+        step, asked, states, home = self.step, self.answers.asked, self._made, self._home
+        assert asked is not None
+        assert home is not None
+        after = paragraphs(asked.question.draft.reveal)
+        self.view.show_feedback(LessonFeedback((said, *filter(None, [after])), is_right=is_right))
+        if step is not None and step.reveal is not None and states is not None:
+            self.states.want(partial(_revealed, states, self.number), self._show_revealed)
+        elif step is not None:
+            self._show_revealed(home, keeps_picture=asked.is_on_picture)
 
     def _show_revealed(self, shown: OpenState, *, keeps_picture: bool = False) -> None:
         """Show the state of the answer; marks on a picture stay in sight where there is no other to be seen."""
@@ -368,42 +387,6 @@ class LessonWalk(QObject):
         if not keeps_picture:
             self._page.main_area.show_asked(None)
 
-    # What refutes an answer.
-
-    def _evidence(self) -> Callable[[], None] | None:
-        """Return what shows why the last answer is wrong; ``None``: there is nothing but the right answer."""
-        judged, step, states = self.answers.last, self.step, self._made
-        if judged is None or step is None or states is None or judged.outcome.is_right:
-            return None
-        wrong = judged.outcome.wrong
-        if wrong is not None and step.wrong[wrong].at is not None:
-            wanted = partial(_refuting, states, self.number, wrong)
-            return lambda: self.states.want(wanted, self._show_revealed)
-        for name in judged.outcome.judgement.mistakes:
-            if name in SHELF and SHELF[name].is_run:
-                return partial(self._show_mistake, name)
-        return None
-
-    def _show_mistake(self, name: str) -> None:
-        """Show the run with a mistake beside the right one, at their first difference."""
-        assert self._shown is not None
-        page, state, twin = self._page, self._shown.state, SHELF[name]
-        self._show_revealed(self._shown)
-        other = twin.change_settings(state.settings)
-        scene = twin.change_scene(state.scene) if isinstance(state.scene, ClipScene) else state.scene
-        run = OtherRun(self._session.document.scene, scene, f"with the mistake: {name.replace('-', ' ')}")
-        page.comparing.set_differences(state.settings.differences(other), run)
-        page.show_view("compare")
-        if state.pixel is not None:
-            self._session.set_pin(state.pixel)
-            page.comparing.meet_at(state.pixel)
-            page.tell("")
-
-
-def paragraphs(text: str) -> str:
-    """Return a text of a file, whose lines are those of its author, as paragraphs."""
-    return "\n".join(" ".join(part.split()) for part in text.split("\n\n"))
-
 
 def _revealed(states: States, number: int) -> Wanted:
     state = states.of_reveal(number)
@@ -411,7 +394,8 @@ def _revealed(states: States, number: int) -> Wanted:
     return state, None
 
 
-def _refuting(states: States, number: int, wrong: int) -> Wanted:
+def _refuting(states: States, number: int, wrong: int | None) -> Wanted:
+    assert wrong is not None
     state = states.of_wrong(number, wrong)
     assert state is not None
     return state, None

@@ -249,6 +249,11 @@ class StepPage(Page):
         # The button has changed already.
         self.show_panes(self.shown_panes())
 
+    @property
+    def is_presenting(self) -> bool:
+        """Whether it is shown in front of a class."""
+        return self._desk_panes is not None
+
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave out all that does not show the step, or bring it back, with the panes of the desk."""
         panes = self.desk_panes()

@@ -1,0 +1,75 @@
+"""What the pane of a lesson shows of a step, of what comes before the first one, and of the end."""
+
+import re
+from collections.abc import Sequence
+
+from app.pages.exercises.answer_pictures import numbers_of
+from lessons.course.lesson_file import Lesson
+from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.question import Question
+from widgets.lessons.records import LessonStepRecord, Standing
+
+TASKS = {
+    "look": "",
+    "predict": "Predict",
+    "do": "Do it",
+    "break": "Break it",
+    "measure": "Measure",
+}
+"""What a step wants to be done, by its kind, where it has no sentence of its own for it."""
+ONCE_MORE = "Before you begin, once more:"
+_TOGETHER = re.compile(r"(?<=[\d,]) (?=-?[\d./]+\))| (?=[=<>≥≤≠])|(?<=[=<>≥≤≠]) ")
+"""Spaces at which no line ends: in ``(2, 1)`` and in ``E0 = 0``."""
+
+
+def paragraphs(text: str | None) -> str:
+    """Return a text of a file, whose lines are those of its author, as paragraphs."""
+    parts = (" ".join(part.split()) for part in (text or "").split("\n\n"))
+    return _TOGETHER.sub("\N{NO-BREAK SPACE}", "\n".join(parts))
+
+
+def step_record(lesson: Lesson, number: int, standings: Sequence[Standing]) -> LessonStepRecord:
+    """Return a step."""
+    step = lesson.steps[number]
+    return LessonStepRecord(
+        title=lesson.title,
+        text=paragraphs(step.text),
+        number=number,
+        standings=tuple(standings),
+        lead=paragraphs(lesson.question) if number == 0 else "",
+        task=paragraphs(step.task) or TASKS[step.kind],
+        links=((step.show, "Open it"),) if step.show else (),
+        has_previous=number > 0 or lesson.part.recall is not None,
+    )
+
+
+def recall_record(lesson: Lesson, question: Question, standings: Sequence[Standing]) -> LessonStepRecord:
+    """Return the exercise of an earlier lesson that is asked before the first step."""
+    draft = question.draft
+    return LessonStepRecord(
+        title=lesson.title,
+        text="\n".join(filter(None, (draft.text, numbers_of(draft)))),
+        number=-1,
+        standings=tuple(standings),
+        lead=ONCE_MORE,
+        next_title="Begin",
+        has_previous=False,
+    )
+
+
+def end_record(lesson: Lesson, following: Lesson | None, standings: Sequence[Standing]) -> LessonStepRecord:
+    """Return the end: what one can answer now, exercises, and the question of the next lesson."""
+    part = lesson.part
+    said = [f"You can now answer: {paragraphs(part.answers)}" if part.answers else ""]
+    if following is not None:
+        said.append(f"Next lesson: {following.title}")
+        said.append(paragraphs(following.question if part.next is None else part.next.text))
+    return LessonStepRecord(
+        title=lesson.title,
+        text="\n".join(filter(None, said)) or "This is the end of the lesson.",
+        number=len(lesson.steps),
+        standings=tuple(standings),
+        links=tuple((f"exercise/{name}", f"Exercise: {TEMPLATES[name].title}") for name in part.exercises),
+        next_title="Next lesson",
+        has_next=following is not None,
+    )
