@@ -7,6 +7,7 @@ from itertools import chain
 from pathlib import Path
 from textwrap import indent
 
+from app.cli import lesson_play
 from app.cli.exercise_folders import add_parser, change_folders
 from app.usage import PROGRAM
 from core.stages.declared import stage_of
@@ -25,6 +26,7 @@ EXAMPLES = """examples:
   rasterscope lesson list --by-stage
   rasterscope lesson show shared-edges
   rasterscope lesson validate my-lesson.toml
+  rasterscope lesson play shared-edges -o pictures --theme dark
   rasterscope lesson coverage
   rasterscope lesson folders --add my-lessons
 """
@@ -42,6 +44,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     check = parsers.add_parser("validate", help="check lesson files", allow_abbrev=False)
     check.add_argument("paths", metavar="PATH", nargs="+", help="a .toml file")
     add_parser(parsers, "lessons")
+    lesson_play.add_parser(parsers)
     parsers.add_parser(
         "coverage", help="list every slide with its lessons, or why none has it", allow_abbrev=False
     )
@@ -61,6 +64,8 @@ def run(options: argparse.Namespace) -> int:
         print("\n".join(list_lines(course, options.by_stage)))
     elif options.action == "show":
         print("\n".join(lesson_lines(lesson_named(course, options.name))))
+    elif options.action == "play":
+        return lesson_play.run(options, [lesson_named(course, name) for name in options.names])
     elif options.action == "validate":
         for path in options.paths:
             lesson = read_lesson(Path(path))

@@ -56,6 +56,8 @@ class LessonPresenter(QObject):
         self.attempts: LessonAttempts
         """What is kept; made with the first lesson."""
         self._desk: _Desk | None = None
+        self.keeps_attempts = True
+        """Whether what is done is kept for the user."""
         self.last: tuple[str, int] | None = None
         """Name and step of the lesson that was shown last."""
         self._job = Job(self, expected=(ValueError, OSError, MemoryError))
@@ -130,7 +132,8 @@ class LessonPresenter(QObject):
     def _keep(self, number: int, score: float, judged: "JudgedAnswer | None") -> None:
         """Keep what became of a step; in front of a class nobody learns for himself."""
         walk = self.walk
-        if walk is not None and walk.lesson is not None and not self._page.is_presenting:
+        is_kept = self.keeps_attempts and not self._page.is_presenting
+        if walk is not None and walk.lesson is not None and is_kept:
             self.attempts.keep(walk.lesson, number, score, judged)
 
     @Slot(object)
