@@ -259,6 +259,8 @@ class Look(Record):
     """Percent; 0: as large as the desktop's text. A window with larger text keeps its own."""
     event: str = "covered"
     """Kind of event that N runs to."""
+    lesson: tuple[str, int] | None = None
+    """Name of the lesson that is open over it, and the number of its step; ``None``: none is."""
 
 
 class StateRecord(Record):

@@ -1,6 +1,7 @@
 """Files of the window: opening meshes, states and built-in scenes, saving a state."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal, Slot
@@ -185,6 +186,14 @@ class FileActions(QObject):
     def state(self) -> State:
         """Return what a state file keeps."""
         return state_of(self._page, self._appearance.text_size)
+
+    def kept_state(self) -> State:
+        """Return what is kept for the next start: under a lesson, what was open before, with the lesson over it."""
+        kept = self._page.lessons.kept
+        if kept is None:
+            return self.state()
+        look = kept.look.model_copy(update={"text_size": self._appearance.text_size})
+        return replace(kept, look=look)
 
     def ask_save(self) -> None:
         """Ask where the state is to be saved, and save it."""

@@ -27,8 +27,10 @@ class Remembering(QObject):
     def __init__(self, window: WindowParts, preferences: Preferences) -> None:
         super().__init__(window)
         self.preferences = preferences
-        edits = window.page.look_changed, window.page.panes_changed, window.page.stepping.places_changed
-        self.autosave = Autosave(window.session, window.files.state, edits, self)
+        page = window.page
+        places = page.stepping.places_changed, page.lessons.place_changed
+        edits = page.look_changed, page.panes_changed, *places
+        self.autosave = Autosave(window.session, window.files.kept_state, edits, self)
         self._keeps_results = False
 
     def restore(self, window: WindowParts) -> None:
@@ -126,7 +128,7 @@ class Remembering(QObject):
                 "folder": last_folder(),
                 "page": window.pages.current_name if window.pages.current_name != "start" else "step",
                 "shows_all_methods": window.page.settings_panel.more_button.isChecked(),
-                "shown_panes": window.page.shown_panes(),
+                "shown_panes": window.page.lessons.desk_panes(),
                 "folded_cards": window.page.inspector.folded(),
                 "level": int(window.session.cursor.level),
             }

@@ -1,7 +1,7 @@
 """Lessons on the Step page: opening and closing them, what was open before, and what is kept of them."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -45,9 +45,8 @@ class _Found:
 class LessonPresenter(QObject):
     """Opens lessons; their pane is made with the first one."""
 
-    opened = Signal()
-    """A lesson is shown now, or another step of it."""
-    closed = Signal()
+    place_changed = Signal()
+    """A lesson is shown now, or another step of it, or none any more."""
 
     def __init__(self, page: "StepPage") -> None:
         super().__init__(page)
@@ -81,6 +80,20 @@ class LessonPresenter(QObject):
         if self._walk is None:
             return self._job.is_running
         return self._job.is_running or self._walk.is_working or self.attempts.is_working
+
+    @property
+    def kept(self) -> State | None:
+        """What was open before the lesson, with the lesson over it; ``None``: no lesson is open."""
+        desk, walk = self._desk, self.walk
+        if desk is None or walk is None or walk.lesson is None:
+            return None
+        place = (walk.lesson.name, walk.number) if walk.is_listed else None
+        return replace(desk.state, look=desk.state.look.model_copy(update={"lesson": place}))
+
+    def desk_panes(self) -> list[str]:
+        """Return the panes that are shown at the desk, or come back when the lesson is closed."""
+        panes = None if self._desk is None else self._desk.state.look.panes
+        return self._page.desk_panes() if panes is None else panes
 
     def stop(self) -> None:
         """End all work."""
@@ -145,7 +158,7 @@ class LessonPresenter(QObject):
         walk = self.walk
         if walk is not None and walk.lesson is not None:
             self.last = walk.lesson.name, walk.number
-            self.opened.emit()
+            self.place_changed.emit()
 
     @Slot()
     def close(self) -> None:
@@ -154,7 +167,7 @@ class LessonPresenter(QObject):
         if self.walk is not None and desk is not None:
             self._put_away()
             show_state(self._page, desk.state, desk.trace)
-            self.closed.emit()
+            self.place_changed.emit()
 
     @Slot()
     def _leave(self) -> None:
@@ -165,7 +178,7 @@ class LessonPresenter(QObject):
             if desk.state.look.panes is not None:
                 self._page.show_desk_panes(desk.state.look.panes)
             self._page.tell("The lesson is closed. Ctrl+Home opens it again at this step.")
-            self.closed.emit()
+            self.place_changed.emit()
 
     def _put_away(self) -> None:
         assert self._walk is not None

@@ -144,6 +144,11 @@ class LessonWalk(QObject):
         return self.lesson.steps[self.number] if is_step else None
 
     @property
+    def is_listed(self) -> bool:
+        """Whether the lesson is found again by its name."""
+        return self.lesson is not None and self._course.lessons.get(self.lesson.name) is self.lesson
+
+    @property
     def following(self) -> Lesson | None:
         """The next lesson."""
         return None if self.lesson is None else self._course.after(self.lesson)
@@ -188,7 +193,9 @@ class LessonWalk(QObject):
         if number < 0 and lesson.part.recall is not None:
             question = ask(TEMPLATES[lesson.part.recall], self._seed)
             first = states.of_step(0)
-            before = replace(first, place=RunPlace(first.stage))
+            before = replace(
+                first, place=RunPlace(first.stage), other=None, printed="", buffer="", view="pixels"
+            )
             return before, question_with_outline(lesson, number, question)
         if number < len(lesson.steps):
             state = states.of_step(number)

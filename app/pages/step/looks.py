@@ -68,3 +68,5 @@ def show_look(page: "StepPage", look: Look) -> None:
     page.grids.show_look(look.grid)
     page.views.look_from({name: Orbit(**dict(orbit)) for name, orbit in look.orbits.items()})
     page.show_view(look.view)
+    if look.lesson is not None:
+        page.lessons.open(*look.lesson)
