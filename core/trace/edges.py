@@ -122,6 +122,8 @@ def trace_edges(source: TraceSource) -> StageTrace:
         "start": start,
         "finish": finish,
     }
+    if numbers.divides:
+        columns["inverse"] = np.stack([edges.shown_a, edges.shown_b, edges.shown_c], axis=1)[primitive]
     rule = table.get("fill_rule", source.settings.fill_rule).listing
     assert rule is not None, f"{source.settings.fill_rule} has no listing"
     fill_rule = listing(rule)

@@ -16,7 +16,7 @@ from widgets.grid.canvas import GridCanvas
 from widgets.grid.geometry import GridGeometry, NameBox, name_boxes, paint_focus
 from widgets.grid.marks import StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
 from widgets.grid.outline_layer import OutlineLayer
-from widgets.grid.overlay import Overlay
+from widgets.grid.overlay import CenterOverlay, Overlay
 from widgets.grid.paint import number_boxes, paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid.sample_dots import SampleDots
 from widgets.grid.view import FIT, GridPlacement, GridView, clamped, place
@@ -82,11 +82,13 @@ class GridDisplay(QWidget):
         columns, rows = (buffer.columns, buffer.rows) if buffer else (1, 1)
         origin = buffer.origin if buffer else (0, 0)
         ratio = self.devicePixelRatioF()
-        made_from = (columns, rows, origin, self.size(), self._view, self._corner, ratio, current_theme())
+        has_centers = any(isinstance(overlay, CenterOverlay) for overlay in self._canvas.overlays)
+        look = (self._view, self._corner, ratio, has_centers, current_theme())
+        made_from = (columns, rows, origin, self.size(), look)
         if self._placed is None or self._placed[0] != made_from:
-            viewport = self._viewport(rows + origin[1])
+            viewport = self._viewport(rows + origin[1], has_centers)
             placed = place(columns, rows, viewport, self._view, ratio, self._corner)
-            self._placed = made_from, replace(placed, origin=origin)
+            self._placed = made_from, replace(placed, origin=origin, has_centers=has_centers)
         return self._placed[1]
 
     def show_buffer(self, buffer: GridBuffer | None) -> None:
@@ -308,11 +310,11 @@ class GridDisplay(QWidget):
         grown = QRectF() if rect.isNull() else rect.adjusted(-room, -room, room, room)
         return grown.toAlignedRect().intersected(self.rect())
 
-    def _viewport(self, rows: int) -> QRect:
+    def _viewport(self, rows: int, has_centers: bool) -> QRect:
         """Return the part of the widget that shows pixels."""
         if self._compact:
             return self.rect()
-        across, down = ruler_size(rows, current_theme())
+        across, down = ruler_size(rows, current_theme(), ".5" * has_centers)
         return self.rect().adjusted(across, 8, -8, -down)
 
     def _is_inside(self, pixel: tuple[int, int]) -> bool:

@@ -174,7 +174,14 @@ class SegmentOverlay(NamedOverlay):
             )
 
 
-Overlay = MaskOverlay | CountOverlay | BlockOverlay | SpanOverlay | SegmentOverlay
+@dataclass(frozen=True, eq=False)
+class CenterOverlay(NamedOverlay):
+    """Rulers that have the coordinates of the pixels' centres, as 0.5, in place of the numbers of columns and rows."""
+
+    title: str = field(default="centres on the axes", kw_only=True)
+
+
+Overlay = MaskOverlay | CountOverlay | BlockOverlay | SpanOverlay | SegmentOverlay | CenterOverlay
 """Anything that a grid can lay over its cells."""
 
 

@@ -11,6 +11,7 @@ from widgets.basics.theme import Theme, current_theme, theme_notifier
 from widgets.grid.overlay import (
     BlockOverlay,
     BlockState,
+    CenterOverlay,
     CountOverlay,
     Mark,
     MaskOverlay,
@@ -138,6 +139,9 @@ def swatch(overlay: Overlay, theme: Theme, ratio: float) -> QPixmap:
     sample = [_sample(overlay)]
     paint_below(painter, placement, sample, theme)
     paint_above(painter, placement, sample, theme)
+    if isinstance(overlay, CenterOverlay):
+        painter.setPen(QColor(theme.text))
+        painter.drawText(area, Qt.AlignmentFlag.AlignCenter, "0.5")
     painter.setPen(QColor(theme.outline))
     painter.setBrush(Qt.BrushStyle.NoBrush)
     painter.drawRect(area.adjusted(0, 0, -1, -1))
@@ -160,6 +164,8 @@ def _look(overlay: Overlay) -> str:
         return "Hatched: rejected. Filled: accepted whole. Dashed: split. Dotted: tested pixel by pixel"
     if isinstance(overlay, SpanOverlay):
         return "A bar with two ends through the middle of the row"
+    if isinstance(overlay, CenterOverlay):
+        return "x and y of the pixels' centres in place of the numbers of columns and rows"
     if overlay.is_polygon:
         return "A tinted polygon"
     return "Dashed thin lines" if overlay.extended else "Thin lines"
@@ -176,6 +182,8 @@ def _sample(overlay: Overlay) -> Overlay:
         return BlockOverlay(overlay.key, blocks, (BlockState.REJECTED, BlockState.ACCEPTED))
     if isinstance(overlay, SpanOverlay):
         return SpanOverlay(overlay.key, np.array([[0, 0, 1]]))
+    if isinstance(overlay, CenterOverlay):
+        return overlay
     if overlay.is_polygon:
         corners = np.array([[0.1, 0.1], [0.9, 0.1], [0.1, 0.9]])
         sides = np.stack([corners, np.roll(corners, -1, axis=0)], axis=1)

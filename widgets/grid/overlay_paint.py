@@ -68,7 +68,7 @@ def paint_above(
             _outline_blocks(painter, placement, overlay, theme)
         elif isinstance(overlay, SpanOverlay):
             _paint_spans(painter, placement, overlay, theme)
-        else:
+        elif isinstance(overlay, SegmentOverlay):
             _paint_segments(painter, placement, overlay, theme)
 
 

@@ -305,10 +305,12 @@ def paint_hidden(
     painter.restore()
 
 
-def ruler_size(rows: int, theme: Theme) -> tuple[int, int]:
+def ruler_size(rows: int, theme: Theme, part: str = "") -> tuple[int, int]:
     """Return the width of the ruler of rows and the height of the ruler of columns in logical pixels."""
     metrics = QFontMetricsF(text_font(theme, theme.small_px))
-    return int(metrics.horizontalAdvance("0" * max(len(str(rows - 1)), 2)) + 12), int(metrics.height() + 6)
+    return int(metrics.horizontalAdvance("0" * max(len(str(rows - 1)), 2) + part) + 12), int(
+        metrics.height() + 6
+    )
 
 
 class Rulers(NamedTuple):
@@ -345,18 +347,22 @@ def ruler_labels(placement: GridPlacement, area: QRect, theme: Theme) -> list[tu
     column0, row0, column1, row1 = placement.visible_cells()
     viewport = placement.viewport
     first_column, first_row = placement.origin
-    widest = metrics.horizontalAdvance(str(first_column + placement.columns - 1))
+    widest = metrics.horizontalAdvance(placement.ruler_text(first_column + placement.columns - 1))
     every_column = _ruler_step(placement.cell, widest + 8)
     every_row = _ruler_step(placement.cell, metrics.height() + 2)
     labels = []
     for column in _ruler_numbers(column0, column1, first_column, every_column):
         x = placement.cells_rect(column, 0).center().x()
         if viewport.left() <= x <= viewport.right():
-            labels.append((_below(placement, area, x, widest + 4), str(column + first_column)))
+            labels.append(
+                (_below(placement, area, x, widest + 4), placement.ruler_text(column + first_column))
+            )
     for row in _ruler_numbers(row0, row1, first_row, every_row):
         y = placement.cells_rect(0, row).center().y()
         if viewport.top() <= y <= viewport.bottom():
-            labels.append((_beside(placement, area, y, metrics.height()), str(row + first_row)))
+            labels.append(
+                (_beside(placement, area, y, metrics.height()), placement.ruler_text(row + first_row))
+            )
     return labels
 
 
@@ -375,8 +381,8 @@ def paint_ruler_pixel(
     painter.setFont(font)
     middle = placement.cells_rect(*pixel).center()
     metrics = QFontMetricsF(font)
-    number_x, number_y = pixel[0] + placement.origin[0], pixel[1] + placement.origin[1]
-    below = _below(placement, area, middle.x(), metrics.horizontalAdvance(str(number_x)) + 8)
+    number_x, number_y = (placement.ruler_text(pixel[k] + placement.origin[k]) for k in range(2))
+    below = _below(placement, area, middle.x(), metrics.horizontalAdvance(number_x) + 8)
     beside = _beside(placement, area, middle.y(), metrics.height() + 2)
     viewport = placement.viewport
     for box, number, is_shown in (
@@ -386,7 +392,7 @@ def paint_ruler_pixel(
         if is_shown:
             painter.fillRect(box, QColor(theme.text))
             painter.setPen(QColor(theme.panel))
-            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, str(number))
+            painter.drawText(box, Qt.AlignmentFlag.AlignCenter, number)
     painter.restore()
 
 

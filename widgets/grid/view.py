@@ -48,6 +48,12 @@ class GridPlacement:
     """Window coordinate of the corner of cell (0, 0): 0 for centres at halves, -0.5 on integers."""
     origin: tuple[int, int] = (0, 0)
     """What the rulers call column 0 and row 0."""
+    has_centers: bool = False
+    """Whether the rulers have the coordinates of centres, in place of numbers."""
+
+    def ruler_text(self, number: int) -> str:
+        """Return what a ruler says of the column or row ``number`` of the picture."""
+        return f"{number + self.corner + 0.5:g}" if self.has_centers else str(number)
 
     def to_widget(self, x: float, y: float) -> QPointF:
         """Return the widget position of a window position."""

@@ -26,12 +26,14 @@ from app.session.session import Session
 from core import STAGES
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
-from widgets.grid.overlay import Overlay
+from widgets.grid.overlay import CenterOverlay, Overlay
 from widgets.grid.overlay_legend import OverlayLegend
 from widgets.grid.view import GridView
 
 OUTLINING = ("transform", "cull")
 """Stages in which outlines appear and vanish."""
+CENTRES = "centres"
+"""Key of the overlay that writes centres on the axes."""
 DEFAULT_OVERLAYS = {
     "edges": frozenset({"edge lines"}),
     "bin": frozenset({"blocks"}),
@@ -121,9 +123,10 @@ class GridPresenter(QObject):
         self._grid.show_hidden(None if guesses is None else guesses.hidden)
         self._grid.show_samples(sample_dots(moment))
         overlays = self._overlays() if guesses is None else guesses.overlays()
-        shown = self._shown_overlays.get(stage, frozenset({"nan"}))
+        shown = self._shown_in(stage)
         if guesses is not None:
-            shown = frozenset(overlay.key for overlay in overlays)
+            shown = frozenset(overlay.key for overlay in overlays) | (shown & {CENTRES})
+            overlays = [*overlays, CenterOverlay(CENTRES)]
         self._legend.show_overlays(overlays, shown)
         self._grid.show_overlays([overlay for overlay in overlays if overlay.key in shown])
         mark = step_mark(moment)
@@ -208,6 +211,10 @@ class GridPresenter(QObject):
             widget.show_pin(pin)
             widget.show_hover(hover)
 
+    def _shown_in(self, stage: str) -> frozenset[str]:
+        """Return the keys of the overlays that are on in a stage."""
+        return self._shown_overlays.get(stage, frozenset({"nan"}))
+
     def _overlays(self) -> list[Overlay]:
         moment = self._moment
         return [
@@ -218,6 +225,7 @@ class GridPresenter(QObject):
             *clip_overlays(moment),
             *polygon_overlays(moment),
             *edge_overlays(moment, self._geometry),
+            CenterOverlay(CENTRES),
         ]
 
     def _ranged(self, buffer: GridBuffer) -> GridBuffer:
@@ -245,7 +253,12 @@ class GridPresenter(QObject):
 
     @Slot(object)
     def _choose_overlays(self, keys: frozenset[str]) -> None:
-        self._shown_overlays[self._session.cursor.stage] = keys
+        now = self._session.cursor.stage
+        if keys & {CENTRES} != self._shown_in(now) & {CENTRES}:
+            # The axes are the same in all stages.
+            for stage in STAGES:
+                self._shown_overlays[stage] = self._shown_in(stage) ^ {CENTRES}
+        self._shown_overlays[now] = keys
         self._show_choice()
 
     @Slot(float, float)

@@ -108,11 +108,18 @@ def inverse_coefficient(step: StepValues) -> Said:
         return text, equation(*entry)
     others = joined([str(i) for i in range(3) if i != k])
     text = text.removesuffix(".") + f"; a x + b y + c w is 1 for corner {k}, and 0 for corners {others}."
-    return text, equation(*beside(entry, _column_of_inverse(step, k)))
+    if k < 2:
+        return text, equation(*beside(entry, _columns_of_inverse(step, [k])))
+    text += (
+        " With it the inverse is whole: its columns α, β and γ belong to corners 0, 1 and 2, and M · M⁻¹ has "
+        "a 1 where the corner is the column's own."
+    )
+    return text, equation(*_columns_of_inverse(step, [0, 1, 2]))
 
 
-def _column_of_inverse(step: StepValues, k: int) -> list[Part]:
-    """Return the matrix of corners times column ``k`` of its inverse."""
+def _columns_of_inverse(step: StepValues, columns: Sequence[int]) -> list[Part]:
+    """Return the matrix of corners times columns of its inverse."""
+    k = step.whole("edge")
     corners = dict(
         zip([k, (k + 1) % 3, (k + 2) % 3], map(step.vector, ("homogeneous", "start", "finish")), strict=True)
     )
@@ -122,11 +129,14 @@ def _column_of_inverse(step: StepValues, k: int) -> list[Part]:
         return rf"\begin{{pmatrix}} {lines} \end{{pmatrix}}"
 
     symbols = [[rf"\vertex{{{i}}}{{{axis}_{i}}}" for axis in "xyw"] for i in range(3)]
-    column = [[name, number_latex(step.number(name))] for name in "abc"]
-    unit = matrix([["1" if i == k else "0"] for i in range(3)])
+    inverse = step.rows("inverse")
+    unit = matrix([["1" if i == column else "0" for column in columns] for i in range(3)])
     return [
         (matrix(symbols), matrix([[number_latex(value) for value in corners[i]] for i in range(3)])),
-        (matrix([[f"{name}_{k}"] for name, _ in column]), matrix([[value] for _, value in column])),
+        (
+            matrix([[rf"\vertex{{{column}}}{{{name}_{column}}}" for column in columns] for name in "abc"]),
+            matrix([[number_latex(row[column]) for column in columns] for row in inverse]),
+        ),
         ("=", r"\approx"),
         unit,
     ]

@@ -60,6 +60,21 @@ def test_overlays_stack(window: MainWindow) -> None:
     assert "covered" not in {overlay.key for overlay in window.page.grid.overlays()}
 
 
+def test_the_axes_can_show_centres(window: MainWindow) -> None:
+    window.page.toggle_pane("overlays")
+    legend, grid = window.page.legend, window.page.grid
+    assert grid.placement().ruler_text(3) == "3"
+    legend.box("centres").click()
+    assert grid.placement().ruler_text(3) == "3.5"
+    # In every stage, while a step is predicted, and in the state that is saved.
+    window.stepping.choose_stage(6)
+    assert grid.placement().ruler_text(3) == "3.5"
+    legend.box("centres").click()
+    assert grid.placement().ruler_text(3) == "3"
+    window.stepping.choose_stage(5)
+    assert "centres" not in legend.shown_keys()
+
+
 def test_masks_are_the_marks_of_the_rows_done(window: MainWindow) -> None:
     session = window.session
     trace, raster = session.stage_trace, session.trace.source.raster
