@@ -63,15 +63,23 @@ def edge_value(step: StepValues) -> Said:
     elif value == 0:
         text += f": it lies {on_edge(step, k)}."
     elif value > 0:
-        text += f", so it is inside edge {k}{f', {away} away' if away else ''}."
+        text += f", so it is inside edge {k}{f', {away} away' if away else ''}{_scale(step, k)}."
     else:
-        text += f", so it is outside edge {k}{f' ({away})' if away else ''}."
+        text += f", so it is outside edge {k}{f' ({away})' if away else ''}{_scale(step, k)}."
     terms = [(f"{name}_{k}", step.vector(name)[k]) for name in "abc"]
     units = ("x", x), ("y", y)
     (_, a), (_, b), (_, c) = terms
     sign, rest = equals(step, value, [[a, x], [b, y], [c]])
     _, _, *summands = linear_parts(f"E_{k}", value, terms, *units)
     return text, equation((f"E_{k}", value), sign, *summands, *rest)
+
+
+def _scale(step: StepValues, k: int) -> str:
+    """Return the value of an edge function at the opposite corner, where it is twice the area."""
+    slopes = [sum(step.vector(name)) for name in "ab"]
+    area = sum(step.vector("c"))
+    # Together they are 2A at every point, where all corners are projected and nothing is rounded.
+    return f"; at corner {k} it is 2A = {spoken(area)}" if slopes == [0, 0] and area > 0 else ""
 
 
 @explains("raster.step|climb.edge")

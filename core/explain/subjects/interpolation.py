@@ -153,22 +153,26 @@ def value(step: StepValues) -> Said:
     mixed = linear_parts(letter, found, terms, *units)
     if step.kind != "perspective" or not step.operation.endswith("uv"):
         return _value(step, how), equation(*mixed)
-    return _value(step, how), equation(*beside(mixed, _quotient_of_planes(step, letter, found, corners)))
+    how += f", or {letter}/w over 1/w, which are A x + B y + C each"
+    return _value(step, how), equation(*beside(mixed, *_quotient_of_planes(step, letter, found, corners)))
 
 
-def _quotient_of_planes(step: StepValues, letter: str, found: float, corners: list[float]) -> list[Part]:
+def _quotient_of_planes(
+    step: StepValues, letter: str, found: float, corners: list[float]
+) -> list[list[Part]]:
     """Return a value as value/w over 1/w, both of which are linear in x and y."""
-    determinant = step.number("total") / step.number("inverse_w")
-    planes = [
-        [sum(a * of for a, of in zip(step.vector(name), values, strict=True)) / determinant for name in "abc"]
-        for values in (corners, [1.0] * 3)
-    ]
-    x, y = (number_latex(step.number(axis)) for axis in "xy")
-    above, below = (
-        rf"{number_latex(a)} \cdot {x} + {signed_latex(b)} \cdot {y} + {signed_latex(c)}"
-        for a, b, c in planes
-    )
-    return [(letter, found), "=", fraction((f"{letter}/w", above), ("1/w", below))]
+    inverse_w = step.number("inverse_w")
+    determinant = step.number("total") / inverse_w
+    made: list[list[Part]] = []
+    for name, of, values in ((f"{letter}/w", letter, corners), ("1/w", "w", [1.0] * 3)):
+        plane = [
+            sum(a * of_corner for a, of_corner in zip(step.vector(column), values, strict=True)) / determinant
+            for column in "abc"
+        ]
+        terms = [(f"{symbol}_{of}", factor) for symbol, factor in zip("ABC", plane, strict=True)]
+        value = inverse_w if of == "w" else found * inverse_w
+        made.append(linear_parts(name, value, terms, ("x", step.number("x")), ("y", step.number("y"))))
+    return [*made, [(letter, found), "=", fraction((f"{letter}/w", found * inverse_w), ("1/w", inverse_w))]]
 
 
 @explains("interpolate.line-perspective|line-affine.value")

@@ -107,12 +107,11 @@ def inverse_coefficient(step: StepValues) -> Said:
     if name != "c":
         return text, equation(*entry)
     others = joined([str(i) for i in range(3) if i != k])
-    text = text.removesuffix(".") + f"; a x + b y + c w is 1 for corner {k}, and 0 for corners {others}."
     if k < 2:
+        text = text.removesuffix(".") + f"; a x + b y + c w is 1 for corner {k}, and 0 for corners {others}."
         return text, equation(*beside(entry, _columns_of_inverse(step, [k])))
-    text += (
-        " With it the inverse is whole: its columns α, β and γ belong to corners 0, 1 and 2, and M · M⁻¹ has "
-        "a 1 where the corner is the column's own."
+    text = text.removesuffix(".") + (
+        "; with it M⁻¹ is whole, whose columns are α, β and γ: 1, 0, 0 and 0, 1, 0 and 0, 0, 1 at corners 0, 1 and 2."
     )
     return text, equation(*_columns_of_inverse(step, [0, 1, 2]))
 

@@ -104,7 +104,8 @@ CORNER_CENTRES = Settings(fill="brute-force", pixel_center="integer")
             "raster",
             "raster.test.edge-1",
             BRUTE_FORCE,
-            "Pixel (0, 3): E1 of triangle 0 is −3 at its centre (0.5, 3.5), so it is outside edge 1 (−0.5 px).",
+            "Pixel (0, 3): E1 of triangle 0 is −3 at its centre (0.5, 3.5), so it is outside edge 1 "
+            "(−0.5 px); at corner 1 it is 2A = 36.",
         ),
         (
             "raster",
@@ -421,11 +422,11 @@ def test_the_matrix_of_corners_times_a_column_of_its_inverse() -> None:
     for k, explanation in enumerate(last):
         made = formula(explanation)
         assert made is not None
-        rows = [", ".join(row.split(" & ")) for row in matrices(made.substituted)[0]]
-        column, unit = (np.array(part, float) for part in matrices(made.substituted)[1:])
-        corners = np.array([row.split(", ") for row in rows], float)
-        assert np.allclose(corners @ column.ravel(), np.eye(3)[k], atol=0.03)
-        assert np.array_equal(unit.ravel(), np.eye(3)[k])
+        parts = ([row.split(" & ") for row in rows] for rows in matrices(made.substituted))
+        corners, columns, unit = (np.array(part, float) for part in parts)
+        wanted = np.eye(3)[:, [k]] if k < 2 else np.eye(3)
+        assert np.allclose(corners @ columns, wanted, atol=0.03)
+        assert np.array_equal(unit, wanted)
     assert len(last) == 3
 
 
