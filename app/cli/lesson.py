@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
         )
 
         return change_folders(options, FOLDERS, own_folder())
-    course = known_course()
+    course = known_course(tells=options.action != "validate")
     if options.action == "list":
         print("\n".join(list_lines(course, options.by_stage)))
     elif options.action == "show":
@@ -76,12 +76,12 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
-def known_course() -> Course:
-    """Return all lessons, of the program and of folders; what is skipped is said on stderr."""
+def known_course(*, tells: bool = True) -> Course:
+    """Return all lessons, of the program and of folders; ``tells``: what is skipped is said on stderr."""
     from app.files.lesson_folders import whole_course
 
     course = whole_course()
-    for sentence in course.problems:
+    for sentence in course.problems if tells else ():
         print(f"{PROGRAM}: warning: skipped: {sentence}", file=sys.stderr)
     return course
 

@@ -95,7 +95,8 @@ def said_instead(text: str, situation: Situation) -> str:
     match parse_condition(text, CALLED).tree:
         case ast.Compare(left=left, ops=[_], comparators=[ast.Constant() | ast.UnaryOp()]):
             found = np.asarray(evaluate(left, _Names(situation)))
-            return f"{ast.unparse(left)} is {found.item()}" if found.size == 1 else ""
+            asked = ast.get_source_segment(text.strip(), left)
+            return f"{asked} is {found.item()}" if found.size == 1 else ""
     return ""
 
 

@@ -85,7 +85,7 @@ BROKEN = [
     ('at = "tie"', 'at = "nan"', "step.1.wrong.0.at: no step of raster meets nan"),
     ('answer = { type = "numbers", values = [16] }', "", "expected an answer in a step of kind predict"),
     ("triangle = 0 }", "triangle = 2 }", "step.2.answer: expected a triangle from 0 to 1, got 2"),
-    ('"all-edges-exclusive"]', '"corner-for-center", "no"]', "step.2.mistakes.1: expected a mistake"),
+    ('"all-edges-exclusive"]', '"corner-for-center", "no"]', "step.2.mistakes.2: expected a mistake"),
     (FAILS, 'least = ["covered", 1]', "step.3.until: expected a condition that does not hold from the start"),
     (
         "solution = { corners = [[0, 2, 4.25, 4.25]] }",
@@ -145,7 +145,7 @@ def test_the_rest_of_a_folder_opens(tmp_path: Path) -> None:
     assert f"{tmp_path / 'huge.toml'}: expected a file of up to 64 KiB" in course.problems
     taken = f"{tmp_path / 'shared-edges.toml'}: expected another name: there is a lesson shared-edges already"
     assert taken in course.problems
-    with pytest.raises(ValueError, match="expected a lesson such as shared-edges, .*got 'shared-edge'"):
+    with pytest.raises(ValueError, match=r"expected a lesson such as shared-edges, .*got 'shared-edge'"):
         course.named("shared-edge")
 
 
