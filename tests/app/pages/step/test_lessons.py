@@ -1,0 +1,373 @@
+"""Lessons on the Step page: what they open, hide, judge and notice; what was open before is there after them."""
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QImage
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from app.files.attempts import attempt_file
+from app.pages.step.lesson_walk import LessonWalk
+from app.pages.step.looks import show_state
+from app.window.main_window import MainWindow
+from lessons.attempts.record import Attempt
+from lessons.exercises.scene_digest import scene_digest
+from tests.lessons.course.lesson_texts import GOOD
+from widgets.lessons.records import Standing
+
+pytestmark = pytest.mark.shared_window
+OPEN, SEEN, DONE = Standing.OPEN, Standing.SEEN, Standing.DONE
+
+
+def settled(window: MainWindow, qtbot: QtBot) -> LessonWalk:
+    """Wait until nothing is worked on any more; return the lesson."""
+    qtbot.waitUntil(lambda: not window.page.lessons.is_working)
+    QApplication.processEvents()
+    walk = window.page.lessons.walk
+    assert walk is not None
+    return walk
+
+
+def opened(window: MainWindow, qtbot: QtBot, folder: Path, step: int = 0, text: str = GOOD) -> LessonWalk:
+    """Open the lesson of a text, which nobody has begun, at a step from 0."""
+    folder.mkdir(exist_ok=True)
+    path = folder / f"{folder.name[:40].strip('_').replace('_', '-')}.toml"
+    path.write_text(text, encoding="utf-8")
+    window.open_path(str(path))
+    walk = settled(window, qtbot)
+    if step:
+        walk.go(step)
+        settled(window, qtbot)
+    return walk
+
+
+def answered(walk: LessonWalk, qtbot: QtBot, given: object) -> str:
+    """Type an answer, press Return, and return what is said of it."""
+    asked = walk.answers.asked
+    assert asked is not None
+    walk.answers.fill(asked.question.draft.answer.read(given))
+    QTest.keyClick(walk.view, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: not walk.is_working)
+    return walk.view.feedback.text()
+
+
+def kept(walk: LessonWalk, window: MainWindow, qtbot: QtBot) -> list[Attempt]:
+    """Return what is kept of a lesson."""
+    assert walk.lesson is not None
+    settled(window, qtbot)
+    prefix = f"lesson/{walk.lesson.name}/"
+    return [attempt for attempt in attempt_file().attempts() if attempt.template.startswith(prefix)]
+
+
+# What is open.
+
+
+def test_a_step_is_one_entry_of_undo_and_closing_brings_back_what_was_open(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    session = window.session
+    session.set_setting("fill_rule", "exclusive")
+    session.set_pin((3, 4))
+    window.page.show_panes(["methods", "inspector", "details", "run"])
+    before, cursor, panes = session.document, session.cursor, window.page.shown_panes()
+    walk = opened(window, qtbot, tmp_path)
+    assert (session.document.title, session.pin) == ("Fan of shared edges", (32, 24))
+    assert window.page.grid.buffer().name == "overdraw"  # type: ignore[union-attr]
+    assert window.page.shown_panes() == ["inspector", "run"]
+    assert window.page.card.isHidden()
+    session.undo()
+    assert session.document is before
+    walk.return_here()
+    settled(window, qtbot)
+    assert session.document is not before
+    walk.view.close_button.click()
+    assert not window.page.lessons.is_open
+    assert session.document is before
+    assert (session.cursor, session.pin, window.page.shown_panes()) == (cursor, (3, 4), panes)
+    assert window.page.card.isVisible()
+
+
+def test_steps_on_one_scene_share_its_document(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    walk = opened(window, qtbot, tmp_path, 1)
+    document = window.session.document
+    walk.next()
+    assert settled(window, qtbot).number == 2
+    assert window.session.document is document
+
+
+def test_keys_and_dots_go_through_a_lesson(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    walk = opened(window, qtbot, tmp_path)
+    window.page.grid.setFocus()
+    numbers = []
+    for key in (Qt.Key.Key_PageDown, Qt.Key.Key_PageDown, Qt.Key.Key_PageUp):
+        QTest.keyClick(window.page.grid, key)
+        numbers.append(settled(window, qtbot).number)
+    assert numbers == [1, 2, 1]
+    walk.view.dots.dots[3].click()
+    assert settled(window, qtbot).number == 3
+    assert [dot.accessibleName() for dot in walk.view.dots.dots[::3]] == [
+        "Step 1: done",
+        "Step 4: open, shown now",
+    ]
+    walk.next()
+    assert settled(window, qtbot).number == 4
+    assert [button.text() for button in walk.view.findChildren(type(walk.view.next_button))][-1].startswith(
+        "Exercise: "
+    )
+
+
+def test_wandering_off_costs_nothing(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    walk = opened(window, qtbot, tmp_path)
+    session, home = window.session, window.session.cursor
+    assert not walk.view.return_button.isEnabled()
+    session.set_setting("fill_rule", "exclusive")
+    session.set_stage("depth", 0)
+    assert walk.view.return_button.isEnabled()
+    QTest.keyClick(window, Qt.Key.Key_Home, Qt.KeyboardModifier.ControlModifier)
+    settled(window, qtbot)
+    assert (session.cursor, session.document.settings.fill_rule) == (home, "inclusive")
+    assert not walk.view.return_button.isEnabled()
+
+
+def test_another_scene_closes_the_lesson_and_a_key_opens_it_again(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    opened(window, qtbot, tmp_path, 1)
+    window.page.lessons.last = ("nothing-of-this-name", 1)
+    window.open_path("single-triangle")
+    qtbot.waitUntil(lambda: window.session.document.title == "Single triangle")
+    assert not window.page.lessons.is_open
+    assert not window.session.is_predicting
+    assert not window.session.is_asked_about
+    window.run_action("lesson_return")
+    qtbot.waitUntil(lambda: "nothing-of-this-name" in window.messages.text.text())
+
+
+def test_what_was_open_is_kept_for_the_next_start_with_the_lesson_over_it(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path))
+    folder = tmp_path / "lessons"
+    folder.mkdir()
+    (folder / "kept-lesson.toml").write_text(GOOD, encoding="utf-8")
+    before = window.session.document
+    window.page.lessons.open("kept-lesson", 1)
+    settled(window, qtbot)
+    state = window.files.kept_state()
+    assert state.document is before
+    assert state.look.lesson == ("kept-lesson", 1)
+    assert window.files.state().look.lesson is None
+    window.page.lessons.close()
+    show_state(window.page, state)
+    assert settled(window, qtbot).number == 1
+    window.page.lessons.close()
+    assert window.session.document is before
+
+
+# Predicting.
+
+
+@pytest.fixture
+def walk(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> LessonWalk:
+    """Return a lesson at its first question."""
+    return opened(window, qtbot, tmp_path, 1)
+
+
+def test_a_question_hides_its_scene_until_it_is_answered(
+    window: MainWindow, qtbot: QtBot, walk: LessonWalk
+) -> None:
+    session = window.session
+    asked = scene_digest(session.document.scene)
+    assert session.is_predicting
+    assert asked in session.asked_scenes
+    window.pages.show_page("compare")
+    assert window.pages.is_covered
+    window.pages.show_page("step")
+    assert answered(walk, qtbot, 16).startswith("Right.")
+    settled(window, qtbot)
+    assert not session.is_predicting
+    assert asked not in session.asked_scenes
+    assert session.stage_trace.columns["values"][session.moment.row][1] == 0
+    assert walk.standings == [DONE, DONE, OPEN, OPEN]
+    attempt = kept(walk, window, qtbot)[-1]
+    assert (attempt.score, attempt.mistakes, attempt.asked) == (1, (), ("all-edges-inclusive",))
+
+
+def test_a_wrong_answer_is_refuted_and_twice_wrong_offers_the_step(
+    window: MainWindow, qtbot: QtBot, walk: LessonWalk
+) -> None:
+    assert answered(walk, qtbot, 25) == "That would be right if each edge counted."
+    assert walk.view.reveal_button.text() == "Reveal"
+    answered(walk, qtbot, 25)
+    assert walk.view.reveal_button.text() == "Show me"
+    assert window.session.is_predicting
+    walk.view.reveal_button.click()
+    settled(window, qtbot)
+    assert window.session.stage_trace.marks["tie"][window.session.moment.row]
+    assert answered(walk, qtbot, 16).startswith("Right.")
+    assert walk.standings[1] is SEEN
+    attempts = kept(walk, window, qtbot)[-3:]
+    assert [(attempt.score, attempt.mistakes) for attempt in attempts] == [
+        (0, ("all-edges-inclusive",)),
+        (0, ("all-edges-inclusive",)),
+        (0, ()),
+    ]
+
+
+def test_without_a_refuting_step_the_run_with_the_mistake_stands_beside(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    walk = opened(window, qtbot, tmp_path / "without-step", 1, GOOD.replace('at = "tie"\n', ""))
+    for _ in range(2):
+        answered(walk, qtbot, 25)
+    walk.reveal()
+    assert window.page.current_view() == "compare"
+    assert "all edges inclusive" in window.page.compare_view.linked.titles[1].text()
+
+
+def test_revealing_counts_as_seen(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
+    QTest.keyClick(window, Qt.Key.Key_M, Qt.KeyboardModifier.ControlModifier)
+    settled(window, qtbot)
+    assert walk.view.feedback.text().startswith("This is the answer.\nSixteen, and none")
+    assert walk.view.answer.given() == [["16"]]  # type: ignore[union-attr]
+    assert walk.view.check_button.isHidden()
+    assert walk.standings[1] is SEEN
+    assert kept(walk, window, qtbot)[-1].score == 0
+
+
+def test_p_reveals_and_stepping_on_leaves_a_seen_step(
+    window: MainWindow, qtbot: QtBot, walk: LessonWalk
+) -> None:
+    window.session.step(1)
+    assert answered(walk, qtbot, 16).startswith("Right.")
+    assert walk.standings[1] is SEEN
+    walk.return_here()
+    settled(window, qtbot)
+    assert walk.answers.is_open
+    window.run_action("predict")
+    settled(window, qtbot)
+    assert walk.view.feedback.text().startswith("This is the answer.")
+
+
+def test_pixels_are_marked_on_the_page_s_picture(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
+    walk.go(2)
+    settled(window, qtbot)
+    assert window.page.main_view() is walk.grid
+    extra = [(column, row) for row in range(5) for column in range(row, 5)]
+    said = answered(walk, qtbot, [list(pixel) for pixel in extra])
+    assert "5 extra" in said
+    assert len(said.splitlines()) == 2  # the mistake by its name
+    assert window.page.main_view() is walk.grid
+    walk.next()
+    settled(window, qtbot)
+    assert window.page.main_view() is window.page.grid
+
+
+def test_two_answers_look_alike(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    """Two scenes that differ by a hair, in the answer alone, show the same in every pixel while they are asked."""
+    seen: list[QImage] = []
+    for left, answer in (("1.5", 10), ("1.500000000001", 6)):
+        head = GOOD.split("[state.scene]")[0].replace(
+            '"bounding-box"', '"bounding-box", coverage = "float64"'
+        )
+        scene = (
+            f"[state.scene]\nsize = [6, 6]\ntriangles = [[[{left}, 0.75], [5.25, 0.75], [{left}, 4.75]]]\n"
+        )
+        step = f"""
+[[step]]
+kind = "predict"
+text = "How many pixels are drawn?"
+state = {{ pixel = [1, 2] }}
+answer = {{ type = "numbers", values = [{answer}] }}
+check_after = ["drawn == {answer}"]
+"""
+        walk = opened(window, qtbot, tmp_path / f"alike-{answer}", 0, head + scene + 4 * step)
+        assert walk.answers.is_open
+        window.page.settle()
+        window.statusBar().clearMessage()
+        seen.append(window.grab().toImage())
+    assert seen[0] == seen[1]
+
+
+# Doing.
+
+
+def test_a_task_is_noticed_when_it_is_done(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    task = opened(window, qtbot, tmp_path, 3)
+    session, document = window.session, window.session.document
+    corners = np.array(document.scene.clip)  # type: ignore[union-attr]
+    session.go_to(3)
+    settled(window, qtbot)
+    assert task.standings[3] is OPEN
+    for triangle, corner in ((0, 2), (1, 1)):
+        corners[triangle, corner, :2] = 2 * 4.25 / 6 - 1
+    scene = replace(document.scene, clip=corners)  # type: ignore[type-var]
+    session.edit(replace(document, scene=scene))
+    qtbot.waitUntil(lambda: task.standings[3] is DONE)
+    assert task.view.feedback.text() == "Done."
+    session.undo()
+    settled(window, qtbot)
+    assert task.standings[3] is DONE
+    assert [attempt.score for attempt in kept(task, window, qtbot)[-1:]] == [1]
+
+
+def test_a_lesson_begun_anew_has_nothing_done(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
+    answered(walk, qtbot, 16)
+    settled(window, qtbot)
+    window.run_action("lesson_anew")
+    settled(window, qtbot)
+    assert walk.number == 0
+    assert walk.standings == [DONE, OPEN, OPEN, OPEN]  # A step to look at is done once it is open.
+    assert walk.lesson is not None
+    window.page.lessons.open(walk.lesson, 2)
+    assert settled(window, qtbot).standings[1] is OPEN
+
+
+# In front of a class, and what is refused.
+
+
+def test_a_clicker_shows_the_answer_first_and_keeps_nothing(
+    window: MainWindow, qtbot: QtBot, walk: LessonWalk
+) -> None:
+    before = kept(walk, window, qtbot)
+    window.resize(1280, 720)
+    window.presenter.arrange()
+    settled(window, qtbot)
+    assert window.page.main_view().width() >= 640
+    assert walk.view.isVisible()
+    QTest.keyClick(window, Qt.Key.Key_PageDown)
+    settled(window, qtbot)
+    assert (walk.number, walk.view.feedback.isVisible()) == (1, True)
+    QTest.keyClick(window, Qt.Key.Key_PageDown)
+    assert settled(window, qtbot).number == 2
+    QTest.keyClick(window, Qt.Key.Key_PageUp)
+    assert settled(window, qtbot).number == 1
+    QTest.keyClick(window, Qt.Key.Key_F5)
+    assert settled(window, qtbot).number == 0
+    assert kept(walk, window, qtbot) == before
+    window.presenter.leave()
+    assert walk.view.isVisible()
+
+
+def test_a_broken_lesson_is_refused_with_its_line(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    document, path = window.session.document, tmp_path / "broken.toml"
+    path.write_text(GOOD.replace('"drawn == 16"', '"drawn == 17"'), encoding="utf-8")
+    window.open_path(str(path))
+    qtbot.waitUntil(lambda: not window.page.lessons.is_working)
+    assert "broken.toml: line" in window.messages.text.text()
+    assert window.session.document is document
+    assert not window.page.lessons.is_open
+
+
+def test_a_file_of_an_exercise_is_none_of_a_lesson(window: MainWindow, tmp_path: Path) -> None:
+    from app.files.lesson_folders import is_lesson_file
+
+    path = tmp_path / "step.toml"
+    path.write_text('question = "[[step]]"', encoding="utf-8")
+    assert not is_lesson_file(str(path))
+    assert not is_lesson_file(str(tmp_path / "none.toml"))
