@@ -257,9 +257,10 @@ def _end_message(w: ActionWindow) -> bool:
 
 
 def _choose_scene(w: ActionWindow) -> None:
-    """Offer the states beside the last one, recent files and built-in scenes; the next one is at hand."""
-    groups = scene_groups(w.files.states(), w.memory.preferences.recent_files)
-    w.overlays.choose_scene(groups, next_entry(groups, w.files.shown))
+    """Offer the lessons while one is open, states, recent files and built-in scenes; the next one is at hand."""
+    lessons = w.page.lessons
+    groups = scene_groups(w.files.states(), w.memory.preferences.recent_files, lessons.listed())
+    w.overlays.choose_scene(groups, next_entry(groups, lessons.path or w.files.shown))
 
 
 def _fit_to_triangle(w: ActionWindow) -> None:

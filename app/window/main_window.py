@@ -219,7 +219,7 @@ class MainWindow(ActionWindow):
     def _open_lesson(self, name: str, step: int) -> None:
         """Open a lesson on the Step page, at one of its steps from 0."""
         self.pages.show_page("step")
-        self.page.lessons.open(name, step)
+        self.page.lessons.open(name, step or None)
 
     @Slot(str)
     def _ask_question(self, line: str) -> None:

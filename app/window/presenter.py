@@ -178,12 +178,13 @@ class Presenter(QObject):
             self._blank.raise_()
         elif not is_black:
             self._window.pages.show_page("step")
-            if self._window.page.lessons.is_open:
-                getattr(self._window.page.lessons, IN_LESSONS[action])()
+            lessons = self._window.page.lessons
+            if action == "start" and (lessons.is_at_start if lessons.is_open else self._is_at_start()):
+                self._window.run_action("choose_scene")
+            elif lessons.is_open:
+                getattr(lessons, IN_LESSONS[action])()
             elif action != "start":
                 self._window.run_action(action)
-            elif self._is_at_start():
-                self._window.run_action("choose_scene")
             else:
                 self._window.page.stepping.choose_stage(0)
 

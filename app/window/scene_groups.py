@@ -1,4 +1,4 @@
-"""What can be opened without a dialog: the states of a folder, files that were open, built-in scenes, by headings."""
+"""What can be opened without a dialog: lessons, states of a folder, files that were open, built-in scenes."""
 
 import os
 from collections.abc import Iterable, Sequence
@@ -12,15 +12,20 @@ Entry = tuple[str, str]
 """What is opened, and its title."""
 
 
-def scene_groups(states: Sequence[str], recent: Iterable[str]) -> dict[str, list[Entry]]:
-    """Return what can be opened by headings: ``states`` of one folder, recent files that are still there, scenes."""
+def scene_groups(
+    states: Sequence[str], recent: Iterable[str], lessons: Sequence[Entry] = ()
+) -> dict[str, list[Entry]]:
+    """Return what can be opened by headings: ``states`` of one folder, recent files that are still there, scenes.
+
+    ``lessons`` come first, where one is open.
+    """
     others = [path for path in recent if path not in states and os.path.isfile(path)]
     groups = {"Recent files": _files(others), "Scenes": _scenes(CATALOGUE)}
     groups |= {LECTURES[name]: _scenes(scenes) for name, scenes in LECTURE_SCENES.items()}
     if states:
         titled = [(path, shown_name(Path(path).stem)) for path in states]
         groups = {f"States in {shown_name(Path(states[0]).parent.name)}": titled, **groups}
-    return groups
+    return {"Lessons": [*lessons], **groups} if lessons else groups
 
 
 def _files(paths: Iterable[str]) -> list[Entry]:

@@ -102,6 +102,22 @@ class LessonPresenter(QObject):
             self._walk.stop()
             self.attempts.stop()
 
+    @property
+    def is_at_start(self) -> bool:
+        """Whether the beginning of a lesson is shown."""
+        return self.walk is not None and self.walk.number == self.walk.first
+
+    @property
+    def path(self) -> str:
+        """File of the lesson that is open; empty: none is."""
+        walk = self.walk
+        return "" if walk is None or walk.lesson is None else str(walk.lesson.path)
+
+    def listed(self) -> list[tuple[str, str]]:
+        """Return file and title of each lesson among those that is open; empty: none is."""
+        lessons = () if self.walk is None else self.walk.course.lessons.values()
+        return [(str(lesson.path), lesson.title) for lesson in lessons]
+
     # Opening and closing.
 
     @Slot(str)
@@ -251,8 +267,11 @@ def _found(wanted: "Lesson | str | Path", step: int | None) -> _Found:
     course = whole_course()
     if isinstance(wanted, str):
         lesson = course.named(wanted)
+    elif isinstance(wanted, Path):
+        listed = course.lessons.get(wanted.stem)
+        lesson = listed if listed is not None and listed.path == wanted else read_lesson(wanted)
     else:
-        lesson = read_lesson(wanted) if isinstance(wanted, Path) else wanted
+        lesson = wanted
     if lesson.path.parent != FOLDER:
         validate(lesson, {*course.lessons, lesson.name})
     return _Found(course, lesson, step, progress_in(lesson))

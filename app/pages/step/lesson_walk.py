@@ -73,7 +73,7 @@ class LessonWalk(QObject):
         self._next_number = 0
         """Of the one that is wanted, and shown in a moment."""
         self.standings: list[Standing] = []
-        self._course = Course({})
+        self.course = Course({})
         self._made: States | None = None
         self._home: OpenState | None = None
         """Where the step began."""
@@ -112,7 +112,7 @@ class LessonWalk(QObject):
         self, course: Course, lesson: Lesson, number: int | None, standings: Sequence[Standing]
     ) -> None:
         """Open a lesson at one of its steps; ``None``: at its beginning."""
-        self._course, self.lesson, self.standings = course, lesson, list(standings)
+        self.course, self.lesson, self.standings = course, lesson, list(standings)
         self._made = States(lesson)
         self._seed = SystemRandom().randrange(SEEDS)
         self.states.forget()
@@ -121,7 +121,7 @@ class LessonWalk(QObject):
     def begin_anew(self) -> None:
         """Go to the beginning, with nothing done."""
         if self.lesson is not None:
-            self.begin(self._course, self.lesson, None, [Standing.OPEN] * len(self.lesson.steps))
+            self.begin(self.course, self.lesson, None, [Standing.OPEN] * len(self.lesson.steps))
 
     def end(self) -> None:
         """Leave the lesson; what is open stays."""
@@ -146,12 +146,12 @@ class LessonWalk(QObject):
     @property
     def is_listed(self) -> bool:
         """Whether the lesson is found again by its name."""
-        return self.lesson is not None and self._course.lessons.get(self.lesson.name) is self.lesson
+        return self.lesson is not None and self.course.lessons.get(self.lesson.name) is self.lesson
 
     @property
     def following(self) -> Lesson | None:
         """The next lesson."""
-        return None if self.lesson is None else self._course.after(self.lesson)
+        return None if self.lesson is None else self.course.after(self.lesson)
 
     @property
     def first(self) -> int:
@@ -202,7 +202,7 @@ class LessonWalk(QObject):
             if lesson.steps[number].answer is None:
                 return state, None
             return state, question_with_outline(lesson, number, question_of(lesson, number, states))
-        following = self._course.after(lesson)
+        following = self.course.after(lesson)
         if following is None:
             return states.of_step(number - 1), None
         return States(following).of_step(0), None
