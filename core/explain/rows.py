@@ -37,7 +37,7 @@ ROWS: dict[str, Row] = {}
 Which = Callable[[Columns, Integers], Flags]
 """Takes columns and rows (R,) of a trace; returns which of these, (R,) bool."""
 REMARKS: dict[str, Which] = {}
-"""``stage.kind.operation`` to the rows of which steps larger than a row repeat what it says."""
+"""``stage.kind.operation``, ``a|b`` and ``*`` as in keys, to the rows of which larger steps repeat what it says."""
 
 
 def explains(

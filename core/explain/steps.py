@@ -19,7 +19,7 @@ from core.trace.stage_trace import KEPT_EXPLANATIONS
 
 SUBJECTS = (
     *("transform", "culling", "normal_view", "clipping", "number_formats", "edges", "binning", "spans"),
-    *("fills", "polygon_fills", "polygon_clipping"),
+    *("fills", "printed_fills", "polygon_fills", "polygon_clipping"),
     *("line_clipping", "line_names", "line_setup", "lines", "smooth_lines", "line_interpolation"),
     *("interpolation", "barycentric", "textures", "shading"),
     *("depth", "packed_keys", "rays", "blending", "areas", "resolve", "clip_tables"),
@@ -101,13 +101,19 @@ def remarks(trace: StageTrace, first: int, end: int) -> list[str]:
     load_subjects()
     steps, said = trace.steps, []
     for key, which in REMARKS.items():
-        stage, kind, operation = key.split(".", 2)
-        if stage != trace.stage or kind not in steps.kinds:
+        stage, kinds, operation = key.split(".", 2)
+        if stage != trace.stage:
             continue
-        rows = first + np.flatnonzero(steps.kind[first:end] == steps.kinds.index(kind))
-        rows = rows[which(trace.columns, rows)]
+        numbers = [
+            number
+            for number, kind in enumerate(steps.kinds)
+            if kinds == "*" or kind in kinds.split("|")
+            if any(done.name == operation for done in steps.operations[kind])
+        ]
+        rows = first + np.flatnonzero(np.isin(steps.kind[first:end], numbers)) if numbers else steps.kind[:0]
+        rows = rows[which(trace.columns, rows)] if len(rows) else rows
         if len(rows):
-            names = [done.name for done in steps.operations[kind]]
+            names = [done.name for done in steps.operations[trace.kind_of(int(rows[0]))]]
             explanation = trace.explain(int(steps.starts[rows[0]]) + 1 + names.index(operation))
             assert explanation is not None
             more = f" The same happens {counted(len(rows) - 1, 'more time')}." if len(rows) > 1 else ""

@@ -15,6 +15,7 @@ from core.records.operation import Columns, Operation
 from core.records.steps import Steps, ends_of
 from core.trace.line_clipping import with_line_clipping
 from core.trace.raster_rows import FILL_OPERATIONS, overdraw_track
+from core.trace.right_pixels import right_pixels
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 
@@ -58,6 +59,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
         for own, other in (("run", "rise"), ("rise", "run"))
     )
     columns |= line_traits(line).columns(columns)
+    columns |= right_pixels(source, columns, line)
 
     method = table.get("line", line)
     assert method.listing is not None, f"{line} has no listing"
@@ -107,7 +109,7 @@ def trace_lines(source: TraceSource) -> StageTrace:
             "edges": geometry.edges,
             "outlines": outlines,
         },
-        constants={"center": raster.center},
+        constants={"center": raster.center, "right_method": line_traits(line).right},
         given=_given(operations, columns),
     )
     return with_line_clipping(found, source)

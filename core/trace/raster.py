@@ -20,6 +20,7 @@ from core.records.steps import Steps, ends_of
 from core.trace.lines import trace_lines
 from core.trace.polygon_fill import trace_polygon_fill
 from core.trace.raster_rows import FILL_OPERATIONS, PRINTED, overdraw_track
+from core.trace.right_pixels import right_spans
 from core.trace.row_table import RowTable, printed_columns, rows_of_runs
 from core.trace.source import TraceSource
 from core.trace.spans import pass_track, rows_of_spans, span_columns, span_constants, span_listings
@@ -155,7 +156,7 @@ def _columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
         before = of_pixel(tests.before, np.nan)
         columns |= {f"before_{k}": before[:, k] for k in range(3)}
     if source.runs.walk is not None:
-        columns |= printed_columns(source.runs.walk, table)
+        columns |= printed_columns(source.runs.walk, table) | right_spans(source, table)
     return columns | {f"crossing_{k}": table.crossings[:, k] for k in range(3)}
 
 

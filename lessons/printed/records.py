@@ -174,7 +174,9 @@ class PrintedListing:
                 function=self.rule,
                 listing=self.rule.listing,
                 operations=line_rows(self.like, *self.rows),
-                traits=LineTraits(takes_pixels=self.rule.takes_pixels, columns=signed_lengths),
+                traits=LineTraits(
+                    takes_pixels=self.rule.takes_pixels, columns=signed_lengths, right=self.right
+                ),
             )
             object.__setattr__(self, "method", made)
 

@@ -85,7 +85,7 @@ CLAIMS = {
     "fan": lambda s: once(s) and len(s.run.stage("raster").rows_at_pixel(32, 24)) == 16,
     "segment": lambda s: s.column("raster", "decision")[1:].tolist() == [-2, 4, -6, 0, -10, -4, 2, -8],
     "clipped-segment": lambda s: s.clipped() == (round(2 / 9, 9), round(8 / 9, 9)),
-    "polygon-window": lambda s: {f"edge {k}" for k in range(5)} <= set(s.column("raster", "border")),
+    "polygon-window": lambda s: {f"side {k}" for k in range(5)} <= set(s.column("raster", "border")),
     "line-strip": lambda s: s.frame().cover_count.max() == 1 and len(np.unique(s.ids())) == 6,
     "points": lambda s: len(s.pixels()) == 4 and s.document.triangle_count == 5,
     "triangle-strip": lambda s: once(s) and (s.run.stage("cull").columns["facing"] >= 0).all(),

@@ -9,11 +9,9 @@ from core.explain.digits import is_remainder, number_latex, signed_latex, spoken
 from core.explain.equation import (
     Part,
     all_of,
-    beside,
     comparison,
     conclusion,
     equation,
-    fraction,
     linear,
     linear_parts,
     relation,
@@ -31,6 +29,7 @@ from core.raster.number_formats.bit_patterns import bit_pattern
 from core.records.words import counted, joined
 from core.trace.raster_rows import PRINTED
 
+SIDES = ("first", "second")
 SNAP_DISTANCE = 1 / SUBPIXELS
 """Largest distance in pixels at which snapping can reverse a decision."""
 
@@ -168,13 +167,15 @@ def accepted(step: StepValues) -> Said:
     is_block = all(math.isnan(step.number(f"crossing_{k}")) for k in range(3))
     what = "its whole block is inside"
     if not is_block:
-        columns = _columns(step.whole("start"), step.whole("stop"))
+        columns = columns_text(step.whole("start"), step.whole("stop"))
         what = f"it is in the span of row {step.whole('row')}, {columns}"
     values, owns = step.vector("values"), step.flags("owns_tie")
     outside = np.flatnonzero(~is_inside(np.array(values), np.array(owns))).tolist()
     text = f"{step.pixel_name} is covered by triangle {step.triangle} without a test of its own: {what}"
     if outside:
         listed = joined([f"E{k} = {spoken(values[k])}" for k in outside])
+        if step.has("slope_0"):
+            return f"{text}; the right algorithm leaves it out, since its centre is not inside ({listed})."
         return f"{text}; its own test would reject it ({listed})."
     return f"{text}{on_own_edges(step)}."
 
@@ -204,7 +205,8 @@ def span_edge(step: StepValues) -> Said:
     return text, equation(("x", crossing), "=", (symbols, f"-{numbers}"))
 
 
-def _columns(start: int, stop: int) -> str:
+def columns_text(start: int, stop: int) -> str:
+    """Return ``column 3``, or ``columns 3 to 8``."""
     return f"column {start}" if stop == start + 1 else f"columns {start} to {stop - 1}"
 
 
@@ -218,82 +220,9 @@ def span(step: StepValues) -> Said:
     )
     text = f"{name} has no pixel centre inside all three edges."
     if stop > start:
-        text = f"{name} is covered in {_columns(start, stop)}: {counted(stop - start, 'pixel')}."
+        text = f"{name} is covered in {columns_text(start, stop)}: {counted(stop - start, 'pixel')}."
     end: Part = (r"\mathrm{stop}", float(stop))
     return text, equation(("n", float(stop - start)), "=", end, "-", (r"\mathrm{start}", float(start)))
-
-
-_PRINTED = "|".join(PRINTED)
-_SIDES = ("first", "second")
-
-
-def _is_upper(step: StepValues) -> bool:
-    """Return whether a row is of the part above a level side, which is walked downwards."""
-    return step.kind.startswith("top")
-
-
-@explains("raster.top-first|bottom-first.slope-0|slope-1")
-def side_slope(step: StepValues) -> Said:
-    """How far a side of the printed scanline fill goes to the right from row to row."""
-    k = int(step.operation[-1])
-    slope, width, height = (step.number(f"{name}_{k}") for name in ("slope", "width", "height"))
-    part = "above" if _is_upper(step) else "below"
-    text = f"In the part {part} a level side, the {_SIDES[k]} side moves by {spoken(slope)} with each row upwards."
-    if height == 0:
-        text = f"The {_SIDES[k]} side has no height: its slope is taken as 0, where the printed program divides by 0."
-        return text, equation((f"m_{k + 1}", slope))
-    quotient = fraction((rf"\Delta x_{k + 1}", width), (rf"\Delta y_{k + 1}", height))
-    return text, equation((f"m_{k + 1}", slope), "=", quotient)
-
-
-@explains("raster.top-first|bottom-first.ends")
-def first_sides(step: StepValues) -> Said:
-    """Where both sides of a part are in its first row."""
-    row, x, y = step.whole("row"), step.number("part_x"), step.number("part_y")
-    first, second = (step.number(f"crossing_{k}") for k in range(2))
-    text = (
-        f"Row {row}: the part begins at its corner {vector_text([x, y])}, so here the sides are at "
-        f"x = {spoken(first)} and {spoken(second)}."
-    )
-    height: Part = (r"(\mathrm{row} - y)", f"({row} - {signed_latex(y)})")
-    sides: list[list[Part]] = []
-    for k, at in enumerate((first, second)):
-        slope = (f"m_{k + 1}", step.number(f"slope_{k}"))
-        sides.append([(f"x_{k + 1}", at), "=", ("x", x), "+", slope, r"\cdot", height])
-    return text, equation(*beside(*sides))
-
-
-@explains("raster.top|bottom.next-0|next-1")
-def next_side(step: StepValues) -> Said:
-    """One side in the next row: x of the row before and the slope."""
-    k = int(step.operation[-1])
-    x, before, slope = (step.number(f"{name}_{k}") for name in ("crossing", "crossing_before", "slope"))
-    sign = "-" if _is_upper(step) else "+"
-    text = (
-        f"Row {step.whole('row')}: the {_SIDES[k]} side moves on, from x = {spoken(before)} to {spoken(x)}."
-    )
-    name = f"x_{k + 1}"
-    return text, equation(
-        (name, x), "=", (rf"{name}^{{\mathrm{{before}}}}", before), sign, (f"m_{k + 1}", slope)
-    )
-
-
-@explains(f"raster.{_PRINTED}.round")
-def line_rounded(step: StepValues) -> Said:
-    """The columns that the printed scanline fill draws: both sides rounded."""
-    start, stop, row = step.whole("start"), step.whole("stop"), step.whole("row")
-    text = f"Row {row}: rounded, both sides lie outside the raster, so nothing is drawn."
-    if stop > start:
-        columns = f"{_columns(start, stop)}: {counted(stop - start, 'pixel')}"
-        text = f"Row {row}: the sides are rounded and both ends drawn, {columns}."
-    sides: list[list[Part]] = []
-    for k, name in enumerate(_SIDES):
-        crossing = step.number(f"crossing_{k}")
-        symbols = rf"\lfloor x_{k + 1} + \frac{{1}}{{2}} \rfloor"
-        numbers = rf"\lfloor {number_latex(crossing)} + \frac{{1}}{{2}} \rfloor"
-        column = rf"\mathrm{{column}}_{{\mathrm{{{name}}}}}"
-        sides.append([(column, float(math.floor(crossing + 0.5))), "=", (symbols, numbers)])
-    return text, equation(*beside(*sides))
 
 
 def _crossing_label(step: StepValues, k: int) -> str:
@@ -350,7 +279,7 @@ shows(
             f"slope_{k}": VariableText(
                 f"m{k + 1}", f"How far the {side} side moves to the right a row upwards."
             )
-            for k, side in enumerate(_SIDES)
+            for k, side in enumerate(SIDES)
         },
         **CENTRE,
         **COEFFICIENTS,
@@ -361,7 +290,7 @@ _BEFORE = {f"before_{k}" for k in range(3)}
 hides("raster.test", OF_SPANS | _BEFORE)
 hides("raster.step|climb|accept", OF_SPANS)
 hides("raster.span", {"column", "x"} | OF_SPANS)
-hides(f"raster.{_PRINTED}", {"column", "x", "y", "a", "b", "c", "owns_tie"})
+hides(f"raster.{'|'.join(PRINTED)}", {"column", "x", "y", "a", "b", "c", "owns_tie"})
 hides("raster.lane", {"column", "row", "x", "y", "a", "b", "c", "owns_tie"} | (OF_SPANS - OF_LANE))
 hides("raster.lane-row", {"column", "x", "a", "b", "c"} | OF_LANE | OF_PASS)
 hides("raster.pass", (OF_SPANS - OF_PASS) | {"owns_tie"})

@@ -4,6 +4,8 @@ import ast
 import math
 from fractions import Fraction
 
+import numpy as np
+
 from core.explain.digits import number_latex, signed_latex, spoken
 from core.explain.equation import (
     Part,
@@ -25,7 +27,7 @@ from core.explain.listed_code import (
 )
 from core.explain.listed_code import tested as tested_by
 from core.explain.records import Asked, choice, number
-from core.explain.rows import Said, explains
+from core.explain.rows import REMARKS, Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.line_names import (
     MAJOR,
@@ -36,6 +38,9 @@ from core.explain.subjects.line_names import (
     sum_name,
 )
 from core.explain.subjects.line_setup import amount, listed_ends
+from core.methods import table
+from core.records.arrays import Flags, Integers
+from core.records.operation import Columns
 
 RELATIONS_LATEX = {ast.Gt: ">", ast.GtE: r"\ge", ast.LtE: r"\le", ast.Lt: "<"}
 ON_LINE = 1e-9
@@ -248,6 +253,47 @@ def leaves(step: StepValues) -> Said:
     return text, all_of(compared, *conclusion("leaves", "leaves"))
 
 
+def _is_other(columns: Columns, rows: Integers) -> Flags:
+    """Return at which pixels (R,) of a line as printed the right method draws something else."""
+    if "right_pixel" not in columns:
+        return np.zeros(len(rows), bool)
+    here = np.stack([columns["column"][rows], columns["row"][rows]], axis=1)
+    other: Flags = (columns["right_pixel"][rows] != here).any(axis=1) | (columns["left_out"][rows] >= 0).any(
+        axis=1
+    )
+    return other
+
+
+REMARKS["raster.*.plot"] = _is_other
+
+
+def _right_of_printed(step: StepValues) -> str:
+    """Return what the right method draws where a line as printed has another pixel."""
+    if not step.has("right_pixel"):
+        return ""
+    name = table.get("line", step.text("right_method")).title.partition(",")[0]
+    (x, y), (left_x, left_y) = (map(int, step.vector(of)) for of in ("right_pixel", "left_out"))
+    text = ""
+    if x < 0:
+        text = f"; the right method ({name}) does not draw it"
+    elif (x, y) != step.pixel:
+        is_tie = _away_from_line(step, *step.pixel) == _away_from_line(step, x, y)
+        text = f"; the right method ({name}) draws ({x}, {y}) instead"
+        text = f"; at this tie the other rule ({name}) draws ({x}, {y})" if is_tie else text
+    if left_x >= 0:
+        text += f"; the right method ({name}) goes on to ({left_x}, {left_y})"
+    return text
+
+
+def _away_from_line(step: StepValues, column: int, row: int) -> Fraction:
+    """Return how far the centre of a pixel lies from the line along the minor axis, exactly."""
+    u = int(step.flag("is_steep"))
+    first, second = ([Fraction(x) for x in step.vector(name)] for name in ("first_end", "second_end"))
+    run, rise = second[u] - first[u], second[1 - u] - first[1 - u]
+    line = first[1 - u] + ((column, row)[u] - first[u]) * rise / run if run else first[1 - u]
+    return abs((column, row)[1 - u] - line)
+
+
 @explains("raster.*.plot")
 def plotted(step: StepValues) -> Said:
     """The pixel is drawn; its centre lies at t along the segment."""
@@ -275,7 +321,7 @@ def plotted(step: StepValues) -> Said:
     else:
         at = {0.0: "at the first end", 1.0: "at the second end"}.get(along, f"at t = {spoken(along)}")
         where = f"lies {at} of {edge}"
-    text, t = f"{step.pixel_name} {drawn}: its centre {where}.", step.number("t")
+    text, t = f"{step.pixel_name} {drawn}: its centre {where}{_right_of_printed(step)}.", step.number("t")
     if not length:
         return (text, equation(("t", t))) if start != end else text
     above = difference((axis, center), (f"{axis}_0", start[k]))

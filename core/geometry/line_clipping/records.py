@@ -128,7 +128,7 @@ def polygon_window(corners: ArrayLike) -> ClipWindow:
     check_convex(points)
     along = np.roll(points, -1, axis=0) - points
     normals = np.stack([along[:, 1], -along[:, 0]], axis=1)
-    names = tuple(f"edge {k}" for k in range(len(points)))
+    names = tuple(f"side {k}" for k in range(len(points)))
     return ClipWindow(points, points, normals, names, is_rectangle=False)
 
 

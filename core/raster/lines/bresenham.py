@@ -200,7 +200,11 @@ def bresenham_lecture_listing(x0: int, y0: int, x1: int, y1: int, last_pixel: bo
     listing=bresenham_lecture_listing,
     operations=_rows("bresenham-lecture", _SET_UP, TEST, "D"),
     traits=LineTraits(
-        takes_pixels=True, is_diagonal_steep=True, swaps_ends=True, coefficients=no_coefficients
+        takes_pixels=True,
+        is_diagonal_steep=True,
+        swaps_ends=True,
+        coefficients=no_coefficients,
+        right="bresenham",
     ),
 )
 def bresenham_lecture(segments: Segments, last_pixel: bool) -> LineRun:

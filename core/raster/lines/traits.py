@@ -91,6 +91,8 @@ class LineTraits:
     """How many numbers it counts for every column: the most pixels that it looks at in one."""
     columns: Callable[[Columns], dict[str, Floats | Integers]] = _no_columns
     """Further columns (P,) of its trace, from those that all methods have."""
+    right: str = ""
+    """Of a listing as printed: the method that is right."""
     find_pixels: LineFinder | None = None
     """Finds the same pixels faster, without the numbers that chose them."""
 

@@ -8,10 +8,12 @@ from app.pages.step.steps_ahead import sentence_at
 from app.session.cursor import Cursor
 from app.session.moment import Step
 from core import Settings, trace
+from core.explain import row_sentence
 from core.records.steps import Level
 from core.scene import AnyScene
-from lessons.scenes import make_scene
-from lessons.slides.scenes import clipped
+from lessons.printed.catalogue import printed_listing
+from lessons.scenes import make_scene, scene_names
+from lessons.slides.scenes import ALL_SCENES, clipped
 
 
 def said(scene: AnyScene, stage: str, level: Level, settings: Settings | None = None) -> list[str]:
@@ -55,3 +57,51 @@ def test_a_row_says_what_decided_and_what_it_did() -> None:
 def test_a_pixel_of_a_span_names_its_columns() -> None:
     found = said(make_scene("single-triangle"), "raster", Level.PIXEL, Settings(fill="scanline"))
     assert any("a test of its own: it is in the span of row 6, columns 8 to 10." in text for text in found)
+
+
+@pytest.mark.parametrize("level", Level)
+def test_what_the_printed_scanline_gets_wrong(level: Level) -> None:
+    found = said(
+        ALL_SCENES["lmu-scanline-triangle"].make(), "raster", level, Settings(fill="scanline-lecture")
+    )
+    wanted = "Row 11: the sides are rounded and both ends drawn, columns 2 to 3: 2 pixels; the right algorithm draws "
+    first = "Row 12: the sides are rounded and both ends drawn, column 2: 1 pixel; the right algorithm draws nothing"
+    assert any(wanted in text or first in text for text in found)
+
+
+@pytest.mark.parametrize("level", Level)
+def test_what_a_printed_line_gets_wrong(level: Level) -> None:
+    settings = printed_listing("pellacini-bresenham").settings(Settings())
+    found = said(ALL_SCENES["pellacini-line"].make(), "raster", level, settings)
+    assert any("; the right method (Midpoint) draws (1, 0) instead." in text for text in found)
+
+
+def test_a_listing_as_printed_is_told_wrong_just_where_its_picture_is() -> None:
+    for name in ("lmu-scanline-triangle", "shared-edge", "single-triangle", "triangle-strip"):
+        scene = make_scene(name) if name in scene_names() else ALL_SCENES[name].make()
+        settings = Settings(fill="scanline-lecture")
+        stage = trace(scene, settings).stage("raster")
+        right = trace(scene, Settings(fill="scanline")).stage("raster")
+        mine, wanted = (
+            {
+                (int(t), int(y), int(x))
+                for t, (x, y), is_covered in zip(
+                    each.triangle, each.pixel, each.marks["covered"], strict=True
+                )
+                if is_covered
+            }
+            for each in (stage, right)
+        )
+        wrong = {place[:2] for place in mine ^ wanted}
+        told = set()
+        for row in range(stage.steps.row_count):
+            if stage.kind_of(row) != "accept":
+                text = row_sentence(stage, int(stage.steps.starts[row + 1]))
+                place = (int(stage.triangle[row]), int(stage.columns["row"][row]))
+                told |= {place} if re.search(r"; the right algorithm draws (column|nothing)", text) else set()
+        drawn = {(int(t), int(y)) for t, y in zip(stage.triangle, stage.columns["row"], strict=True)}
+        assert told == wrong & drawn
+    for name, scene_name in (("lmu-final", "lmu-line"), ("pellacini-midpoint", "pellacini-line")):
+        settings = printed_listing(name).settings(Settings())
+        found = said(ALL_SCENES[scene_name].make(), "raster", Level.PIXEL, settings)
+        assert not any("the right method" in text for text in found)
