@@ -227,11 +227,10 @@ class Session(QObject):
         self._take_neighbour(direction, trace_now(document, stage, self.trace))
 
     def _take_neighbour(self, direction: int, trace: Trace) -> None:
-        if direction < 0:
-            self._history.undo()
-        else:
-            self._history.redo()
-        self._document_replaced(trace)
+        before = self.document
+        after = self._history.undo() if direction < 0 else self._history.redo()
+        was_opened = (before.title, before.path) != (after.title, after.path)
+        self._document_replaced(trace, also=Change.OPENED if was_opened else NOTHING)
 
     @property
     def can_undo(self) -> bool:

@@ -126,10 +126,9 @@ class FileActions(QObject):
             page.stepping.set_places()
             session.set_pin(place.pixel)
             page.grids.focus_on(max(session.moment.triangle, 0))
-            # As at first, also where the same scene was magnified before, or looked at in another view.
+            # As at first, also where the same scene was looked at in another view before.
             page.main_area.views_by_hand.clear()
             page.show_own_view()
-            page.grid.fit()
             page.views.look_from({})
             page.column.show_step()
             return

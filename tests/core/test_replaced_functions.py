@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from app.files.state_files import State, StateFileError, save_state
-from app.pages.step.ab_pictures import compare
-from app.pages.step.ab_settings import settings_difference
+from app.pages.step.ab.pictures import compare
+from app.pages.step.ab.side_b import settings_difference
 from app.session.document import Document, TeachingRaster
 from core import ClipScene, Settings, draw_picture, render, trace
 from core.fast_path.workers import BandWorkers

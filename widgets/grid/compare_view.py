@@ -151,7 +151,7 @@ class CompareView(QWidget):
         choices.addLayout(buttons)
         layout.addWidget(self._choices)
         layout.addWidget(self.figure, 1)
-        figure = column_layout(self.figure, 8)
+        figure = column_layout(self.figure, 8, margins=(8, 8, 8, 8))
         figure.addWidget(self.linked, 1)
         notes = row_layout(spacing=8)
         for note in self.notes:
@@ -272,6 +272,10 @@ class CompareView(QWidget):
     @Slot()
     def _flip_back(self) -> None:
         self.show_flipped(False)
+
+    def fit(self) -> None:
+        """Show all pixels in all grids."""
+        self.grids[0].fit()
 
     def set_pixel_center(self, pixel_center: str) -> None:
         """Say where the centres of pixels lie, as ``PixelGrid.set_pixel_center``."""

@@ -6,7 +6,6 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job
 from app.pages.page_bar import StepRequest
-from app.pages.step.ab_choice import OtherRun
 from app.pages.step.page import StepPage
 from app.session.document import Document
 from app.session.opening_document import document_at
@@ -70,12 +69,15 @@ class StepOpening(QObject):
             if pixel is not None and not ready.request.is_asked and ready.request.position is None:
                 self._page.stepping.step_into(opening.stage, *pixel)
         else:
-            scene = ready.request.other_scene
-            run = None if scene is None else OtherRun(opening.scene, scene, ready.request.other_title)
-            self._page.comparing.set_differences(opening.settings.differences(other), run)
+            comparing, scene = self._page.comparing, ready.request.other_scene
+            differences = opening.settings.differences(other)
+            if scene is not None:
+                comparing.show_mistake(differences, scene, ready.request.other_title)
+            else:
+                comparing.set_differences(differences)
             self._page.show_view("compare")
-            if pixel is not None:
-                self._page.comparing.meet_at(pixel)
+            if scene is None and pixel is not None:
+                comparing.meet_at(pixel)
         self._page.column.show_step()
         self.opened.emit()
 

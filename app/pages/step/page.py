@@ -8,7 +8,7 @@ from PySide6.QtCore import QCoreApplication, QEvent, Qt, QThread, Signal, Slot
 from PySide6.QtWidgets import QScrollArea, QSplitter, QStackedWidget, QWidget
 
 from app.pages.page_bar import Caption, Page
-from app.pages.step.ab_presenter import ComparePresenter
+from app.pages.step.ab.presenter import ComparePresenter
 from app.pages.step.ask_this import AskThis
 from app.pages.step.depth_table_presenter import DepthTablePresenter
 from app.pages.step.event_choice import EventChoice
@@ -118,6 +118,7 @@ class StepPage(Page):
         document, step, pin, pointing = Change.DOCUMENT, Change.STEP, Change.PIN, Change.POINTING
         cursor, run = Change.CURSOR, Change.DOCUMENT | Change.PREDICTING
         return (
+            (Change.OPENED, self._begin_anew),
             (step | run | pointing | Change.ASKED, self.views.refresh),
             (step, self.main_area.follow_stage),
             (step | run, self.main_area.refresh_beside),
@@ -156,6 +157,12 @@ class StepPage(Page):
             if change & what:
                 # A part may have gone on to another step: the others show that one.
                 show(self.session.moment)
+
+    def _begin_anew(self, moment: Moment) -> None:
+        """Show all pixels of a scene that was opened, and a B that has an effect there."""
+        self.grid.fit()
+        self.compare_view.fit()
+        self.comparing.begin_anew(moment)
 
     # Layout.
 
@@ -356,7 +363,7 @@ class StepPage(Page):
 
     def fit(self) -> None:
         """Show all pixels in the main view."""
-        (self.compare_view.grids[0] if self.current_view() == "compare" else self.grid).fit()
+        (self.compare_view if self.current_view() == "compare" else self.grid).fit()
 
     def flip(self) -> None:
         """Swap the pictures of A and B until the key is released."""

@@ -64,8 +64,12 @@ def first_divergence(
 def diverge(
     first: Trace, second: Trace, by_outcome: bool = False, since: str = STAGES[0]
 ) -> Divergence | None:
-    """Find the first place at which two traces differ from a stage on; ``by_outcome``: as `stage_divergence`."""
-    for stage in STAGES[STAGES.index(since) :]:
+    """Find the first place at which two traces differ, from a stage on and at last in those before it.
+
+    ``by_outcome``: as `stage_divergence`.
+    """
+    start = STAGES.index(since)
+    for stage in (*STAGES[start:], *STAGES[:start]):
         found = stage_divergence(first.stage(stage), second.stage(stage), by_outcome)
         if found is not None:
             return found

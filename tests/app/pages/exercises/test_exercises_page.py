@@ -61,7 +61,8 @@ def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
     assert window.pages.current_name == "step"
     assert window.page.current_view() == "compare"
     assert comparing.other.pixel_center == "integer"
-    assert window.session.cursor.position > 0 or comparing.second_position
+    assert comparing.second is not None
+    assert window.session.cursor.position > 0 or comparing.second.cursor.position > 0
 
 
 def test_work_survives_leaving_and_the_program(page: Page, qtbot: QtBot) -> None:

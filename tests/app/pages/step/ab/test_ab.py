@@ -10,8 +10,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.pages.step.ab_pictures import compare
-from app.pages.step.ab_settings import first_difference, settings_difference
+from app.pages.step.ab.pictures import compare
+from app.pages.step.ab.side_b import first_difference, settings_difference
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES, Settings
@@ -22,6 +22,13 @@ from widgets.grid.buffer import GridBuffer
 from widgets.grid.compare_view import Side
 
 pytestmark = pytest.mark.shared_window
+
+
+def row_of_b(window: MainWindow) -> int:
+    """Return the row that B has just done."""
+    second = window.page.comparing.second
+    assert second is not None
+    return second.row
 
 
 def test_the_difference_in_words() -> None:
@@ -85,34 +92,48 @@ def test_two_depth_formats_are_compared_in_what_both_hold(window: MainWindow) ->
     assert shown.values.any()
 
 
-def test_both_step_and_who_has_no_more_steps_waits(window: MainWindow) -> None:
-    window.session.open(open_document(make_scene("single-triangle"), "One"))
-    window.page.comparing.set_differences({"fill": "scanline"})
-    window.session.set_stage("raster", 0)
+def test_both_stand_at_the_same_pixel_and_steps_are_undone(window: MainWindow) -> None:
+    session, comparing = window.session, window.page.comparing
+    session.open(open_document(make_scene("shared-edge"), "Two"))
+    session.set_stage("raster", 0)
+    comparing.set_differences({"fill": "hierarchy"})
     window.page.show_view("compare")
+    theirs = session.document.make_trace(comparing.other).stage("raster")
+    row = int(session.stage_trace.rows_at_pixel(36, 10)[0])
+    session.go_to(session.stage_trace.steps.position_after(row))
+    went = []
+    for _ in range(12):
+        pixel, second = session.moment.pixel, comparing.second
+        assert pixel is not None
+        assert second is not None
+        assert second.pixel == pixel or not len(theirs.rows_at_pixel(*pixel))
+        went.append((session.cursor, second.cursor))
+        window.run_action("step_forward")
+    while went:
+        window.run_action("step_back")
+        second = comparing.second
+        assert second is not None
+        assert (session.cursor, second.cursor) == went.pop()
+
+
+def test_b_goes_on_alone_where_a_has_no_step(window: MainWindow) -> None:
     session, comparing, view = window.session, window.page.comparing, window.page.compare_view
+    session.open(open_document(make_scene("single-triangle"), "One"))
+    session.set_stage("raster", 0)
+    comparing.set_differences({"fill": "scanline"})
+    window.page.show_view("compare")
     window.run_action("step_forward")
-    theirs = session.document.make_trace(comparing.other).stage("raster").steps
-    assert session.cursor.position == session.stage_trace.steps.starts[1]
-    assert comparing.second_position == theirs.starts[1]
-    assert "step 1 of" in view.titles[0].text()
-    assert "step 1 of" in view.titles[1].text()
-    session.go_to(session.stage_trace.steps.position_after(theirs.row_count + 4))
-    assert comparing.second_position == theirs.count
-    window.page.comparing.set_differences({"fill": "scanline"})
-    assert comparing.second_position == theirs.count
-    view.swap_requested.emit()
-    session.go_to(0)
-    session.go_to(int(session.stage_trace.steps.starts[-2]))
-    window.run_action("step_forward")
-    end, alone = session.cursor, comparing.second_position
-    assert end.position == session.stage_trace.steps.count
-    window.run_action("step_forward")
-    assert session.cursor == end
-    assert comparing.second_position > alone
-    assert "A waits" in view.titles[0].text()
-    window.run_action("step_back")
-    assert (session.cursor, comparing.second_position) == (end, alone)
+    second = comparing.second
+    assert second is not None
+    assert (session.cursor.position, second.row) == (0, 0), "the edges of the scanline"
+    assert "A waits: only B has this step (step 0 of" in view.titles[0].text()
+    outside = np.flatnonzero(session.stage_trace.marks["rejected"])[0]
+    session.go_to(session.stage_trace.steps.position_after(outside))
+    assert "B waits: only A has this step" in view.titles[1].text()
+    session.go_to(session.stage_trace.steps.count)
+    second = comparing.second
+    assert second is not None
+    assert second.is_stage_done
 
 
 def test_a_key_flips_both_pictures_while_it_is_held(window: MainWindow) -> None:
@@ -138,20 +159,20 @@ def test_the_first_divergence_is_reached_in_both(window: MainWindow, qtbot: QtBo
     assert found is not None
     assert session.cursor.stage == found.stage == "interpolate"
     rows = [session.stage_trace.steps.row_at(session.cursor.position)[0]]
-    rows.append(other.stage("interpolate").steps.row_at(comparing.second_position)[0])
+    rows.append(row_of_b(window))
     assert tuple(rows) == found.rows
     assert sent.args[0].startswith("First divergence, at pixel")
     for action in ("step_forward", "step_back"):
         window.run_action(action)
     assert session.stage_trace.steps.row_at(session.cursor.position)[0] == found.rows[0]
-    assert other.stage("interpolate").steps.row_at(comparing.second_position)[0] == found.rows[1]
+    assert row_of_b(window) == found.rows[1]
 
 
 def test_the_pictures_are_exported_without_the_choices(window: MainWindow, tmp_path: Path) -> None:
     window.page.show_view("compare")
     window.exports.export_to(str(tmp_path / "both.svg"))
     drawing = (tmp_path / "both.svg").read_text()
-    for text in ("A: current settings", "Scanline", "Difference, coverage", "pixels differ"):
+    for text in ("A: fill: Bounding box", "B: fill: Scanline", "Difference, coverage", "pixels differ"):
         assert text in drawing
     for text in ("B = A", "Swap"):
         assert text not in drawing

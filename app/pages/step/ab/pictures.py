@@ -1,17 +1,14 @@
-"""What A | B shows of two runs at their cursors: each one's buffer and step, and where the buffers differ."""
+"""What A | B shows of two runs at their steps: each one's buffer and step, and where the buffers differ."""
 
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from app.pages.step.grid_presenter import OUTLINING
-from app.pages.step.grid_records import buffers_of, geometry_of, mask_overlays
+from app.pages.step.grid_records import buffers_of, mask_overlays
 from app.pages.step.step_mark import step_mark
 from app.pages.step.steps_ahead import sentence_at
-from app.session.cursor import Cursor
 from app.session.moment import Step
-from core import STAGES, Trace
 from core.records.arrays import Flags
 from widgets.grid.buffer import GridBuffer, number_text
 from widgets.grid.compare_view import Comparison, Side
@@ -24,41 +21,12 @@ SHOWN_MARKS = ("rejected", "tie", "nan", "failed")
 """Marks of rows done that lie over the pictures."""
 
 
-@dataclass(frozen=True, eq=False, kw_only=True)
-class Place(Step):
-    """Where one of two runs is that are stepped together."""
-
-    done: int | None = None
-    """Steps of the level that are done; ``None``: they are not counted."""
-    step_count: int = 0
-    """Steps of the level that there are."""
-    waits: bool = False
-    """Whether only the other run has steps left."""
-
-
-class Outlines:
-    """The triangles of two runs, made anew only where they change."""
-
-    def __init__(self) -> None:
-        self._known: dict[tuple[Trace, str, int], GridGeometry] = {}
-
-    def of(self, place: Place) -> GridGeometry:
-        """Return those of a run at its place."""
-        cursor = place.cursor if place.cursor.stage in OUTLINING else Cursor(STAGES[-1])
-        key = place.trace, cursor.stage, cursor.position
-        if key not in self._known:
-            if len(self._known) > 2:
-                self._known.clear()
-            self._known[key] = geometry_of(replace(place, cursor=cursor))
-        return self._known[key]
-
-
-def buffers_at(place: Place) -> dict[str, GridBuffer]:
+def buffers_at(step: Step) -> dict[str, GridBuffer]:
     """Return the buffers of a run by name."""
-    return {buffer.name: buffer for buffer in buffers_of(place)}
+    return {buffer.name: buffer for buffer in buffers_of(step)}
 
 
-def first_comparable(buffers: Sequence[dict[str, GridBuffer]]) -> str:
+def first_comparable(buffers: Sequence[Mapping[str, GridBuffer]]) -> str:
     """Return the name of the first buffer that holds the same in all runs, or else of the first one."""
     first, *others = buffers
     for name, buffer in first.items():
@@ -73,42 +41,31 @@ def _hold_the_same(a: GridBuffer, b: GridBuffer) -> bool:
 
 
 def side_of(
-    name: str,
-    settings: str,
-    place: Place,
-    geometry: GridGeometry,
-    buffer: GridBuffer | None,
-    wanted: str,
-    has_listing: bool = False,
+    side: Side, step: Step, geometry: GridGeometry, buffers: Mapping[str, GridBuffer], wanted: GridBuffer
 ) -> Side:
-    """Return one picture: ``name`` is A or B, ``settings`` what it draws with, ``wanted`` the buffer compared.
-
-    With ``has_listing``, its listing comes along, with the line that has just run.
-    """
-    counted = "" if place.done is None else f"step {place.done:,} of {place.step_count:,}"
-    if place.waits:
-        end = "all its steps are done" if place.done else "its first step comes later"
-        counted = f"{name} waits: {end} ({counted})"
-    elif place.done == place.step_count == 0:
-        counted = "no steps in this stage"
-    reason = "" if buffer is not None else f"{name} has no buffer “{wanted}” in this stage."
-    if buffer is not None and place.step_count and place.done == place.step_count and _is_empty(buffer):
-        counted += "; it gives no pixel a value"
-    explanation = place.explanation if has_listing else None
-    listing = None if explanation is None else explanation.listing
-    return Side(
-        name=name,
-        title=f"{name}: {settings}",
-        place=counted,
-        sentence=sentence_at(place),
+    """Return a side with its picture at a step, in the buffer ``wanted``, and with what its last step did."""
+    buffer = buffers.get(wanted.name)
+    is_done = step.is_stage_done and step.steps.count > 0
+    is_vain = buffer is not None and is_done and _is_empty(buffer)
+    return replace(
+        side,
+        place=side.place + ("; it gives no pixel a value" if is_vain else ""),
+        sentence=sentence_at(step),
         buffer=buffer,
-        reason=reason,
-        overlays=tuple(overlay for overlay in mask_overlays(place) if overlay.key in SHOWN_MARKS),
+        reason="" if buffer else f"{side.name} has no buffer “{wanted.label}” in this stage.",
+        overlays=tuple(overlay for overlay in mask_overlays(step) if overlay.key in SHOWN_MARKS),
         geometry=geometry,
-        step=step_mark(place),
-        listing=None if listing is None else ListingText(listing.name, listing.source, listing.purpose),
-        line=explanation.line if explanation is not None else 0,
+        step=step_mark(step),
     )
+
+
+def with_listing(side: Side, step: Step) -> Side:
+    """Return a side with the listing of its last step, and the line that has just run."""
+    done = step.explanation
+    if done is None or done.listing is None:
+        return side
+    listing = ListingText(done.listing.name, done.listing.source, done.listing.purpose)
+    return replace(side, listing=listing, line=done.line)
 
 
 def _is_empty(buffer: GridBuffer) -> bool:

@@ -1,0 +1,1 @@
+"""A | B: the page's run beside another one, stepped together."""

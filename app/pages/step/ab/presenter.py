@@ -1,0 +1,420 @@
+"""A | B | difference: the page's run and another one, stepped together."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from functools import lru_cache, partial
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.background.workers import Job
+from app.pages.page_bar import Page
+from app.pages.step.ab.lock_step import LockStep
+from app.pages.step.ab.pictures import buffers_at, compare, first_comparable, side_of, with_listing
+from app.pages.step.ab.side_b import SideB, first_difference, settings_difference
+from app.pages.step.grid_presenter import OUTLINING
+from app.pages.step.grid_records import geometry_of
+from app.pages.step.vertex_drags import VertexDrags
+from app.session.cursor import Cursor
+from app.session.moment import Moment, Pixel, Step
+from app.session.session import Session
+from app.session.tracing import QUICK_SECONDS
+from core import STAGES, Settings, Trace
+from core.records.steps import Level
+from core.scene import AnyScene
+from core.settings import WHOLE_NUMBERS
+from widgets.grid.compare_view import CompareView, Comparison, Side
+from widgets.grid.geometry import GridGeometry
+
+if TYPE_CHECKING:
+    from core.study.accuracy.divergence import Divergence  # Looked for long after the window is open.
+
+PREDICTING = "Prediction hides the pictures of A and B. P ends it."
+FAULTY = "B is a run with a mistake: the page cannot take it over."
+ALIKE = "A and B do the same in every stage."
+REORDERED = "A and B give the same results; only the order of their steps differs."
+ORDERED_STAGES = ("bin", "raster", "depth")
+"""Stages in which methods may do the same in another order."""
+
+
+class ComparePresenter(QObject):
+    """Keeps what B is and its run, and shows both runs while the view is open."""
+
+    look_changed = Signal()
+    """B differs otherwise, or another buffer is compared."""
+
+    def __init__(self, session: Session, view: CompareView, page: Page) -> None:
+        super().__init__(page)
+        self._page = page
+        self._session, self._view, self._moment = session, view, session.moment
+        self._chosen: SideB | None = None
+        """B as it was chosen; ``None``: it follows the stage."""
+        self._suggested = SideB()
+        """B as it follows the stage."""
+        self._buffers: dict[str, str] = {}
+        """Name of the buffer in which both are compared, by stage, where it was chosen."""
+        self._is_active = False
+        self._second: Trace | None = None
+        """The run of B; ``None``: it cannot be drawn, is being drawn, or is not shown."""
+        self._steps: LockStep | None = None
+        self._refusal = ""
+        self._goal: Callable[[], object] | None = None
+        """What is done once B is drawn."""
+        self._outlines = lru_cache(maxsize=4)(_outlines)
+        self._job, self._search = Job(self), Job(self)
+        self._job.succeeded.connect(self._take)
+        self._job.failed.connect(self._refuse)
+        self._search.succeeded.connect(self._land)
+        self._search.failed.connect(self._tell_no_divergence)
+        # Only the document's own triangle has handles here.
+        self._drags = VertexDrags(
+            session, view.linked.grids, lambda: None, session.edit, "drag in A | B", page
+        )
+        view.setting_chosen.connect(self._choose)
+        view.buffer_chosen.connect(self.set_buffer)
+        view.reset_requested.connect(self._reset)
+        view.swap_requested.connect(self._swap)
+        view.use_requested.connect(self._use)
+        view.divergence_requested.connect(self.go_to_divergence)
+        view.pixel_hovered.connect(session.hover_place)
+        view.pixel_left.connect(session.end_hover)
+        view.pixel_clicked.connect(session.pin_place)
+
+    # What B is.
+
+    @property
+    def _choice(self) -> SideB | None:
+        """What was chosen, if it is a B for the scene that is open."""
+        chosen = self._chosen
+        return chosen if chosen is not None and chosen.is_beside(self._session.document) else None
+
+    @property
+    def _b(self) -> SideB:
+        return self._choice or self._suggested
+
+    @property
+    def other(self) -> Settings:
+        """Settings of B: those of the page, but for what it does otherwise."""
+        return self._b.document(self._session.document).settings
+
+    @property
+    def differences(self) -> Mapping[str, str | int]:
+        """What B does otherwise than A, family and value; empty: it follows the stage, or is a run with a mistake."""
+        choice = self._choice
+        return {} if choice is None or choice.title else choice.differences
+
+    @property
+    def printed(self) -> str:
+        """Name of the listing as printed that B runs; empty: none."""
+        return self._b.printed
+
+    @property
+    def buffer(self) -> str:
+        """Name of the buffer in which both are compared in the stage at hand; empty: the first one."""
+        return self._buffers.get(self._session.cursor.stage, "")
+
+    @property
+    def second(self) -> Step | None:
+        """B where it is; ``None``: it has no run."""
+        if self._second is None or self._steps is None:
+            return None
+        return Step(self._second, replace(self._moment.cursor, position=self._steps.positions[1]))
+
+    def show_printed(self, name: str, *, seeks: bool = True) -> None:
+        """Let A run the right method, and B a listing as a slide prints it, see `lessons.printed`.
+
+        Both go to the first step in which they differ, where ``seeks`` is set. Raises ValueError if the listing does
+        not run in the pipeline, or not on this scene.
+        """
+        from app.session.printed_run import settings_of, title_of  # Wanted by few, long after the start.
+
+        mine, other = settings_of(name, self._session.latest)
+        if mine != self._session.latest.settings:
+            self._session.edit(replace(self._session.latest, settings=mine))
+        goal = self._go_to_other_pixel if seeks else None
+        self._become(SideB(mine.differences(other), title_of(name), name), goal)
+
+    def set_differences(self, differences: Mapping[str, str | int]) -> None:
+        """Choose what B does otherwise than the page; nothing: something that shows in the stage at hand."""
+        mine = self._session.document.settings
+        really = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
+        self._become(SideB(really) if differences else None)
+
+    def show_mistake(self, differences: Mapping[str, str | int], scene: AnyScene, title: str) -> None:
+        """Let B make a mistake, in its settings or the scene; both go to the first step in which they differ."""
+        mine = self._session.document.scene
+        scenes = None if scene is mine else (mine, scene)
+        self._become(
+            SideB(differences, title, scenes=scenes),
+            partial(self.go_to_divergence, self._session.cursor.stage),
+        )
+
+    def begin_anew(self, moment: Moment) -> None:
+        """Forget what has no effect in a scene that was opened."""
+        self._goal = None
+        self._chosen = None if self._chosen is None else self._chosen.opened_beside(moment.document)
+
+    def _become(self, b: SideB | None, goal: Callable[[], object] | None = None) -> None:
+        self._chosen, self._goal = b, goal
+        self.refresh(self._session.moment)
+        self.look_changed.emit()
+
+    @Slot(str)
+    def set_buffer(self, name: str) -> None:
+        """Compare in another buffer, whenever the stage at hand is shown."""
+        self._buffers[self._session.cursor.stage] = name
+        self._show()
+        self.look_changed.emit()
+
+    @Slot(str, str)
+    def _choose(self, family: str, value: str) -> None:
+        if value:  # Else the printed listing is still chosen.
+            chosen: str | int = int(value) if family in WHOLE_NUMBERS else value
+            self.set_differences({**self._b.named(), family: chosen})
+
+    @Slot()
+    def _reset(self) -> None:
+        self._become(SideB())
+
+    @Slot()
+    def _swap(self) -> None:
+        mine = self._session.document.settings
+        self._edit({family: getattr(mine, family) for family in self._b.differences})
+
+    @Slot()
+    def _use(self) -> None:
+        said = settings_difference(self._session.document.settings, self.other)
+        if self._edit({}) and said:
+            self._page.tell(f"The page now uses B: {said}. Ctrl+Z takes it back.")
+
+    def _edit(self, differences: dict[str, str | int]) -> bool:
+        """Give the page the settings of B, and B other differences; return whether the page could take them."""
+        if self._b.title:
+            self._page.tell(FAULTY)
+            return False
+        other, before = self.other, self._chosen
+        self._chosen = SideB(differences)
+        try:
+            self._session.edit(replace(self._session.latest, settings=other))
+        except ValueError as error:
+            self._chosen = before
+            self._page.refuse(str(error))
+            return False
+        return True
+
+    # The run of B.
+
+    def set_active(self, is_active: bool) -> None:
+        """Show both runs from now on, or stop computing the second one."""
+        self._is_active = is_active
+        self.refresh(self._session.moment)
+        if not is_active:
+            self._goal = None
+        elif self._b.differences:
+            self._view.show_family(next(iter(self._b.differences)))
+
+    def refresh(self, moment: Moment) -> None:
+        """Trace B anew, and show both runs."""
+        earlier, self._moment = self._second or moment.trace, moment
+        self._job.cancel()
+        self._search.cancel()
+        self._second, self._steps, self._refusal = None, None, PREDICTING
+        document, stage = moment.document, moment.cursor.stage
+        if not self._is_active or moment.is_predicting:
+            self._show()
+            return
+        if self._choice is None:
+            self._suggested = SideB(first_difference(document, moment.trace, stage))
+        b, other = self._b, self._b.document(document)
+        self._view.show_settings(b.shown_settings(document), frozenset(b.differences))
+        if self._choice is None and b.differences:
+            self._view.show_family(next(iter(b.differences)))
+        self._view.set_pixel_center(document.settings.pixel_center)
+
+        def work() -> Trace:
+            """Trace B up to the stage that is shown."""
+            trace = other.make_trace(earlier=earlier)
+            trace.stage(stage)
+            return trace
+
+        if other.estimated_seconds > QUICK_SECONDS:
+            self._refusal = "Drawing B …"
+            self._show()
+            self._job.call(work)
+            return
+        try:
+            self._take(work())
+        except ValueError as error:
+            self._refuse(error)
+
+    @Slot(object)
+    def _take(self, second: Trace) -> None:
+        moment, self._second = self._moment, second
+        self._steps = LockStep(moment.stage_trace, second.stage(moment.cursor.stage), moment.cursor)
+        self._show()
+        self._reach_goal()
+
+    def _reach_goal(self) -> None:
+        if self._goal is not None and self._second is not None:
+            goal, self._goal = self._goal, None
+            goal()
+
+    @Slot(object)
+    def _refuse(self, error: Exception) -> None:
+        self._goal, self._refusal = None, f"B cannot be drawn: {error}"
+        self._show()
+
+    def stop(self) -> None:
+        """End drawing in the background."""
+        self._job.shut_down()
+        self._search.shut_down()
+
+    # Stepping.
+
+    def steps_alone(self, direction: int, level: Level) -> bool:
+        """Step B where A has no step beside it in this stage; return whether that was so."""
+        is_alone = self._steps is not None and self._steps.step_second(direction, level)
+        if is_alone:
+            self._show()
+        return is_alone
+
+    def follow_step(self, moment: Moment) -> None:
+        """Take B along to where A has gone."""
+        stage, self._moment = self._moment.cursor.stage, moment
+        if not self._is_active:
+            return
+        if moment.cursor.stage == stage:
+            if self._steps is not None:
+                self._steps.follow(moment.cursor)
+            self._show()
+        elif self._second is None or self._choice is None:
+            self.refresh(moment)
+        else:
+            self._take(self._second)
+
+    @Slot()
+    def go_to_divergence(self, since: str = STAGES[0]) -> None:
+        """Search for the first step that differs, at last in the stages before ``since``, and put both runs there."""
+        from core.study.accuracy.divergence import diverge
+
+        if self._second is None:
+            self._page.tell(self._refusal if self._is_active else "Show A | B first (Ctrl+D).")
+        else:
+            first, second = self._moment.trace, self._second
+            self._search.call(partial(diverge, first, second, by_outcome=True, since=since))
+
+    @Slot(object)
+    def _land(self, found: "Divergence | None") -> None:
+        if self._second is None:
+            return
+        said = _report(found, self._moment.trace, self._second)
+        if found is not None:
+            if found.pixel is not None:
+                self._session.set_pin(found.pixel)
+            self._put_at(found.stage, *found.rows)
+        self._page.tell(said)
+
+    @Slot(object)
+    def _tell_no_divergence(self, error: Exception) -> None:
+        self._page.tell(f"A and B cannot be compared: {error}")
+
+    def _go_to_other_pixel(self) -> None:
+        """Put both runs at the first step that draws another pixel, or else at their first divergence."""
+        from app.session.printed_run import first_other_pixel
+
+        assert self._second is not None
+        found = first_other_pixel(self._moment.trace.stage("raster"), self._second.stage("raster"))
+        if found is None:
+            self.go_to_divergence("raster")
+        else:
+            self._put_at("raster", *found[0])
+            self._page.tell(f"{found[1]} Ctrl+[ goes back.")
+
+    def meet_at(self, pixel: Pixel) -> None:
+        """Put both runs at the first step about a pixel in which they differ, or else at the first one about it."""
+        self._goal = partial(self._meet, pixel)
+        self._reach_goal()
+
+    def _meet(self, pixel: Pixel) -> None:
+        from core.study.accuracy.divergence import stage_divergence
+
+        assert self._second is not None
+        stage = self._moment.cursor.stage
+        first, second = self._moment.stage_trace, self._second.stage(stage)
+        found = stage_divergence(first, second, by_outcome=True)
+        about = [run.rows_at_pixel(*pixel) for run in (first, second)]
+        mine, theirs = (int(rows[0]) if len(rows) else None for rows in about)
+        self._put_at(stage, *(found.rows if found is not None and found.pixel == pixel else (mine, theirs)))
+
+    def _put_at(self, stage: str, mine: int | None, theirs: int | None) -> None:
+        """Put both runs just after a row of each; one without a row goes where it is beside the other one."""
+        second = self._second
+        if second is None or (mine is None and theirs is None):
+            return
+        # B is what was compared, whatever stage it shows in.
+        self._chosen = self._b
+        start = replace(self._moment.cursor, stage=stage, position=0)
+        steps = LockStep(self._moment.trace.stage(stage), second.stage(stage), start)
+        steps.land(mine, theirs)
+        self._session.set_stage(stage, steps.positions[0])
+        self._steps = steps
+        self._show()
+
+    # Showing.
+
+    def _show(self) -> None:
+        """Show both runs where they are, and their difference."""
+        if not self._is_active:
+            return
+        moment, second, b = self._moment, self.second, self._b
+        if moment.is_predicting:
+            blanks = Side("A", "A", reason=PREDICTING), Side("B", "B", reason=PREDICTING)
+            self._view.show_comparison(Comparison(*blanks, None, PREDICTING))
+            return
+        steps: list[Step] = [moment] if second is None else [moment, second]
+        buffers = [buffers_at(step) for step in steps]
+        known = {name: buffer for each in reversed(buffers) for name, buffer in each.items()}
+        chosen = self._buffers.get(moment.cursor.stage, "")
+        chosen = chosen if chosen in known else first_comparable(buffers)
+        self._view.show_buffers([(name, buffer.label) for name, buffer in known.items()], chosen)
+        sides = [
+            Side(name, f"{name}: {title}", reason=self._refusal)
+            for name, title in zip("AB", b.titles(moment.document), strict=True)
+        ]
+        for run, step in enumerate(steps):
+            side = sides[run] if self._steps is None else replace(sides[run], place=self._steps.text(run))
+            outlines = self._outlines(
+                step.trace, step.cursor if step.cursor.stage in OUTLINING else Cursor(STAGES[-1])
+            )
+            side = side_of(side, step, outlines, buffers[run], known[chosen])
+            sides[run] = with_listing(side, step) if b.printed else side
+        shown = Comparison(sides[0], sides[1], None, self._refusal) if second is None else compare(*sides)
+        self._view.show_comparison(shown)
+        self.refresh_pointing(moment)
+
+    def refresh_pointing(self, moment: Moment) -> None:
+        """Mark pin and hover."""
+        if self._is_active:
+            self._view.show_pointing(*moment.pointed_places)
+
+
+def _outlines(trace: Trace, cursor: Cursor) -> GridGeometry:
+    """Return the triangles of a run."""
+    return geometry_of(Step(trace, cursor))
+
+
+def _report(found: "Divergence | None", first: Trace, second: Trace) -> str:
+    """Return in words where two runs differ first."""
+    from core.study.accuracy.divergence import is_same_schedule
+
+    if found is None:
+        is_same_order = all(
+            is_same_schedule(first.stage(stage), second.stage(stage)) for stage in ORDERED_STAGES
+        )
+        return ALIKE if is_same_order else REORDERED
+    where = f"pixel {found.pixel}" if found.pixel is not None else f"triangle {found.triangle}"
+    if None in found.rows:
+        said = f"{'AB'[found.rows.index(None)]} has no step there"
+    else:
+        said = f"they differ in {', '.join(name.replace('color', 'colour') for name in found.names)}"
+    return f"First divergence, at {where}: {said}. Ctrl+[ goes back."

@@ -1,0 +1,132 @@
+"""What B is beside A: the same run with other settings, a listing as printed, or a run with a mistake."""
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+from app.pages.step.scene_outline_presenter import settings_records
+from app.session.document import Document
+from app.session.tracing import QUICK_SECONDS
+from core import Settings, Trace
+from core.explain.stage_texts import family_title
+from core.methods import ReplacedName, table
+from core.scene import AnyScene
+from core.settings import FAMILIES, no_effect
+from widgets.basics.settings_panel import Setting, SettingChoice
+
+SAME = "the same settings"
+FIRST_CHOICES = {
+    "transform": (("depth", "reversed-z"),),
+    "edges": (("coverage", "float32"),),
+    "bin": (("fill", "hierarchy"), ("fill", "blocks")),
+    "raster": (("line", "dda"), ("fill", "scanline"), ("fill_rule", "inclusive")),
+    "interpolate": (("interpolation", "affine"),),
+    "depth": (("visibility", "last-drawn"), ("visibility", "z-buffer"), ("depth", "z-16")),
+    "blend": (("blend", "over"), ("blend", "additive")),
+    "resolve": (("antialiasing", "msaa-4"),),
+}
+"""Stage to families and methods that are tried before the classical ones of the stage."""
+BY_OUTCOME = frozenset({"depth"})
+"""Stages in which other steps to the same result are no difference: where no triangle is hidden, B keeps the test."""
+ANYWHERE = (("interpolation", "affine"), ("depth", "z-16"), ("fill", "scanline"))
+"""What is tried where no method of the stage makes a difference."""
+
+
+def first_difference(document: Document, trace: Trace, stage: str) -> dict[str, str | int]:
+    """Return family and method in which B differs from a document at first.
+
+    B can draw the scene, and does something else than the ``trace`` in the stage that is shown, if any method does.
+    """
+    # The window opens without the studies.
+    from core.study.accuracy.divergence import is_same_schedule, stage_divergence
+
+    drawn: dict[str, str | int] = {}
+    for family, method in _candidates(stage):
+        settings = replace(document.settings, **{family: method})  # type: ignore[arg-type]
+        other = replace(document, settings=settings)
+        if settings == document.settings or no_effect(settings, family, document.scene):
+            continue
+        if other.estimated_seconds > QUICK_SECONDS:
+            return {family: method}
+        try:
+            mine, theirs = trace.stage(stage), other.make_trace(earlier=trace).stage(stage)
+        except ValueError:
+            continue
+        by_outcome = stage in BY_OUTCOME
+        has_other_steps = not by_outcome and not is_same_schedule(mine, theirs)
+        if has_other_steps or stage_divergence(mine, theirs, by_outcome) is not None:
+            return {family: method}
+        drawn = drawn or {family: method}
+    return drawn
+
+
+def _candidates(stage: str) -> Iterator[tuple[str, str]]:
+    yield from FIRST_CHOICES.get(stage, ())
+    for name, family in FAMILIES.items():
+        if family.stage == stage:
+            yield from ((name, method) for method in family.classical)
+    yield from ANYWHERE
+
+
+def settings_difference(mine: Settings, other: Settings) -> str:
+    """Return in words what ``other`` does otherwise than ``mine``."""
+    parts = []
+    for name, value in mine.differences(other).items():
+        text = table.get(name, value).title if isinstance(value, str) else str(value)
+        parts.append(f"{family_title(name).lower()}: {text}")
+    return ", ".join(parts)
+
+
+@dataclass(frozen=True, eq=False)
+class SideB:
+    """What B does otherwise than A."""
+
+    differences: Mapping[str, str | int] = field(default_factory=dict)
+    """Family and value."""
+    title: str = ""
+    """Of a run that is shown and never used by the page: with a mistake, or as printed; empty: settings name it."""
+    printed: str = ""
+    """Name of the listing as printed that B runs; empty: none."""
+    scenes: tuple[AnyScene, AnyScene] | None = None
+    """Where a mistake is in the scene: that of A, beside which B draws the other one."""
+
+    def is_beside(self, document: Document) -> bool:
+        """Return whether this is a B for what is open."""
+        return self.scenes is None or self.scenes[0] is document.scene
+
+    def opened_beside(self, document: Document) -> "SideB | None":
+        """Return what is left of it beside another scene: what has an effect there; ``None``: nothing."""
+        other = self.document(document).settings
+        left = {
+            name: value
+            for name, value in document.settings.differences(other).items()
+            if not no_effect(other, name, document.scene)
+        }
+        is_left = left and self.is_beside(document) and (not self.title or len(left) == len(self.differences))
+        return replace(self, differences=left) if is_left else None
+
+    def document(self, document: Document) -> Document:
+        """Return what B draws beside a document."""
+        settings = replace(document.settings, **self.differences)  # type: ignore[arg-type]
+        return replace(
+            document, settings=settings, scene=document.scene if self.scenes is None else self.scenes[1]
+        )
+
+    def titles(self, document: Document) -> tuple[str, str]:
+        """Return A and B in words: the settings in which they differ."""
+        mine, other = document.settings, self.document(document).settings
+        first = settings_difference(other, mine) or ("without the mistake" if self.title else SAME)
+        return first, self.title or settings_difference(mine, other) or SAME
+
+    def named(self) -> dict[str, str | int]:
+        """Return the differences that settings can name."""
+        return {name: of for name, of in self.differences.items() if not isinstance(of, ReplacedName)}
+
+    def shown_settings(self, document: Document) -> list[Setting]:
+        """Return B's settings as the view offers them; a listing as printed stands where no method does."""
+        label = SettingChoice("", self.title)
+        return [
+            replace(each, choices=(label, *each.choices), current="")
+            if self.printed and each.family in self.differences
+            else each
+            for each in settings_records(self.document(document))
+        ]
