@@ -76,7 +76,7 @@ def test_a_twin_is_seen_in_the_picture_and_in_the_difference(twin):
         Side(name, "", buffer=GridBuffer(buffer, getattr(frame, buffer), "ids"))
         for name, frame in (("A", right), ("B", wrong))
     ]
-    assert not compare(*sides).summary.startswith("0 of")
+    assert not compare(*sides)[2].sentence.startswith("0 of")
     assert settings_difference(settings, faulty).endswith("(replaced)")
     assert not settings_difference(faulty, faulty)
 

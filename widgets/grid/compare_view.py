@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication, QKeyEvent
@@ -13,22 +14,24 @@ from widgets.basics.labels import text_label
 from widgets.basics.settings_panel import Setting
 from widgets.basics.theme import theme_notifier
 from widgets.grid.buffer import GridBuffer
+from widgets.grid.buffer_choice import BufferChoice
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.linked_grids import LinkedGrids
 from widgets.grid.marks import StepMark
 from widgets.grid.overlay import Overlay
 from widgets.inspector.listing import ListingText, ListingView
 
+TITLE_LINES = 4
+"""Lines above a picture: three for the settings, and how far its run is."""
 CODE_LINES = 10
 """Lines of text that the listings of A and B are high at least, where they are shown."""
 
 
 @dataclass(frozen=True, eq=False)
 class Side:
-    """One of the two pictures that are compared."""
+    """One of the pictures: of A, of B, or their difference."""
 
     name: str
-    """A or B."""
     title: str
     """What it is drawn with."""
     place: str = ""
@@ -50,30 +53,11 @@ class Side:
     """The line of it that has just run, from 1; 0: none."""
 
 
-@dataclass(frozen=True, eq=False)
-class Comparison:
-    """What the three grids show."""
-
-    first: Side
-    second: Side
-    difference: GridBuffer | None
-    """``None``: one side is blank."""
-    summary: str
-    """How much they differ, in words."""
-    marks: tuple[Overlay, ...] = ()
-    """Overlays on the difference."""
-
-
 class CompareView(QWidget):
     """Three linked grids; what B does otherwise is chosen above them."""
 
-    pixel_hovered = Signal(int, int)
-    pixel_left = Signal()
-    pixel_clicked = Signal(int, int)
     setting_chosen = Signal(str, str)
     """The user has chosen another value for B: family and value."""
-    buffer_chosen = Signal(str)
-    """The user wants to compare another buffer."""
     reset_requested = Signal()
     """The user wants B to be like A again."""
     swap_requested = Signal()
@@ -90,16 +74,17 @@ class CompareView(QWidget):
         self.figure.setAccessibleName("A, B and difference")
         self.linked = LinkedGrids(("A", "B", "Difference"), self.figure)
         self.grids, self.titles = self.linked.grids, self.linked.titles
-        self.buffer_box, self.family_box, self.value_box = (ChoiceBox(self) for _ in range(3))
+        self.buffer_box, self.family_box, self.value_box = (
+            BufferChoice(self),
+            ChoiceBox(self),
+            ChoiceBox(self),
+        )
         self.listings = (ListingView(self.figure), ListingView(self.figure))
         """Those of A and B, where what runs is compared line by line."""
         self.notes = tuple(text_label("", self.figure, role="muted", wraps=True) for _ in self.grids)
         self._settings: tuple[Setting, ...] = ()
-        self._comparison: Comparison | None = None
+        self._sides: tuple[Side, ...] = ()
         self._is_flipped = False
-        self.linked.pixel_hovered.connect(self.pixel_hovered)
-        self.linked.pixel_left.connect(self.pixel_left)
-        self.linked.pixel_clicked.connect(self.pixel_clicked)
         for box, name, tip in (
             (self.buffer_box, "Buffer", "Which buffer is compared"),
             (
@@ -111,7 +96,6 @@ class CompareView(QWidget):
         ):
             box.setAccessibleName(name)
             box.setToolTip(tip)
-        self.buffer_box.activated.connect(self._choose_buffer)
         self.family_box.activated.connect(self._show_values)
         self.value_box.activated.connect(self._choose_value)
         self._lay_out()
@@ -142,8 +126,8 @@ class CompareView(QWidget):
             button.clicked.connect(signal)
             buttons.addWidget(button)
         self.flip_button = button_with_tip("Flip", "Swap the two pictures while it is held (X)", self)
-        self.flip_button.pressed.connect(self._flip)
-        self.flip_button.released.connect(self._flip_back)
+        self.flip_button.pressed.connect(partial(self.show_flipped, True))
+        self.flip_button.released.connect(partial(self.show_flipped, False))
         buttons.addWidget(self.flip_button)
         buttons.addStretch(1)
         layout = column_layout(self, 8, margins=(0, 4, 0, 0))
@@ -171,16 +155,6 @@ class CompareView(QWidget):
         """Offer buffers, methods and buttons, or leave all the room to the pictures."""
         self._choices.setVisible(is_shown)
 
-    def show_buffers(self, names: Sequence[tuple[str, str]], current: str) -> None:
-        """Offer buffers (name, title) for comparison."""
-        if [self.buffer_box.itemData(k) for k in range(self.buffer_box.count())] != [
-            name for name, _ in names
-        ]:
-            self.buffer_box.clear()
-            for name, title in names:
-                self.buffer_box.addItem(title, name)
-        self.buffer_box.setCurrentIndex(self.buffer_box.findData(current))
-
     def show_settings(self, settings: Sequence[Setting], changed: frozenset[str]) -> None:
         """Show the settings of B, and mark the families in which it differs."""
         family = self.family_box.currentData()
@@ -197,36 +171,26 @@ class CompareView(QWidget):
         self.family_box.setCurrentIndex(max(self.family_box.findData(family), 0))
         self._show_values()
 
-    def show_comparison(self, comparison: Comparison) -> None:
-        """Show both pictures and their difference."""
-        self._comparison = comparison
-        sides = [comparison.first, comparison.second]
+    def show_sides(self, *sides: Side) -> None:
+        """Show A, B and their difference."""
+        self._sides = sides
         if self._is_flipped:
-            sides.reverse()
+            sides = sides[1], sides[0], sides[2]
         has_code = any(side.listing is not None for side in sides)
-        lines = 3 if has_code else 5
-        for number, side in enumerate(sides):
-            grid, note = self.grids[number], self.notes[number]
+        for side, grid, title, note in zip(sides, self.grids, self.titles, self.notes, strict=True):
             grid.empty_text = side.reason
             grid.show_buffer(side.buffer)
             grid.show_overlays(side.overlays)
             grid.show_geometry(side.geometry)
             grid.show_step(side.step)
-            self._write(self.titles[number], f"{side.title}\n{side.place}", 3)
-            self._write(note, side.sentence, lines)
+            self._write(title, f"{side.title}\n{side.place}".rstrip(), TITLE_LINES)
+            self._write(note, side.sentence, 3 if has_code else 5)
         self._code.setVisible(has_code)
         self._code.setMinimumHeight(CODE_LINES * self.fontMetrics().lineSpacing())
-        for view, side in zip(self.listings, sides, strict=True):
+        for view, side in zip(self.listings, sides, strict=False):
             if side.listing is None or view.toPlainText() != side.listing.source.rstrip("\n"):
                 view.show_listing(side.listing)
             view.show_line(side.line or None)
-        name = self.buffer_box.currentText()
-        self.grids[2].empty_text = comparison.summary
-        self.grids[2].show_buffer(comparison.difference)
-        self.grids[2].show_overlays(comparison.marks)
-        self.grids[2].show_geometry(comparison.first.geometry)
-        self._write(self.titles[2], f"Difference, {name}" if name else "Difference", 3)
-        self._write(self.summary, comparison.summary, lines)
 
     def show_flipped(self, is_flipped: bool) -> None:
         """Show B in the place of A and A in the place of B, or both in their own places."""
@@ -236,8 +200,8 @@ class CompareView(QWidget):
 
     @Slot()
     def _show_again(self) -> None:
-        if self._comparison is not None:
-            self.show_comparison(self._comparison)
+        if self._sides:
+            self.show_sides(*self._sides)
 
     def flip_while_held(self) -> None:
         """Show B in the place of A and A in the place of B until the key is released."""
@@ -246,17 +210,13 @@ class CompareView(QWidget):
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Put A and B back when a key is released, or the window is left while it is held."""
-        is_release = isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyRelease
-        is_held = is_release and isinstance(event, QKeyEvent) and event.isAutoRepeat()
-        if (is_release and not is_held) or event.type() == QEvent.Type.WindowDeactivate:
+        is_release = isinstance(event, QKeyEvent) and not event.isAutoRepeat()
+        if event.type() == QEvent.Type.WindowDeactivate or (
+            is_release and event.type() == QEvent.Type.KeyRelease
+        ):
             QGuiApplication.instance().removeEventFilter(self)  # type: ignore[union-attr]
             self.show_flipped(False)
         return False
-
-    @property
-    def is_flipped(self) -> bool:
-        """Whether A and B have changed places."""
-        return self._is_flipped
 
     @staticmethod
     def _write(label: QLabel, text: str, lines: int) -> None:
@@ -264,26 +224,6 @@ class CompareView(QWidget):
         label.setText(text)
         label.setToolTip(text)
         label.setFixedHeight(lines * label.fontMetrics().lineSpacing() + 4)
-
-    @Slot()
-    def _flip(self) -> None:
-        self.show_flipped(True)
-
-    @Slot()
-    def _flip_back(self) -> None:
-        self.show_flipped(False)
-
-    def fit(self) -> None:
-        """Show all pixels in all grids."""
-        self.grids[0].fit()
-
-    def set_pixel_center(self, pixel_center: str) -> None:
-        """Say where the centres of pixels lie, as ``PixelGrid.set_pixel_center``."""
-        self.linked.set_pixel_center(pixel_center)
-
-    def show_pointing(self, pin: tuple[int, int] | None, hover: tuple[int, int] | None) -> None:
-        """Mark pin and hover in all grids."""
-        self.linked.show_pointing(pin, hover)
 
     @Slot()
     def _show_values(self) -> None:
@@ -300,7 +240,3 @@ class CompareView(QWidget):
     @Slot()
     def _choose_value(self) -> None:
         self.setting_chosen.emit(self.family_box.currentData(), self.value_box.currentData())
-
-    @Slot()
-    def _choose_buffer(self) -> None:
-        self.buffer_chosen.emit(self.buffer_box.currentData())

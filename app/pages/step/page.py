@@ -88,7 +88,7 @@ class StepPage(Page):
         self.pixel_menu.origin_requested.connect(self.go_to_writer)
         self.asking = AskThis(session, self)
         self.pixel_menu.question_requested.connect(self.ask_value)
-        for pixels in (self.grid, self.strip, self.compare_view):
+        for pixels in (self.grid, self.strip, self.compare_view.linked):
             pixels.pixel_clicked.connect(self._show_clicked)
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
         self.strip.pixel_menu_requested.connect(self.pixel_menu.open_at)
@@ -161,7 +161,7 @@ class StepPage(Page):
     def _begin_anew(self, moment: Moment) -> None:
         """Show all pixels of a scene that was opened, and a B that has an effect there."""
         self.grid.fit()
-        self.compare_view.fit()
+        self.compare_view.grids[0].fit()
         self.comparing.begin_anew(moment)
 
     # Layout.
@@ -363,7 +363,7 @@ class StepPage(Page):
 
     def fit(self) -> None:
         """Show all pixels in the main view."""
-        (self.compare_view if self.current_view() == "compare" else self.grid).fit()
+        (self.compare_view.grids[0] if self.current_view() == "compare" else self.grid).fit()
 
     def flip(self) -> None:
         """Swap the pictures of A and B until the key is released."""

@@ -53,11 +53,6 @@ def nearest(positions: Integers, position: int, direction: int) -> int | None:
     return int(found[0 if direction > 0 else -1]) if len(found) else None
 
 
-def _no_other_run(direction: int, level: Level) -> bool:
-    """Return that no run is stepped beside this one."""
-    return False
-
-
 class SteppingPresenter(QObject):
     """Shows where the cursor is and moves it."""
 
@@ -70,7 +65,7 @@ class SteppingPresenter(QObject):
         super().__init__(page)
         self._page = page
         self._session, self._timeline = session, timeline
-        self.stepped_alone: Callable[[int, Level], bool] = _no_other_run
+        self.stepped_alone: Callable[[int, Level], bool] = lambda *_: False
         """Steps a run beside this one where only that one has steps left, and returns whether that was so."""
         self.event_kind = "covered"
         """Kind of event that N runs to."""

@@ -18,8 +18,8 @@ class LockStep:
 
     A row stands beside the row of the other run that is about the same triangle and pixel, or without a pixel of the
     same kind: the first such row beside the first one, the second beside the second. Rows that only one run has stand
-    side by side where they come before the same partners, as long as both have some; else the other run waits. Larger
-    steps stand beside each other where the same partner is the last one of both.
+    side by side where they come before the same partners, as long as both have some; else the other run waits. A larger
+    step stands beside the last one that shares a row with it.
 
     Notes
     -----
@@ -65,7 +65,7 @@ class LockStep:
         if not count:
             return "no steps in this stage"
         if len(last) == 2 and last[0, run] == last[1, run] and tuple(last[1]) == self.positions:
-            return f"{'AB'[run]} waits: only {'BA'[run]} has this step (step {done:,} of {count:,})"
+            return f"waits for {'BA'[run]}, step {done:,} of {count:,}"
         return f"step {done:,} of {count:,}"
 
     def _go(self, direction: int, position: int) -> bool:
@@ -92,7 +92,7 @@ class LockStep:
 
 def _pairs(first: StageTrace, second: StageTrace, level: Level) -> Integers:
     runs = first, second
-    ends = [_ends(run, level) for run in runs]
+    ends = [run.steps.starts.searchsorted(run.steps.boundaries(min(level, Level.PIXEL))[1:]) for run in runs]
     begins, stops = [], []
     for run, after, listed in zip(runs, ends, _listed(*runs, *ends), strict=True):
         starts, places = run.steps.starts, np.arange(len(listed))
@@ -108,15 +108,6 @@ def _pairs(first: StageTrace, second: StageTrace, level: Level) -> Integers:
     found = np.concatenate([np.zeros((1, 2), np.int64), stop])
     last = np.array([[run.steps.count for run in runs]])
     return found if (found[-1] == last).all() else np.concatenate([found, last])
-
-
-def _ends(run: StageTrace, level: Level) -> Integers:
-    """Return after how many rows each step of a level ends; at the level of operations, each row."""
-    count, steps = run.steps.row_count, run.steps
-    if level >= Level.PIXEL:
-        return np.arange(count) + 1
-    ends = {Level.GROUP: steps.group_ends, Level.TRIANGLE: steps.triangle_ends}.get(level, np.array([count]))
-    return ends[ends > 0]
 
 
 def _listed(first: StageTrace, second: StageTrace, ends: Integers, others_ends: Integers) -> Integers:

@@ -11,7 +11,7 @@ from app.pages.step.steps_ahead import sentence_at
 from app.session.moment import Step
 from core.records.arrays import Flags
 from widgets.grid.buffer import GridBuffer, number_text
-from widgets.grid.compare_view import Comparison, Side
+from widgets.grid.compare_view import Side
 from widgets.grid.geometry import GridGeometry
 from widgets.grid.overlay import Mark, MaskOverlay
 from widgets.inspector.listing import ListingText
@@ -74,61 +74,61 @@ def _is_empty(buffer: GridBuffer) -> bool:
     return buffer.known is not None and not buffer.known.any()
 
 
-def compare(first: Side, second: Side) -> Comparison:
-    """Return two sides with their difference, B minus A; of colours the largest channel."""
+def nothing(said: str) -> Side:
+    """Return the place of a difference that there is not, with what is said there."""
+    return Side("Difference", "Difference", sentence=said, reason=said)
+
+
+def compare(first: Side, second: Side) -> tuple[Side, Side, Side]:
+    """Return two sides, in one range of values, with their difference, B minus A; of colours the largest channel."""
     a, b = first.buffer, second.buffer
     if a is None or b is None:
-        return Comparison(first, second, None, "There is nothing to compare: one side is blank.")
+        return first, second, nothing("There is nothing to compare: one side is blank.")
     if a.values.shape != b.values.shape:
-        return Comparison(first, second, None, "The two buffers have different numbers of channels.")
+        return first, second, nothing("The two buffers have different numbers of channels.")
     if not _hold_the_same(a, b):
-        return Comparison(first, second, None, f"“{a.label}” holds other numbers in A and in B: {OTHER}")
+        return first, second, nothing(f"“{a.label}” holds other numbers in A and in B: {OTHER}")
     if a.kind in ("scalar", "signed"):
         scale = _common_range(a, b)
         a, b = replace(a, range=scale), replace(b, range=scale)
         first, second = replace(first, buffer=a), replace(second, buffer=b)
+    ours, theirs = a.values.astype(float), b.values.astype(float)
     with np.errstate(invalid="ignore"):
         # Two infinities are equal, and not a number apart.
-        amount = np.where(a.values == b.values, 0.0, b.values.astype(float) - a.values.astype(float))
-        changed = (a.values != b.values) & ~(np.isnan(amount) & ~_is_one_nan(a, b))
+        amount = np.where(ours == theirs, 0.0, theirs - ours)
+    changed = (ours != theirs) & ~(np.isnan(ours) & np.isnan(theirs))
     if amount.ndim == 3:
         changed = changed.any(axis=2)
         largest = np.abs(np.nan_to_num(amount)).argmax(axis=2)
         amount = np.take_along_axis(amount, largest[..., None], axis=2)[..., 0]
-    ours, theirs = _known(a), _known(b)
+    known, others_known = _known(a), _known(b)
     is_choice = a.kind in ("ids", "bool")
-    in_a, in_b = (_has(buffer) for buffer in (a, b)) if is_choice else (ours, theirs)
+    in_a, in_b = (_has(buffer) for buffer in (a, b)) if is_choice else (known, others_known)
     # A pixel that one run has found outside, and the other has not reached, is in neither.
     differs = (in_a != in_b) | (changed & in_a & in_b)
-    count = int(np.count_nonzero(differs))
-    summary = f"{count:,} of {differs.size:,} pixels differ"
+    said = f"{np.count_nonzero(differs):,} of {differs.size:,} pixels differ"
     if is_choice:
         if (in_a != in_b).any():
             only = np.count_nonzero(in_a & ~in_b), np.count_nonzero(in_b & ~in_a)
-            summary += f"; {only[0]:,} only in A, {only[1]:,} only in B"
-        amount = differs.astype(float)
+            said += f"; {only[0]:,} only in A, {only[1]:,} only in B"
+        shown = GridBuffer("difference", differs.astype(float), "bool", origin=a.origin)
     else:
-        both = differs & ours & theirs
-        if both.any():
-            summary += f"; largest difference {number_text(float(np.nanmax(np.abs(amount[both]))))}"
-        if (ours != theirs).any():
-            summary += f"; {np.count_nonzero(ours != theirs):,} reached by one of them only"
-    difference = GridBuffer(
-        "difference",
-        amount,
-        "bool" if is_choice else "signed",
-        origin=a.origin,
-        known=None if is_choice else ours & theirs,
+        both, one = known & others_known, known != others_known
+        if (differs & both).any():
+            said += f"; largest difference {number_text(float(np.nanmax(np.abs(amount[differs & both]))))}"
+        if one.any():
+            said += f"; {np.count_nonzero(one):,} reached by one of them only"
+        shown = GridBuffer("difference", amount, "signed", origin=a.origin, known=both)
+    difference = Side(
+        "Difference",
+        f"Difference, {a.label}",
+        sentence=f"{said}.",
+        buffer=shown,
+        # The colours show what both have reached.
+        overlays=() if is_choice else (MaskOverlay("difference", Mark.DIFFERENCE, one),),
+        geometry=first.geometry,
     )
-    # What both have reached is told by the colours.
-    marks = () if is_choice else (MaskOverlay("difference", Mark.DIFFERENCE, ours != theirs),)
-    return Comparison(first, second, difference, summary + ".", marks)
-
-
-def _is_one_nan(a: GridBuffer, b: GridBuffer) -> Flags:
-    """Return where one of two values is not a number and the other one is."""
-    found: Flags = np.isnan(a.values.astype(float)) != np.isnan(b.values.astype(float))
-    return found
+    return first, second, difference
 
 
 def _known(buffer: GridBuffer) -> Flags:

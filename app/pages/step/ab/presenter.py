@@ -10,7 +10,14 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.background.workers import Job
 from app.pages.page_bar import Page
 from app.pages.step.ab.lock_step import LockStep
-from app.pages.step.ab.pictures import buffers_at, compare, first_comparable, side_of, with_listing
+from app.pages.step.ab.pictures import (
+    buffers_at,
+    compare,
+    first_comparable,
+    nothing,
+    side_of,
+    with_listing,
+)
 from app.pages.step.ab.side_b import SideB, first_difference, settings_difference
 from app.pages.step.grid_presenter import OUTLINING
 from app.pages.step.grid_records import geometry_of
@@ -23,7 +30,7 @@ from core import STAGES, Settings, Trace
 from core.records.steps import Level
 from core.scene import AnyScene
 from core.settings import WHOLE_NUMBERS
-from widgets.grid.compare_view import CompareView, Comparison, Side
+from widgets.grid.compare_view import CompareView, Side
 from widgets.grid.geometry import GridGeometry
 
 if TYPE_CHECKING:
@@ -71,14 +78,14 @@ class ComparePresenter(QObject):
             session, view.linked.grids, lambda: None, session.edit, "drag in A | B", page
         )
         view.setting_chosen.connect(self._choose)
-        view.buffer_chosen.connect(self.set_buffer)
+        view.buffer_box.buffer_chosen.connect(self.set_buffer)
         view.reset_requested.connect(self._reset)
         view.swap_requested.connect(self._swap)
         view.use_requested.connect(self._use)
         view.divergence_requested.connect(self.go_to_divergence)
-        view.pixel_hovered.connect(session.hover_place)
-        view.pixel_left.connect(session.end_hover)
-        view.pixel_clicked.connect(session.pin_place)
+        view.linked.pixel_hovered.connect(session.hover_place)
+        view.linked.pixel_left.connect(session.end_hover)
+        view.linked.pixel_clicked.connect(session.pin_place)
 
     # What B is.
 
@@ -229,7 +236,7 @@ class ComparePresenter(QObject):
         self._view.show_settings(b.shown_settings(document), frozenset(b.differences))
         if self._choice is None and b.differences:
             self._view.show_family(next(iter(b.differences)))
-        self._view.set_pixel_center(document.settings.pixel_center)
+        self._view.linked.set_pixel_center(document.settings.pixel_center)
 
         def work() -> Trace:
             """Trace B up to the stage that is shown."""
@@ -368,15 +375,15 @@ class ComparePresenter(QObject):
             return
         moment, second, b = self._moment, self.second, self._b
         if moment.is_predicting:
-            blanks = Side("A", "A", reason=PREDICTING), Side("B", "B", reason=PREDICTING)
-            self._view.show_comparison(Comparison(*blanks, None, PREDICTING))
+            blanks = (Side(name, name, reason=PREDICTING) for name in "AB")
+            self._view.show_sides(*blanks, nothing(PREDICTING))
             return
         steps: list[Step] = [moment] if second is None else [moment, second]
         buffers = [buffers_at(step) for step in steps]
         known = {name: buffer for each in reversed(buffers) for name, buffer in each.items()}
         chosen = self._buffers.get(moment.cursor.stage, "")
         chosen = chosen if chosen in known else first_comparable(buffers)
-        self._view.show_buffers([(name, buffer.label) for name, buffer in known.items()], chosen)
+        self._view.buffer_box.show_buffers(list(known.values()), chosen)
         sides = [
             Side(name, f"{name}: {title}", reason=self._refusal)
             for name, title in zip("AB", b.titles(moment.document), strict=True)
@@ -388,14 +395,13 @@ class ComparePresenter(QObject):
             )
             side = side_of(side, step, outlines, buffers[run], known[chosen])
             sides[run] = with_listing(side, step) if b.printed else side
-        shown = Comparison(sides[0], sides[1], None, self._refusal) if second is None else compare(*sides)
-        self._view.show_comparison(shown)
+        self._view.show_sides(*([*sides, nothing(self._refusal)] if second is None else compare(*sides)))
         self.refresh_pointing(moment)
 
     def refresh_pointing(self, moment: Moment) -> None:
         """Mark pin and hover."""
         if self._is_active:
-            self._view.show_pointing(*moment.pointed_places)
+            self._view.linked.show_pointing(*moment.pointed_places)
 
 
 def _outlines(trace: Trace, cursor: Cursor) -> GridGeometry:

@@ -1,6 +1,6 @@
 """What B is beside A: the same run with other settings, a listing as printed, or a run with a mistake."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 from app.pages.step.scene_outline_presenter import settings_records
@@ -14,6 +14,8 @@ from core.settings import FAMILIES, no_effect
 from widgets.basics.settings_panel import Setting, SettingChoice
 
 SAME = "the same settings"
+NAMED = 3
+"""Settings in a title at most."""
 FIRST_CHOICES = {
     "transform": (("depth", "reversed-z"),),
     "edges": (("coverage", "float32"),),
@@ -40,7 +42,8 @@ def first_difference(document: Document, trace: Trace, stage: str) -> dict[str, 
     from core.study.accuracy.divergence import is_same_schedule, stage_divergence
 
     drawn: dict[str, str | int] = {}
-    for family, method in _candidates(stage):
+    own = [(name, method) for name, of in FAMILIES.items() if of.stage == stage for method in of.classical]
+    for family, method in (*FIRST_CHOICES.get(stage, ()), *own, *ANYWHERE):
         settings = replace(document.settings, **{family: method})  # type: ignore[arg-type]
         other = replace(document, settings=settings)
         if settings == document.settings or no_effect(settings, family, document.scene):
@@ -59,21 +62,13 @@ def first_difference(document: Document, trace: Trace, stage: str) -> dict[str, 
     return drawn
 
 
-def _candidates(stage: str) -> Iterator[tuple[str, str]]:
-    yield from FIRST_CHOICES.get(stage, ())
-    for name, family in FAMILIES.items():
-        if family.stage == stage:
-            yield from ((name, method) for method in family.classical)
-    yield from ANYWHERE
-
-
 def settings_difference(mine: Settings, other: Settings) -> str:
-    """Return in words what ``other`` does otherwise than ``mine``."""
+    """Return in words what ``other`` does otherwise than ``mine``, and where that is much, how much more."""
     parts = []
     for name, value in mine.differences(other).items():
         text = table.get(name, value).title if isinstance(value, str) else str(value)
         parts.append(f"{family_title(name).lower()}: {text}")
-    return ", ".join(parts)
+    return ", ".join([*parts[:NAMED], *([f"and {len(parts) - NAMED} more"] if len(parts) > NAMED else [])])
 
 
 @dataclass(frozen=True, eq=False)

@@ -41,7 +41,7 @@ def test_a_pixel_found_outside_differs_from_none_not_reached() -> None:
     a = GridBuffer("coverage", covered, "bool", known=np.array([[True, True, False]]))
     b = GridBuffer("coverage", covered, "bool", known=np.array([[True, False, False]]))
     sides = [Side(name, name, buffer=buffer) for name, buffer in (("A", a), ("B", b))]
-    assert compare(*sides).summary == "0 of 3 pixels differ."
+    assert compare(*sides)[2].sentence == "0 of 3 pixels differ."
 
 
 def test_one_key_shows_both_and_the_pixels_again(window: MainWindow, qtbot: QtBot) -> None:
@@ -126,10 +126,10 @@ def test_b_goes_on_alone_where_a_has_no_step(window: MainWindow) -> None:
     second = comparing.second
     assert second is not None
     assert (session.cursor.position, second.row) == (0, 0), "the edges of the scanline"
-    assert "A waits: only B has this step (step 0 of" in view.titles[0].text()
+    assert "waits for B, step 0 of" in view.titles[0].text()
     outside = np.flatnonzero(session.stage_trace.marks["rejected"])[0]
     session.go_to(session.stage_trace.steps.position_after(outside))
-    assert "B waits: only A has this step" in view.titles[1].text()
+    assert "waits for A, step" in view.titles[1].text()
     session.go_to(session.stage_trace.steps.count)
     second = comparing.second
     assert second is not None
@@ -237,7 +237,7 @@ def test_prediction_hides_both_pictures(window: MainWindow) -> None:
 
 def test_pin_and_hover_are_linked(window: MainWindow) -> None:
     window.page.show_view("compare")
-    window.page.compare_view.pixel_clicked.emit(10, 11)
+    window.page.compare_view.linked.pixel_clicked.emit(10, 11)
     assert window.session.pin == (10, 11)
     assert [grid.pin() for grid in window.page.compare_view.grids] == [(10, 11)] * 3
 
@@ -295,6 +295,6 @@ def test_titles_and_notes_have_room_for_larger_type(window: MainWindow) -> None:
     QApplication.processEvents()
     window.presenter.arrange()
     view = window.page.compare_view
-    for labels, lines in ((view.titles, 3), (view.notes, 5)):
+    for labels, lines in ((view.titles, 4), (view.notes, 5)):
         for label in labels:
             assert label.height() >= lines * label.fontMetrics().lineSpacing()

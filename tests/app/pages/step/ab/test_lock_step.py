@@ -140,8 +140,8 @@ def test_the_text_says_who_waits_and_why() -> None:
             both.follow(Cursor(position=both.positions[0] + 1))
         said.append((both.text(0), both.text(1)))
     assert said == [
-        ("step 1 of 2", "B waits: only A has this step (step 0 of 3)"),
-        ("A waits: only B has this step (step 1 of 2)", "step 1 of 3"),
+        ("step 1 of 2", "waits for A, step 0 of 3"),
+        ("waits for B, step 1 of 2", "step 1 of 3"),
         ("step 2 of 2", "step 2 of 3"),
-        ("A waits: only B has this step (step 2 of 2)", "step 3 of 3"),
+        ("waits for B, step 2 of 2", "step 3 of 3"),
     ]
