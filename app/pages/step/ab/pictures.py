@@ -1,14 +1,18 @@
-"""What A | B shows of two runs at their steps: each one's buffer and step, and where the buffers differ."""
+"""What A | B shows and says of two runs: each one's buffer and step, where the buffers differ, and the runs first."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.pages.step.grid_presenter import OUTLINING
 from app.pages.step.grid_records import buffers_of, mask_overlays
 from app.pages.step.step_mark import step_mark
 from app.pages.step.steps_ahead import sentence_at
+from app.session.cursor import Cursor
 from app.session.moment import Step
+from core import STAGES, Trace
 from core.records.arrays import Flags
 from widgets.grid.buffer import GridBuffer, number_text
 from widgets.grid.compare_view import Side
@@ -16,17 +20,43 @@ from widgets.grid.geometry import GridGeometry
 from widgets.grid.overlay import Mark, MaskOverlay
 from widgets.inspector.listing import ListingText
 
+if TYPE_CHECKING:
+    from core.study.accuracy.divergence import Divergence  # Looked for long after the window is open.
+
+Outlines = Callable[[Trace, Cursor], GridGeometry]
+"""Returns the triangles of a run."""
 OTHER = "read them at a pixel, or choose a buffer that both share."
+ALIKE = "A and B do the same in every stage."
+REORDERED = "A and B give the same results; only the order of their steps differs."
+ORDERED_STAGES = ("bin", "raster", "depth")
+"""Stages in which methods may do the same in another order."""
 SHOWN_MARKS = ("rejected", "tie", "nan", "failed")
 """Marks of rows done that lie over the pictures."""
 
 
-def buffers_at(step: Step) -> dict[str, GridBuffer]:
-    """Return the buffers of a run by name."""
-    return {buffer.name: buffer for buffer in buffers_of(step)}
+def pictured(
+    sides: Sequence[Side], steps: Sequence[Step], outlines: Outlines, wanted: str, has_listings: bool
+) -> tuple[list[GridBuffer], str, tuple[Side, Side, Side]]:
+    """Return the buffers that there are, which is shown, and sides with their pictures and their difference.
+
+    A side without a step keeps its reason. ``wanted`` is the name of the buffer that is shown if there is one; with
+    ``has_listings`` the listing of each last step is shown, and the line that has just run.
+    """
+    buffers = [{buffer.name: buffer for buffer in buffers_of(step)} for step in steps]
+    known = {name: buffer for each in reversed(buffers) for name, buffer in each.items()}
+    shown = wanted if wanted in known else _first_comparable(buffers)
+    found = [
+        replace(
+            _side_of(side, step, outlines, each.get(shown), has_listings),
+            reason=f"{side.name} has no buffer “{known[shown].label}” in this stage.",
+        )
+        for side, step, each in zip(sides, steps, buffers, strict=False)
+    ]
+    pictures = compare(*found) if len(found) == 2 else (found[0], sides[1], nothing(sides[1].reason))
+    return list(known.values()), shown, pictures
 
 
-def first_comparable(buffers: Sequence[Mapping[str, GridBuffer]]) -> str:
+def _first_comparable(buffers: Sequence[Mapping[str, GridBuffer]]) -> str:
     """Return the name of the first buffer that holds the same in all runs, or else of the first one."""
     first, *others = buffers
     for name, buffer in first.items():
@@ -40,32 +70,23 @@ def _hold_the_same(a: GridBuffer, b: GridBuffer) -> bool:
     return a.kind != "scalar" or (a.unit, a.description) == (b.unit, b.description)
 
 
-def side_of(
-    side: Side, step: Step, geometry: GridGeometry, buffers: Mapping[str, GridBuffer], wanted: GridBuffer
+def _side_of(
+    side: Side, step: Step, outlines: Outlines, buffer: GridBuffer | None, has_listing: bool
 ) -> Side:
-    """Return a side with its picture at a step, in the buffer ``wanted``, and with what its last step did."""
-    buffer = buffers.get(wanted.name)
-    is_done = step.is_stage_done and step.steps.count > 0
-    is_vain = buffer is not None and is_done and _is_empty(buffer)
+    is_vain = buffer is not None and step.is_stage_done and step.steps.count > 0 and _is_empty(buffer)
+    done = step.explanation if has_listing else None
+    listing = None if done is None else done.listing
     return replace(
         side,
         place=side.place + ("; it gives no pixel a value" if is_vain else ""),
         sentence=sentence_at(step),
         buffer=buffer,
-        reason="" if buffer else f"{side.name} has no buffer “{wanted.label}” in this stage.",
         overlays=tuple(overlay for overlay in mask_overlays(step) if overlay.key in SHOWN_MARKS),
-        geometry=geometry,
+        geometry=outlines(step.trace, step.cursor if step.cursor.stage in OUTLINING else Cursor(STAGES[-1])),
         step=step_mark(step),
+        listing=None if listing is None else ListingText(listing.name, listing.source, listing.purpose),
+        line=0 if done is None else done.line,
     )
-
-
-def with_listing(side: Side, step: Step) -> Side:
-    """Return a side with the listing of its last step, and the line that has just run."""
-    done = step.explanation
-    if done is None or done.listing is None:
-        return side
-    listing = ListingText(done.listing.name, done.listing.source, done.listing.purpose)
-    return replace(side, listing=listing, line=done.line)
 
 
 def _is_empty(buffer: GridBuffer) -> bool:
@@ -149,3 +170,20 @@ def _common_range(a: GridBuffer, b: GridBuffer) -> tuple[float, float] | None:
         values = values[np.isfinite(values)]
         return (float(values.min()), float(values.max())) if values.size else None
     return min(a.range[0], b.range[0]), max(a.range[1], b.range[1])
+
+
+def divergence_text(found: "Divergence | None", first: Trace, second: Trace) -> str:
+    """Return in words where two runs differ first."""
+    from core.study.accuracy.divergence import is_same_schedule
+
+    if found is None:
+        is_same_order = all(
+            is_same_schedule(first.stage(stage), second.stage(stage)) for stage in ORDERED_STAGES
+        )
+        return ALIKE if is_same_order else REORDERED
+    where = f"pixel {found.pixel}" if found.pixel is not None else f"triangle {found.triangle}"
+    if None in found.rows:
+        said = f"{'AB'[found.rows.index(None)]} has no step there"
+    else:
+        said = f"they differ in {', '.join(name.replace('color', 'colour') for name in found.names)}"
+    return f"First divergence, at {where}: {said}. Ctrl+[ goes back."

@@ -10,16 +10,8 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.background.workers import Job
 from app.pages.page_bar import Page
 from app.pages.step.ab.lock_step import LockStep
-from app.pages.step.ab.pictures import (
-    buffers_at,
-    compare,
-    first_comparable,
-    nothing,
-    side_of,
-    with_listing,
-)
+from app.pages.step.ab.pictures import divergence_text, nothing, pictured
 from app.pages.step.ab.side_b import SideB, first_difference, settings_difference
-from app.pages.step.grid_presenter import OUTLINING
 from app.pages.step.grid_records import geometry_of
 from app.pages.step.vertex_drags import VertexDrags
 from app.session.cursor import Cursor
@@ -38,10 +30,6 @@ if TYPE_CHECKING:
 
 PREDICTING = "Prediction hides the pictures of A and B. P ends it."
 FAULTY = "B is a run with a mistake: the page cannot take it over."
-ALIKE = "A and B do the same in every stage."
-REORDERED = "A and B give the same results; only the order of their steps differs."
-ORDERED_STAGES = ("bin", "raster", "depth")
-"""Stages in which methods may do the same in another order."""
 
 
 class ComparePresenter(QObject):
@@ -314,7 +302,7 @@ class ComparePresenter(QObject):
     def _land(self, found: "Divergence | None") -> None:
         if self._second is None:
             return
-        said = _report(found, self._moment.trace, self._second)
+        said = divergence_text(found, self._moment.trace, self._second)
         if found is not None:
             if found.pixel is not None:
                 self._session.set_pin(found.pixel)
@@ -373,29 +361,21 @@ class ComparePresenter(QObject):
         """Show both runs where they are, and their difference."""
         if not self._is_active:
             return
-        moment, second, b = self._moment, self.second, self._b
+        moment, second = self._moment, self.second
         if moment.is_predicting:
             blanks = (Side(name, name, reason=PREDICTING) for name in "AB")
             self._view.show_sides(*blanks, nothing(PREDICTING))
             return
-        steps: list[Step] = [moment] if second is None else [moment, second]
-        buffers = [buffers_at(step) for step in steps]
-        known = {name: buffer for each in reversed(buffers) for name, buffer in each.items()}
-        chosen = self._buffers.get(moment.cursor.stage, "")
-        chosen = chosen if chosen in known else first_comparable(buffers)
-        self._view.buffer_box.show_buffers(list(known.values()), chosen)
+        texts = ("", "") if self._steps is None else (self._steps.text(0), self._steps.text(1))
         sides = [
-            Side(name, f"{name}: {title}", reason=self._refusal)
-            for name, title in zip("AB", b.titles(moment.document), strict=True)
+            Side(name, f"{name}: {title}", text, reason=self._refusal)
+            for name, title, text in zip("AB", self._b.titles(moment.document), texts, strict=True)
         ]
-        for run, step in enumerate(steps):
-            side = sides[run] if self._steps is None else replace(sides[run], place=self._steps.text(run))
-            outlines = self._outlines(
-                step.trace, step.cursor if step.cursor.stage in OUTLINING else Cursor(STAGES[-1])
-            )
-            side = side_of(side, step, outlines, buffers[run], known[chosen])
-            sides[run] = with_listing(side, step) if b.printed else side
-        self._view.show_sides(*([*sides, nothing(self._refusal)] if second is None else compare(*sides)))
+        steps: list[Step] = [moment] if second is None else [moment, second]
+        wanted = self._buffers.get(moment.cursor.stage, "")
+        buffers, shown, pictures = pictured(sides, steps, self._outlines, wanted, bool(self.printed))
+        self._view.buffer_box.show_buffers(buffers, shown)
+        self._view.show_sides(*pictures)
         self.refresh_pointing(moment)
 
     def refresh_pointing(self, moment: Moment) -> None:
@@ -407,20 +387,3 @@ class ComparePresenter(QObject):
 def _outlines(trace: Trace, cursor: Cursor) -> GridGeometry:
     """Return the triangles of a run."""
     return geometry_of(Step(trace, cursor))
-
-
-def _report(found: "Divergence | None", first: Trace, second: Trace) -> str:
-    """Return in words where two runs differ first."""
-    from core.study.accuracy.divergence import is_same_schedule
-
-    if found is None:
-        is_same_order = all(
-            is_same_schedule(first.stage(stage), second.stage(stage)) for stage in ORDERED_STAGES
-        )
-        return ALIKE if is_same_order else REORDERED
-    where = f"pixel {found.pixel}" if found.pixel is not None else f"triangle {found.triangle}"
-    if None in found.rows:
-        said = f"{'AB'[found.rows.index(None)]} has no step there"
-    else:
-        said = f"they differ in {', '.join(name.replace('color', 'colour') for name in found.names)}"
-    return f"First divergence, at {where}: {said}. Ctrl+[ goes back."

@@ -12,7 +12,6 @@ from app.session.document import Document, open_document
 from app.session.scene_edits import move_corner
 from app.window.main_window import MainWindow
 from core import STAGES
-from core.raster.lines.bresenham import bresenham
 from lessons.scenes import make_scene
 
 pytestmark = pytest.mark.shared_window
@@ -180,16 +179,3 @@ def test_pictures_of_a_and_b_have_a_margin_and_name_the_settings(window: MainWin
     for k in range(8):
         assert {picture.pixel(x, y) for x in across for y in (k, picture.height() - 1 - k)} == {ground}
         assert {picture.pixel(x, y) for y in down for x in (k, picture.width() - 1 - k)} == {ground}
-
-
-def test_a_run_with_another_function_is_named_too(window: MainWindow) -> None:
-    def too_high(segments, last_pixel):
-        run = bresenham(segments, last_pixel)
-        return replace(run, row=run.row + 1)
-
-    window.session.open(opened("segment"))
-    settings = window.session.document.settings
-    comparing = window.page.comparing
-    comparing.set_differences(settings.differences(settings.replaced(line=too_high)))
-    window.page.show_view("compare")
-    assert window.page.compare_view.titles[1].text().splitlines()[0].endswith("(replaced)")
