@@ -2,7 +2,6 @@
 
 from typing import TYPE_CHECKING
 
-from app.pages.step.ab_choice import OtherRun
 from app.pages.step.lesson_question import JudgedAnswer
 from core.scene import ClipScene
 from lessons.course.record import StepPart
@@ -31,8 +30,7 @@ def show_mistake(page: "StepPage", state: State, name: str) -> None:
     other = twin.change_settings(state.settings)
     scene = twin.change_scene(state.scene) if isinstance(state.scene, ClipScene) else state.scene
     title = f"with the mistake: {name.replace('-', ' ')}"
-    run = OtherRun(page.session.document.scene, scene, title)
-    page.comparing.set_differences(state.settings.differences(other), run)
+    page.comparing.show_mistake(state.settings.differences(other), scene, title)
     page.show_view("compare")
     if state.pixel is not None:
         page.session.set_pin(state.pixel)
