@@ -9,9 +9,9 @@ from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
 from app.session.document import Document, open_document
-from app.session.scene_edits import move_corner
 from app.window.main_window import MainWindow
 from core import STAGES
+from lessons.scene_edits import move_corner
 from lessons.scenes import make_scene
 
 pytestmark = pytest.mark.shared_window
