@@ -20,6 +20,8 @@ class Change(Flag):
     """Another scene, other settings, focus or raster: the trace is a new one, and the cursor may have moved along."""
     OPENED = auto()
     """That document is no edit of the one before: it was opened."""
+    RETURNED = auto()
+    """That document was open before: an edit, or opening another one, was undone or redone."""
     CURSOR = auto()
     """Another step of the same trace, or another stage."""
     PIN = auto()

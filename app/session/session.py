@@ -230,7 +230,7 @@ class Session(QObject):
         before = self.document
         after = self._history.undo() if direction < 0 else self._history.redo()
         was_opened = (before.title, before.path) != (after.title, after.path)
-        self._document_replaced(trace, also=Change.OPENED if was_opened else NOTHING)
+        self._document_replaced(trace, also=Change.RETURNED | (Change.OPENED if was_opened else NOTHING))
 
     @property
     def can_undo(self) -> bool:

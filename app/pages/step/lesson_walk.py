@@ -297,7 +297,7 @@ class LessonWalk(QObject):
         """Follow what is done outside of the pane."""
         if self.lesson is None or self._is_showing:
             return
-        if Change.OPENED in what:
+        if Change.OPENED in what and Change.RETURNED not in what:
             self.left.emit()
             return
         if self.answers.is_open and not self._session.is_predicting and not self._is_revealed:
