@@ -189,6 +189,10 @@ class LessonView(QWidget):
             self.answer.show()
         self.set_asking(form is not None)
 
+    def is_of_answer(self, widget: QWidget) -> bool:
+        """Return whether a widget is a part of the answer's form."""
+        return self.answer is not None and self.answer.isAncestorOf(widget)
+
     def set_asking(self, is_asking: bool) -> None:
         """Take an answer, or only show what was given."""
         self.check_button.setVisible(is_asking)

@@ -22,6 +22,8 @@ from widgets.grid.geometry import vertex_place
 
 LEVELS = (Level.TRIANGLE, Level.GROUP, Level.PIXEL, Level.OPERATION)
 DRAG_STAGES = ("raster", "depth")
+LESSONS = ("inside-or-outside", "shared-edges", "the-middle")
+"""Those that are walked: small scenes, and a textured one beside another method."""
 STARTS = (0.0, 0.4, 0.75)
 """Where in a stage it is stepped, as fractions of it."""
 OPENING_SECONDS = 0.5
@@ -48,7 +50,7 @@ class Sample:
 
     scene: str
     action: str
-    """enter, step, scrub, hover, drag, drop or orbit."""
+    """enter, step, scrub, hover, drag, drop, orbit or lesson: its next step."""
     stage: str
     level: str
     """Of the step; empty: another action."""
@@ -100,9 +102,12 @@ class Script:
         for stage in DRAG_STAGES:
             self._drag(stage)
         self._orbit()
+        for name in LESSONS:
+            self._walk(name)
 
     def _is_waiting(self) -> bool:
-        return self._session.tracing.is_busy or self._page.views.is_drawing
+        is_busy = self._session.tracing.is_busy or self._page.views.is_drawing
+        return is_busy or self._page.lessons.is_working
 
     def _note(self, action: str, give_input: Callable[[], object], level: Level | None = None) -> None:
         answer = self._loop.time(give_input)
@@ -179,6 +184,18 @@ class Script:
         corner = QPointF(view.width() / 8, view.height() / 8)
         self._drag_around("orbit", view, corner, view.height() / 10)
         send_mouse(view, QEvent.Type.MouseButtonRelease, corner)
+
+    def _walk(self, name: str) -> None:
+        """Go from step to step of a lesson, as somebody who reads them: the next one is traced meanwhile."""
+        lessons = self._page.lessons
+        lessons.keeps_attempts = False
+        lessons.open(name, 0)
+        self._loop.pause(2 * OPENING_SECONDS)
+        while lessons.walk is not None and lessons.walk.step is not None:
+            self._note("lesson", partial(QTest.keyClick, self._window, Qt.Key.Key_PageDown))
+            self._loop.pause(OPENING_SECONDS)
+        lessons.close()
+        self._loop.pause(OPENING_SECONDS)
 
     def _drag_around(self, action: str, widget: QWidget, place: QPointF, radius: float) -> None:
         """Press the button and move around a circle."""

@@ -70,7 +70,7 @@ class GridPresenter(QObject):
         grid.view_changed.connect(strip.set_view)
         strip.view_changed.connect(grid.set_view)
         strip.buffer_chosen.connect(self._choose_buffer)
-        strip.strip_shown.connect(self._show_again)
+        strip.strip_shown.connect(self.show_again)
         area.buffer_choice.buffer_chosen.connect(self._choose_buffer)
         legend.overlays_changed.connect(self._choose_overlays)
         area.ranges.range_changed.connect(self._choose_range)
@@ -98,7 +98,7 @@ class GridPresenter(QObject):
         self.refresh_pointing(moment)
 
     @Slot()
-    def _show_again(self) -> None:
+    def show_again(self) -> None:
         """Show the same step otherwise."""
         self.refresh_step(self._moment)
 
@@ -133,15 +133,13 @@ class GridPresenter(QObject):
         self._grid.show_step(mark)
         self._strip.show_step(mark)
 
-    def show_only(self, buffer: str) -> None:
-        """Show a buffer of the stage at hand alone; empty: its first one, with what is over it at first."""
-        stage = self._moment.cursor.stage
+    def look_only_at(self, stage: str, buffer: str) -> None:
+        """Have a buffer of a stage shown alone; empty: its first one, with what is over it at first."""
         self._chosen = {stage: buffer} if buffer else {}
         self._own_ranges.clear()
         self._shown_overlays = dict(DEFAULT_OVERLAYS)
         if buffer:
             self._shown_overlays[stage] = frozenset({"nan"})
-        self._show_again()
 
     def look(self) -> GridLook:
         """Return what the user has chosen to see."""
@@ -170,12 +168,12 @@ class GridPresenter(QObject):
         view = GridView(*look.middle, look.zoom)
         self._grid.set_view(view)
         self._strip.set_view(view)
-        self._show_again()
+        self.show_again()
 
     def show_guesses(self, guesses: Guesses | None) -> None:
         """Show pixels that are held for covered, and cover up the others; ``None``: show the state of the step."""
         self._guesses = guesses
-        self._show_again()
+        self.show_again()
 
     def _stepped_triangle(self) -> int:
         return self._focus
@@ -282,5 +280,5 @@ class GridPresenter(QObject):
         self._show_choice()
 
     def _show_choice(self) -> None:
-        self._show_again()
+        self.show_again()
         self.look_changed.emit()

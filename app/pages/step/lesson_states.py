@@ -110,6 +110,8 @@ class LessonStates(QObject):
         """Show a state, and hide what comes after it if it ``is_hidden``: one entry of undo, or none."""
         page, state, session = self._page, shown.state, self._page.session
         page.timeline.show_playing(False)
+        page.grids.look_only_at(shown.cursor.stage, state.buffer)
+        before = session.moment
         if session.document is shown.document:
             session.jump(shown.cursor, state.pixel, is_hidden)
         else:
@@ -118,7 +120,8 @@ class LessonStates(QObject):
             page.grid.fit()
             page.views.look_from({})
         page.grids.focus_on(max(session.moment.triangle, 0))
-        page.grids.show_only(state.buffer)
+        if session.moment is before:
+            page.grids.show_again()
         page.main_area.views_by_hand.clear()
         self._show_view(state)
         page.column.show_step()

@@ -6,7 +6,8 @@ from functools import partial
 from random import SystemRandom
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Qt, Signal, Slot
+from PySide6.QtWidgets import QApplication
 
 from app.pages.step.lesson_evidence import has_refuting_step, mistake_of, show_mistake
 from app.pages.step.lesson_question import (
@@ -30,6 +31,7 @@ from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask
 from lessons.exercises.scene_digest import scene_digest
 from lessons.run_place import RunPlace
+from widgets.basics.focus_order import give_focus, tab_stops
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.lessons.lesson_scroll import LessonScroll
 from widgets.lessons.lesson_view import LessonView
@@ -254,8 +256,25 @@ class LessonWalk(QObject):
             self.watch.begin(step.until)
         elif step is not None and step.answer is None:
             self._stand(Standing.DONE)
+        self._give_keyboard()
         self._prepare()
         self.place_changed.emit()
+
+    def _give_keyboard(self) -> None:
+        """Let the next key answer: a digit would go to a stage else. A clicker's keys are nobody's."""
+        page, focused = self._page, QApplication.focusWidget()
+        if page.is_presenting or not page.isVisible():
+            return
+        home = self._home
+        if home is not None and home.asked is not None and self.answers.is_open:
+            stops = [self.grid] if home.asked.is_on_picture else tab_stops([self.view])
+            by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
+            reason = Qt.FocusReason.MouseFocusReason if by_mouse else Qt.FocusReason.TabFocusReason
+            inside = [stop for stop in stops if stop is self.grid or self.view.is_of_answer(stop)]
+            if inside:
+                give_focus(inside[0], reason)
+        elif focused is None or focused is self.grid or self.view.is_of_answer(focused):
+            page.take_focus()
 
     def _begins_hidden(self) -> bool:
         """Return whether the next lesson begins with a question."""
@@ -381,6 +400,7 @@ class LessonWalk(QObject):
         assert home is not None
         after = paragraphs(asked.question.draft.reveal)
         self.view.show_feedback(LessonFeedback((said, *filter(None, [after])), is_right=is_right))
+        self._give_keyboard()
         if step is not None and step.reveal is not None and states is not None:
             self.states.want(partial(_revealed, states, self.number), self._show_revealed)
         elif step is not None:

@@ -24,7 +24,8 @@ def test_what_is_open_is_copied_for_a_lesson(window: MainWindow, qtbot: QtBot, t
     session, page = window.session, window.page
     session.set_stage("raster", 4)
     session.set_pin((32, 24))
-    page.grids.show_only("overdraw")
+    page.grids.look_only_at(window.session.cursor.stage, "overdraw")
+    page.grids.show_again()
     page.comparing.set_differences({"fill_rule": "inclusive"})
     page.show_view("compare")
     assert copied(window) == {
