@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from core import STAGES
 from lessons.course.lesson_file import Lesson, read_lesson
@@ -52,8 +53,30 @@ class Course:
 
 def chapters() -> dict[str, list[str]]:
     """Return the names of the lessons in the order of learning, chapter by chapter."""
-    order: dict[str, list[str]] = tomllib.loads((FOLDER / "order.toml").read_text(encoding="utf-8"))
-    return order
+    order: dict[str, list[str]] = _ordered()["order"]
+    return dict(order)
+
+
+@dataclass(frozen=True)
+class Exploration:
+    """A step that surprises on its own."""
+
+    title: str
+    lesson: str
+    """Name of the lesson."""
+    step: int
+    """From 0."""
+
+
+def explorations() -> tuple[Exploration, ...]:
+    """Return the steps to be tried with two minutes to spend."""
+    places = {title: place.split("/") for title, place in _ordered()["explorations"].items()}
+    return tuple(Exploration(title, name, int(step) - 1) for title, (name, step) in places.items())
+
+
+@cache
+def _ordered() -> dict[str, Any]:
+    return tomllib.loads((FOLDER / "order.toml").read_text(encoding="utf-8"))
 
 
 @cache

@@ -34,7 +34,7 @@ class LessonEntry:
     question: str
     minutes: int
     done: tuple[bool, ...]
-    """Of each step, whether it is done."""
+    """Of each step, whether it is done; empty: a single step."""
     is_next: bool = False
     """Whether this is where one goes on."""
 
@@ -45,7 +45,9 @@ class LessonEntry:
 
     @property
     def progress(self) -> str:
-        """How far one is, in words."""
+        """How long it takes and how far one is, in words."""
+        if not self.done:
+            return f"{self.minutes} minutes"
         return f"{self.minutes} minutes, {sum(self.done)} of {counted(len(self.done), 'step')} done"
 
 
@@ -59,6 +61,8 @@ class LessonPart:
     @property
     def sentence(self) -> str:
         """What is in it, in words."""
+        if not any(lesson.done for lesson in self.lessons):
+            return counted(len(self.lessons), "surprise")
         minutes = sum(lesson.minutes for lesson in self.lessons)
         done = sum(all(lesson.done) for lesson in self.lessons)
         return f"{counted(len(self.lessons), 'lesson')}, {minutes} minutes{f', {done} done' if done else ''}"

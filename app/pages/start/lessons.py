@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 OTHERS = "Other lessons"
 """Title of those that are not in the order of learning: a lecturer's own."""
+EXPLORATIONS = "With two minutes to spend"
+"""Title of single steps."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +56,8 @@ class LessonsShown:
     by_stage: tuple[LessonPart, ...]
     place: LessonPlace | None
     """``None``: there is nothing left."""
-    first_open: Mapping[str, int]
-    """By the name of a lesson, the step at which it opens."""
+    opens: Mapping[str, tuple[str, int]]
+    """By the name of a card, the lesson and the step that it opens."""
     problems: tuple[str, ...]
     """Of lessons that were skipped."""
 
@@ -112,7 +114,7 @@ class LessonsPresenter(QObject):
     @Slot(str)
     def _open(self, name: str) -> None:
         if self._shown is not None:
-            self.lesson_requested.emit(name, self._shown.first_open[name])
+            self.lesson_requested.emit(*self._shown.opens[name])
 
     @Slot(bool)
     def _choose_order(self, is_by_stage: bool) -> None:
@@ -139,19 +141,27 @@ def shown_lessons(course: "Course", attempts: "tuple[Attempt, ...]") -> LessonsS
     """Return what is shown of a course to a learner with these attempts."""
     from core.stages.declared import stage_of
     from lessons.attempts.lesson_steps import Standing, is_of_lesson, next_place, standings
-    from lessons.course.catalogue import chapters
+    from lessons.course.catalogue import chapters, explorations
 
     lessons = course.lessons
     place = next_place(attempts, course)
-    entries, first_open = {}, {}
+    entries: dict[str, LessonEntry] = {}
+    opens: dict[str, tuple[str, int]] = {}
     for name, lesson in lessons.items():
         done = tuple(each is Standing.DONE for each in standings(attempts, lesson))
         is_next = place is not None and place.lesson is lesson
         entries[name] = LessonEntry(name, lesson.title, lesson.question, lesson.minutes, done, is_next)
-        first_open[name] = done.index(False) if any(done) and not all(done) else 0
+        opens[name] = name, done.index(False) if any(done) and not all(done) else 0
+    tried = []
+    for each in explorations():
+        if each.lesson in lessons:
+            name = f"{each.lesson}/{each.step + 1}"
+            tried.append(name)
+            opens[name] = each.lesson, each.step
+            entries[name] = LessonEntry(name, each.title, f"From “{lessons[each.lesson].title}”.", 2, ())
     titles = chapters()
     listed = {name for names in titles.values() for name in names}
-    titles |= {OTHERS: [name for name in lessons if name not in listed]}
+    titles |= {OTHERS: [name for name in lessons if name not in listed], EXPLORATIONS: tried}
     stages = {
         stage_of(stage).short_title: [lesson.name for lesson in its] for stage, its in course.by_stage.items()
     }
@@ -167,4 +177,4 @@ def shown_lessons(course: "Course", attempts: "tuple[Attempt, ...]") -> LessonsS
     if place is not None:
         is_new = not any(map(is_of_lesson, attempts))
         found = LessonPlace(place.lesson.name, place.lesson.title, place.step, is_new)
-    return LessonsShown(by_learning, by_stage, found, first_open, course.problems)
+    return LessonsShown(by_learning, by_stage, found, opens, course.problems)

@@ -10,11 +10,11 @@ from pytestqt.qtbot import QtBot
 
 from app.files.attempts import attempt_file
 from app.files.lesson_folders import own_folder
-from app.pages.start.lessons import OTHERS
+from app.pages.start.lessons import EXPLORATIONS, OTHERS
 from app.pages.start.page import StartPage
 from app.window.main_window import MainWindow
 from lessons.attempts.lesson_steps import lesson_attempt
-from lessons.course.catalogue import Course
+from lessons.course.catalogue import Course, Exploration
 from lessons.course.lesson_file import Lesson, read_lesson
 from tests.lessons.course.lesson_texts import GOOD
 
@@ -98,6 +98,20 @@ def test_the_lessons_are_listed_by_stage_too_and_fold_away(page: StartPage) -> N
     assert [part.is_open for part in parts] == [False, True]
     page.lesson_list.order_button.click()
     assert [part.part.title for part in page.lesson_list.parts] == [OTHERS]
+
+
+def test_single_steps_open_where_they_surprise(
+    window: MainWindow, page: StartPage, lessons: list[Lesson], monkeypatch: pytest.MonkeyPatch, qtbot: QtBot
+) -> None:
+    tried = (Exploration("Whose is it?", "two", 2),)
+    monkeypatch.setattr("lessons.course.catalogue.explorations", lambda: tried)
+    shown(window, qtbot)
+    part = page.lesson_list.parts[-1]
+    assert (part.button.text(), part.is_open) == (f"{EXPLORATIONS}: 1 surprise", False)
+    assert part.cards[0].accessibleDescription() == "From “Whose row?”. 2 minutes."
+    with qtbot.waitSignal(page.lesson_requested) as asked:
+        part.cards[0].click()
+    assert asked.args == ["two", 2]
 
 
 def test_a_broken_lesson_is_named_and_the_others_are_listed(

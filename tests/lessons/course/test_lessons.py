@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from lessons.course.catalogue import FOLDER, chapters, shipped, with_folders
+from lessons.course.catalogue import FOLDER, chapters, explorations, shipped, with_folders
 from lessons.course.lesson_file import Lesson, read_lesson
 from lessons.course.slides import coverage, slides
 from lessons.course.state import States
@@ -48,6 +48,13 @@ def test_the_next_lesson_is_the_named_one_or_the_next_in_the_list() -> None:
     for lesson, following in zip(lessons, [*lessons[1:], None], strict=True):
         named = lesson.part.next
         assert course.after(lesson) is (course.lessons[named.lesson] if named else following)
+
+
+def test_explorations_are_steps_that_surprise() -> None:
+    assert len(explorations()) == 8
+    for each in explorations():
+        assert 0 <= each.step < len(shipped().named(each.lesson).steps)
+        assert each.title.isprintable()
 
 
 def test_a_good_lesson_holds(tmp_path: Path) -> None:
