@@ -40,14 +40,20 @@ def _bin_account(counts: Mapping[str, int]) -> list[str]:
     return [tested, *(blocks if counts["covered"] + counts["rejected"] else [])]
 
 
+def _place(counts: Mapping[str, int]) -> str:
+    """Return what is covered or not: a pixel, or a sample of one."""
+    return "sample" if counts["samples"] else "pixel"
+
+
 def _raster_account(counts: Mapping[str, int]) -> list[str]:
     ties = [f"{counts['tie']:,} on an edge"] if counts["tie"] else []
+    place = _place(counts)
     if not counts["tested"]:
-        return [f"{counted(counts['covered'], 'pixel')} covered", *ties]
+        return [f"{counted(counts['covered'], place)} covered", *ties]
     untested = counts["covered"] + counts["rejected"] - counts["tested"]
     accepted = [f"{untested:,} accepted without a test"] if untested else []
     return [
-        f"{counted(counts['tested'], 'pixel')} tested",
+        f"{counted(counts['tested'], place)} tested",
         *accepted,
         f"{counts['covered']:,} covered",
         *ties,
@@ -56,7 +62,7 @@ def _raster_account(counts: Mapping[str, int]) -> list[str]:
 
 def _line_account(counts: Mapping[str, int]) -> list[str]:
     ties = [f"{counts['tie']:,} at a tie"] if counts["tie"] else []
-    return [f"{counted(counts['covered'], 'pixel')} drawn", *ties]
+    return [f"{counted(counts['covered'], _place(counts))} drawn", *ties]
 
 
 def _depth_account(counts: Mapping[str, int]) -> list[str]:
@@ -66,7 +72,7 @@ def _depth_account(counts: Mapping[str, int]) -> list[str]:
 
 def _rows_account(noun: str, done: str) -> Account:
     """Return the account of a stage that does one thing to every row."""
-    return lambda counts: [f"{counted(counts['rows'], noun)} {done}"]
+    return lambda counts: [f"{counted(counts['rows'], _place(counts) if noun == 'pixel' else noun)} {done}"]
 
 
 LINE_CARD = {
@@ -148,7 +154,8 @@ def summary_sentence(
     Parameters
     ----------
     counts : mapping
-        ``rows``, pixels ``tested`` and the marks among them, as ``StageTrace.summary`` counts them.
+        ``rows``, pixels ``tested``, the marks among them and whether they are ``samples``, as ``StageTrace.summary``
+        counts them.
     triangle : int, optional
         The triangle that all rows are about; ``None`` or -1: several, or none.
     corner_count : int, optional
@@ -156,7 +163,7 @@ def summary_sentence(
     method : str, optional
         The method that ran, as ``fill=hierarchy``: what a group of rows is, and what is done to a pixel.
     """
-    known = {name: counts.get(name, 0) for name in ("rows", "tested", *MARKS)}
+    known = {name: counts.get(name, 0) for name in ("rows", "tested", "samples", *MARKS)}
     family, _, name = method.partition("=")
     account_of, group = ACCOUNTS[stage], stage_of(stage).group
     if family == "line":

@@ -186,10 +186,13 @@ class StageTrace:
         return np.flatnonzero((self.pixel[:, 0] == column) & (self.pixel[:, 1] == row))
 
     def summary(self, first: int, end: int) -> dict[str, int]:
-        """Count the rows from ``first`` to ``end`` (excluded), the pixels ``tested`` in them, and their marks."""
+        """Count the rows from ``first`` to ``end`` (excluded), the pixels ``tested`` in them, and their marks.
+
+        ``samples`` is 1 where the rows are about samples of pixels, else 0.
+        """
         kinds = [k for k, name in enumerate(self.steps.kinds) if _tests_pixel(self.steps.operations[name])]
         tested = int(np.count_nonzero(np.isin(self.steps.kind[first:end], kinds))) if kinds else 0
-        counts = {"rows": end - first, "tested": tested}
+        counts = {"rows": end - first, "tested": tested, "samples": int("sample" in self.columns)}
         for name, flags in self.marks.items():
             counts[name] = int(np.count_nonzero(flags[first:end]))
         return counts
