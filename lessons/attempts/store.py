@@ -16,7 +16,7 @@ from typing import Any
 
 from pydantic import ValidationError
 
-from lessons.attempts.record import COLUMNS, VERSION, Attempt, attempt_row, is_name
+from lessons.attempts.record import COLUMNS, NOT_CHECKED, VERSION, Attempt, attempt_row, is_name
 from lessons.os_errors import os_error_reason
 
 FILE_NAME = "attempts.sqlite"
@@ -46,10 +46,15 @@ TABLE = """CREATE TABLE attempts (
 )"""
 """``at`` as in 2026-11-23T08:00:00.000000Z, so that texts are in the order of time; names of mistakes are separated by
 spaces."""
+_JUDGED = ("stage", "asked", "verdict", "score", "points", "most", "mistakes", "is_slip")
+"""Columns that a judgement fills."""
 _INSERT = (
     f"INSERT INTO attempts ({', '.join(COLUMNS)}) VALUES ({', '.join('?' * len(COLUMNS))}) "
-    "ON CONFLICT (user, at, template, version, seed, answer) DO NOTHING"
+    "ON CONFLICT (user, at, template, version, seed, answer) DO UPDATE SET "
+    f"{', '.join(f'{name} = excluded.{name}' for name in _JUDGED)} "
+    f"WHERE attempts.verdict LIKE '{NOT_CHECKED}%' AND excluded.verdict NOT LIKE '{NOT_CHECKED}%'"
 )
+"""What is there stays, but for an attempt that could not be checked when it came and now is."""
 _REASONS = {
     sqlite3.SQLITE_FULL: "the disk is full",
     sqlite3.SQLITE_BUSY: "another window is writing to it",
@@ -111,7 +116,7 @@ class AttemptFile:
             return told
 
     def add_all(self, attempts: Iterable[Attempt]) -> int:
-        """Save attempts, all or none, and return how many were not there before; errors as `add`."""
+        """Save attempts, all or none; errors as `add`. Returns how many were not there, or not checked, before."""
         with self._alone():
             if not self.path.exists():
                 self._checked()

@@ -11,6 +11,9 @@ def scene_digest(scene: AnyScene) -> str:
     """Return a text that two scenes have in common which show the same shapes, whatever their rasters and colours."""
     if isinstance(scene, ClipScene):
         parts = [scene.kind, scene.clip, scene.rings, scene.clip_region]
+        if scene.table is not None:
+            # A table's fragments have a place; their depths are in the table.
+            parts += [scene.table.depths, scene.table.test]
     else:
         parts = [*vars(scene.camera).values(), *(mesh.positions for mesh in scene.meshes)]
     digest = sha256()

@@ -1,6 +1,7 @@
 """Attempts of another file are judged again where that is possible, and marked where it is not."""
 
 from datetime import UTC, datetime, timedelta
+from pathlib import Path
 from typing import get_args
 
 import pytest
@@ -8,6 +9,7 @@ import pytest
 from lessons.attempts.imports import judged_again, responses_of
 from lessons.attempts.practice import progress
 from lessons.attempts.record import Attempt, attempt_of
+from lessons.attempts.store import FILE_NAME, AttemptFile
 from lessons.exercises.answer_parts import AnswerPart
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.draws import Draws
@@ -82,3 +84,17 @@ def test_what_cannot_be_judged_is_kept_and_marked(changes: dict[str, object]) ->
     reached = progress([made("facing", 1), kept])
     assert reached.points_text == f"{reached.points:.3g} points, {given.most:.3g} of them not checked"
     assert judged_again([kept], TEMPLATES, NOW).attempts == (kept,)
+
+
+def test_an_attempt_kept_unchecked_is_judged_by_a_later_import(tmp_path: Path) -> None:
+    wrong = made(mistake="y-down")
+    sent = wrong.model_copy(update={"score": 1.0, "points": 4.0, "mistakes": ()})
+    file = AttemptFile(tmp_path / FILE_NAME)
+    assert file.add_all(judged_again([sent], {}, NOW).attempts) == 1
+    (kept,) = file.attempts()
+    assert not kept.is_checked
+    # The exercise is known by now; what has been judged is never overwritten.
+    assert file.add_all(judged_again([sent], TEMPLATES, NOW).attempts) == 1
+    assert file.attempts() == (wrong,)
+    assert file.add_all(judged_again([sent], {}, NOW).attempts) == 0
+    assert file.attempts() == (wrong,)

@@ -1,0 +1,26 @@
+"""Two scenes have one digest where they show the same shapes, and only there."""
+
+from dataclasses import replace
+
+from lessons.depth_tables import equal_depths, two_triangles, two_triangles_turned
+from lessons.exercises.scene_digest import scene_digest
+from lessons.scenes import make_scene
+from lessons.slides.scenes import ALL_SCENES
+
+
+def test_tables_of_other_depths_are_other_scenes() -> None:
+    digests = [scene_digest(make()) for make in (equal_depths, two_triangles, two_triangles_turned)]
+    assert len(set(digests)) == 3
+    table = two_triangles().table
+    assert table is not None
+    other = replace(two_triangles(), table=replace(table, test="less-equal"))
+    assert scene_digest(other) != digests[1]
+    assert scene_digest(two_triangles()) == digests[1]
+
+
+def test_every_scene_has_its_own_digest() -> None:
+    small = [name for name in ALL_SCENES if name not in ("teapot", "sphere", "torus", "knot")]
+    digests = [scene_digest(ALL_SCENES[name].make()) for name in small]
+    assert len(set(digests)) == len(digests)
+    scene = make_scene("shared-edge")
+    assert scene_digest(replace(scene, size=(32, 24))) == scene_digest(scene)
