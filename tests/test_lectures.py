@@ -9,12 +9,13 @@ from app.files.open_any import open_any
 from core.methods import table
 from core.settings import families, no_effect, settings_from_texts
 from core.stages.declared import STAGES
+from lessons.course.catalogue import shipped
 from lessons.printed.catalogue import PRINTED
 from lessons.slides.scenes import ALL_SCENES
 
 ROOT = Path(__file__).parents[1]
 TEXT = (ROOT / "docs" / "lectures.md").read_text(encoding="utf-8")
-COLUMNS = ("number", "topic", "lecture", "scene", "stage", "method", "test", "missing")
+COLUMNS = ("number", "topic", "lecture", "scene", "stage", "method", "lesson", "test", "missing")
 NONE = "-"
 ROWS = [
     dict(zip(COLUMNS, (cell.strip() for cell in line.strip("|").split("|")), strict=True))
@@ -26,6 +27,13 @@ ROWS = [
 def names(row, column):
     """Return the names in a cell."""
     return [] if row[column] == NONE else row[column].split(", ")
+
+
+def assert_steps(places):
+    """Fail where a lesson has no such step."""
+    for place in places:
+        name, _, step = place.partition("/")
+        assert 1 <= int(step) <= len(shipped().named(name).steps), place
 
 
 def test_all_48_topics_are_there_and_every_gap_is_named():
@@ -45,6 +53,7 @@ def test_every_name_of_a_row_exists(row):
         family, _, name = method.partition("=")
         assert family in families()
         assert name in table.names(family)
+    assert_steps(names(row, "lesson"))
     for test in names(row, "test"):
         file, _, function = test.partition("::")
         assert (
@@ -71,6 +80,12 @@ def test_every_method_of_a_row_acts_in_a_scene_and_every_scene_has_one_that_acts
 def test_printed_listings_and_scenes_of_the_text_exist():
     shown = set(re.findall(r"`rasterscope slides ([a-z][\w-]*)", TEXT))
     assert shown <= {printed.name for printed in PRINTED}
-    assert {line.split("|")[-2].strip() for line in TEXT.splitlines() if line.endswith("-parallel |")} <= set(
-        ALL_SCENES
-    )
+    slips = [
+        [cell.strip() for cell in line.strip("|").split("|")]
+        for line in TEXT.split("## Where the slides slip")[1].splitlines()
+        if line.startswith("| ") and not line.startswith(("| slide", "| ---"))
+    ]
+    assert len(slips) == 8
+    for *_, seen, lesson in slips:
+        assert seen.startswith("`rasterscope slides ") or seen in ALL_SCENES
+        assert_steps([lesson])
