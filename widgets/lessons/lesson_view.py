@@ -106,9 +106,11 @@ class LessonView(QWidget):
         task.addWidget(self.task, 1)
         result.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
         result.addWidget(self.feedback, 1)
-        checks, ways = FlowLayout(spacing=8), FlowLayout(spacing=8)
+        checks, ways = row_layout(spacing=8), FlowLayout(spacing=8)
         for button in (self.check_button, self.reveal_button):
-            checks.addWidget(button)
+            checks.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
+        # Beside the buttons: what is typed must not move them.
+        checks.addWidget(self.note, 1)
         for widget in (self.back_button, self.next_button, self.return_button, self.dots):
             ways.addWidget(widget)
         column = column_layout(self, 6, margins=(8, 6, 4, 8))
@@ -118,7 +120,6 @@ class LessonView(QWidget):
         column.addLayout(task)
         self._answer_place = column_layout(spacing=4)
         column.addLayout(self._answer_place)
-        column.addWidget(self.note)
         column.addLayout(checks)
         column.addLayout(result)
         column.addLayout(self._links)
@@ -197,6 +198,7 @@ class LessonView(QWidget):
         """Take an answer, or only show what was given."""
         self.check_button.setVisible(is_asking)
         self.reveal_button.setVisible(is_asking)
+        self.note.setVisible(is_asking)
         if self.answer is not None:
             self.answer.set_open(is_asking)
 
@@ -204,7 +206,6 @@ class LessonView(QWidget):
     def show_note(self, text: str) -> None:
         """Say how the answer is understood, or why it is not checked yet."""
         self.note.setText(text)
-        self.note.setVisible(bool(text))
         announce(self, text)
 
     def show_feedback(self, feedback: LessonFeedback | None) -> None:

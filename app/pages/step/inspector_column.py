@@ -60,6 +60,8 @@ class InspectorColumn(QTabWidget):
             self.rows.addWidget(part)
         self.rows.setChildrenCollapsible(False)
         self.rows.setStretchFactor(1, 1)
+        # As high as `fit` says: what the listing would like to have makes nothing scroll.
+        self.rows.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Ignored)
         content = QWidget(self)
         self._parts = column_layout(content, 4)
         for pane in (self.card, self.prediction, self._step_pane):
@@ -162,6 +164,7 @@ class InspectorColumn(QTabWidget):
         ):
             if widget.minimumHeight() != height:
                 widget.setMinimumHeight(height)
+        self.rows.setMinimumHeight(self.rows.minimumSizeHint().height())
         if self.listing.height() > max(code, seen):
             self.rows.setSizes([code, max(self.rows.height() - code - self.rows.handleWidth(), details)])
 
