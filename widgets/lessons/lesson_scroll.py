@@ -1,6 +1,7 @@
 """The room of a lesson's pane: as high as it needs, and where that is too much it scrolls."""
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QScrollArea, QWidget
 
 
@@ -17,6 +18,7 @@ class LessonScroll(QScrollArea):
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
         self._content = content
+        self._kept: QWidget | None = None
         self.setWidget(content)
 
     def height_for(self, width: int) -> int:
@@ -33,6 +35,23 @@ class LessonScroll(QScrollArea):
             policies.ScrollBarAlwaysOff if wanted <= most else policies.ScrollBarAsNeeded
         )
         self.setFixedHeight(min(wanted, most))
+
+    def keep_in_sight(self, widget: QWidget | None) -> None:
+        """Scroll to a part of the content, now and when there is another height; ``None``: to the beginning."""
+        self._kept = widget
+        self._scroll()
+
+    def _scroll(self) -> None:
+        if self._kept is None:
+            self.verticalScrollBar().setValue(0)
+        else:
+            self.ensureWidgetVisible(self._kept)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Keep in sight what is to be read."""
+        super().resizeEvent(event)
+        if self._kept is not None:
+            self._scroll()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Tell that the content has changed."""

@@ -49,6 +49,8 @@ class LessonView(QWidget):
     link_chosen = Signal(str)
     """Address of what is to be opened."""
     answer_changed = Signal()
+    feedback_shown = Signal()
+    """There is something to be read of the task."""
 
     def __init__(self, grid: MarkGrid, parent: QWidget | None = None) -> None:
         """Make an empty pane; ``grid`` is the picture on which answers are marked."""
@@ -217,6 +219,7 @@ class LessonView(QWidget):
             self.feedback.setText("\n".join(feedback.sentences))
             set_role(self.feedback, {True: "good", False: "bad", None: ""}[feedback.is_right])
             announce(self, self.feedback.text())
+            self.feedback_shown.emit()
 
     def show_away(self, is_away: bool) -> None:
         """Offer to return where the learner has left the state of the step."""

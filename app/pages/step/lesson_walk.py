@@ -92,6 +92,8 @@ class LessonWalk(QObject):
         view.step_chosen.connect(self.go)
         view.reveal_requested.connect(self.reveal)
         view.link_chosen.connect(page.link_requested)
+        # Queued: it has its place then.
+        view.feedback_shown.connect(self._show_feedback, Qt.ConnectionType.QueuedConnection)
         self.states.refused.connect(self._refuse)
         self.answers.judged.connect(self._take_judged)
         self.watch.done.connect(self._take_done)
@@ -245,6 +247,7 @@ class LessonWalk(QObject):
         page.tell("")  # What was said of the step before no longer holds.
         self._show(shown, is_hidden=is_hidden)
         page.show_desk_panes((*PANES, *shown.state.panes))
+        self.scroll.keep_in_sight(None)
         form = None if asked is None else asked.question.draft.answer.form
         self.view.show_step(self._record(), form)
         self.view.reveal_button.setText(REVEAL)
@@ -259,6 +262,11 @@ class LessonWalk(QObject):
         self._give_keyboard()
         self._prepare()
         self.place_changed.emit()
+
+    @Slot()
+    def _show_feedback(self) -> None:
+        """Bring what is said of a task into sight, where the pane scrolls."""
+        self.scroll.keep_in_sight(self.view.feedback)
 
     def _give_keyboard(self) -> None:
         """Let the next key answer: a digit would go to a stage else. A clicker's keys are nobody's."""
