@@ -141,7 +141,8 @@ class LessonView(QWidget):
         self.show_note("")
         self.show_feedback(None)
         self.show_standings(record)
-        announce(self, ". ".join(filter(None, (self.spoken_place(), record.lead, record.text, record.task))))
+        parts = filter(None, (self.spoken_place(), record.lead, record.text, record.task))
+        announce(self, " ".join(part if part[-1] in ".?!:" else f"{part}." for part in parts))
         return self.answer
 
     def show_standings(self, record: LessonStepRecord) -> None:

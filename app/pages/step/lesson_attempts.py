@@ -74,7 +74,8 @@ class LessonAttempts(QObject):
         """Keep what became of a step: an answer, or a task that is done, or shown."""
         now = datetime.now(UTC)
         if judged is None:
-            self._add(lesson_attempt(self.user, lesson, number, now, score=score))
+            if number >= 0:  # An exercise that was only looked at is no attempt.
+                self._add(lesson_attempt(self.user, lesson, number, now, score=score))
             return
         question, response, judgement = judged.asked.question, judged.response, judged.outcome.judgement
         if number < 0:

@@ -140,7 +140,7 @@ class LessonPresenter(QObject):
         self.attempts.user = found.progress.user
         if found.progress.trouble:
             page.refuse(found.progress.trouble)
-        page.side.show_lesson(walk.scroll)
+        page.side.show_lesson(walk.task.scroll)
         page.column.show_card(False)
         walk.begin(found.course, found.lesson, found.step, found.progress.standings)
 
@@ -151,7 +151,7 @@ class LessonPresenter(QObject):
 
         self._walk, self.attempts = walk, attempts = LessonWalk(self._page), LessonAttempts(self)
         attempts.failed.connect(self._page.edit_refused)
-        walk.left.connect(self._leave)
+        walk.task.left.connect(self._leave)
         walk.place_changed.connect(self._remember)
         walk.task_ended.connect(self._keep)
         walk.view.close_requested.connect(self.close)
@@ -234,11 +234,11 @@ class LessonPresenter(QObject):
 
     def reveal(self) -> None:
         """Show what is right."""
-        self._do(lambda walk: walk.reveal())
+        self._do(lambda walk: walk.task.reveal())
 
     def advance(self) -> None:
         """Go on in front of a class: show the answer of an open question first."""
-        self._do(lambda walk: walk.reveal() if walk.answers.is_open else walk.next())
+        self._do(lambda walk: walk.task.reveal() if walk.answers.is_open else walk.next())
 
     def begin_anew(self) -> None:
         """Begin the lesson once more: what was done of it counts no longer."""

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QEvent, Qt
@@ -12,10 +13,12 @@ from PySide6.QtGui import (
     QGuiApplication,
     QTextDocumentFragment,
 )
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.window.main_window import MainWindow
+from tests.lessons.course.lesson_texts import GOOD
 from widgets.basics import accessible
 from widgets.basics.message_bar import MessageKind
 
@@ -172,3 +175,28 @@ def test_a_question_is_announced_after_the_step_it_follows(
     qtbot.waitUntil(lambda: any(text.endswith(page.prediction.question.text()) for _, text in heard))
     page.prediction.choice_buttons[0].click()
     assert page.prediction.verdict.text() in [text for _, text in heard]
+
+
+def test_a_lesson_is_heard_step_by_step(
+    window: MainWindow, qtbot: QtBot, heard: Heard, tmp_path: Path
+) -> None:
+    """The text of a step, the verdict, and that a task is done: quietly, without what stands in the way of it."""
+    path = tmp_path / "heard.toml"
+    path.write_text(GOOD, encoding="utf-8")
+    window.open_path(str(path))
+    lessons = window.page.lessons
+    qtbot.waitUntil(lambda: not lessons.is_working)
+    heard.clear()
+    QTest.keyClick(window, Qt.Key.Key_PageDown)
+    qtbot.waitUntil(lambda: not lessons.is_working)
+    assert ("Polite", "Whose pixel?, step 2 of 4. How many pixels are drawn here? Predict.") in heard
+    assert not any("16" in text for _, text in heard)
+    QTest.keyClicks(QApplication.focusWidget(), "25")
+    QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: ("Polite", "That would be right if each edge counted.") in heard)
+    QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_A, Qt.KeyboardModifier.ControlModifier)
+    QTest.keyClicks(QApplication.focusWidget(), "16")
+    QTest.keyClick(QApplication.focusWidget(), Qt.Key.Key_Return)
+    said = "Right.\nSixteen, and none of them twice. Under the other rule five are."
+    qtbot.waitUntil(lambda: ("Polite", said) in heard)
+    assert window.focusWidget() is window.page.grid

@@ -225,7 +225,7 @@ def test_without_a_refuting_step_the_run_with_the_mistake_stands_beside(
     walk = opened(window, qtbot, tmp_path / "without-step", 1, GOOD.replace('at = "tie"\n', ""))
     for _ in range(2):
         answered(walk, qtbot, 25)
-    walk.reveal()
+    walk.task.reveal()
     assert window.page.current_view() == "compare"
     assert "all edges inclusive" in window.page.compare_view.linked.titles[1].text()
 
@@ -257,12 +257,12 @@ def test_p_reveals_and_stepping_on_leaves_a_seen_step(
 def test_pixels_are_marked_on_the_page_s_picture(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
     walk.go(2)
     settled(window, qtbot)
-    assert window.page.main_view() is walk.grid
+    assert window.page.main_view() is walk.task.grid
     extra = [(column, row) for row in range(5) for column in range(row, 5)]
     said = answered(walk, qtbot, [list(pixel) for pixel in extra])
     assert "5 extra" in said
     assert len(said.splitlines()) == 2  # the mistake by its name
-    assert window.page.main_view() is walk.grid
+    assert window.page.main_view() is walk.task.grid
     walk.next()
     settled(window, qtbot)
     assert window.page.main_view() is window.page.grid
@@ -328,6 +328,30 @@ def test_a_lesson_begun_anew_has_nothing_done(window: MainWindow, qtbot: QtBot, 
     assert settled(window, qtbot).standings[1] is OPEN
 
 
+def test_an_exercise_of_an_earlier_lesson_comes_first(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    text = GOOD.replace("minutes = 5", 'minutes = 5\nrecall = "shared-edge"')
+    walk = opened(window, qtbot, tmp_path, 0, text)
+    assert (walk.number, walk.view.next_button.text()) == (-1, "Begin")
+    assert window.page.main_view() is walk.task.grid
+    assert walk.answers.asked is not None
+    template = walk.answers.asked.question.template
+    before = len(attempt_file().attempts())
+    walk.task.reveal()
+    settled(window, qtbot)
+    assert len(attempt_file().attempts()) == before
+    walk.return_here()
+    settled(window, qtbot)
+    walk.answers.fill(walk.answers.asked.question.draft.answer.reference)
+    walk.answers.check()
+    settled(window, qtbot)
+    assert attempt_file().attempts()[-1].template == template.name
+    walk.next()
+    assert settled(window, qtbot).number == 0
+    assert not window.session.is_predicting
+
+
 # In front of a class, and what is refused.
 
 
@@ -349,6 +373,10 @@ def test_a_clicker_shows_the_answer_first_and_keeps_nothing(
     assert settled(window, qtbot).number == 1
     QTest.keyClick(window, Qt.Key.Key_F5)
     assert settled(window, qtbot).number == 0
+    QTest.keyClick(window, Qt.Key.Key_F5)
+    assert window.overlays.scenes.isVisible()
+    assert window.overlays.scenes.list.item(0).text() == "Lessons"
+    window.overlays.close_top()
     assert kept(walk, window, qtbot) == before
     window.presenter.leave()
     assert walk.view.isVisible()

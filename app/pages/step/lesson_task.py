@@ -1,0 +1,275 @@
+"""One step of a lesson in its pane: what it asks or wants done, what the learner does, and what is shown for it."""
+
+from functools import partial
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, Qt, Signal, Slot
+from PySide6.QtWidgets import QApplication
+
+from app.pages.step.lesson_evidence import has_refuting_step, mistake_of, show_mistake
+from app.pages.step.lesson_question import RIGHT, SHOWN, JudgedAnswer, LessonAnswers
+from app.pages.step.lesson_records import paragraphs
+from app.pages.step.lesson_states import PANES, LessonStates, OpenState, Wanted
+from app.pages.step.lesson_watch import LessonWatch
+from app.session.moment import Change
+from core import STAGES
+from lessons.course.record import StepPart
+from lessons.course.state import States
+from lessons.exercises.scene_digest import scene_digest
+from widgets.basics.focus_order import give_focus, tab_stops
+from widgets.exercises.mark_grid import MarkGrid
+from widgets.lessons.lesson_scroll import LessonScroll
+from widgets.lessons.lesson_view import LessonView
+from widgets.lessons.records import LessonFeedback, LessonStepRecord, Standing
+
+if TYPE_CHECKING:
+    from app.pages.step.page import StepPage
+
+DONE = "Done."
+PEEKED = "You have stepped on. An answer counts as seen now."
+SHOW_ME, REVEAL = "Show me", "Reveal"
+
+
+class LessonTask(QObject):
+    """The pane of a lesson, and the step that is shown in it."""
+
+    standing_changed = Signal(object)
+    """The `Standing` that the step has now, if it had a lower one."""
+    ended = Signal(float, object)
+    """Score of an answer or a task, and the `JudgedAnswer`, or ``None``."""
+    left = Signal()
+    """Something else was opened."""
+
+    def __init__(self, page: "StepPage") -> None:
+        super().__init__(page)
+        self._page, self._session = page, page.session
+        self.grid = MarkGrid(page)
+        self.grid.hide()
+        self.view = LessonView(self.grid, page)
+        self.scroll = LessonScroll(self.view, page)
+        self.states = LessonStates(page)
+        self.answers = LessonAnswers(self.view, self.grid, self)
+        self._watch = LessonWatch(page.session, self)
+        self._part: StepPart | None = None
+        """The step as its file has it; ``None``: what comes before the first one, or the end."""
+        self._number = 0
+        self._made: States | None = None
+        self._home: OpenState | None = None
+        """Where the step began; ``None``: no lesson is open."""
+        self._is_showing = self._has_peeked = self._is_revealed = False
+        self.view.reveal_requested.connect(self.reveal)
+        # Queued: it has its place then.
+        self.view.feedback_shown.connect(self._show_feedback, Qt.ConnectionType.QueuedConnection)
+        self.answers.judged.connect(self._take_judged)
+        self._watch.done.connect(self._take_done)
+        page.grid.view_changed.connect(self.grid.set_view)
+        self._session.changed.connect(self._follow)
+
+    @property
+    def is_working(self) -> bool:
+        """Whether a state is being traced, or an answer or a task is being looked at."""
+        return self.states.is_working or self.answers.is_working or self._watch.is_working
+
+    def stop(self) -> None:
+        """End all work."""
+        for part in (self.states, self.answers, self._watch):
+            part.stop()
+
+    def begin(
+        self,
+        part: StepPart | None,
+        number: int,
+        made: States,
+        shown: OpenState,
+        record: LessonStepRecord,
+        *,
+        is_hidden: bool,
+    ) -> None:
+        """Show a step: its state, its text, and the form of its answer; ``is_hidden``: nothing of what comes after."""
+        page, asked = self._page, shown.asked
+        self._part, self._number, self._made, self._home = part, number, made, shown
+        self.answers.end()
+        self._watch.end()
+        self._has_peeked = self._is_revealed = False
+        if page.predicting.is_active:
+            page.set_predicting(False)
+        page.tell("")  # What was said of the step before no longer holds.
+        self._show(shown, is_hidden=is_hidden)
+        page.show_desk_panes((*PANES, *shown.state.panes))
+        self.scroll.keep_in_sight(None)
+        self.view.show_step(record, None if asked is None else asked.question.draft.answer.form)
+        self.view.reveal_button.setText(REVEAL)
+        page.side.let_inspector_give_way(asked is not None and shown.cursor.position == 0)
+        if asked is not None:
+            self.answers.begin(asked)
+        page.main_area.show_asked(self.grid if asked is not None and asked.is_on_picture else None)
+        if part is not None and part.until is not None:
+            self._watch.begin(part.until)
+        elif part is not None and asked is None:
+            self.standing_changed.emit(Standing.DONE)
+        self._give_keyboard()
+
+    def end(self) -> None:
+        """Ask nothing and hide nothing any more; what is open stays."""
+        self._home = self._part = None
+        self.states.forget()
+        self.answers.end()
+        self._watch.end()
+        self._page.main_area.show_asked(None)
+        self._session.set_asked("", is_open=False, by="lesson")
+        self._session.set_predicting(False)
+
+    # Showing.
+
+    def _show(self, shown: OpenState, *, is_hidden: bool) -> None:
+        """Show a state, as the lesson's own doing."""
+        self._is_showing = True
+        digest = scene_digest(shown.document.scene) if is_hidden else ""
+        self._session.set_asked(digest, is_open=is_hidden, by="lesson")
+        self.states.show(shown, is_hidden=is_hidden)
+        self._is_showing = False
+        self._show_away()
+
+    @Slot()
+    def _show_feedback(self) -> None:
+        """Bring what is said of a task into sight, where the pane scrolls."""
+        self.scroll.keep_in_sight(self.view.feedback)
+
+    def _give_keyboard(self) -> None:
+        """Let the next key answer: a digit would go to a stage else. A clicker's keys are nobody's."""
+        page, focused = self._page, QApplication.focusWidget()
+        if page.is_presenting or not page.isVisible():
+            return
+        home = self._home
+        if home is not None and home.asked is not None and self.answers.is_open:
+            stops = [self.grid] if home.asked.is_on_picture else tab_stops([self.view])
+            by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
+            reason = Qt.FocusReason.MouseFocusReason if by_mouse else Qt.FocusReason.TabFocusReason
+            inside = [stop for stop in stops if stop is self.grid or self.view.is_of_answer(stop)]
+            if inside:
+                give_focus(inside[0], reason)
+        elif focused is None or focused is self.grid or self.view.is_of_answer(focused):
+            page.take_focus()
+
+    def _show_away(self) -> None:
+        """Say whether the learner has left where the step began."""
+        home, session = self._home, self._session
+        is_there = home is not None and session.document is home.document and session.cursor == home.cursor
+        self.view.show_away(not is_there)
+
+    # What the learner does.
+
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        """Follow what is done outside of the pane."""
+        if self._home is None or self._is_showing:
+            return
+        if Change.OPENED in what and Change.RETURNED not in what:
+            self.left.emit()
+            return
+        if self.answers.is_open and not self._session.is_predicting and not self._is_revealed:
+            self._show_right()
+        elif self.answers.is_open and Change.CURSOR in what and self._is_ahead() and not self._has_peeked:
+            self._has_peeked = True
+            self._page.tell(PEEKED)
+        self._show_away()
+
+    def _is_ahead(self) -> bool:
+        """Return whether the cursor has gone beyond where the question is asked."""
+        assert self._home is not None
+        here, there = self._session.cursor, self._home.cursor
+        places = [(STAGES.index(cursor.stage), cursor.position) for cursor in (here, there)]
+        return places[0] > places[1]
+
+    @Slot(object)
+    def _take_judged(self, judged: JudgedAnswer) -> None:
+        """Go on after an answer."""
+        is_right, is_first = judged.outcome.is_right, not (self._has_peeked or self._is_revealed)
+        if is_right:
+            self.standing_changed.emit(Standing.DONE if is_first else Standing.SEEN)
+            self._conclude(RIGHT, is_right=True)
+        elif self._has_evidence():
+            self.view.reveal_button.setText(SHOW_ME)
+        self.ended.emit(float(is_right and is_first), judged)
+
+    @Slot()
+    def _take_done(self) -> None:
+        """Say at once that a task is done."""
+        self.standing_changed.emit(Standing.DONE)
+        step = self._part
+        after = () if step is None or step.after is None else (paragraphs(step.after),)
+        self.view.show_feedback(LessonFeedback((DONE, *after), is_right=True))
+        self.ended.emit(1.0, None)
+
+    def _has_evidence(self) -> bool:
+        """Return whether the step or the run that refutes the last answer is offered."""
+        judged, step = self.answers.last, self._part
+        if judged is None or step is None or self._is_revealed or not self.answers.is_evidence_wanted:
+            return False
+        return has_refuting_step(judged, step) or bool(mistake_of(judged))
+
+    @Slot()
+    def reveal(self) -> None:
+        """Show what refutes the last answer, where that is offered, or else what is right."""
+        if self._has_evidence():
+            self._is_revealed = True
+            self.standing_changed.emit(Standing.SEEN)
+            self.view.reveal_button.setText(REVEAL)
+            self._refute()
+        elif self.answers.is_open:
+            self._show_right()
+
+    def _refute(self) -> None:
+        judged, step, states, home = self.answers.last, self._part, self._made, self._home
+        assert judged is not None
+        assert step is not None
+        assert states is not None
+        assert home is not None
+        if has_refuting_step(judged, step):
+            self.states.want(
+                partial(_refuting, states, self._number, judged.outcome.wrong), self._show_revealed
+            )
+        else:
+            self._show_revealed(home)
+            show_mistake(self._page, home.state, mistake_of(judged))
+
+    def _show_right(self) -> None:
+        """Show what is right: the step is seen, not done."""
+        self.answers.show_right()
+        self.standing_changed.emit(Standing.SEEN)
+        self._conclude(SHOWN, is_right=None)
+        self.ended.emit(0.0, None)
+
+    def _conclude(self, said: str, is_right: bool | None) -> None:
+        """Show what comes after the answer."""
+        step, asked, states, home = self._part, self.answers.asked, self._made, self._home
+        assert asked is not None
+        assert home is not None
+        after = paragraphs(asked.question.draft.reveal)
+        self.view.show_feedback(LessonFeedback((said, *filter(None, [after])), is_right=is_right))
+        self._give_keyboard()
+        if step is not None and step.reveal is not None and states is not None:
+            self.states.want(partial(_revealed, states, self._number), self._show_revealed)
+        elif step is not None:
+            self._show_revealed(home, keeps_picture=asked.is_on_picture)
+
+    def _show_revealed(self, shown: OpenState, *, keeps_picture: bool = False) -> None:
+        """Show the state of the answer; marks on a picture stay in sight where there is no other to be seen."""
+        self._page.tell("")
+        self._page.side.let_inspector_give_way(False)
+        self._show(shown, is_hidden=False)
+        if not keeps_picture:
+            self._page.main_area.show_asked(None)
+
+
+def _revealed(states: States, number: int) -> Wanted:
+    state = states.of_reveal(number)
+    assert state is not None
+    return state, None
+
+
+def _refuting(states: States, number: int, wrong: int | None) -> Wanted:
+    assert wrong is not None
+    state = states.of_wrong(number, wrong)
+    assert state is not None
+    return state, None
