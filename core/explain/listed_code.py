@@ -9,6 +9,7 @@ from core.explain.digits import number_latex, signed_latex
 from core.explain.equation import Part, fraction
 from core.explain.step_values import StepValues
 from core.explain.variable_text import held_values
+from core.methods import table
 from core.records.listing import source_listing
 
 BEFORE = r"_{\mathrm{before}}"
@@ -50,6 +51,13 @@ def assigned_name(code: ast.stmt | None) -> str:
 def tested(code: ast.stmt | None) -> ast.Compare | None:
     """Return the comparison that an ``if`` makes."""
     return code.test if isinstance(code, ast.If) and isinstance(code.test, ast.Compare) else None
+
+
+def tested_name(line: str) -> str:
+    """Return what the listing of a line method tests before a step, as ``D`` or ``e + m``; empty: it tests nothing."""
+    function = table.get("line", line).listing
+    found = None if function is None else tested(_code(function, "test"))
+    return "" if found is None else symbols(found.left)
 
 
 def symbols(code: ast.expr) -> str:

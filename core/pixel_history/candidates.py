@@ -8,10 +8,11 @@ import numpy as np
 from core.antialiasing.sample_rasters import at_sample, finer_scene, finer_settings, in_squares
 from core.methods import table
 from core.raster.binning import bound
-from core.raster.coverage import Fragments, PixelTests, examine_pixels, join_fragments
+from core.raster.coverage import Fragments, PixelTests, examine_pixels
 from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
 from core.raster.edges.snapping import place_corners
-from core.raster.lines.wireframe import Outlines, draw_outlines
+from core.raster.lines.records import LineSteps
+from core.raster.lines.wireframe import LineFragments, Outlines, draw_outlines, join_batches
 from core.raster.number_formats.number_format import CornerPositions
 from core.raster.pixel_runs import PROJECTED, Boxes, Raster, Runs, make_raster
 from core.raster.polygon_fills.active_edges import fill_rings
@@ -184,19 +185,22 @@ class PixelCandidates:
     @cached_property
     def fragments(self) -> Fragments:
         """(F,) fragments at this pixel in drawing order, as the picture makes them; a wireframe's are lines."""
-        outlines = self.geometry.outlines
-        if outlines is not None:
-            near = np.flatnonzero(np.isin(outlines.primitive, self.primitive))
-            drawn = [
-                found
-                for found, _ in draw_outlines(take_outlines(outlines, near), self.raster, self.settings.line)
-            ]
-            found = join_fragments(drawn)
-            segment = near[found.segment]
-            return replace(found, primitive=outlines.primitive[segment], segment=segment)
+        if self.geometry.outlines is not None:
+            return self.lines[0]
         tests = self.pixel_tests
         primitive = self.primitive[tests.primitive[tests.covered]]
         return Fragments(primitive, *self._here(len(primitive)))
+
+    @cached_property
+    def lines(self) -> tuple[LineFragments, LineSteps]:
+        """The fragments of a wireframe at this pixel, and the numbers that chose them."""
+        outlines = self.geometry.outlines
+        assert outlines is not None
+        near = np.flatnonzero(np.isin(outlines.primitive, self.primitive))
+        taken = take_outlines(outlines, near)
+        found, steps = join_batches(list(draw_outlines(taken, self.raster, self.settings.line)))
+        segment = near[found.segment]
+        return replace(found, primitive=outlines.primitive[segment], segment=segment), steps
 
     @cached_property
     def covering(self) -> Integers:

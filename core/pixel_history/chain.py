@@ -10,7 +10,6 @@ from core.pixel_history.candidates import EdgeTests, PixelCandidates, examine_ed
 from core.pixel_history.records import Link
 from core.raster.edges.edge_functions import EdgeFunctions
 from core.raster.edges.snapping import SUBPIXELS, place_corners
-from core.raster.lines.wireframe import LineFragments
 from core.raster.pixel_runs import INSIDE, MIXED, OUTSIDE, Boxes
 from core.raster.polygon_fills.active_edges import edge_table, find_crossings
 from core.records.arrays import Floats, Integers
@@ -242,14 +241,20 @@ def polygon_link(candidates: PixelCandidates, rings: Rings, k: int) -> Link:
 
 def outline_link(candidates: PixelCandidates, place: int) -> Link:
     """Return which edge the fragment ``place`` lies on, and how far its centre is from the exact line."""
-    fragments, outlines = candidates.fragments, candidates.geometry.outlines
-    assert isinstance(fragments, LineFragments)
+    (fragments, steps), outlines = candidates.lines, candidates.geometry.outlines
     assert outlines is not None
     segment = int(fragments.segment[place])
     away = float(distance_to_segments(outlines.window[segment : segment + 1], *candidates.center)[0])
-    return Link(
-        "raster", "on-outline", {"edge": int(outlines.edge[segment]), "distance": away, "segment": segment}
-    )
+    values = {
+        "edge": int(outlines.edge[segment]),
+        "distance": away,
+        "segment": segment,
+        "line": candidates.settings.line,
+        "is_point": candidates.scene.corner_count == 1,
+        "decision": float(steps.decision[place]),
+        "has_stepped": bool(steps.has_stepped[place]),
+    }
+    return Link("raster", "on-outline", values)
 
 
 def missed_outline(candidates: PixelCandidates, k: int, values: dict[str, Any]) -> Link:

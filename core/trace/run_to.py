@@ -67,11 +67,25 @@ def next_marked(trace: StageTrace, position: int, mark: str, direction: int = FO
 
 
 def next_at_pixel(
-    trace: StageTrace, position: int, column: int, row: int, direction: int = FORWARD
+    trace: StageTrace,
+    position: int,
+    column: int,
+    row: int,
+    direction: int = FORWARD,
+    *,
+    by_operation: bool = False,
 ) -> int | None:
-    """Return the position of the next row that is about one pixel."""
+    """Return the position of the next row that is about one pixel, or with ``by_operation`` of the next operation."""
     events = (trace.pixel[:, 0] == column) & (trace.pixel[:, 1] == row)
-    return next_event(trace, position, events, direction)
+    reached = next_event(trace, position, events, direction)
+    if not by_operation:
+        return reached
+    # Forwards the first operation beyond ``position`` of the row that ends next, backwards the last one before it.
+    steps, current = trace.steps, trace.steps.row_at(position + (direction == FORWARD))[0]
+    if direction == FORWARD:
+        return None if reached is None else max(position, int(steps.starts[steps.row_at(reached)[0]])) + 1
+    first = int(steps.starts[current]) if current >= 0 else 0
+    return position - 1 if current >= 0 and events[current] and position - 1 > first else reached
 
 
 def named_position(trace: StageTrace, at: str) -> int:

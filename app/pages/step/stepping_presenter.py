@@ -251,7 +251,10 @@ class SteppingPresenter(QObject):
             return
         if self._is_hidden(direction):
             return
-        reached = next_at_pixel(self._session.stage_trace, self._session.cursor.position, *pin, direction)
+        cursor, is_by_operation = self._session.cursor, self._session.cursor.level == Level.OPERATION
+        reached = next_at_pixel(
+            self._session.stage_trace, cursor.position, *pin, direction, by_operation=is_by_operation
+        )
         self._go_on(reached, direction, f"at pixel ({pin[0]}, {pin[1]})")
 
     def run_to_event(self, direction: int) -> None:

@@ -4,9 +4,10 @@ Every key has one sentence in a table; a number goes through the same text rules
 """
 
 from collections.abc import Callable, Mapping
-from math import isfinite
+from math import isfinite, isnan
 from typing import Any
 
+from core.explain.listed_code import tested_name
 from core.explain.number_text import exact_text, pair_text, steps_apart
 from core.explain.subjects.edges import tie_reason
 from core.pixel_history.records import Link, PixelEvent, PixelHistory
@@ -221,6 +222,15 @@ def _compared(values: Values, verdict: str) -> str:
     return f"{new} {verdict} {holder} ({old}){f', {apart}' if apart else ''}"
 
 
+def _chosen_by(values: Values) -> str:
+    """Return the number that chose a pixel of a line, where the listing tests one, as the end of a sentence."""
+    name = "" if values["is_point"] else tested_name(values["line"])
+    if not name or isnan(values["decision"]):
+        return ""
+    way = "diagonal" if values["has_stepped"] else "straight"
+    return f"; {name} = {exact_text(values['decision'])} chose the {way} step to it"
+
+
 def _against(values: Values) -> str:
     holder = "the cleared depth" if values["against"] < 0 else f"triangle {values['against']}"
     return f"{holder} ({exact_text(values['before'])})"
@@ -334,7 +344,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ),
     ("raster", "clipped-polygon"): "clipped away: nothing of it lies in the clip window",
     ("raster", "on-outline"): lambda v: (
-        f"drawn for edge {v['edge']}: the pixel centre is {_pixels(v['distance'])} from the exact line"
+        f"drawn for edge {v['edge']}: the pixel centre is {_pixels(v['distance'])} from the exact line{_chosen_by(v)}"
     ),
     ("raster", "off-outline"): lambda v: (
         f"not on its outline: the pixel centre is {_pixels(v['distance'])} from edge {v['edge']}, the nearest"

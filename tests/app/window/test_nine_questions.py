@@ -30,8 +30,8 @@ QUESTIONS: dict[str, tuple[Script, list[str]]] = {
         ],
     ),
     "Bresenham's decision at column 6": (
-        [("open", "Segment"), (CLICKED, 6, 3), ("press", "J"), ("click", "Step by pixel")],
-        ["D is −10, below 0, so y stays. Pixel (6, 3) is drawn: "],
+        [("open", "Segment"), (CLICKED, 6, 3), ("press", "J")],
+        ["D is −10, below 0, so y stays."],
     ),
     "affine against perspective at one pixel": (
         [("open", "Attributes in perspective"), ("click_tab", "A | B")],

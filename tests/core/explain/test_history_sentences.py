@@ -21,6 +21,7 @@ from core.methods import table
 from core.pixel_history import Link, PixelHistory, why
 from core.settings import families
 from core.trace.source import TraceSource
+from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 
 SIZE = (16, 12)
@@ -190,3 +191,18 @@ def test_a_pixel_on_an_edge_says_who_owns_it_and_why_with_every_fill(fill: str, 
     history = ask(window_scene([(3.5, 0.5), (7.5, 0.5), (3.5, 6.5)]), 3, 1, fill=fill, fill_rule=rule)
     said = " ".join(map(event_reason, history.events))
     assert f"exactly on edge 1, which the triangle owns because {why}" in said
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("bresenham", "D = 4 chose the diagonal step to it"),
+        ("bresenham-float", "e + m = 0.75 chose the diagonal step to it"),
+        ("midpoint", ""),
+    ],
+)
+def test_a_pixel_of_a_line_says_what_chose_it(line: str, said: str) -> None:
+    history = why(TraceSource(make_scene("segment"), Settings(line=line)), 3, 2)
+    text = " ".join(map(event_reason, history.events))
+    assert said in text
+    assert bool(said) == ("step to it" in text)

@@ -9,6 +9,7 @@ from core import Settings, trace
 from core.trace.conditions import TEXT_LIMIT, parse_condition, variable_names
 from core.trace.run_to import BACK, FORWARD, named_position, next_at_pixel, next_event, next_marked
 from core.trace.stage_trace import MARKS
+from lessons.scenes import make_scene
 from tests.core.trace.trace_cases import SCENES
 
 TRACED = trace(SCENES["clip"], Settings(fill="blocks", block_size=4))
@@ -208,3 +209,20 @@ def test_any_text_is_a_condition_or_one_sentence(text):
         assert len(told) < 700
     else:
         assert holds.shape == (RASTER.steps.row_count,)
+
+
+def test_every_operation_at_a_pixel_is_reached_there_and_back() -> None:
+    found = trace(make_scene("segment")).stage("raster")
+    steps = found.steps
+    for column, line in found.pixel[[0, 3, -1]].tolist():
+        rows = np.flatnonzero((found.pixel == (column, line)).all(axis=1))
+        wanted = [
+            p for row in rows for p in range(int(steps.starts[row]) + 1, int(steps.starts[row + 1]) + 1)
+        ]
+        for direction, order in ((FORWARD, wanted), (BACK, wanted[::-1])):
+            position, reached = 0 if direction == FORWARD else steps.count + 1, []
+            while (
+                place := next_at_pixel(found, position, column, line, direction, by_operation=True)
+            ) is not None:
+                reached.append(position := place)
+            assert reached == order
