@@ -186,6 +186,11 @@ def evaluate(node: ast.expr, names: Names) -> Any:
         case ast.BoolOp(op=op, values=parts):
             found = [_flags(part, names) for part in parts]
             return np.logical_and.reduce(found) if isinstance(op, ast.And) else np.logical_or.reduce(found)
+        case (
+            ast.Compare(left=ast.Name(id="kind"), ops=[op], comparators=[ast.Constant(value=str(kind))])
+            | ast.Compare(left=ast.Constant(value=str(kind)), ops=[op], comparators=[ast.Name(id="kind")])
+        ) if isinstance(op, ast.Eq | ast.NotEq):
+            return _of_kind(kind, trace) ^ isinstance(op, ast.NotEq)
         case ast.Compare(left=left, ops=ops, comparators=others):
             values = [evaluate(part, names) for part in (left, *others)]
             pairs = zip(values, ops, values[1:], strict=False)
@@ -194,6 +199,17 @@ def evaluate(node: ast.expr, names: Names) -> Any:
             chosen = {str(each.arg): spelled(each.value) for each in keywords}
             return np.asarray(names.call(name, parts, chosen))
     raise ValueError(f"{_WANTED}; {ast.unparse(node)} is neither")
+
+
+def _of_kind(kind: str, trace: StageTrace) -> Flags:
+    """Return the rows of a kind; those of a line's pixels include the ones to which it steps, and those beside."""
+    kinds = trace.steps.kinds
+    numbers = [
+        number for number, name in enumerate(kinds) if name in {kind, f"{kind}-step", f"{kind}-beside"}
+    ]
+    if not numbers:
+        raise ValueError(f"the stage {trace.stage} has no rows of the kind {kind}; it has {', '.join(kinds)}")
+    return np.isin(trace.steps.kind, numbers)
 
 
 def _compare(first: Any, op: ast.cmpop, second: Any) -> Any:

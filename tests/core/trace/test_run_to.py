@@ -226,3 +226,14 @@ def test_every_operation_at_a_pixel_is_reached_there_and_back() -> None:
             ) is not None:
                 reached.append(position := place)
             assert reached == order
+
+
+def test_a_kind_of_line_pixels_holds_where_the_line_steps_and_an_unknown_kind_is_refused() -> None:
+    found = trace(make_scene("segment")).stage("raster")
+    kinds = [found.kind_of(row) for row in range(found.steps.row_count)]
+    assert set(kinds) == {"bresenham-start", "bresenham", "bresenham-step"}
+    for text in ("kind == 'bresenham'", "'bresenham' == kind", "not (kind != 'bresenham')"):
+        assert parse_condition(text).holds(found).tolist() == [kind != "bresenham-start" for kind in kinds]
+    assert parse_condition("kind == 'bresenham-step'").holds(found).sum() == kinds.count("bresenham-step")
+    with pytest.raises(ValueError, match=r"no rows of the kind line; it has .*bresenham-start"):
+        parse_condition("kind == 'line' and covered").holds(found)
