@@ -23,6 +23,8 @@ class Draws:
             raise ValueError(f"seed must be a whole number from 0 to {SEED_LIMIT}, got {seed!r}")
         self.seed = seed
         self._random = Random(seed)
+        self.vain_searches = 0
+        """How many long searches for a question have found none with these draws."""
 
     def fraction(self) -> float:
         """Draw a float from 0 to below 1."""

@@ -439,3 +439,17 @@ def test_corners_have_depth_w_values_and_alpha_and_the_scene_a_background(tmp_pa
 def test_draws_with_nothing_to_mark_are_drawn_again(tmp_path: Path) -> None:
     template = read_exercise(written(tmp_path, FAR))
     assert all(ask(template, seed).draft.answer.reference for seed in range(20))
+
+
+def test_a_method_that_never_breaks_is_refused_after_few_searches(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("lessons.exercises.file_answers.SEARCH_LIMIT", 5)
+    never = BREAK.replace('fill_rule = "inclusive"', 'fill = "scanline"')
+    text = DRAWN.replace('type = "pixels"\n', never).replace(
+        'mistakes = ["corner-for-center", "all-edges-inclusive"]\n', ""
+    )
+    with pytest.raises(
+        ValueError, match="no place of 5 makes the weak method alone fail, in each of 3 scenes"
+    ):
+        read_exercise(written(tmp_path, text))
