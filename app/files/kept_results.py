@@ -20,6 +20,8 @@ LARGEST = 4 << 20
 LARGEST_TOGETHER = 32 << 20
 """Bytes of all files of the folder."""
 ENDING = ".json"
+EXAMPLES = Path(__file__).resolve().parents[1] / "examples"
+"""A result of each kind, which this program made on another computer: shown where there is none of the user's own."""
 _turn = Lock()
 """Two pages write to one folder, and look together at how much there is in it."""
 
@@ -34,6 +36,8 @@ class KeptResults(JobGroup):
 
     found = Signal(object)
     """A result of an earlier start."""
+    example_found = Signal(object)
+    """The example, where nothing was kept."""
     failed = Signal(str)
     """Why something cannot be kept or read again, as a sentence."""
 
@@ -43,7 +47,7 @@ class KeptResults(JobGroup):
         self._kind, self._load = kind, load
         self._has_begun = False
         self._reading, self._writing = (self.add_job((OSError, ValueError)) for _ in range(2))
-        self._reading.part_done.connect(self.found)
+        self._reading.part_done.connect(self._take)
         self._reading.succeeded.connect(self._tell_unread)
         for job in (self._reading, self._writing):
             job.failed.connect(self._tell)
@@ -56,16 +60,24 @@ class KeptResults(JobGroup):
             progress: Progress, is_cancelled: Callable[[], bool], part_done: Callable[[Any], None]
         ) -> tuple[str, ...]:
             unread = []
-            for path in sorted(results_folder().glob(f"{self._kind}-*{ENDING}")):
+            paths = sorted(results_folder().glob(f"{self._kind}-*{ENDING}"))
+            if not paths:
+                part_done((self._load(EXAMPLES / f"{self._kind}{ENDING}"), True))
+            for path in paths:
                 if is_cancelled():
                     break
                 try:
-                    part_done(self._load(path))
+                    part_done((self._load(path), False))
                 except ValueError as problem:
                     unread.append(str(problem))
             return tuple(unread)
 
         self._reading.start_in_parts(work)
+
+    @Slot(object)
+    def _take(self, read: tuple[Any, bool]) -> None:
+        content, is_example = read
+        (self.example_found if is_example else self.found).emit(content)
 
     def keep(self, name: str, content: Callable[[], bytes | None]) -> None:
         """Replace the last result of this ``name``."""

@@ -191,6 +191,7 @@ class ResultPage(WorkPage):
         """Connect the presenters with the page and its files."""
         self.join(jobs, results, opened)
         self.kept.found.connect(results.take_kept)
+        self.kept.example_found.connect(results.take_example)
         results.result_taken.connect(self._keep)
         results.shown_text_changed.connect(self.shown_text.setText)
         results.shown_text_changed.connect(self._show_place)

@@ -1,7 +1,7 @@
 """Long work of several kinds, in a list: the choices and results of all are kept, those of one are shown."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Generic, Protocol, TypeVar
 
 from PySide6.QtCore import Signal, Slot
@@ -33,6 +33,10 @@ class Result(Protocol):
     @property
     def is_kept(self) -> bool:
         """Whether it is of an earlier start of the window."""
+
+    @property
+    def is_example(self) -> bool:
+        """Whether it came with the program."""
 
 
 class Choice(Protocol):
@@ -186,7 +190,11 @@ class ResultPresenter(BackgroundTask, Generic[ChoiceType]):
         if result is None:
             return ""
         parts = self._result_texts()
-        if result.is_kept:
+        if result.is_example:
+            parts.append(
+                "An example that came with the program, made on another computer: F5 makes your own."
+            )
+        elif result.is_kept:
             parts.append("Kept from an earlier start.")
         if self.choice.can_run and self.choice.is_changed:
             parts.append(f"The settings have changed since: {self._run_words.again}.")
@@ -245,7 +253,14 @@ class ResultPresenter(BackgroundTask, Generic[ChoiceType]):
     @Slot(object)
     def take_kept(self, content: Any) -> None:
         """Show what was kept from an earlier start, unless there is a newer result."""
-        result = self._result_of(content, is_kept=True)
+        self._take_earlier(self._result_of(content, is_kept=True))
+
+    @Slot(object)
+    def take_example(self, content: Any) -> None:
+        """Show the example that came with the program, unless there is a result."""
+        self._take_earlier(replace(self._result_of(content, is_kept=True), is_example=True))
+
+    def _take_earlier(self, result: Any) -> None:
         choice = self._choices.get(result.name)
         if choice is not None and choice.result is None and self._running != result.name:
             choice.take(result)

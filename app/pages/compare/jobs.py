@@ -51,6 +51,8 @@ class StudyResult:
     """The file it was opened from; empty: it was measured here."""
     is_kept: bool = False
     """Whether it is of an earlier start of the window."""
+    is_example: bool = False
+    """Whether it came with the program."""
 
     @property
     def name(self) -> str:

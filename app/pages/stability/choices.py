@@ -22,6 +22,8 @@ class AtlasResult:
     """The file it was opened from; empty: it was run here."""
     is_kept: bool = False
     """Whether it is of an earlier start of the window."""
+    is_example: bool = False
+    """Whether it came with the program."""
 
     @property
     def name(self) -> str:

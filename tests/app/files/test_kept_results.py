@@ -40,6 +40,23 @@ def later(keeping: MainWindow) -> Iterator[MainWindow]:
     made.deleteLater()
 
 
+def test_the_first_visit_shows_an_example_that_says_so(keeping: MainWindow, qtbot: QtBot) -> None:
+    said = "An example that came with the program, made on another computer: F5 makes your own."
+    for name in ("compare", "stability"):
+        keeping.pages.show_page(name)
+        page = keeping.pages.current
+        assert isinstance(page, ComparePage | StabilityPage)
+        qtbot.waitUntil(lambda page=page: page.results.choice.result is not None, timeout=20000)  # type: ignore[misc]
+        assert page.results.choice.result.is_example
+        assert said in page.shown_text.text()
+        assert page.results.choice.result.machine["date"] in page.shown_text.text()
+    compare = compare_page(keeping)
+    compare.results.start()
+    qtbot.waitUntil(lambda: not compare.results.is_running, timeout=60000)
+    assert said not in compare.shown_text.text()
+    assert not compare.results.choice.result.is_example
+
+
 def test_a_study_is_there_again_at_the_next_start(
     keeping: MainWindow, later: MainWindow, qtbot: QtBot
 ) -> None:
