@@ -113,20 +113,19 @@ def _pairs(first: StageTrace, second: StageTrace, level: Level) -> Integers:
 def _listed(first: StageTrace, second: StageTrace, ends: Integers, others_ends: Integers) -> Integers:
     """Return (2, K) the steps of both runs in order, -1 for a run that waits; they end after so many rows."""
     names = [*first.steps.kinds, *second.steps.kinds]
-    rows, others_rows = _matched(*(_row_keys(run, names) for run in (first, second)))
-    mine, others = ends.searchsorted(rows, "right"), others_ends.searchsorted(others_rows, "right")
+    rows = _partners(*(_row_keys(run, names) for run in (first, second)))
+    shared, taken = np.flatnonzero(rows >= 0), np.full(len(others_ends), -1)
     # Of the steps with partners in one step of the other run the last one stands beside it.
-    taken, partner = np.full(len(others_ends), -1), np.full(len(ends), -1)
-    taken[others] = mine
-    partner[taken[taken >= 0]] = np.flatnonzero(taken >= 0)
+    taken[others_ends.searchsorted(rows[shared], "right")] = ends.searchsorted(shared, "right")
+    partner = _inverse(taken, len(ends))
     taken = _inverse(partner, len(taken))
     alone, others_alone = np.flatnonzero(partner < 0), np.flatnonzero(taken < 0)
     ahead = np.append(partner, len(taken))[_next(partner >= 0)]
-    mine, others = _matched(
+    beside = _partners(
         (ahead * SIDES + _sides(first, ends))[alone],
         (_next(taken >= 0) * SIDES + _sides(second, others_ends))[others_alone],
     )
-    partner[alone[mine]] = others_alone[others]
+    partner[alone] = np.append(others_alone, -1)[beside]
     taken = _inverse(partner, len(taken))
     # What is left of the second run comes right before its next step that has a partner.
     left, places = np.flatnonzero(taken < 0), np.arange(len(ends))
@@ -150,21 +149,16 @@ def _row_keys(run: StageTrace, names: list[str]) -> Integers:
     return (sides << 32) + np.where(column >= 0, (row << 16) + column, kind)
 
 
-def _matched(ours: Integers, theirs: Integers) -> tuple[Integers, Integers]:
-    """Return where both have the same key, rising in the first: the first such place beside the first, and so on."""
-    count, keys = len(ours), np.unique(np.append(ours, theirs), return_inverse=True)[1]
-    keys = keys * (len(keys) + 1) + np.append(_occurrence(keys[:count]), _occurrence(keys[count:]))
-    _, mine, others = np.intersect1d(keys[:count], keys[count:], assume_unique=True, return_indices=True)
-    order = np.argsort(mine)
-    return mine[order], others[order]
-
-
-def _occurrence(keys: Integers) -> Integers:
-    """Return how often each key has come before."""
-    order, places = np.argsort(keys, kind="stable"), np.arange(len(keys))
-    is_new = np.diff(keys[order], prepend=-1) != 0
-    found = np.empty_like(places)
-    found[order] = places - np.maximum.accumulate(np.where(is_new, places, 0))
+def _partners(ours: Integers, theirs: Integers) -> Integers:
+    """Return where the other one has the same key: for the first with a key the first, and so on; -1: nowhere."""
+    if np.array_equal(ours, theirs):
+        return np.arange(len(ours))
+    order, others_order = np.argsort(ours, kind="stable"), np.argsort(theirs, kind="stable")
+    keys, others = ours[order], theirs[others_order]
+    place = others.searchsorted(keys) + np.arange(len(keys)) - keys.searchsorted(keys)
+    has = place < others.searchsorted(keys, "right")
+    found = np.full(len(keys), -1)
+    found[order[has]] = others_order[place[has]]
     return found
 
 

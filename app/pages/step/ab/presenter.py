@@ -228,6 +228,7 @@ class ComparePresenter(QObject):
 
         def work() -> Trace:
             """Trace B up to the stage that is shown."""
+            other.check_length()
             trace = other.make_trace(earlier=earlier)
             trace.stage(stage)
             return trace

@@ -58,6 +58,13 @@ def assert_laws(first: StageTrace, second: StageTrace) -> None:
         moves = np.diff(pairs, axis=0)
         assert (moves[:, 0] >= 0).all()
         assert moves.any(axis=1).all(), "something happens in each step"
+        if level > Level.STAGE:
+            together = pairs[1:][moves.all(axis=1)]
+            rows = [
+                stage.steps.starts.searchsorted(places, "left") - 1
+                for places, stage in zip(together.T, (first, second), strict=True)
+            ]
+            assert (first.triangle[rows[0]] == second.triangle[rows[1]]).all()
     mine, theirs = keys(first), keys(second)
     counts = Counter(mine), Counter(theirs)
     seen = Counter[object](), Counter[object]()
