@@ -328,6 +328,7 @@ class ComparePresenter(QObject):
 
     def meet_at(self, pixel: Pixel) -> None:
         """Put both runs at the first step about a pixel in which they differ, or else at the first one about it."""
+        self._search.cancel()
         self._goal = partial(self._meet, pixel)
         self._reach_goal()
 

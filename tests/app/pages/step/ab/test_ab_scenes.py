@@ -102,6 +102,10 @@ def test_a_mistake_in_the_scene_stays_beside_its_scene_only(window: MainWindow, 
     window.page.comparing.show_mistake({}, moved(document).scene, "with the mistake: one corner")
     window.page.show_view("compare")
     qtbot.waitUntil(lambda: not window.page.comparing._search.is_running)
+    window.page.comparing.go_to_divergence()
+    window.page.comparing.meet_at((20, 20))
+    assert not window.page.comparing._search.is_running, "the latest wish holds"
+    assert window.session.moment.pixel == (20, 20)
     titles = window.page.compare_view.titles
     assert titles[0].text().startswith("A: without the mistake")
     assert titles[1].text().startswith("B: with the mistake: one corner")
