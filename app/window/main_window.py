@@ -156,7 +156,8 @@ class MainWindow(ActionWindow):
             self.notices.tell(COVERED)
         else:
             action.do(self)
-        self._show_checks()
+        if action.is_checkable:
+            self._show_checks()
 
     @Slot()
     def _show_checks(self) -> None:
@@ -235,6 +236,8 @@ class MainWindow(ActionWindow):
 
     @Slot(Change)
     def _follow(self, what: Change) -> None:
+        if what & (Change.DOCUMENT | Change.PREDICTING):
+            self._show_checks()
         if Change.DOCUMENT in what:
             self._show_document()
             self.notices.settle_edit()

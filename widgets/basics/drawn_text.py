@@ -63,7 +63,7 @@ def _beside(point: QPointF, size: QSizeF, away: float, direction: tuple[int, int
 
 
 def _meets(rect: QRectF, others: list[QRectF]) -> bool:
-    return any(rect.intersects(other) for other in others)
+    return any(map(rect.intersects, others))
 
 
 _FLAGS = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop | Qt.TextFlag.TextWordWrap

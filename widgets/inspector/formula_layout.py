@@ -96,6 +96,9 @@ class FormulaSetter:
         self._text_metrics = QFontMetricsF(text_font)
         self._layouts: OrderedDict[tuple[Formula, int, Theme], tuple[Line, ...]] = OrderedDict()
         """Of formulas all of whose cells were typeset, the last used at the end."""
+        self._unfinished: dict[tuple[Formula, int, Theme], tuple[Line, ...]] = {}
+        """Of others, as long as no cell is typeset."""
+        self._unfinished_at = 0
 
     def cells_needed(self, formula: Formula | None) -> list[tuple[str, str]]:
         """Return what the typesetter must set: LaTeX with colours, and the colour of the rest."""
@@ -122,11 +125,17 @@ class FormulaSetter:
         if key in self._layouts:
             self._layouts.move_to_end(key)
             return self._layouts[key]
+        if self._unfinished_at != self._typesetter.made or len(self._unfinished) > KEPT_LAYOUTS:
+            self._unfinished_at, self._unfinished = self._typesetter.made, {}
+        if key in self._unfinished:
+            return self._unfinished[key]
         lines = self._layout(formula, width)
         if all(map(self.is_ready, self.cells_needed(formula))):
             self._layouts[key] = lines
             if len(self._layouts) > KEPT_LAYOUTS:
                 self._layouts.popitem(last=False)
+        else:
+            self._unfinished[key] = lines
         return lines
 
     def _layout(self, formula: Formula, width: int) -> tuple[Line, ...]:

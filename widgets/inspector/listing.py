@@ -73,6 +73,9 @@ class ListingView(QPlainTextEdit):
         self._pressed_at = QPoint()
         self._title = ""
         self._in_turn: frozenset[str] = frozenset()
+        self._rows_for: object = None
+        """Width and type that the kept rows are for."""
+        self._kept_rows: dict[str, int] = {}
         self.setReadOnly(True)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setWordWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
@@ -194,9 +197,18 @@ class ListingView(QPlainTextEdit):
             )
             font, option = self.font(), self.document().defaultTextOption()
             sources = {self.toPlainText(), *self._in_turn}
-            rows = max(_rows(source, lines, width, font, option.wrapMode()) for source in sources)
+            rows = max(self._rows_of(source, lines, width, font, option.wrapMode()) for source in sources)
         # Half a row more: Qt scrolls by whole ones.
         return math.ceil(min(rows, MOST_ROWS) * row + row / 2 + 2 * self.document().documentMargin())
+
+    def _rows_of(self, source: str, lines: int, width: float, font: QFont, wrap: QTextOption.WrapMode) -> int:
+        """Return what `_rows` does, found once for each source as long as width and type stay."""
+        now = lines, width, font.key(), wrap
+        if now != self._rows_for:
+            self._rows_for, self._kept_rows = now, {}
+        if source not in self._kept_rows:
+            self._kept_rows[source] = _rows(source, lines, width, font, wrap)
+        return self._kept_rows[source]
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the margin beside the text, and the line of the step in view."""

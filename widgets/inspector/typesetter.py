@@ -39,6 +39,8 @@ class Typesetter:
     def __init__(self, capacity: int = KEPT_CELLS) -> None:
         self._capacity = capacity
         self._cells: OrderedDict[tuple[str, str, float], TypesetCell] = OrderedDict()
+        self.made = 0
+        """Cells typeset so far: as long as it stays, a formula is laid out as before."""
 
     def cached(self, latex: str, color: str, size: float) -> TypesetCell | None:
         """Return the cell if it is at hand; never does any work."""
@@ -63,6 +65,7 @@ class Typesetter:
         cell = self.cached(latex, color, size)
         if cell is None:
             cell = _typeset(latex, color, size)
+            self.made += 1
             self._cells[latex, color, size] = cell
             if len(self._cells) > self._capacity:
                 self._cells.popitem(last=False)

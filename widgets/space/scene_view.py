@@ -265,7 +265,7 @@ class SceneView(OrbitArea):
             paint_spot(painter, place, spot, theme, is_handle=True, is_held=is_held)
             paint_label(painter, places, place, str(handle.index), ink, theme, reach, is_bold=True)
         if picture.sight is not None:
-            for left, bottom, right, top in picture.sight.covered():
+            for left, bottom, right, top in picture.sight.covered:
                 corners = area.left() + left * area.width(), area.bottom() - top * area.height()
                 places.avoid(QRectF(*corners, (right - left) * area.width(), (top - bottom) * area.height()))
         for x, y, text, ink in picture.labels:

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
+from core.records.cached import cached_property
 from widgets.space.orbit import Orbit, refocused
 
 
@@ -23,8 +24,9 @@ class ViewDepth:
         if self.distance.ndim != 2 or 0 in self.distance.shape:
             raise ValueError(f"distance must be (R, C) with at least one place, got {self.distance.shape}")
 
+    @cached_property
     def covered(self) -> list[tuple[float, float, float, float]]:
-        """Return the places where something is seen, row by row: left, bottom, right and top, fractions."""
+        """The places where something is seen, row by row: left, bottom, right and top, fractions."""
         rows, columns = self.distance.shape
         is_seen = ~np.isnan(self.distance)
         seen = np.flatnonzero(is_seen.any(axis=1))

@@ -22,7 +22,7 @@ from core.trace.tracers import load_tracers
 from widgets.inspector.formula_view import Formula, FormulaView
 
 QUIET_MS = 20
-"""Time after a step, in milliseconds, from which the user is taken to look at it."""
+"""Time after a step is painted, in milliseconds, from which the user is taken to look at it."""
 FIRST_MS = 300
 """The same for a window that opens: first it is painted."""
 STEPS_AHEAD = 3
@@ -67,6 +67,8 @@ class StepsAhead(QObject):
         self._positions = [1]
         """What is still to be prepared, the nearest first: when the window opens, the first step."""
         self._formula: Formula | None = None
+        self._is_painted = True
+        """Whether the window has come to rest since the step."""
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._prepare)
@@ -85,12 +87,14 @@ class StepsAhead(QObject):
             ahead.append(steps.forward(ahead[-1], cursor.level))
         self._positions = list(dict.fromkeys([*ahead[1:], steps.back(cursor.position, cursor.level)]))
         self._formula = None
-        self._timer.start(QUIET_MS)
+        self._is_painted = False
+        self._timer.start(0)  # It waits for what there is to paint, however long that takes.
 
     @Slot()
     def _prepare(self) -> None:
         """Explain one step, or typeset one cell of its formula."""
-        if load_stages().is_alive():
+        if load_stages().is_alive() or not self._is_painted or not self._view.is_complete():
+            self._is_painted = True
             self._timer.start(QUIET_MS)
             return
         if self._formula is None:

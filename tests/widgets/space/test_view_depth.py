@@ -54,4 +54,4 @@ def test_what_is_seen_is_covered_row_by_row():
     sight = ViewDepth(
         ORBIT, ANGLE, np.array([[empty] * 4, [empty, seen, empty, seen], [seen, empty, empty, empty]])
     )
-    assert sight.covered() == [(0.25, 1 / 3, 1.0, 2 / 3), (0.0, 2 / 3, 0.25, 1.0)]
+    assert sight.covered == [(0.25, 1 / 3, 1.0, 2 / 3), (0.0, 2 / 3, 0.25, 1.0)]
