@@ -73,7 +73,7 @@ ROLLED = set_value(FLOOR, "camera/up/x", 0.3, (16, 12))
         ({"stage": "raster", "keeps": ["fill"]}, at(chosen={**BOX, "depth": "z-16"}), at(chosen={})),
         ({"stage": "raster", "keeps": ["window"]}, at(moved(6, 6)), at(moved(6.5, 6))),
     ],
-    ids=str,
+    ids=lambda value: str(value) if isinstance(value, dict) else "",
 )
 def test_a_task_is_done_when_it_holds(until: dict[str, object], yes: Situation, no: Situation) -> None:
     part, start = UntilPart.model_validate(until), at()
