@@ -50,6 +50,9 @@ class Names(Protocol):
     def value(self, name: str) -> Any:
         """Return (R, ...) or a single value; ValueError where there is no such name."""
 
+    def of_kind(self, kind: str) -> Any:
+        """Return (R,) bool, the rows of a kind; ValueError where there is no such kind."""
+
     def call(self, name: str, given: Sequence[ast.expr], chosen: Mapping[str, str]) -> Any:
         """Return what a function gives for checked nodes, and methods by family; ValueError where it gives none."""
 
@@ -91,6 +94,10 @@ class TraceNames:
     def value(self, name: str) -> Any:
         """Return a column or an element of it, a constant, ``kind`` or ``triangle``."""
         return _column(name, self.trace)
+
+    def of_kind(self, kind: str) -> Any:
+        """Return the rows of a kind, with those of its steps."""
+        return _of_kind(kind, self.trace)
 
     def call(self, name: str, given: Sequence[ast.expr], chosen: Mapping[str, str]) -> Any:
         """Refuse: the conditions of a trace have no functions."""
@@ -190,7 +197,7 @@ def evaluate(node: ast.expr, names: Names) -> Any:
             ast.Compare(left=ast.Name(id="kind"), ops=[op], comparators=[ast.Constant(value=str(kind))])
             | ast.Compare(left=ast.Constant(value=str(kind)), ops=[op], comparators=[ast.Name(id="kind")])
         ) if isinstance(op, ast.Eq | ast.NotEq):
-            return _of_kind(kind, trace) ^ isinstance(op, ast.NotEq)
+            return names.of_kind(kind) ^ isinstance(op, ast.NotEq)
         case ast.Compare(left=left, ops=ops, comparators=others):
             values = [evaluate(part, names) for part in (left, *others)]
             pairs = zip(values, ops, values[1:], strict=False)

@@ -136,10 +136,17 @@ class _Names:
         """Return a count, or a variable of the row that was just done."""
         if name in COUNTS:
             return np.asarray(FUNCTIONS[name][0](self.situation, [], {}))
-        found = self.situation.trace
-        row, _ = found.steps.row_at(self.situation.position)
-        values = np.asarray(TraceNames(found).value(name))
-        if values.shape[:1] != (found.steps.row_count,):
+        return self._of_row(name, np.asarray(TraceNames(self.situation.trace).value(name)))
+
+    def of_kind(self, kind: str) -> Any:
+        """Return whether the row that was just done is of a kind."""
+        return self._of_row("kind", TraceNames(self.situation.trace).of_kind(kind))
+
+    def _of_row(self, name: str, values: Any) -> Any:
+        """Return what stands in that row, or a value that all rows share."""
+        steps = self.situation.trace.steps
+        row, _ = steps.row_at(self.situation.position)
+        if values.shape[:1] != (steps.row_count,):
             return values
         if row < 0:
             raise ValueError(f"no row is done where {name} is asked for: name one by at")

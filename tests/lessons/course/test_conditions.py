@@ -104,7 +104,7 @@ RIGHT = [
     "u(1, 0) == 0.25 and attribute(1, 0, 0) == 0.25 and linear(1, 0, 3) == 1 and shown(5, 5, 0) == 0",
     "stored(1, 0) == 0.5 and stored(5, 5) == 1",
     "buffer('overdraw', 2, 2) == 1",
-    "E0 == 0 and column == 4 and kind == 'center' or not covered",
+    "E0 == 0 and column == 4 and kind == 'test' or not covered",
     "value('E0', 'column == 1 and row == 0') == 12 and value('weights', 'covered', 1) == 0",
     "place(0, 1, 'x') == 4.5 and place(0, 1, 'w') == 1",
     "count(covered) == 16 and some(tie) and count(tie, fill_rule=inclusive) > 0 and not some(E0 == 99.5)",
