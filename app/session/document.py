@@ -10,10 +10,9 @@ from app.session.memory import check_free
 from core import STAGES, Settings, Trace, trace
 from core.raster.fills.traits import fill_traits
 from core.records.arrays import Floats
-from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
-from core.settings import no_effect
 from core.trace import TraceSource, scene_triangle_count
+from core.trace.length import LONGEST_RUN, most_tests
 
 TEACHING_LIMIT = (96, 72)
 """Largest teaching raster in pixels; every pixel can be pointed at, and all buffers are traced at once."""
@@ -22,8 +21,6 @@ VIEWS = ("pixels", "scene", "clip", "pyramid", "texture", "flow", "compare")
 """Names of the main views."""
 TRACED_TOGETHER = 400
 """A scene of more triangles is traced one triangle at a time."""
-LONGEST_RUN = 1_500_000
-"""Pixel tests that a trace may have: each keeps all its numbers."""
 MOST_TRIANGLES = 100_000
 """Triangles, or vertices, that a trace may have."""
 TRACED_TRIANGLE, TRACED_TEST = 11_000, 2_000
@@ -105,12 +102,7 @@ class Document:
     def most_tests(self) -> int:
         """Pixel tests of a trace at most where every pixel is tested, else a guess."""
         triangles = self.triangle_count if self.triangle is None else 1
-        pixels = self.raster.columns * self.raster.rows * resolve(self.settings).sampling.count
-        if fill_traits(self.settings.fill).looks_everywhere and not no_effect(
-            self.settings, "fill", self.scene
-        ):
-            return triangles * pixels
-        return min(triangles, 60) * pixels // 4
+        return most_tests(self.scene, self.settings, triangles, self.raster.columns * self.raster.rows)
 
     @property
     def estimated_seconds(self) -> float:

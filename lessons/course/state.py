@@ -10,6 +10,8 @@ import numpy as np
 from core import STAGES, Settings, Trace, trace
 from core.scene import AnyScene, ClipScene, DirectionalLight, PointLight, Scene
 from core.settings import settings_from_texts
+from core.trace import scene_triangle_count
+from core.trace.length import LONGEST_RUN, most_tests
 from core.trace.run_to import START
 from lessons.course.lesson_file import Lesson
 from lessons.course.record import CameraPart, ChangePart, SolutionPart, StatePart
@@ -126,6 +128,10 @@ class States:
         drawn, title = self._scene(part)
         own = scene_named(drawn.name).settings if drawn.name else {}
         settings = settings_from_texts({**own, **part.settings})
+        count = 1 if part.triangle is not None else scene_triangle_count(drawn.scene)
+        columns, rows = drawn.scene.size
+        if most_tests(drawn.scene, settings, count, columns * rows) > LONGEST_RUN:
+            raise ValueError("expected a smaller size, or one triangle: there are too many steps to be kept")
         stage = part.stage or STAGES[0]
         pixel = _pixel(part.pixel, drawn.scene)
         return State(

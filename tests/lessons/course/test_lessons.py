@@ -77,6 +77,7 @@ BROKEN = [
     ('"fan"', '"fann"', "step.0.state.scene: expected a built-in scene such as fan, got 'fann'"),
     ('"fan"', '"../fan.obj"', "step.0.state.scene: expected a built-in scene such as"),
     ('"fan"', '"sphere"', "step.0.state: expected a size of up to 96 x 72 pixels, got 512 x 512"),
+    ('"fan", settings = {', '"knot", size = [96, 72], settings = { fill = "brute-force",', "too many steps"),
     ('fill = "bounding-box"', 'fill = "boxes"', "state.settings: fill must be one of"),
     ("pixel = [32, 24]", "pixel = [64, 24]", "expected a pixel of the 64 x 48 there are, got [64, 24]"),
     ('"overdraw"', '"over"', "step.0.state.buffer: expected one of coverage, edge 0"),
