@@ -2,7 +2,7 @@
 
 import argparse
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from itertools import chain
 from pathlib import Path
 from textwrap import indent
@@ -11,6 +11,8 @@ from app.cli import lesson_play
 from app.cli.exercise_folders import add_parser, change_folders
 from app.usage import PROGRAM
 from core.stages.declared import stage_of
+from lessons.attempts.lesson_steps import Standing, standings
+from lessons.attempts.record import Attempt
 from lessons.course.catalogue import Course, chapters
 from lessons.course.lesson_file import Lesson, read_lesson
 from lessons.course.questions import question_of
@@ -39,6 +41,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parsers = parser.add_subparsers(dest="action", required=True, metavar="ACTION")
     listed = parsers.add_parser("list", help="list the lessons", allow_abbrev=False)
     listed.add_argument("--by-stage", action="store_true", help="in the order of the stages")
+    listed.add_argument(
+        "--user", metavar="NAME", help="whose steps are counted as done (who answers in the window)"
+    )
     show = parsers.add_parser("show", help="print a lesson with answers and notes", allow_abbrev=False)
     show.add_argument("name", metavar="NAME", help="a lesson of the list, or a .toml file")
     check = parsers.add_parser("validate", help="check lesson files", allow_abbrev=False)
@@ -61,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
         return change_folders(options, FOLDERS, own_folder())
     course = known_course(tells=options.action != "validate")
     if options.action == "list":
-        print("\n".join(list_lines(course, options.by_stage)))
+        print("\n".join(list_lines(course, options.by_stage, kept_attempts(options.user))))
     elif options.action == "show":
         print("\n".join(lesson_lines(lesson_named(course, options.name))))
     elif options.action == "play":
@@ -91,8 +96,16 @@ def lesson_named(course: Course, name: str) -> Lesson:
     return read_lesson(Path(name)) if name.endswith(".toml") else course.named(name)
 
 
-def list_lines(course: Course, by_stage: bool) -> Iterator[str]:
-    """Yield the lessons, part by part."""
+def kept_attempts(user: str | None) -> Sequence[Attempt]:
+    """Return the attempts of a user, or of who answers in the window; OSError where they cannot be read."""
+    from app.files.attempts import attempt_file
+    from app.files.unfinished_answers import learner
+
+    return attempt_file().attempts(user or learner())
+
+
+def list_lines(course: Course, by_stage: bool, attempts: Sequence[Attempt]) -> Iterator[str]:
+    """Yield the lessons, part by part, with the steps that are done in these attempts."""
     if by_stage:
         parts = {stage_of(stage).short_title: [*lessons] for stage, lessons in course.by_stage.items()}
     else:
@@ -106,7 +119,9 @@ def list_lines(course: Course, by_stage: bool) -> Iterator[str]:
         if lessons:
             yield title
         for lesson in lessons:
-            yield f"  {lesson.name:<22} {lesson.minutes:>2} min  {lesson.title}: {lesson.question}"
+            steps = standings(attempts, lesson)
+            done = f"{steps.count(Standing.DONE)} of {len(steps)}"
+            yield f"  {lesson.name:<22} {lesson.minutes:>2} min  {done}  {lesson.title}: {lesson.question}"
 
 
 def lesson_lines(lesson: Lesson) -> Iterator[str]:

@@ -1,10 +1,14 @@
 """``rasterscope lesson``: lessons are listed, shown and checked, own folders too, and every slide is accounted for."""
 
+from datetime import UTC, datetime
 from pathlib import Path
 
 import pytest
 
+from app.files.attempts import attempt_file
+from lessons.attempts.lesson_steps import lesson_attempt
 from lessons.course.catalogue import shipped
+from lessons.course.lesson_file import read_lesson
 from tests.app.cli.cli_runs import refused, run_program
 from tests.lessons.course.lesson_texts import GOOD
 
@@ -21,6 +25,12 @@ def test_lessons_are_listed_shown_and_checked(tmp_path: Path, monkeypatch: pytes
     listed = run_program("lesson", "list")
     names = [line.split()[0] for line in listed.stdout.splitlines() if line.startswith("  ")]
     assert names == [*shipped().lessons, "whose-pixel"]
+    assert listed.stdout.count(" 0 of ") == len(names)
+    done = lesson_attempt("Ada", read_lesson(path), 1, datetime.now(UTC), score=1)
+    attempt_file().add(done)
+    mine, hers = (run_program("lesson", "list", *user).stdout for user in ((), ("--user", "Ada")))
+    assert mine == listed.stdout
+    assert "whose-pixel             5 min  2 of 4  Whose pixel?: Who draws" in hers
     assert listed.stderr.count("warning: skipped: ") == 1
     assert "broken.toml: line 4: minutes: expected" in listed.stderr
     shown = run_program("lesson", "show", "whose-pixel").stdout
