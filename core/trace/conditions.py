@@ -50,8 +50,8 @@ class Names(Protocol):
     def value(self, name: str) -> Any:
         """Return (R, ...) or a single value; ValueError where there is no such name."""
 
-    def of_kind(self, kind: str) -> Any:
-        """Return (R,) bool, the rows of a kind; ValueError where there is no such kind."""
+    def is_of_kind(self, kind: str) -> Flags:
+        """Return (R,) bool, the rows of a kind; ValueError where the stage has none such."""
 
     def call(self, name: str, given: Sequence[ast.expr], chosen: Mapping[str, str]) -> Any:
         """Return what a function gives for checked nodes, and methods by family; ValueError where it gives none."""
@@ -95,9 +95,15 @@ class TraceNames:
         """Return a column or an element of it, a constant, ``kind`` or ``triangle``."""
         return _column(name, self.trace)
 
-    def of_kind(self, kind: str) -> Any:
-        """Return the rows of a kind, with those of its steps."""
-        return _of_kind(kind, self.trace)
+    def is_of_kind(self, kind: str) -> Flags:
+        """Return the rows of a kind; those of a line's pixels include the ones to which it steps, and those beside."""
+        kinds, stage = self.trace.steps.kinds, self.trace.stage
+        numbers = [
+            number for number, name in enumerate(kinds) if name in {kind, f"{kind}-step", f"{kind}-beside"}
+        ]
+        if not numbers:
+            raise ValueError(f"the stage {stage} has no rows of the kind {kind}; it has {', '.join(kinds)}")
+        return np.isin(self.trace.steps.kind, numbers)
 
     def call(self, name: str, given: Sequence[ast.expr], chosen: Mapping[str, str]) -> Any:
         """Refuse: the conditions of a trace have no functions."""
@@ -197,7 +203,7 @@ def evaluate(node: ast.expr, names: Names) -> Any:
             ast.Compare(left=ast.Name(id="kind"), ops=[op], comparators=[ast.Constant(value=str(kind))])
             | ast.Compare(left=ast.Constant(value=str(kind)), ops=[op], comparators=[ast.Name(id="kind")])
         ) if isinstance(op, ast.Eq | ast.NotEq):
-            return names.of_kind(kind) ^ isinstance(op, ast.NotEq)
+            return names.is_of_kind(kind) ^ isinstance(op, ast.NotEq)
         case ast.Compare(left=left, ops=ops, comparators=others):
             values = [evaluate(part, names) for part in (left, *others)]
             pairs = zip(values, ops, values[1:], strict=False)
@@ -206,17 +212,6 @@ def evaluate(node: ast.expr, names: Names) -> Any:
             chosen = {str(each.arg): spelled(each.value) for each in keywords}
             return np.asarray(names.call(name, parts, chosen))
     raise ValueError(f"{_WANTED}; {ast.unparse(node)} is neither")
-
-
-def _of_kind(kind: str, trace: StageTrace) -> Flags:
-    """Return the rows of a kind; those of a line's pixels include the ones to which it steps, and those beside."""
-    kinds = trace.steps.kinds
-    numbers = [
-        number for number, name in enumerate(kinds) if name in {kind, f"{kind}-step", f"{kind}-beside"}
-    ]
-    if not numbers:
-        raise ValueError(f"the stage {trace.stage} has no rows of the kind {kind}; it has {', '.join(kinds)}")
-    return np.isin(trace.steps.kind, numbers)
 
 
 def _compare(first: Any, op: ast.cmpop, second: Any) -> Any:

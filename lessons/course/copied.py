@@ -13,6 +13,7 @@ from core.scene import AnyScene, ClipScene, PointLight, Scene
 from core.settings import settings_from_texts, settings_record
 from core.trace import StageTrace
 from core.trace.run_to import END
+from lessons.course.quoted import flags_of
 from lessons.exercises.record import PRIMITIVE_LIMIT
 from lessons.scene_edits import WINDOW_NAMES, window_of_clip
 from lessons.slides.scenes import ALL_SCENES
@@ -89,7 +90,7 @@ def _place(found: StageTrace, position: int) -> dict[str, str]:
         is_here = (found.columns["column"] == column) & (found.columns["row"] == line)
         names.append((f"column == {column} and row == {line}", is_here))
     kind = found.kind_of(row)
-    names.append((f'kind == "{kind}"', found.steps.kind == found.steps.kind[row]))
+    names.append((f'kind == "{kind}"', flags_of(f'kind == "{kind}"', found)))
     name, flags = min(names, key=lambda one: np.count_nonzero(one[1][: row + 1]))
     number = int(np.count_nonzero(flags[: row + 1]))
     place = {"at": name if number == 1 else f"{number}: {name}"}

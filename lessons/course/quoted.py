@@ -136,18 +136,18 @@ class _Names:
         """Return a count, or a variable of the row that was just done."""
         if name in COUNTS:
             return np.asarray(FUNCTIONS[name][0](self.situation, [], {}))
-        return self._of_row(name, np.asarray(TraceNames(self.situation.trace).value(name)))
+        found = self.situation.trace
+        values = np.asarray(TraceNames(found).value(name))
+        is_of_rows = values.shape[:1] == (found.steps.row_count,)
+        return self._of_row(name, values) if is_of_rows else values
 
-    def of_kind(self, kind: str) -> Any:
+    def is_of_kind(self, kind: str) -> Flags:
         """Return whether the row that was just done is of a kind."""
-        return self._of_row("kind", TraceNames(self.situation.trace).of_kind(kind))
+        flags: Flags = self._of_row("kind", TraceNames(self.situation.trace).is_of_kind(kind))
+        return flags
 
     def _of_row(self, name: str, values: Any) -> Any:
-        """Return what stands in that row, or a value that all rows share."""
-        steps = self.situation.trace.steps
-        row, _ = steps.row_at(self.situation.position)
-        if values.shape[:1] != (steps.row_count,):
-            return values
+        row, _ = self.situation.trace.steps.row_at(self.situation.position)
         if row < 0:
             raise ValueError(f"no row is done where {name} is asked for: name one by at")
         return values[row : row + 1]
