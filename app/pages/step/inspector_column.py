@@ -36,7 +36,7 @@ class InspectorColumn(QTabWidget):
         self._listing_lines = LISTING_LINES
         self._tallest = 0
         """Height of the tallest formula of the stage so far."""
-        self._is_presenting, self._is_card_wanted = False, True
+        self._is_presenting, self._is_card_wanted, self._folds_listing = False, True, False
         self._is_history_chosen = False
         """Whether the user wants to see histories while stepping."""
         self.card, self.formula, self.listing = StageCardView(self), FormulaView(self), ListingView(self)
@@ -111,17 +111,23 @@ class InspectorColumn(QTabWidget):
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave out the stage's card, or bring it back."""
         self._is_presenting = is_presenting
-        self._show_card()
+        self._show_parts()
         self._listing_lines = PRESENTED_LINES if is_presenting else LISTING_LINES
         self.fit()
 
     def show_card(self, is_wanted: bool) -> None:
         """Show the stage's card, but not while presenting; or leave it out for something else that stands there."""
         self._is_card_wanted = is_wanted
-        self._show_card()
+        self._show_parts()
 
-    def _show_card(self) -> None:
+    def fold_listing(self, is_folded: bool) -> None:
+        """Leave out listing and variables while presenting, for the text of a lesson; or show them again."""
+        self._folds_listing = is_folded
+        self._show_parts()
+
+    def _show_parts(self) -> None:
         self.card.setVisible(self._is_card_wanted and not self._is_presenting)
+        self.rows.setVisible(not (self._folds_listing and self._is_presenting))
         self.fit()
 
     def show_formula(self, formula: Formula | None, is_new_stage: bool) -> None:

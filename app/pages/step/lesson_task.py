@@ -96,6 +96,7 @@ class LessonTask(QObject):
         page.tell("")  # What was said of the step before no longer holds.
         self._show(shown, is_hidden=is_hidden)
         page.show_desk_panes((*PANES, *shown.state.panes))
+        page.column.fold_listing("listing" not in shown.state.panes)
         self.scroll.keep_in_sight(None)
         self.view.show_step(record, None if asked is None else asked.question.draft.answer.form)
         self.view.reveal_button.setText(REVEAL)
@@ -116,6 +117,7 @@ class LessonTask(QObject):
         self.answers.end()
         self._watch.end()
         self._page.main_area.show_asked(None)
+        self._page.column.fold_listing(False)
         self._session.set_asked("", is_open=False, by="lesson")
         self._session.set_predicting(False)
 

@@ -272,6 +272,7 @@ class StepPage(Page):
         self._page_layout.setContentsMargins(*(PRESENTED_MARGINS if is_presenting else MARGINS))
         self.main_area.set_presenting(is_presenting)
         self.column.set_presenting(is_presenting)
+        self.side.set_presenting(is_presenting)
         self.columns.set_presenting(is_presenting)
         if not is_presenting:
             self.show_panes(panes)

@@ -20,7 +20,7 @@ class SideColumn(QWidget):
         super().__init__(parent)
         self._inspector = inspector
         self._lesson: LessonScroll | None = None
-        self._gives_way = False
+        self._gives_way = self._is_presenting = False
         self._layout = column_layout(self, 4)
         self._below = QWidget(self)
         column_layout(self._below).addWidget(inspector)
@@ -45,6 +45,11 @@ class SideColumn(QWidget):
         self._gives_way = gives_way
         self._divide()
 
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Leave the inspector out wherever the lesson needs the room: a class does not scroll."""
+        self._is_presenting = is_presenting
+        self._divide()
+
     def panes(self) -> list[QWidget]:
         """Return both, as far as they are there."""
         return [self._inspector] if self._lesson is None else [self._lesson, self._inspector]
@@ -62,7 +67,8 @@ class SideColumn(QWidget):
             return
         least = round(INSPECTOR_LINES * 1.5 * current_theme().text_px)
         has_room = self._lesson.height_for(self.width()) + least <= self.height()
-        is_inspected = not self._inspector.isHidden() and (has_room or not self._gives_way)
+        gives_way = self._gives_way or self._is_presenting
+        is_inspected = not self._inspector.isHidden() and (has_room or not gives_way)
         self._below.setVisible(is_inspected)
         most = max(self.height() - least, self.height() // 2) if is_inspected else self.height()
         self._lesson.take_room(self.width(), most)
