@@ -191,9 +191,8 @@ class ResultPresenter(BackgroundTask, Generic[ChoiceType]):
             return ""
         parts = self._result_texts()
         if result.is_example:
-            parts.append(
-                "An example that came with the program, made on another computer: F5 makes your own."
-            )
+            # First: the line is cut at its end where the page is narrow.
+            parts.insert(0, "An example from another computer: F5 makes your own.")
         elif result.is_kept:
             parts.append("Kept from an earlier start.")
         if self.choice.can_run and self.choice.is_changed:

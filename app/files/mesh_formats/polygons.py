@@ -28,7 +28,7 @@ def check_polygons(path: Path, sizes: Integers, indices: NDArray[Any], count: in
     """
     if sizes.min() < 3:
         face = int(np.argmax(sizes < 3))
-        raise MeshFileError(f"{path.name}: face {face} needs at least 3 corners, it has {sizes[face]}")
+        raise MeshFileError(f"{path.name}: face {face} needs at least 3 corners, got {sizes[face]}")
     wrong = ~((indices >= 0) & (indices < count) & (indices == np.floor(indices)))
     if wrong.any():
         corner = int(np.argmax(wrong))

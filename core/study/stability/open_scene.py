@@ -51,7 +51,7 @@ def watertightness(scene: AnyScene, title: str) -> CoverageExperiment:
         vertices = transform_vertices(scene)
         if len(vertices.corners) > MOST_TRIANGLES:
             raise ValueError(
-                f"at most {MOST_TRIANGLES:,} triangles are counted exactly, the scene has {len(vertices.corners):,}."
+                f"at most {MOST_TRIANGLES:,} triangles can be counted exactly, got {len(vertices.corners):,}."
             )
         flat = vertices.clip[vertices.corners]
         flat[..., 2] = 0.0
