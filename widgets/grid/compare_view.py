@@ -21,8 +21,8 @@ from widgets.grid.marks import StepMark
 from widgets.grid.overlay import Overlay
 from widgets.inspector.listing import ListingText, ListingView
 
-TITLE_LINES = 4
-"""Lines above a picture: three for the settings, and how far its run is."""
+LINES, LINES_WITH_CODE = (4, 5), (3, 4)
+"""Lines above a picture, the last one says how far its run is, and below it."""
 CODE_LINES = 10
 """Lines of text that the listings of A and B are high at least, where they are shown."""
 
@@ -177,14 +177,15 @@ class CompareView(QWidget):
         if self._is_flipped:
             sides = sides[1], sides[0], sides[2]
         has_code = any(side.listing is not None for side in sides)
+        above, below = LINES_WITH_CODE if has_code else LINES
         for side, grid, title, note in zip(sides, self.grids, self.titles, self.notes, strict=True):
             grid.empty_text = side.reason
             grid.show_buffer(side.buffer)
             grid.show_overlays(side.overlays)
             grid.show_geometry(side.geometry)
             grid.show_step(side.step)
-            self._write(title, f"{side.title}\n{side.place}".rstrip(), TITLE_LINES)
-            self._write(note, side.sentence, 3 if has_code else 5)
+            self._write(title, f"{side.title}\n{side.place}".rstrip(), above)
+            self._write(note, side.sentence, below)
         self._code.setVisible(has_code)
         self._code.setMinimumHeight(CODE_LINES * self.fontMetrics().lineSpacing())
         for view, side in zip(self.listings, sides, strict=False):
