@@ -116,6 +116,11 @@ class Page(QWidget):
         """Tell the user something; nothing is wrong."""
         self.message_sent.emit(text)
 
+    def tell_done(self, text: str) -> None:
+        """Tell that something went well: what was refused before is of no interest any more."""
+        self.went_well.emit()
+        self.message_sent.emit(text)
+
     def refuse(self, text: str) -> None:
         """Say why what was asked for came to nothing."""
         self.edit_refused.emit(text)

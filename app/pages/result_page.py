@@ -292,8 +292,7 @@ class ResultPage(WorkPage):
         except (OSError, ValueError) as error:
             self.refuse(f"The {noun} was not {done}: {problem_text(error)}")
         else:
-            self.went_well.emit()
-            self.tell(f"{done.capitalize()} {Path(path).name}.")
+            self.tell_done(f"{done.capitalize()} {Path(path).name}.")
 
     def _is_finished(self) -> bool:
         if self.finished is None:

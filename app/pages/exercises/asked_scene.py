@@ -4,10 +4,11 @@ The step goes back to before what is asked. Going on from there, or what Predict
 that was hidden stays so while it is edited: a corner moved by a hair would show the answer.
 """
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 
 from app.files.unfinished_answers import UnfinishedFile
 from app.pages.exercises.question_presenter import QuestionPresenter
+from app.pages.page_bar import Page
 from app.session.moment import Change
 from app.session.session import Session
 from core import STAGES
@@ -20,26 +21,17 @@ EDITED = "The scene stays hidden while an exercise asks about it. P shows it, an
 class AskedScene(QObject):
     """Watches the open scene and the question."""
 
-    hiding_toggled = Signal()
-    """The Step page is to predict from now on, or no longer."""
-    message_sent = Signal(str)
-
     def __init__(
-        self,
-        session: Session,
-        questions: QuestionPresenter,
-        unfinished: UnfinishedFile,
-        parent: QObject | None = None,
+        self, session: Session, questions: QuestionPresenter, unfinished: UnfinishedFile, page: Page
     ) -> None:
-        super().__init__(parent)
-        self._session, self._questions, self._unfinished = session, questions, unfinished
+        super().__init__(page)
+        self._session, self._questions, self._unfinished, self._page = session, questions, unfinished, page
         self._is_hidden = self._is_edited = False
         """Whether it is hidden for the question's sake, and whether an edit has made another scene of it since."""
         self._asked = unfinished.answers.asked_scene
         """Digest of the scene for which something was hidden last."""
         session.changed.connect(self._follow)
         questions.state_changed.connect(self._look)
-        questions.refused.connect(self._look)
 
     def _is_open(self) -> bool:
         """Return whether the scene that is asked about, or what an edit has made of it, is open on the Step page."""
@@ -61,7 +53,7 @@ class AskedScene(QObject):
         was_edited = self._is_edited
         self._is_edited = is_open and scene_digest(document.scene) != self._questions.asked_scene
         if self._is_edited and not was_edited:
-            self.message_sent.emit(EDITED)
+            self._page.tell(EDITED)
         self._asked = self._questions.asked_scene
         self._unfinished.keep_hidden((document.title, document.path) if is_open else None)
         if is_open and self._here() > self._start():
@@ -69,7 +61,8 @@ class AskedScene(QObject):
             session.scrub(position, STAGES[number])
         session.set_asked(self._questions.asked_scene, is_open=is_open)
         if is_open != is_predicting and (is_open or was_hidden):
-            self.hiding_toggled.emit()
+            # The Step page asks before it shows what is asked here, or shows it again.
+            self._page.action_requested.emit("predict")
 
     @Slot(Change)
     def _follow(self, what: Change) -> None:

@@ -11,6 +11,7 @@ from app.background.workers import Job
 from app.files.attempts import attempt_file
 from app.files.exercise_folders import FOLDERS, all_templates
 from app.files.unfinished_answers import UnfinishedFile
+from app.pages.page_bar import Page
 from core import STAGES
 from core.records.words import counted
 from core.stages.declared import stage_of
@@ -58,13 +59,12 @@ class CataloguePresenter(QObject):
 
     question_chosen = Signal(object, object)
     """A `Template`, and the seed of its question or ``None``."""
-    refused = Signal(str)
     found = Signal()
     """All exercises are known now, also those of teachers."""
 
-    def __init__(self, view: Catalogue, unfinished: UnfinishedFile, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._view, self._unfinished = view, unfinished
+    def __init__(self, view: Catalogue, unfinished: UnfinishedFile, page: Page) -> None:
+        super().__init__(page)
+        self._view, self._unfinished, self._page = view, unfinished, page
         self.user = DEFAULT_USER
         self.templates: dict[str, Template] = dict(TEMPLATES)
         """By name, stage by stage."""
@@ -125,7 +125,7 @@ class CataloguePresenter(QObject):
     def _take_found(self, found: Found) -> None:
         self.templates, self.attempts = {**self.templates, **found.templates}, found.attempts
         if found.trouble:
-            self.refused.emit(found.trouble)
+            self._page.refuse(found.trouble)
         self._choose()
         self.found.emit()
 
@@ -160,7 +160,7 @@ class CataloguePresenter(QObject):
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
         self._wants_next = False
-        self.refused.emit(f"{problem_text(error)}.")
+        self._page.refuse(f"{problem_text(error)}.")
 
     # What is chosen.
 
@@ -193,14 +193,14 @@ class CataloguePresenter(QObject):
         try:
             template = self.template(name)
         except ValueError as problem:
-            self.refused.emit(f"{problem}.")
+            self._page.refuse(f"{problem}.")
             return
         if template is None or not seed.isascii() or not seed.isdecimal() or len(seed) > 10:
-            self.refused.emit(
+            self._page.refuse(
                 f"Expected a line such as triangle-coverage 2, seed 7; got {line.strip()[:60]!r}."
             )
         elif version != str(template.version):
-            self.refused.emit(
+            self._page.refuse(
                 f"The line is of version {version} of {name}, this program has version {template.version}: "
                 "the seed gives another question."
             )
@@ -229,7 +229,7 @@ class CataloguePresenter(QObject):
         try:
             template = read_exercise(Path(path))
         except (OSError, ValueError) as problem:
-            self.refused.emit(f"{problem_text(problem)}. The page is unchanged.")
+            self._page.refuse(f"{problem_text(problem)}. The page is unchanged.")
         else:
             self.templates[template.name] = template
             self.question_chosen.emit(template, None)
@@ -239,7 +239,7 @@ class CataloguePresenter(QObject):
         try:
             FOLDERS.add(folder)
         except (OSError, ValueError) as problem:
-            self.refused.emit(f"The folder was not added: {problem_text(problem)}.")
+            self._page.refuse(f"The folder was not added: {problem_text(problem)}.")
         else:
             self.begin()
 

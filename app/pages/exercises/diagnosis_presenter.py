@@ -10,7 +10,7 @@ from app.background.workers import Job, Progress
 from app.files.drawn_pictures import read_drawn
 from app.files.file_dialogs import ask_file
 from app.files.file_names import DRAWN_ENDINGS
-from app.pages.page_bar import COVERED, StepRequest
+from app.pages.page_bar import COVERED, Page, StepRequest
 from app.session.document import Document
 from app.session.moment import Change
 from app.session.session import Session
@@ -55,13 +55,10 @@ class DiagnosisPresenter(QObject):
     """A picture is in the view now."""
     hidden = Signal()
     """It must not be seen any more: an exercise asks about its scene."""
-    step_requested = Signal(object)
-    """A `StepRequest`."""
-    refused = Signal(str)
 
-    def __init__(self, session: Session, view: DiagnosisView, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._session, self._view = session, view
+    def __init__(self, session: Session, view: DiagnosisView, page: Page) -> None:
+        super().__init__(page)
+        self._session, self._view, self._page = session, view, page
         self._diagnosed: _Diagnosed | None = None
         self.job = Job(self, expected=(OSError, ValueError, MemoryError))
         self.job.succeeded.connect(self._show)
@@ -89,7 +86,7 @@ class DiagnosisPresenter(QObject):
     def open(self, path: str) -> None:
         """Compare a picture with what every mistake and method makes of the open scene."""
         if self._session.is_asked_about:
-            self.refused.emit(COVERED)
+            self._page.refuse(COVERED)
             return
         document = self._session.document
 
@@ -107,7 +104,7 @@ class DiagnosisPresenter(QObject):
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
-        self.refused.emit(f"The picture was not compared: {problem_text(error)}.")
+        self._page.refuse(f"The picture was not compared: {problem_text(error)}.")
 
     @Slot(object)
     def _show(self, diagnosed: _Diagnosed) -> None:
@@ -140,7 +137,7 @@ class DiagnosisPresenter(QObject):
             diagnosis = self._diagnosed.diagnosis
             request = self._request((diagnosis.found or (diagnosis.nearest,))[number])
             if request is not None:
-                self.step_requested.emit(request)
+                self._page.step_to(request)
 
     def _request(self, candidate: Candidate) -> StepRequest | None:
         """Return what steps the right run beside that of a candidate; ``None``: it has only a picture."""

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from functools import partial
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Slot
 from PySide6.QtWidgets import QMenu
 
 from app.pages.exercises.runs import (
@@ -16,7 +16,7 @@ from app.pages.exercises.runs import (
     right_run,
 )
 from app.pages.exercises.work import Checked
-from app.pages.page_bar import StepRequest
+from app.pages.page_bar import Page, StepRequest
 from lessons.exercises.question import Question
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
@@ -27,13 +27,9 @@ BACK, SEVERAL, EXPLAIN = "Back to my answer", "Show those runs", "Step it"
 class Evidence(QObject):
     """Offers what can be shown of a question, and shows it when it is wanted."""
 
-    step_requested = Signal(object)
-    """A `StepRequest`."""
-    refused = Signal(str)
-
-    def __init__(self, view: QuestionView, grid: MarkGrid, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._view, self._grid = view, grid
+    def __init__(self, view: QuestionView, grid: MarkGrid, page: Page) -> None:
+        super().__init__(page)
+        self._view, self._grid, self._page = view, grid, page
         self._question: Question | None = None
         self._checked: Checked | None = None
         self._is_asked = self._is_shown = self._is_explained = self._is_pictured = False
@@ -115,10 +111,10 @@ class Evidence(QObject):
         try:
             request = make()
         except ValueError as problem:
-            self.refused.emit(f"This cannot be stepped: {problem}.")
+            self._page.refuse(f"This cannot be stepped: {problem}.")
             return
         if request is not None:
-            self.step_requested.emit(request)
+            self._page.step_to(request)
 
     def _show_picture(self, name: str) -> None:
         """Show the picture that the mistake makes, until the learner goes back to the answer."""

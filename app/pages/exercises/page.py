@@ -80,8 +80,6 @@ class ExercisesPage(Page):
         self.questions.asked.connect(self.exercises.show_question)
         self.questions.asked.connect(self._focus_asked)
         self.questions.checked.connect(self.exercises.take_attempt)
-        self.questions.message_sent.connect(self.message_sent)
-        self.questions.evidence.step_requested.connect(self.step_requested)
         self.catalogue.next_requested.connect(self.open_next)
         self.catalogue.progress_requested.connect(self.toggle_progress)
         self.catalogue.picture_requested.connect(self.diagnosis.ask_picture)
@@ -89,34 +87,17 @@ class ExercisesPage(Page):
         self.diagnosis_view.closed.connect(self.show_question)
         self.diagnosis.shown.connect(self._show_diagnosis)
         self.diagnosis.hidden.connect(self.show_question)
-        self.diagnosis.step_requested.connect(self.step_requested)
         for presenter in (self.diagnosis, self.progress):
             self.follow(presenter.job)
         self.progress.user_changed.connect(self._set_user)
         self.progress.attempts_added.connect(self.exercises.begin)
-        self.progress.message_sent.connect(self.message_sent)
         self.exercises.found.connect(self._show_progress)
-        for source in (
-            self.questions.refused,
-            self.questions.evidence.refused,
-            self.exercises.refused,
-            self.unfinished.failed,
-            self.progress.refused,
-            self.diagnosis.refused,
-        ):
-            source.connect(self.edit_refused)
-        for success in (self.exercises.question_chosen, self.progress.message_sent, self.diagnosis.shown):
+        self.unfinished.failed.connect(self.edit_refused)
+        for success in (self.exercises.question_chosen, self.diagnosis.shown):
             success.connect(self.went_well)
         trouble = self.unfinished.read()
         self.hiding = AskedScene(session, self.questions, self.unfinished, self)
-        self.hiding.hiding_toggled.connect(self._toggle_hiding)
-        self.hiding.message_sent.connect(self.message_sent)
         self._begin(trouble)
-
-    @Slot()
-    def _toggle_hiding(self) -> None:
-        """Let the Step page ask before it shows what is asked here, or show it again."""
-        self.action_requested.emit("predict")
 
     def _begin(self, trouble: str) -> None:
         """Show the exercise that was open last, or else the first, and what is wrong with the answers kept."""
@@ -297,7 +278,7 @@ class ExercisesPage(Page):
         if isinstance(answer, PixelAnswerView | SpotAnswerView):
             answer.toggle_rows()
         else:
-            self.message_sent.emit("This answer is given in fields already.")
+            self.tell("This answer is given in fields already.")
 
     def main_view(self) -> QWidget:
         """Return what is exported and copied: the question with its picture, or the progress."""

@@ -14,6 +14,7 @@ from app.files.exercise_folders import all_templates
 from app.files.file_dialogs import SaveDialog, ask_file
 from app.files.file_writing import write_file
 from app.files.input_files import read_input
+from app.pages.page_bar import Page
 from core import STAGES
 from core.records.words import counted
 from core.stages.declared import stage_of
@@ -35,12 +36,10 @@ class ProgressPresenter(QObject):
     """Somebody else answers from now on."""
     attempts_added = Signal()
     """Answers were imported."""
-    message_sent = Signal(str)
-    refused = Signal(str)
 
-    def __init__(self, view: ProgressView, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self._view = view
+    def __init__(self, view: ProgressView, page: Page) -> None:
+        super().__init__(page)
+        self._view, self._page = view, page
         self._user = ""
         self.job = Job(self, expected=(OSError, ValueError, MemoryError))
         self.job.succeeded.connect(self._take_imported)
@@ -55,7 +54,7 @@ class ProgressPresenter(QObject):
         try:
             self._view.show_users(attempt_file().users(), user)
         except OSError as problem:
-            self.refused.emit(f"{problem}.")
+            self._page.refuse(f"{problem}.")
             self._view.show_users((), user)
         reached = progress(attempts)
         stage_by_template = {attempt.template: attempt.stage for attempt in attempts}
@@ -82,7 +81,7 @@ class ProgressPresenter(QObject):
     @Slot(str)
     def _choose_user(self, name: str) -> None:
         if not is_name(name):
-            self.refused.emit(f"Expected a name of 1 to 200 printable characters, got {name[:40]!r}.")
+            self._page.refuse(f"Expected a name of 1 to 200 printable characters, got {name[:40]!r}.")
         elif name != self._user:
             self.user_changed.emit(name)
 
@@ -98,9 +97,9 @@ class ProgressPresenter(QObject):
             attempts = attempt_file().attempts(self._user)
             write_file(path, exported_attempts(attempts, path))
         except OSError as problem:
-            self.refused.emit(f"The answers were not exported: {problem}.")
+            self._page.refuse(f"The answers were not exported: {problem}.")
         else:
-            self.message_sent.emit(f"Exported {counted(len(attempts), 'answer')} to {Path(path).name}.")
+            self._page.tell_done(f"Exported {counted(len(attempts), 'answer')} to {Path(path).name}.")
 
     @Slot()
     def _import(self) -> None:
@@ -123,12 +122,12 @@ class ProgressPresenter(QObject):
 
     @Slot(object)
     def _take_imported(self, said: str) -> None:
-        self.message_sent.emit(said)
+        self._page.tell_done(said)
         self.attempts_added.emit()
 
     @Slot(object)
     def _refuse_import(self, problem: Exception) -> None:
-        self.refused.emit(f"The answers were not imported: {problem_text(problem)}.")
+        self._page.refuse(f"The answers were not imported: {problem_text(problem)}.")
 
     @property
     def is_working(self) -> bool:

@@ -16,6 +16,7 @@ from app.pages.exercises.answer_pictures import Live, numbers_of, picture_of, pl
 from app.pages.exercises.evidence import Evidence
 from app.pages.exercises.feedback import feedback_of
 from app.pages.exercises.work import Asked, Checked, asking, asking_apart, checking, drawing, drawn
+from app.pages.page_bar import Page
 from core.records.words import counted
 from lessons.attempts.practice import MISSES_IN_A_ROW, TRY_LIMIT, first_tries, is_correction, misses_in_a_row
 from lessons.attempts.record import Attempt
@@ -46,9 +47,7 @@ class QuestionPresenter(QObject):
     checked = Signal(object)
     """An `Attempt` that was kept."""
     state_changed = Signal()
-    """The question may be asked now, or be asked no longer."""
-    message_sent = Signal(str)
-    refused = Signal(str)
+    """The question may be asked now, or be asked no longer; or none could be asked."""
 
     def __init__(
         self,
@@ -56,10 +55,11 @@ class QuestionPresenter(QObject):
         grid: MarkGrid,
         unfinished: UnfinishedFile,
         attempts: Callable[[], Sequence[Attempt]],
-        parent: QObject | None = None,
+        page: Page,
     ) -> None:
         """Begin without a question; ``attempts`` returns those of the learner so far."""
-        super().__init__(parent)
+        super().__init__(page)
+        self._page = page
         self._view, self._grid, self._unfinished, self._attempts = view, grid, unfinished, attempts
         self.user = ""
         self.question: Question | None = None
@@ -76,7 +76,7 @@ class QuestionPresenter(QObject):
         self._digest = ""
         self._history = AnswerHistory(grid, self)
         self._begun = monotonic()
-        self.evidence = Evidence(view, grid, self)
+        self.evidence = Evidence(view, grid, page)
         self._jobs = JobGroup(self)
         self._asking, self._checking, self._drawing = (self._jobs.add_job() for _ in range(3))
         self._waiting: list[Callable[[], None]] = []
@@ -210,7 +210,7 @@ class QuestionPresenter(QObject):
             try:
                 answer.show_given(kept.given)
             except (TypeError, ValueError, LookupError):
-                self.refused.emit("The answer that was kept is of another form. It is empty now.")
+                self._page.refuse("The answer that was kept is of another form. It is empty now.")
                 answer.show_given(None)
         self._history.begin(answer.given())
         self._draw_live()
@@ -220,14 +220,15 @@ class QuestionPresenter(QObject):
 
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
-        self.refused.emit(f"{error}. The page is unchanged.")
+        self._page.refuse(f"{error}. The page is unchanged.")
+        self.state_changed.emit()
 
     @Slot()
     def copy_line(self) -> None:
         """Copy the line that gives this question to anybody."""
         if self.question is not None:
             QGuiApplication.clipboard().setText(self.question.mark)
-            self.message_sent.emit(f"Copied: {self.question.mark}")
+            self._page.tell(f"Copied: {self.question.mark}")
 
     # Answering.
 
@@ -243,9 +244,9 @@ class QuestionPresenter(QObject):
         question, view = self.question, self._view.answer
         if question is None or view is None or self._is_shown or not self._history.can_go(direction):
             word = "undo" if direction < 0 else "redo"
-            self.message_sent.emit(f"There is no change of the answer to {word}.")
+            self._page.tell(f"There is no change of the answer to {word}.")
         elif question.draft.answer.kind == StepsAnswer.kind:
-            self.message_sent.emit("A step that was tried counts. Try it again, or have it put right.")
+            self._page.tell("A step that was tried counts. Try it again, or have it put right.")
         else:
             view.show_given(self._history.go(direction))
             self._follow_answer()
@@ -301,7 +302,7 @@ class QuestionPresenter(QObject):
         if question is None or view is None or self._checking.is_running:
             return
         if self._asking.is_running or self._waiting:
-            self.message_sent.emit("Not checked: you have chosen another question.")
+            self._page.tell("Not checked: you have chosen another question.")
             return
         answer, given = question.draft.answer, view.given()
         try:
@@ -335,7 +336,7 @@ class QuestionPresenter(QObject):
         self._show_state()
         self._keep()
         if checked.trouble:
-            self.refused.emit(checked.trouble)
+            self._page.refuse(checked.trouble)
         if attempt is not None:
             self.checked.emit(attempt)
 
@@ -391,9 +392,7 @@ class QuestionPresenter(QObject):
             self._is_shown = True
             self._show_state()
             self._keep()
-            self.message_sent.emit(
-                "The Step page shows what was asked for. The question earns nothing any more."
-            )
+            self._page.tell("The Step page shows what was asked for. The question earns nothing any more.")
 
     @Slot()
     def show_model(self) -> None:

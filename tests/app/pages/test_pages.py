@@ -1,6 +1,8 @@
 """The pages of the window: one bar, keys of the page that is shown, and what comes back."""
 
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
@@ -8,6 +10,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
+import app.pages
 from app.files.preferences import Preferences, load_preferences
 from app.pages.page_bar import StepRequest
 from app.session.document import open_document
@@ -212,3 +215,11 @@ def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWi
     window.appearance.set_theme("light")
     window.resize(1200, 700)
     qtbot.waitUntil(lambda: window.page.columns.sizes()[0] == pytest.approx(before[0], abs=12))
+
+
+def test_presenters_speak_through_their_page() -> None:
+    told = re.compile(r"^    (message_sent|refused|step_requested) = Signal", re.MULTILINE)
+    (folder,) = app.pages.__path__
+    files = [*Path(folder).rglob("*_presenter.py"), *(Path(folder) / "exercises").glob("*.py")]
+    assert len(files) > 20
+    assert [file.name for file in files if told.search(file.read_text(encoding="utf-8"))] == []
