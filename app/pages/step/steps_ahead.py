@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import cache
+from importlib import import_module
 from threading import Thread
 
 from PySide6.QtCore import QObject, QTimer, Slot
@@ -56,6 +57,7 @@ def load_stages() -> Thread:
 def _load() -> None:
     load_tracers()
     load_subjects()
+    import_module("numpy.ma")  # np.unique asks for it when it is first called.
 
 
 class StepsAhead(QObject):
@@ -67,8 +69,8 @@ class StepsAhead(QObject):
         self._positions = [1]
         """What is still to be prepared, the nearest first: when the window opens, the first step."""
         self._formula: Formula | None = None
-        self._is_painted = True
-        """Whether the window has come to rest since the step."""
+        self._is_resting = True
+        """Whether the step is painted with its whole formula, a pause ago."""
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._prepare)
@@ -87,14 +89,14 @@ class StepsAhead(QObject):
             ahead.append(steps.forward(ahead[-1], cursor.level))
         self._positions = list(dict.fromkeys([*ahead[1:], steps.back(cursor.position, cursor.level)]))
         self._formula = None
-        self._is_painted = False
+        self._is_resting = False
         self._timer.start(0)  # It waits for what there is to paint, however long that takes.
 
     @Slot()
     def _prepare(self) -> None:
         """Explain one step, or typeset one cell of its formula."""
-        if load_stages().is_alive() or not self._is_painted or not self._view.is_complete():
-            self._is_painted = True
+        if load_stages().is_alive() or not self._is_resting or not self._view.is_complete():
+            self._is_resting = self._view.is_complete()
             self._timer.start(QUIET_MS)
             return
         if self._formula is None:

@@ -64,7 +64,7 @@ def test_keys_of_the_step_page_do_nothing_on_another(window: MainWindow) -> None
 def test_menus_without_anything_for_the_page_are_off(window: MainWindow) -> None:
     window.pages.show_page("compare")
     off = [action.text() for action in window.menuBar().actions() if not action.isEnabled()]
-    assert off == ["&Step", "&Stage", "&Raster", "&Stability", "&Plan", "&Exercises"]
+    assert off == ["&Step", "&Stage", "&Lesson", "&Raster", "&Stability", "&Plan", "&Exercises"]
 
 
 def test_the_chosen_page_stays_checked_when_it_is_chosen_again(window: MainWindow) -> None:

@@ -137,3 +137,12 @@ def test_every_key_does_something(
 def test_the_stage_without_a_key_is_in_the_menu(window: MainWindow) -> None:
     window.menus.actions_by_name["stage_10"].trigger()
     assert window.session.cursor.stage == "resolve"
+
+
+def test_menus_show_what_is_on_whatever_has_switched_it(window: MainWindow) -> None:
+    actions, session = window.menus.actions_by_name, window.session
+    for _ in range(2):
+        window.edits.toggle_cleared()
+        assert actions["toggle_cleared"].isChecked() == (session.document.before == "cleared")
+        window.page.set_predicting(not session.is_predicting)
+        assert actions["predict"].isChecked() == session.is_predicting

@@ -1,8 +1,11 @@
 """Formulas of the next steps are typeset while the user looks at this one."""
 
+from time import sleep
+
+from PySide6.QtCore import QCoreApplication
 from pytestqt.qtbot import QtBot
 
-from app.pages.step.steps_ahead import STEPS_AHEAD, StepsAhead
+from app.pages.step.steps_ahead import QUIET_MS, STEPS_AHEAD, StepsAhead, load_stages
 from app.session.document import open_document
 from app.session.session import Session
 from core.explain import formula
@@ -27,3 +30,18 @@ def test_a_step_finds_its_formula_typeset(qtbot: QtBot) -> None:
         assert explanation is not None
         view.show_formula(formula(explanation))
         assert view.is_complete()
+
+
+def test_it_begins_only_when_the_window_has_come_to_rest(qtbot: QtBot) -> None:
+    session = Session(open_document(built_in_scene("shared-edge").make(), ""))
+    view = FormulaView(typesetter=Typesetter())
+    qtbot.addWidget(view)
+    ahead = StepsAhead(session.moment, view)
+    load_stages().join()
+    session.set_stage("edges", 0)
+    ahead.begin(session.moment)
+    owed = list(ahead._positions)
+    sleep(2 * QUIET_MS / 1000)  # The step takes its time, and then it is painted.
+    QCoreApplication.processEvents()
+    assert ahead._positions == owed
+    qtbot.waitUntil(lambda: not ahead._positions)
