@@ -5,13 +5,14 @@ from collections.abc import Sequence
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QComboBox, QWidget
 
+from widgets.basics.choice_box import ChoiceBox
 from widgets.grid.buffer import GridBuffer
 
 ROOM = 11
 """Letters that the box has room for: other buffers must not move what stands beside it."""
 
 
-class BufferChoice(QComboBox):
+class BufferChoice(ChoiceBox):
     """The buffers of the stage at hand; set by code, it emits nothing."""
 
     buffer_chosen = Signal(str)
@@ -25,7 +26,6 @@ class BufferChoice(QComboBox):
         self.setToolTip("Choose the buffer in the main view")
         self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
         self.setMinimumContentsLength(ROOM)
-        self.setMaxVisibleItems(24)
         self.activated.connect(self._choose)
 
     def show_buffers(self, buffers: Sequence[GridBuffer], chosen: str) -> None:

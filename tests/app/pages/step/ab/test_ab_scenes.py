@@ -4,7 +4,9 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from PySide6.QtGui import QImage
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QImage, QWheelEvent
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
@@ -166,6 +168,25 @@ def test_each_stage_keeps_its_buffer(window: MainWindow) -> None:
     assert box.currentData() == "primitive"
     window.session.set_stage("raster")
     assert box.currentData() == "overdraw"
+
+
+def test_a_wheel_over_a_choice_of_buffers_changes_nothing(window: MainWindow) -> None:
+    compared(window, "cube", "depth", visibility="last-drawn")
+    for box in (window.page.compare_view.buffer_box, window.page.main_area.buffer_choice):
+        shown, at = box.currentIndex(), QPointF(5, 5)
+        turned = QWheelEvent(
+            at,
+            at,
+            QPoint(),
+            QPoint(0, -120),
+            Qt.MouseButton.NoButton,
+            Qt.KeyboardModifier.NoModifier,
+            Qt.ScrollPhase.NoScrollPhase,
+            False,
+        )
+        QApplication.sendEvent(box, turned)
+        assert box.currentIndex() == shown
+        assert not turned.isAccepted()
 
 
 def test_pictures_of_a_and_b_have_a_margin_and_name_the_settings(window: MainWindow, tmp_path: Path) -> None:
