@@ -89,15 +89,15 @@ class SideB:
         return self.scenes is None or self.scenes[0] is document.scene
 
     def opened_beside(self, document: Document) -> "SideB | None":
-        """Return what is left of it beside another scene: what has an effect there; ``None``: nothing."""
+        """Return what is left of it beside another scene: settings that have an effect there; ``None``: nothing."""
         other = self.document(document).settings
         left = {
             name: value
             for name, value in document.settings.differences(other).items()
             if not no_effect(other, name, document.scene)
         }
-        is_left = left and self.is_beside(document) and (not self.title or len(left) == len(self.differences))
-        return replace(self, differences=left) if is_left else None
+        # What has a title was shown for its own scene.
+        return SideB(left) if left and not self.title else None
 
     def document(self, document: Document) -> Document:
         """Return what B draws beside a document."""

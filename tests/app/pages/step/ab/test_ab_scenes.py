@@ -96,6 +96,9 @@ def test_an_edit_leaves_a_printed_b(window: MainWindow) -> None:
     assert comparing.printed == "pellacini-dda"
     assert comparing.other.replacements
     assert "as printed" in window.page.compare_view.titles[1].text()
+    window.session.open(opened("lmu-line"))
+    assert comparing.printed == "", "A no longer runs the right method beside it"
+    assert comparing.other.replacements == {}
 
 
 def test_a_mistake_in_the_scene_stays_beside_its_scene_only(window: MainWindow, qtbot: QtBot) -> None:
@@ -137,6 +140,17 @@ def test_a_goal_ends_with_a_b_that_cannot_be_drawn(window: MainWindow) -> None:
     comparing.set_differences({"fill": "scanline"})
     assert "pixels differ" in summary.text()
     assert window.session.cursor == cursor
+
+
+def test_a_b_of_too_many_steps_is_refused(window: MainWindow, qtbot: QtBot) -> None:
+    document = opened("sphere")
+    few = replace(document.settings, fill="spans")
+    window.session.open(replace(document, settings=few, triangle=None))
+    window.session.set_stage("cull", 0)
+    window.page.comparing.set_differences({"fill": "brute-force"})
+    window.page.show_view("compare")
+    said = window.page.compare_view.summary
+    qtbot.waitUntil(lambda: said.text().startswith("B cannot be drawn: Testing every pixel for all 2,208"))
 
 
 def test_leaving_ends_the_search_and_the_run_of_b(window: MainWindow, qtbot: QtBot) -> None:
