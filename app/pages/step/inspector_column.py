@@ -7,7 +7,7 @@ from app.session.moment import Moment
 from core.explain.records import Formula
 from widgets.basics.controls import column_layout
 from widgets.basics.pane_splitter import PaneSplitter
-from widgets.basics.theme import current_theme, theme_notifier
+from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.history_view import PixelHistory
 from widgets.inspector.listing import ListingView
@@ -144,6 +144,7 @@ class InspectorColumn(QTabWidget):
     @Slot()
     def _forget_heights(self) -> None:
         """Find the room of the formula anew, in another width or type."""
+        self.tabBar().setFont(text_font(current_theme()))  # Qt leaves it as it was while the column is hidden.
         self._tallest = self._wanted_height()
         self.fit()
 
