@@ -7,12 +7,13 @@ import numpy as np
 from core.methods import table
 from core.raster.lines.points import OPERATIONS, POINT, point_listing
 from core.raster.lines.records import check_segments
-from core.raster.lines.traits import line_set_up, line_traits
+from core.raster.lines.traits import OFF, line_set_up, line_traits
 from core.raster.lines.wireframe import line_parameter
 from core.records.arrays import Flags, Floats, Integers
 from core.records.listing import listing
 from core.records.operation import Columns, Operation
 from core.records.steps import Steps, ends_of
+from core.trace.inserted_rows import InsertedRows, insert_rows
 from core.trace.line_clipping import with_line_clipping
 from core.trace.raster_rows import FILL_OPERATIONS, overdraw_track
 from core.trace.right_pixels import right_pixels
@@ -112,7 +113,41 @@ def trace_lines(source: TraceSource) -> StageTrace:
         constants={"center": raster.center, "right_method": line_traits(line).right},
         given=_given(operations, columns),
     )
-    return with_line_clipping(found, source)
+    return with_line_clipping(_with_set_up(found, line_traits(line).pixels_in_column), source)
+
+
+SET_UP = frozenset({"octant", "lengths", "directions", "sy", "slope", "intercept"})
+"""What a line method does once for a line, before it goes to the first pixel."""
+
+
+def _with_set_up(found: StageTrace, in_column: int) -> StageTrace:
+    """Put a row before each line whose first pixels lie off the raster: what its numbers are, and how many are skipped.
+
+    Of such a line the row of the first pixel, which sets them up, is not there.
+    """
+    columns, kinds = found.columns, found.steps.kinds
+    skipped = columns["index"] // in_column
+    first = np.flatnonzero((np.diff(columns["segment"], prepend=-1) != 0) & (skipped > 0))
+    starting = next((kind for kind in kinds if kind.endswith("-start")), "")
+    if not len(first) or not starting:
+        return found
+    done = tuple(one for one in found.steps.operations[starting] if one.name in SET_UP)
+    kind = f"{starting.removesuffix('-start')}{OFF}"
+    rows = InsertedRows(
+        before=first,
+        group=columns["segment"][first],
+        triangle=found.triangle[first],
+        kinds=(kind,),
+        kind=np.zeros(len(first), np.int64),
+        operations={kind: (*done, Operation("skip", "draw", {"skipped": "pixels"}))},
+        columns={
+            **{name: values[first] for name, values in columns.items()},
+            "covered": np.zeros(len(first), bool),
+            "skipped": skipped[first],
+        },
+        listings={kind: found.listings[starting]},
+    )
+    return insert_rows(found, columns["segment"], rows)
 
 
 def _kind(columns: Columns, kinds: tuple[str, ...], in_column: int) -> Integers:

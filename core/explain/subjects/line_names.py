@@ -9,7 +9,7 @@ from core.explain.listed_code import tested as tested_by
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, hides, shows
 from core.methods import table
-from core.raster.lines.traits import line_of_kind, line_traits, minor_name
+from core.raster.lines.traits import OFF, line_of_kind, line_traits, minor_name
 
 
 def line_method(step: StepValues) -> str:
@@ -64,6 +64,7 @@ for _line in table.names("line"):
     if any("minor" in done.sets for kind in _kinds.values() for done in kind):
         # The listing's own x and y are the pixel, one step after the other.
         hides(f"raster.{'|'.join(_kinds)}", ("column", "row"))
+    hides(f"raster.{_line}{OFF}", ("column", "row"))
 _X = "Pixel along the longer axis of the line."
 _Y = "Pixel along the other axis."
 _SUM = "The sum that decides, from pixel to pixel."

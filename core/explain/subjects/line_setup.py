@@ -151,7 +151,7 @@ def amount(computed: str, value: float) -> str:
     return spoken(value) if computed[0].isdigit() and " " not in computed else f"{computed} = {spoken(value)}"
 
 
-@explains("raster.bresenham-float-start.slope")
+@explains("raster.bresenham-float-start|bresenham-float-off.slope")
 def error_slope(step: StepValues) -> Said:
     """The slope that is added to the error."""
     if "d" not in ast.unparse(code_of(step) or ast.Pass()):
@@ -185,6 +185,15 @@ def line_intercept(step: StepValues) -> Said:
         f"{MINOR} = {spoken(m)} · {MAJOR} {'−' if b < 0 else '+'} {spoken(abs(b))}{swapped}."
     )
     return text, equation(("b", b), "=", (f"{MINOR}_0", y0), "-", ("m", m), r"\cdot", (f"{MAJOR}_0", x0))
+
+
+@explains("raster.*.skip")
+def skipped(step: StepValues) -> Said:
+    """The pixels of a line before the first one on the raster."""
+    word = "row" if step.flag("is_steep") else "column"
+    count = step.whole("skipped")
+    noun = f"first {word} lies" if count == 1 else f"first {count} {word}s lie"
+    return f"The line's {noun} outside the raster, so the steps shown begin after {'it' if count == 1 else 'them'}."
 
 
 def column_of_point(step: StepValues) -> Asked | None:

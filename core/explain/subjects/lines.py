@@ -78,7 +78,7 @@ def will_step(step: StepValues) -> Asked:
     )
 
 
-@explains("raster.dda-float32-start.sy")
+@explains("raster.dda-float32-start|dda-float32-off.sy")
 def rounded_step(step: StepValues) -> Said:
     """The slope in the line's direction."""
     made, computed, value = assignment(step)

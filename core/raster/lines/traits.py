@@ -113,9 +113,13 @@ def line_rows(
     return {f"{line}-start": first, line: later, **{kind: rows for kind, rows in others.items() if rows}}
 
 
+OFF = "-off"
+"""End of the kind of row that sets up a line whose first pixels lie off the raster."""
+
+
 def line_of_kind(kind: str) -> str:
     """Return the line method of a kind of row."""
-    return kind.removesuffix("-start").removesuffix("-step").removesuffix("-beside")
+    return kind.removesuffix("-start").removesuffix("-step").removesuffix("-beside").removesuffix(OFF)
 
 
 @cache

@@ -8,13 +8,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, Trace, render, trace
-from core.explain import variables
+from core.explain import sentence, variables
 from core.methods import table
 from core.raster.lines.smooth import FILTER_TABLE
-from core.raster.lines.traits import has_intensities, line_traits
+from core.raster.lines.traits import OFF, has_intensities, line_traits
 from core.raster.lines.wireframe import interpolate_affine_along, interpolate_along
 from core.records.steps import Level
 from core.trace import StageTrace
+from core.trace.lines import SET_UP
+from lessons.small_scenes import segment_scene
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.executed_rows import Ran, lines_that_run, states_of
 from tests.core.trace.trace_cases import SCENES, settings_of
@@ -69,7 +71,8 @@ def check_chosen_pixels(found: StageTrace, bounds: tuple[int, int, int, int]) ->
     c = found.columns
     left, bottom, right, top = bounds
     for segment in np.unique(c["segment"]).tolist():
-        rows = np.flatnonzero(c["segment"] == segment)
+        # A row that sets up a line whose first pixels lie off the raster draws nothing.
+        rows = np.flatnonzero((c["segment"] == segment) & c["covered"])
         ends = [*c["first_end"][rows[0]], *c["second_end"][rows[0]]]
         ends = [int(end) for end in ends] if line_traits(line).takes_pixels else ends
         if max(np.abs(ends)) > 2000:
@@ -308,9 +311,23 @@ def test_every_step_names_a_line_of_the_listing_and_numbers_that_there_are(line)
         assert all(np.isfinite(number).all() for number in numbers), explanation.key
         seen.add(explanation.key)
     operations = table.get("line", line).operations
-    assert seen == {
+    assert {key for key in seen if OFF not in key} == {
         f"raster.{kind}.{operation.name}" for kind in operations for operation in operations[kind]
     }
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_a_line_that_begins_off_the_raster_steps_its_set_up(line):
+    found = trace(segment_scene([((-3, 1), (6, 4))], (8, 6)), Settings(line=line)).stage("raster")
+    begun = trace(segment_scene([((0, 1), (6, 4))], (8, 6)), Settings(line=line)).stage("raster")
+    assert found.kind_of(0) == f"{line}{OFF}"
+    names = [done.name for done in found.steps.operations[f"{line}{OFF}"]]
+    first = [done.name for done in begun.steps.operations[f"{line}-start"]]
+    assert names[:-1] == [name for name in first if name in SET_UP] != []
+    last = found.explain(int(found.steps.starts[1]))
+    assert sentence(last, 0, None).startswith("The line's first ")
+    assert not found.marks["covered"][0]
+    assert found.marks["covered"][1:].all()
 
 
 @pytest.mark.parametrize("choice", CHOICES, ids=str)

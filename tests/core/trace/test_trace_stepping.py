@@ -189,6 +189,7 @@ def test_columns_and_marks_have_a_value_a_row(name):
             assert not len(track.rows) or track.rows[-1] < rows
         counts = found.summary(0, rows)
         assert 0 <= counts.pop("tested") <= rows
+        assert counts.pop("samples") == int("sample" in found.columns)
         assert counts == {"rows": rows} | {mark: int(flags.sum()) for mark, flags in found.marks.items()}
 
 
