@@ -2,7 +2,7 @@
 
 from core.explain.digits import remainder_note, signed_latex, spoken, vector_text
 from core.explain.equation import Part, comparison, conclusion, equation, vector_latex
-from core.explain.rows import Said, explains
+from core.explain.rows import REMARKS, Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.culling import decisive_area
 from core.explain.variable_text import VariableText, shows
@@ -112,6 +112,11 @@ def turned_away(step: StepValues) -> Said:
         text += f"; {decisive_area(step)[0]}, {spoken(facing)}, says the other side"
     side = "back" if value > 0 else "front"
     return f"{text}.", equation(*comparison(r"N \cdot V", ">", value), *conclusion("back", side))
+
+
+REMARKS["cull.back-normal|back-axis|back-stored-normal.test"] = lambda columns, rows: (
+    columns["product"][rows] * columns["facing"][rows] > 0
+)
 
 
 shows(

@@ -76,6 +76,15 @@ def test_what_a_printed_line_gets_wrong(level: Level) -> None:
     assert any("; the right method (Midpoint) draws (1, 0) instead." in text for text in found)
 
 
+@pytest.mark.parametrize("level", Level)
+def test_where_culling_by_the_camera_axis_sees_the_other_side(level: Level) -> None:
+    found = said(ALL_SCENES["jubair-backfaces"].make(), "cull", level, Settings(cull="back-axis"))
+    wanted = "so it counts as a back; twice its signed area, 20.65, says the other side."
+    assert any(wanted in text for text in found)
+    right = said(ALL_SCENES["jubair-backfaces"].make(), "cull", level, Settings(cull="back-normal"))
+    assert not any("says the other side" in text for text in right)
+
+
 def test_a_listing_as_printed_is_told_wrong_just_where_its_picture_is() -> None:
     for name in ("lmu-scanline-triangle", "shared-edge", "single-triangle", "triangle-strip"):
         scene = make_scene(name) if name in scene_names() else ALL_SCENES[name].make()
