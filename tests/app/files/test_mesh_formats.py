@@ -153,7 +153,7 @@ def test_a_missing_texture_of_a_ply_is_a_warning(tmp_path):
         (ply_text(LINES, ["3 0 1 6"]), "face 0 names vertex 6, the file has 6, counted from 0"),
         (ply_text(LINES, ["3 0 1 2", "3 0 1 -1"]), "face 1 names vertex -1"),
         (ply_text(LINES, ["3 0 1 2.5"]), "face 0 names vertex 2.5"),
-        (ply_text(LINES, ["2 0 1"]), "face 0 needs at least 3 corners, it has 2"),
+        (ply_text(LINES, ["2 0 1"]), "face 0 needs at least 3 corners, got 2"),
         (ply_text(LINES, MIXED_LINES)[:-8], "cut short"),
         (ply_text(LINES, ["3 0 1 two"]), "expected a number, got two"),
         (ply_text(["nan 0 0", *LINES], MIXED_LINES), "vertex 0 is at [nan, 0.0, 0.0]"),
