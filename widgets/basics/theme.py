@@ -7,7 +7,7 @@ palette in every theme; the accent marks the step just done and nothing else; fo
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
-from functools import cache
+from functools import cache, lru_cache
 
 import numpy as np
 from PySide6.QtCore import QObject, Signal
@@ -289,6 +289,7 @@ def contrast(first: str, second: str) -> float:
     return (lighter + 0.05) / (darker + 0.05)
 
 
+@lru_cache(maxsize=256)
 def relative_luminance(color: str) -> float:
     """Return the luminance of an sRGB colour, 0 (black) to 1 (white)."""
     parsed = QColor(color)

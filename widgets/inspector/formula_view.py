@@ -216,7 +216,8 @@ class FormulaView(QWidget):
         """Return the lines that can be read largest: where there is little height, fewer of them, a little smaller."""
         setter = self._setter()
         lines = setter.layout(self._formula, self.width())
-        if self._scale(lines) == 1.0:
+        width, height = extent(lines)
+        if width <= self.width() - 2 * MARGIN and round(height) <= self.height() - 2 * MARGIN:
             return lines
         others = [setter.layout(self._formula, round(share * self.width())) for share in self.WIDTH_SHARES]
         return max((lines, *others), key=self._scale)
