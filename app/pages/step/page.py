@@ -95,6 +95,7 @@ class StepPage(Page):
         self.main_area.view_changed.connect(self._follow_view)
         self.main_area.thumbnails_toggled.connect(self._toggle_thumbnails)
         self.stepping.stepped_alone = self.comparing.steps_alone
+        self.inspector.ahead.is_drawing = self._is_drawing
         self.views.message_sent.connect(self.message_sent)
         self.main_area.view_chosen.connect(self.look_changed)
         self.grids.look_changed.connect(self.look_changed)
@@ -330,6 +331,10 @@ class StepPage(Page):
         if not is_on:
             self.main_area.show_own_view()
 
+    def _is_drawing(self) -> bool:
+        """Return whether a picture is being drawn in the background."""
+        return self.views.is_drawing or self.navigation.is_drawing
+
     def settle(self) -> None:
         """Wait until everything that is drawn a moment later (formulas, the 3D view) is there."""
         for _ in range(100):
@@ -338,7 +343,7 @@ class StepPage(Page):
                 break
             QThread.msleep(10)
         self._settle_layouts(self.session.moment)
-        while self.views.is_drawing or self.navigation.is_drawing or self.lessons.is_working:
+        while self._is_drawing() or self.lessons.is_working:
             QCoreApplication.processEvents()
             QThread.msleep(5)
 

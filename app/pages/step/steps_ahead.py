@@ -1,5 +1,6 @@
 """What the next steps say, made before they are shown, while the user looks at this one."""
 
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 from importlib import import_module
@@ -69,8 +70,10 @@ class StepsAhead(QObject):
         self._positions = [1]
         """What is still to be prepared, the nearest first: when the window opens, the first step."""
         self._formula: Formula | None = None
+        self.is_drawing: Callable[[], bool] = lambda: False
+        """Returns whether a picture of the step is still being drawn in the background."""
         self._is_resting = True
-        """Whether the step is painted with its whole formula, a pause ago."""
+        """Whether the step is painted with its pictures and its whole formula, a pause ago."""
         self._timer = QTimer(self)
         self._timer.setSingleShot(True)
         self._timer.timeout.connect(self._prepare)
@@ -95,8 +98,9 @@ class StepsAhead(QObject):
     @Slot()
     def _prepare(self) -> None:
         """Explain one step, or typeset one cell of its formula."""
-        if load_stages().is_alive() or not self._is_resting or not self._view.is_complete():
-            self._is_resting = self._view.is_complete()
+        is_shown = self._view.is_complete() and not self.is_drawing()
+        if load_stages().is_alive() or not self._is_resting or not is_shown:
+            self._is_resting = is_shown
             self._timer.start(QUIET_MS)
             return
         if self._formula is None:
