@@ -44,4 +44,8 @@ def test_it_begins_only_when_the_window_has_come_to_rest(qtbot: QtBot) -> None:
     sleep(2 * QUIET_MS / 1000)  # The step takes its time, and then it is painted.
     QCoreApplication.processEvents()
     assert ahead._positions == owed
+    ahead.is_drawing = lambda: True  # In the background, as a picture in space.
+    qtbot.wait(3 * QUIET_MS)
+    assert ahead._positions == owed
+    ahead.is_drawing = lambda: False
     qtbot.waitUntil(lambda: not ahead._positions)
