@@ -1,0 +1,450 @@
+"""The dialect of listings: the part of Python that they are written in."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from difflib import get_close_matches
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from core.lanes.dialect import Rule, Turn
+from core.lanes.limits import LARGEST
+from core.lanes.masks import NOBODY, Mask, Some, lanes_in, split
+from core.lanes.problem import Place, Problem, counted
+from core.lanes.python_functions import NATIVE, ROUNDING, applied, rounded
+from core.lanes.python_rules import TOO_LARGE, operator_rule
+from core.lanes.python_values import Log, Many, Range, is_flag, is_number, kind_of, number_kind
+from core.lanes.run import Run
+
+CHECKED_TURNS = 64
+"""Rounds of a loop that a check on no lanes looks at."""
+MOST_ARGUMENTS = 9
+FEW_LETTERS = 4
+"""Names up to so long are proposed only where one letter differs."""
+UNEQUAL = "this list is not as long in every lane: it can only be put to, and returned"
+
+
+class PythonDialect:
+    """Values and rules of listings; ``constants`` are numbers that a listing knows by name."""
+
+    nothing = None
+    is_typed = False
+
+    def __init__(self, constants: Mapping[str, Any] | None = None) -> None:
+        self._names = {"nan": float("nan"), "inf": float("inf"), **(constants or {})}
+        self._of_lists: dict[str, Callable[..., Any]] = {
+            "all": self._every,
+            "any": self._every,
+            "len": self._length,
+            "tuple": self._listed,
+            "list": self._listed,
+            "zip": self._zipped,
+            "enumerate": self._enumerated,
+            "pairwise": self._pairs,
+            "reversed": self._turned,
+            "sorted": self._sorted,
+            "sum": self._total,
+            "range": self._range,
+            "bool": self._truth,
+            "is None": self._is_none,
+            "in": self._is_in,
+            "slice": self._slice,
+            "range by": self._range_by,
+            "raise": self._raise,
+        }
+
+    @property
+    def functions(self) -> tuple[str, ...]:
+        """Names of all functions that may be typed."""
+        typed = (name for name in self._of_lists if name.isidentifier() and name not in ("in", "raise"))
+        return (*typed, *NATIVE, *ROUNDING)
+
+    def names(self) -> Mapping[str, Any]:
+        """Return the numbers that a listing knows by name."""
+        return self._names
+
+    def constant(self, value: Any, place: Place) -> Any:
+        """Return what was typed: it is a value already."""
+        return value
+
+    def unknown(self, name: str, known: Iterable[str]) -> str:
+        """Say that a name has no value, and which one may be meant."""
+        return f"{name} has no value{meant(name, [*known, *self.functions])}"
+
+    def flag(self, truth: Any) -> Any:
+        """Return a condition as a value: it is one already."""
+        return truth
+
+    def truth(self, value: Any, place: Place) -> Any:
+        """Return a condition, one bool or flags (L,); nothing but true and false is one."""
+        if is_flag(value):
+            return value
+        hint = ": compare it, as x != 0" if is_number(value) else ""
+        raise Problem(place, f"a condition must be true or false, this is {kind_of(value)}{hint}")
+
+    def uniform(self, value: Any, place: Place) -> bool:
+        """Return a condition that must be the same in all lanes."""
+        truth = self.truth(value, place)
+        if np.ndim(truth):
+            raise Problem(place, "this condition must be the same in every lane")
+        return bool(truth)
+
+    def rule(self, operator: str, place: Place) -> Rule:
+        """Return what an operator does with two operands."""
+        return operator_rule(operator, place)
+
+    def prefix(self, operator: str, place: Place) -> Callable[[Any], Any]:
+        """Return what an operator does with one operand."""
+
+        def run(value: Any) -> Any:
+            if operator == "not":
+                truth = self.truth(value, place)
+                return ~truth if isinstance(truth, np.ndarray) else not truth
+            if not is_number(value):
+                raise Problem(place, f"{operator} {kind_of(value)} is not possible")
+            if is_flag(value):
+                raise Problem(place, f"{operator} takes a number, this is true or false: write not")
+            return -value if operator == "-" else value
+
+        return run
+
+    def check_stored(self, value: Any, mask: Some, place: Place, run: Run) -> None:
+        """Refuse whole numbers beyond 2^53, in a list too."""
+        if type(value) is np.ndarray:
+            if value.dtype.kind == "i" and value.size:
+                is_large = np.abs(value) > LARGEST
+                if (is_large if mask is None else is_large & mask).any():
+                    raise Problem(place, TOO_LARGE)
+        elif type(value) is int and abs(value) > LARGEST:
+            raise Problem(place, TOO_LARGE)
+        elif isinstance(value, Many):
+            for part in value:
+                self.check_stored(part, mask, place, run)
+
+    def check_kept(self, name: str, old: Any, new: Any, place: Place) -> None:
+        """Python lets a variable change its type."""
+
+    def size(self, value: Any) -> int:
+        """Return how many numbers a variable takes up; those of lists were counted when they were made."""
+        return value.size if isinstance(value, np.ndarray) else 1
+
+    def zero(self, of: Any) -> Any:
+        """Return what a variable without a value would have: listings declare none."""
+        return 0
+
+    def typed(self, of: Any, value: Any, place: Place, name: str) -> Any:
+        """Return the value itself: listings have no types."""
+        return value
+
+    def merged(self, flags: Any, new: Any, old: Any, place: Place, run: Run) -> Any:
+        """Return ``new`` where ``flags`` (L,) hold, else ``old``; lists element by element."""
+        if new is old or (isinstance(new, str) and isinstance(old, str) and new == old):
+            return new
+        if isinstance(new, Log) or isinstance(old, Log):
+            return self._merged_logs(flags, new, old, place, run)
+        if isinstance(new, list) and isinstance(old, list) and len(new) == len(old):
+            pairs = zip(new, old, strict=True)
+            return Many([self.merged(flags, a, b, place, run) for a, b in pairs])
+        if isinstance(new, list) or isinstance(old, list):
+            many = [len(value) if isinstance(value, list) else 1 for value in (new, old)]
+            raise Problem(place, f"there are {counted(many[0], 'value')} here and {many[1]} elsewhere")
+        if isinstance(new, Range) and isinstance(old, Range):
+            ends = ((new.start, old.start), (new.stop, old.stop), (new.step, old.step))
+            return Range(*(np.where(flags, a, b) for a, b in ends))
+        if not (is_number(new) and is_number(old)):
+            raise Problem(place, f"this is {kind_of(new)} in some lanes and {kind_of(old)} in others")
+        return np.where(flags, new, old)
+
+    def _merged_logs(self, flags: Any, new: Any, old: Any, place: Place, run: Run) -> Log:
+        found = []
+        for value, where in ((old, ~flags), (new, flags)):
+            entries = value.entries if isinstance(value, Log) else [(None, part) for part in value or ()]
+            run.make_room(place, run.lanes * len(entries) // 8)
+            found += [(where if mask is None else mask & where, part) for mask, part in entries]
+        return Log(found)
+
+    def many(self, parts: Sequence[Any], starred: Sequence[bool], mask: Some, place: Place, run: Run) -> Any:
+        """Return a list; an empty one is a `Log`, to which each lane may put values of its own."""
+        made: list[Any] = []
+        for part, is_star in zip(parts, starred, strict=True):
+            made += self.elements(part, mask, place, run) if is_star else [part]
+            if len(made) > run.limits.numbers:
+                break
+        if not made:
+            return Log()
+        found = Many(made)
+        if found.leaves > run.limits.numbers:
+            raise Problem(place, f"a list has at most {run.limits.numbers:,} numbers here")
+        run.make_room(place, sum(part.size if isinstance(part, np.ndarray) else 1 for part in found))
+        return found
+
+    def elements(self, value: Any, mask: Some, place: Place, run: Run) -> list[Any]:
+        """Return the elements of a list or a range that is the same in all lanes."""
+        if isinstance(value, Log):
+            return value.seen(mask, place)
+        if isinstance(value, list):
+            return value
+        if isinstance(value, Range):
+            if not value.is_uniform:
+                raise Problem(place, "this range is not the same in every lane: write a for loop")
+            made = range(value.start, value.stop, value.step)
+            if len(made) > run.limits.numbers:
+                most = run.limits.numbers
+                raise Problem(
+                    place, f"a list has at most {most:,} numbers here, this range has {_length_of(made)}"
+                )
+            return list(made)
+        raise Problem(place, f"{kind_of(value)} has no elements")
+
+    def unpacked(self, value: Any, starred: Sequence[bool], mask: Some, place: Place, run: Run) -> list[Any]:
+        """Return a value for each of several names."""
+        parts = self.elements(value, mask, place, run)
+        if sum(starred) == 1 and len(parts) >= len(starred) - 1:
+            first, rest = starred.index(True), len(parts) - len(starred) + 1
+            middle = Many(parts[first : first + rest]) if rest else Log()
+            return [*parts[:first], middle, *parts[first + rest :]]
+        if any(starred) or len(parts) != len(starred):
+            on_right = counted(len(parts), "value")
+            raise Problem(place, f"{counted(len(starred), 'name')} on the left of =, {on_right} on its right")
+        return parts
+
+    def turns(self, value: Any, mask: Some, place: Place, run: Run) -> Turn:
+        """Return the rounds of a for loop."""
+        if isinstance(value, Range) and not value.is_uniform:
+            return self._unequal_turns(value, run)
+        made: Sequence[Any]
+        if isinstance(value, Range):
+            made = range(value.start, value.stop, value.step)
+        else:
+            made = tuple(self.elements(value, mask, place, run))
+        most = CHECKED_TURNS if run.is_checking else run.limits.rounds
+
+        def turn(here: Some, number: int) -> tuple[Mask, Mask, Any]:
+            if run.is_checking and number >= most:
+                return NOBODY, here, None
+            # Longer than any list may be: len() has no answer.
+            is_there = number <= most and bool(made[number : number + 1])
+            return (here, NOBODY, made[number]) if is_there else (NOBODY, here, None)
+
+        return turn
+
+    def _unequal_turns(self, value: Range, run: Run) -> Turn:
+        def turn(here: Some, number: int) -> tuple[Mask, Mask, Any]:
+            thing = value.start + number * value.step
+            if run.is_checking:
+                return (here, NOBODY, thing) if number == 0 else (NOBODY, here, thing)
+            goes_on = np.where(np.asarray(value.step) > 0, thing < value.stop, thing > value.stop)
+            return *split(here, np.broadcast_to(goes_on, (run.lanes,)), run.lanes), thing
+
+        return turn
+
+    def put(self, whole: Any, value: Any, mask: Some, place: Place, run: Run) -> None:
+        """Put a value at the end of a list."""
+        if not isinstance(whole, Log | Many):
+            raise Problem(place, f".append needs a list, this is {kind_of(whole)}")
+        if isinstance(value, Log):
+            raise Problem(place, "a list that is still growing cannot be put into a list")
+        self.check_stored(value, mask, place, run)
+        leaves = value.leaves if isinstance(value, Many) else 1
+        run.make_room(place, (lanes_in(mask, run.lanes) or 1) * leaves)
+        if isinstance(whole, Log):
+            whole.entries.append((mask, value))
+            return
+        if value is whole or mask is not None or whole.leaves + leaves > run.limits.numbers:
+            raise Problem(
+                place,
+                f"to this list only all lanes can put values, up to {run.limits.numbers:,} numbers, and not itself: "
+                "begin with []",
+            )
+        whole.append(value)
+        whole.leaves += leaves
+
+    def part(self, whole: Any, index: Any, mask: Some, place: Place, run: Run) -> Any:
+        """Return an element; the index may differ by lane, and never counts from the end then."""
+        if not is_number(index) or number_kind(index) != "i":
+            raise Problem(place, f"an index must be a whole number, this is {kind_of(index)}")
+        if is_number(whole) or isinstance(whole, str) or whole is None:
+            raise Problem(place, f"{kind_of(whole)} has no elements [ ]")
+        parts = self.elements(whole, mask, place, run)
+        if np.ndim(index):
+            is_outside = (index < 0) | (index >= len(parts))
+            if (is_outside if mask is None else is_outside & mask).any() or not parts:
+                raise Problem(place, f"an index is outside of 0 to {len(parts) - 1}")
+            if not all(is_number(part) for part in parts):
+                raise Problem(place, "an index that is not the same in every lane takes numbers only")
+            chosen = np.clip(index, 0, len(parts) - 1)
+            made = np.stack(np.broadcast_arrays(chosen, *parts)[1:])
+            return np.take_along_axis(made, chosen[None], axis=0)[0]
+        if not -len(parts) <= index < len(parts):
+            raise Problem(place, f"index {index} is outside of 0 to {len(parts) - 1}")
+        return parts[index]
+
+    def with_part(self, whole: Any, index: Any, new: Any, mask: Some, place: Place, run: Run) -> Any:
+        """Return a list with another element."""
+        parts = list(self.elements(whole, mask, place, run))
+        if type(index) is not int or not -len(parts) <= index < len(parts):
+            raise Problem(place, f"an index must be from 0 to {len(parts) - 1} and the same in every lane")
+        if isinstance(new, Log | list):
+            raise Problem(place, "a number can be stored in a list here, not a list")
+        parts[index] = new if mask is None else self.merged(mask, new, parts[index], place, run)
+        return Many(parts)
+
+    def field(self, whole: Any, name: str, place: Place) -> Any:
+        """Refuse all attributes."""
+        raise Problem(place, f".{name} is not in the language of listings")
+
+    def arguments(
+        self, name: str, parameters: Sequence[str], values: Sequence[Any], place: Place
+    ) -> Sequence[Any]:
+        """Return the values that a function of the program is called with, as many as it takes."""
+        if len(values) != len(parameters):
+            wanted = f"{counted(len(parameters), 'value')} ({', '.join(parameters)})"
+            raise Problem(place, f"{name} takes {wanted}, got {len(values)}")
+        return values
+
+    def call(self, name: str, values: Sequence[Any], mask: Some, place: Place, run: Run) -> Any:
+        """Return what a function of the table makes of values."""
+        if name in ROUNDING or name in NATIVE:
+            return self._number(name, values, mask, place, run)
+        if name not in self._of_lists:
+            raise Problem(place, f"there is no function {name}{meant(name, self.functions)}")
+        many = ("zip", "range", "slice")
+        wanted = 2 if name in ("in", "range by") else 1
+        if name not in many and len(values) != wanted:
+            raise Problem(place, f"{name} takes {counted(wanted, 'value')}, got {len(values)}")
+        return self._of_lists[name](values, mask, place, run, name)
+
+    def _number(self, name: str, values: Sequence[Any], mask: Some, place: Place, run: Run) -> Any:
+        if name in ("min", "max") and len(values) == 1:
+            values = self.elements(values[0], mask, place, run)[: MOST_ARGUMENTS + 1]
+        fewest, most = (1, 1) if name in ROUNDING else (NATIVE[name].fewest, NATIVE[name].most)
+        if not fewest <= len(values) <= most:
+            wanted = counted(fewest, "value") if fewest == most else f"{fewest} to {most} values"
+            raise Problem(place, f"{name} takes {wanted}, got {len(values)}")
+        for value in values:
+            if not is_number(value):
+                raise Problem(place, f"{name} of {kind_of(value)} is not possible")
+        return rounded(name, values[0], mask, place) if name in ROUNDING else applied(name, values, place)
+
+    def _every(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        found: Any = name == "all"
+        for part in self.elements(values[0], mask, place, run):
+            truth = self.truth(part, place)
+            found = found & truth if name == "all" else found | truth
+        return found
+
+    def _length(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        return len(self.elements(values[0], mask, place, run))
+
+    def _listed(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        return self._made(self.elements(values[0], mask, place, run), mask, place, run)
+
+    def _zipped(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        lists = [self.elements(value, mask, place, run) for value in values]
+        if len({len(parts) for parts in lists}) > 1:
+            lengths = " and ".join(str(len(parts)) for parts in lists)
+            raise Problem(place, f"zip takes lists of one length, these have {lengths} elements")
+        return self._made([Many(parts) for parts in zip(*lists, strict=True)], mask, place, run)
+
+    def _enumerated(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        parts = self.elements(values[0], mask, place, run)
+        return self._made([Many([k, part]) for k, part in enumerate(parts)], mask, place, run)
+
+    def _pairs(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        parts = self.elements(values[0], mask, place, run)
+        return self._made([Many(pair) for pair in pairwise(parts)], mask, place, run)
+
+    def _turned(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        return self._made(self.elements(values[0], mask, place, run)[::-1], mask, place, run)
+
+    def _slice(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        whole, first, end = values
+        return self._made(self.elements(whole, mask, place, run)[first:end], mask, place, run)
+
+    def _sorted(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        parts = self.elements(values[0], mask, place, run)
+        if not all(is_number(part) for part in parts):
+            raise Problem(place, "sorted takes numbers only")
+        if any(np.ndim(part) for part in parts):
+            return self._made(list(np.sort(np.stack(np.broadcast_arrays(*parts)), axis=0)), mask, place, run)
+        return self._made(sorted(parts), mask, place, run)
+
+    def _total(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        add, total = operator_rule("+", place), 0
+        for part in self.elements(values[0], mask, place, run):
+            total = add(total, part, mask, run)
+        return total
+
+    def _range(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        if not 1 <= len(values) <= 3:
+            raise Problem(place, f"range takes 1 to 3 values, got {len(values)}")
+        for value in values:
+            if not is_number(value) or number_kind(value) == "f":
+                raise Problem(place, f"range takes whole numbers, this is {kind_of(value)}")
+        whole = [value.astype(np.int64) if np.ndim(value) else int(value) for value in values]
+        if len(whole) == 3 and (np.asarray(whole[2]) == 0).any():
+            raise Problem(place, "the step of a range cannot be 0")
+        return Range(0, whole[0], 1) if len(whole) == 1 else Range(*whole, *([1] if len(whole) == 2 else []))
+
+    def _range_by(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        whole, step = values
+        if not isinstance(whole, Range) or not is_number(step) or number_kind(step) != "i":
+            raise Problem(place, "only a range can be turned round by [::step]")
+        if (np.abs(np.asarray(step)) != 1).any() or (np.abs(np.asarray(whole.step)) != 1).any():
+            raise Problem(place, "a range is turned round by [::-1], or left by [::1]")
+        ways = (step, whole.start, whole.stop, whole.step)
+        if not any(np.ndim(part) for part in ways):
+            kept = range(whole.start, whole.stop, whole.step)[::step]
+            return Range(kept.start, kept.stop, kept.step)
+        stays = np.asarray(step) > 0
+        # Of no number, the turned range must stay without one.
+        return Range(
+            np.where(stays, whole.start, whole.stop - whole.step),
+            np.where(stays, whole.stop, whole.start - whole.step),
+            np.where(stays, whole.step, -np.asarray(whole.step)),
+        )
+
+    def _truth(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        return self.truth(values[0], place)
+
+    def _is_none(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        return values[0] is None
+
+    def _is_in(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        found: Any = False
+        same = operator_rule("==", place)
+        for part in self.elements(values[1], mask, place, run):
+            found = found | same(part, values[0], mask, run)
+        return found
+
+    def _raise(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        if not run.is_checking:
+            raise Problem(place, str(values[0]))
+        return None
+
+    def _made(self, parts: Sequence[Any], mask: Some, place: Place, run: Run) -> Any:
+        return self.many(parts, [False] * len(parts), mask, place, run)
+
+
+def _length_of(numbers: range) -> str:
+    """Return how many numbers a range has; ``len`` refuses the longest."""
+    return f"{max((numbers.stop - numbers.start) // numbers.step, 0):,}"
+
+
+def meant(name: str, known: Iterable[str]) -> str:
+    """Return ``: did you mean ...?`` for a name that is close to one that there is, else nothing."""
+    found = [one for one in get_close_matches(name, list(known), 3, 0.5) if one != name]
+    for one in found:
+        if (len(name) > FEW_LETTERS and get_close_matches(name, [one], 1, 0.6)) or is_one_slip(name, one):
+            return f": did you mean {one}?"
+    return ""
+
+
+def is_one_slip(first: str, second: str) -> bool:
+    """Return whether two names differ by one letter more, less or other, or in the case of letters."""
+    if first.lower() == second.lower():
+        return True
+    short, long = sorted((first, second), key=len)
+    if len(short) == len(long):
+        return sum(a != b for a, b in zip(short, long, strict=True)) == 1 and len(long) > 1
+    return len(long) - len(short) == 1 and any(long[:k] + long[k + 1 :] == short for k in range(len(long)))

@@ -1,0 +1,113 @@
+"""What is said of a text that is no Python: Python's own messages in plain words, with what is mostly meant."""
+
+import re
+
+from core.lanes.limits import Limits
+from core.lanes.problem import Place, Problem
+
+OPEN, CLOSED = "([{", ")]}"
+_STRING = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'")
+_SIGNS = re.compile(r"(?:(?:\bnot\b|[-+~])\s*){33}")
+
+
+def check_text(text: str, limits: Limits) -> None:
+    """Raise `Problem` for a text that is larger or deeper than the limits, before anything else reads it."""
+    if len(text) > limits.characters:
+        raise Problem(
+            Place(1), f"a text has at most {limits.characters:,} characters here, this one has {len(text):,}"
+        )
+    for number, line in enumerate(text.split("\n"), start=1):
+        if len(line) > limits.line_length:
+            column = limits.line_length + 1
+            raise Problem(Place(number, column), f"a line has at most {limits.line_length} characters here")
+        if _SIGNS.search(line) or line.count(" if ") > limits.brackets:
+            raise Problem(Place(number), "too much stands in each other here")
+    open_places: list[tuple[Place, str]] = []
+    for number, line in enumerate(text.split("\n"), start=1):
+        for column, letter in enumerate(_bare(line), start=1):
+            if letter in OPEN:
+                open_places.append((Place(number, column), letter))
+            elif letter in CLOSED and open_places:
+                open_places.pop()
+            if len(open_places) > limits.brackets:
+                raise Problem(Place(number, column), f"brackets stand at most {limits.brackets} deep here")
+
+
+def _bare(line: str) -> str:
+    """Return a line with its texts and its comment blanked out; columns stay."""
+    blanked = _STRING.sub(lambda found: " " * len(found.group()), line)
+    return blanked.partition("#")[0]
+
+
+def open_bracket(text: str) -> tuple[Place, str] | None:
+    """Return the innermost bracket that is never closed, or that is closed by another kind; ``None``: all are."""
+    open_places: list[tuple[Place, str]] = []
+    for number, line in enumerate(text.split("\n"), start=1):
+        for column, letter in enumerate(_bare(line), start=1):
+            if letter in OPEN:
+                open_places.append((Place(number, column), letter))
+            elif letter in CLOSED and open_places:
+                place, opened = open_places.pop()
+                if OPEN.index(opened) != CLOSED.index(letter):
+                    return place, opened
+    return open_places[-1] if open_places else None
+
+
+def problem_of(error: SyntaxError, text: str) -> Problem:
+    """Return what is said of a text that Python does not read."""
+    lines = text.split("\n")
+    number = min(max(error.lineno or 1, 1), len(lines))
+    place, said = Place(number, max(error.offset or 1, 1)), error.msg
+    typed = _bare(lines[number - 1])
+    line = typed.strip()
+    bracket = open_bracket(text)
+    if "expected ':'" in said or _lacks_colon(line):
+        return Problem(Place(number, len(typed.rstrip()) + 1), "a colon is missing at the end of this line")
+    if bracket is not None:
+        return Problem(bracket[0], f"the bracket {bracket[1]} is never closed")
+    if "unmatched" in said or re.search(r"does not match", said):
+        return Problem(place, "this bracket was never opened")
+    if "unterminated" in said or "EOL while" in said:
+        return Problem(place, "the quotation mark is never closed")
+    if re.search(r"\belse if\b", line) and not re.search(r"\bif\b.*\belse if\b.*\belse\b", line):
+        return Problem(place, "write elif")
+    if "&&" in line or "||" in line:
+        return Problem(place, "write and, or")
+    if re.search(r"!(?!=)", line):
+        return Problem(place, "write not")
+    if "++" in line or "--" in line:
+        return Problem(place, "write += 1 or -= 1")
+    if re.search(r"=>|=<", line):
+        return Problem(place, "write >= or <=")
+    if re.search(r"<>", line):
+        return Problem(place, "write != for unequal")
+    if re.match(r"(if|while|elif)\b", line) and re.search(r"(?<![=<>!])=(?!=)", line):
+        return Problem(place, "= stores a value; to compare write ==")
+    if "==" in said:
+        return Problem(place, "= stores a value; to compare write ==")
+    if "expected an indented block" in said:
+        return Problem(place, "the lines that belong to the line above must stand further right")
+    if "indent" in said:
+        return Problem(place, "this line begins further left or right than the others of its block")
+    if "cannot assign" in said:
+        return Problem(place, "the left side of = must be a name, or several")
+    if re.search(r"[;{}]", line):
+        return Problem(place, "no ; { } here: a line ends by itself, and blocks are indented")
+    if "leading zeros" in said or "invalid decimal literal" in said:
+        return Problem(place, "this is no number: names begin with a letter, numbers have no leading 0")
+    if "invalid character" in said or "non-printable" in said:
+        return Problem(place, "this character is not in the language of listings")
+    if re.search(r"[-+*/%=<>,]\s*:?$|\b(and|or|not|in)\s*:?$", line):
+        return Problem(Place(number, len(typed.rstrip()) + 1), "something is missing at the end of this line")
+    if "perhaps you forgot a comma" in said.lower():
+        return Problem(place, "an operator or a comma is missing here")
+    return Problem(place, "this cannot be read: something is missing here, or too much")
+
+
+def _lacks_colon(line: str) -> bool:
+    return (
+        bool(re.match(r"(if|elif|else|for|while|def)\b", line))
+        and not re.search(r":", line)
+        and ("else if" not in line)
+        and not line.endswith((",", "(", "[", "\\", "{"))
+    )
