@@ -51,6 +51,8 @@ class Method:
     """What the rows of its own in a trace do, by their kind."""
     traits: Any = None
     """What only methods of its family have: a record of the family's own, as `core.raster.lines.traits.LineTraits`."""
+    edits: tuple[Any, ...] = ()
+    """The `core.edits.edit.Edit` that it runs, in the place of listings of the method that has its name."""
 
 
 class ReplacedName(str):

@@ -48,6 +48,7 @@ from core.stages.declared import STAGES
 from core.stages.fragment_depth import fragment_depth
 from core.stages.fragments import fragments_at, interpolate, owner_of, shade, shade_once
 from core.stages.hidden_surfaces import Visible, decide_fragments
+from core.stages.needs import check_edits
 from core.stages.vertices import Geometry, process_geometry
 
 SAMPLE_BAND = 1 << 21
@@ -82,6 +83,7 @@ def render(scene: AnyScene, settings: Settings | None = None) -> Frame:
      [ 0  0  0 -1]]
     """
     settings = settings or DEFAULTS
+    check_edits(scene, settings)
     # A table of depths has no samples and no other place of the pixels.
     resolved = resolve(suited(settings, scene) if scene.corner_count == 0 else settings)
     # Its settings, which are those it is kept by: looked up again by every stage, they need not be compared.

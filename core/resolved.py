@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from core.framebuffer.depth import DepthFormat
     from core.geometry.normal_view import EyeTriangles, NormalView
     from core.geometry.polygon_clipping.methods import PolygonClipping
+    from core.raster.edges.edge_functions import PixelRule
     from core.raster.number_formats.number_format import NumberFormat
     from core.records.primitives import DrawingOrder
 
@@ -42,7 +43,8 @@ class ResolvedSettings:
     @cached_property
     def draws_any_scene(self) -> bool:
         """Whether all methods are the defaults, which refuse no scene."""
-        return all(getattr(self.settings, family) == getattr(Settings, family) for family in FAMILIES)
+        chosen = all(getattr(self.settings, family) == getattr(Settings, family) for family in FAMILIES)
+        return chosen and not self.settings.replacements
 
     @cached_property
     def drops_facing(self) -> Callable[..., Any]:
@@ -99,6 +101,13 @@ class ResolvedSettings:
     def fill(self) -> Callable[..., Any]:
         """The schedule of pixels that the fill looks at."""
         return table.get("fill", self.fill_name).function
+
+    @cached_property
+    def pixel_rule(self) -> "PixelRule | None":
+        """What decides on a pixel of a triangle, where it is not the inside test."""
+        from core.raster.fills.traits import fill_traits
+
+        return fill_traits(self.fill_name).rule
 
     @cached_property
     def looks_everywhere(self) -> bool:

@@ -10,8 +10,10 @@ M. Zwicker, *Computergrafik*, lecture "Perspective correct interpolation", Bern 
 M. Olano, T. Greer, *Triangle scan conversion using 2D homogeneous coordinates*, 1997.
 """
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -277,6 +279,33 @@ def interpolate(
     return Interpolator(planes, varyings, rule, corner, interval).weighted(primitive, x, y)
 
 
+class ValuePlaces(NamedTuple):
+    """What a rule of the family ``interpolation`` takes: F fragments, and how they are interpolated."""
+
+    planes: Planes
+    primitive: Integers
+    """(F,) int64."""
+    x: Floats
+    """(F,) float64, pixel centres."""
+    y: Floats
+    provoking: int
+    interval: int
+
+
+class ValueRule(ABC):
+    """A rule that finds values by itself, not only the weights with which they are mixed: an edited listing."""
+
+    @abstractmethod
+    def __call__(
+        self, planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int, interval: int
+    ) -> Floats:
+        """Return weights (F, 3)."""
+
+    @abstractmethod
+    def weights_and_values(self, at: ValuePlaces, corners: Floats) -> tuple[Floats, Floats]:
+        """Return weights (3, F) and the values (F,) between those of the corners, (3, F)."""
+
+
 class Interpolator:
     """Interpolates the values at the corners of P primitives, a block of fragments at a time.
 
@@ -348,10 +377,25 @@ class Interpolator:
         for start in range(0, len(primitive), BLOCK):
             part = slice(start, start + BLOCK)
             planes, tables, local = self._close_at_hand(primitive[part])
+            if isinstance(self._rule, ValueRule):
+                at = ValuePlaces(planes, local, x[part], y[part], self._provoking, self._interval)
+                shares = self._write_found(self._rule, at, tables, values[:, part])
+                if weights is not None:
+                    weights[:, part] = shares
+                continue
             shares = self._rule(planes, local, x[part], y[part], self._provoking, self._interval).T
             self._mixer.write_mixed(tables, shares, local, values[:, part])
             if weights is not None:
                 weights[:, part] = shares
+
+    def _write_found(self, rule: "ValueRule", at: "ValuePlaces", tables: Floats, values: Floats) -> Floats:
+        """Write the values (K, F) that a rule finds by itself; return its weights (3, F)."""
+        shares = None
+        for places, corners in self._mixer.at_corners(tables, at.primitive):
+            shares, found = rule.weights_and_values(at, corners)
+            for place in places:
+                values[place] = found
+        return rule(*at).T if shares is None else shares
 
     def _close_at_hand(self, primitive: Integers) -> tuple[Planes, Floats, Integers]:
         """Return the tables of the primitives of a block, and which of them each fragment (B,) belongs to."""

@@ -7,6 +7,7 @@ further look-ups stay there. Values that are equal at all corners (white light f
 blue) are mixed once, and what all primitives share (alpha is mostly 1) is not looked up.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -74,6 +75,22 @@ class Mixer:
         rows = self._rows.take(self._index.take(primitives, axis=1), axis=0)
         tables: Floats = rows.transpose(0, 2, 1)[:, self._columns]
         return tables
+
+    def at_corners(self, tables: Floats, local: Integers) -> Iterator[tuple[list[int], Floats]]:
+        """Yield which of the K values are equal, and what they are at the corners of fragments, (3, F).
+
+        Parameters
+        ----------
+        tables : (3, M, U) float64 array
+            From `tables`.
+        local : (F,) int64 array
+            Which of the U primitives a fragment belongs to.
+        """
+        for value in self._values:
+            if isinstance(value.source, float):
+                yield value.places, np.full((3, len(local)), value.source)
+            else:
+                yield value.places, tables[:, value.source].take(local, axis=1)
 
     @np.errstate(invalid="ignore", over="ignore")
     def write_mixed(self, tables: Floats, weights: Floats, local: Integers, mixed: Floats) -> None:

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from core.framebuffer.stacks import PixelStacks
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers, Singles
+from core.records.listing import TypedText
 
 FLOAT_INFINITY = 0x7F800000
 """Bits of the float32 infinity; the bits of positive floats are in the order of their values."""
@@ -74,6 +75,8 @@ class DepthFormat:
     """What depth 1 is stored as where whole numbers are; 1: it stays a fraction."""
     unit: str = ""
     """Of the stored numbers, behind each on screen."""
+    test_listing: TypedText | None = None
+    """An edited listing that tests, and says what is stored; ``None``: the test is `is_nearer`."""
 
     stored_type: ClassVar[type[np.floating[Any]]] = np.float32
     nearness_bits: ClassVar[int] = 31
@@ -89,9 +92,9 @@ class DepthFormat:
         return ">" if self.larger_is_nearer else "<"
 
     @property
-    def listing(self) -> Callable[..., Any]:
+    def listing(self) -> Callable[..., Any] | TypedText:
         """The test at one pixel."""
-        return depth_test
+        return self.test_listing or depth_test
 
     def nearness_key(self, stored: Stored) -> Integers:
         """Return (F,) int64 keys: smaller is nearer, equal where the stored values (0 or more) are equal."""
@@ -106,6 +109,15 @@ class DepthFormat:
     def is_nearer(self, new: Stored, old: Stored) -> Flags:
         """Decide the depth test of stored values (F,); a tie keeps what is there."""
         return np.asarray(new > old if self.larger_is_nearer else new < old)
+
+    def try_depths(self, new: Stored, old: Stored, writes: Flags | None) -> Flags:
+        """Return which of F depths pass; ``old`` (F,) becomes what the buffer holds then.
+
+        ``writes`` (F,) is False for fragments that are not stored; ``None``: all are.
+        """
+        nearer = self.is_nearer(new, old)
+        np.copyto(old, new, where=nearer if writes is None else nearer & writes)
+        return nearer
 
 
 def as_float32(depth: Floats) -> Singles:
@@ -190,6 +202,8 @@ class DepthTests:
     """(F,) what the buffer held."""
     passes: Flags
     """(F,) bool."""
+    left: Stored | None = None
+    """(F,) what it holds after each; ``None``: the fragment's depth where it passes and is written, else ``before``."""
 
 
 def run_depth_tests(
@@ -214,17 +228,19 @@ def run_depth_tests(
         Fragments that are stored if they pass; ``None``: all.
     """
     before, passes = np.empty_like(stored), np.ones(len(stored), bool)
+    left = np.empty_like(stored) if is_tested and depth_format.test_listing is not None else None
     there = initial.take(stacks.pixel)
     for count, fragment in stacks.layers():
         new, old = stored.take(fragment), there[:count]
         before[fragment] = old
+        is_written = None if writes is None else writes.take(fragment)
         if is_tested:
-            nearer = depth_format.is_nearer(new, old)
-            passes[fragment] = nearer
-            np.copyto(old, new, where=nearer if writes is None else nearer & writes.take(fragment))
+            passes[fragment] = depth_format.try_depths(new, old, is_written)
+            if left is not None:
+                left[fragment] = old
         else:
-            np.copyto(old, new, where=True if writes is None else writes.take(fragment))
-    return DepthTests(before, passes)
+            np.copyto(old, new, where=True if is_written is None else is_written)
+    return DepthTests(before, passes, left)
 
 
 def replay_depths(stored: Stored, stacks: PixelStacks, initial: Stored, kept: Flags) -> Stored:

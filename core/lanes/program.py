@@ -35,6 +35,7 @@ from core.lanes.problem import Place, Problem
 from core.lanes.run import UNSET, Frame, Run, Stop, Watch
 
 Step = Callable[[Frame, Some], Mask]
+Accept = Callable[[Value, Place], Value]
 NOT_COMPUTED = (ArithmeticError, ValueError, TypeError, MemoryError, RecursionError, LookupError)
 """What NumPy and Python say where a rule has not said it better; it ends in a message, too."""
 
@@ -82,6 +83,7 @@ class Program:
         limits: Limits = LISTING,
         watch: Watch | None = None,
         stop: Stop | None = None,
+        accept: Accept | None = None,
     ) -> Value:
         """Run a function, the first if none is named, on L lanes and return its value.
 
@@ -91,24 +93,35 @@ class Program:
             Of its parameters: a number, an array (L,), or a list of these.
         stop : callable, optional
             Is asked now and then: True ends the run.
+        accept : callable, optional
+            Of what was returned and its place: what is given back, or `Problem`.
 
         Raises
         ------
         Problem
             With its place, whatever goes wrong.
         """
-        return self._run(Run(lanes, limits, watch, stop=stop), values, name)
+        return self._run(Run(lanes, limits, watch, stop=stop), values, name, accept)
 
-    def check(self, values: Sequence[Any], *, name: str | None = None, limits: Limits = LISTING) -> Value:
+    def check(
+        self,
+        values: Sequence[Any],
+        *,
+        name: str | None = None,
+        limits: Limits = LISTING,
+        accept: Accept | None = None,
+    ) -> Value:
         """Run on no lanes, through every branch, and return the value; arrays of ``values`` are (0,)."""
-        return self._run(Run(0, limits, is_checking=True), values, name)
+        return self._run(Run(0, limits, is_checking=True), values, name, accept)
 
-    def _run(self, run: Run, values: Sequence[Any], name: str | None) -> Value:
+    def _run(self, run: Run, values: Sequence[Any], name: str | None, accept: Accept | None) -> Value:
         function = self.functions[name or self.name]
         run.place = function.place
         try:
             with np.errstate(all="ignore"):
                 found = self._called(run, function, values, None, function.place, 0)
+                if found is not UNSET and accept is not None:
+                    found = accept(found, run.place)
         except Problem:
             raise
         except NOT_COMPUTED as problem:

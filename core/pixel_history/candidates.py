@@ -9,7 +9,7 @@ from core.antialiasing.sample_rasters import at_sample, finer_scene, finer_setti
 from core.methods import table
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
-from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
+from core.raster.edges.edge_functions import EdgeFunctions, edge_functions, is_inside
 from core.raster.edges.snapping import place_corners
 from core.raster.lines.records import LineSteps
 from core.raster.lines.wireframe import LineFragments, Outlines, draw_outlines, join_batches
@@ -67,7 +67,7 @@ class EdgeTests:
     values: Floats
     """(Q, 3) float64, the edge functions."""
     inside: Flags
-    """(Q, 3) bool, by the fill rule."""
+    """(Q, 3) bool, by the fill rule; all three where the pixel is covered, see `EdgeFunctions.decide`."""
     distance: Floats
     """(Q, 3) float64, signed distance from the edges in pixels, positive inside; NaN: no direction."""
     ulps: Floats
@@ -82,14 +82,13 @@ class EdgeTests:
 def examine_edges(edges: EdgeFunctions, x: float, y: float) -> EdgeTests:
     """Apply the inside test of all edges to one pixel centre."""
     numbers, a, b, c = edges.numbers, edges.shown_a, edges.shown_b, edges.shown_c
-    columns, rows = (numbers.of_pixels(np.full((len(edges), 1), place)) for place in (x, y))
+    held, sides = edges.decide(np.arange(len(edges)), *(np.full(len(edges), place) for place in (x, y)))
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        held = edge_value(edges.a, edges.b, edges.c, columns, rows)
         values = numbers.shown_values(held)
         largest = np.maximum(np.abs(a * x), np.maximum(np.abs(b * y), np.abs(c)))
         distance = values / np.hypot(a, b)
         ulps = values / numbers.spacing(largest)
-    return EdgeTests(values, is_inside(held, edges.owns_tie), distance, ulps)
+    return EdgeTests(values, sides, distance, ulps)
 
 
 @dataclass(frozen=True, eq=False)
@@ -244,7 +243,8 @@ class PixelCandidates:
     def unclipped(self, triangle: Integers) -> EdgeFunctions:
         """Return the edge functions that triangles (C,) would have as they are."""
         corners = self.placed(self.geometry.assembled.clip[triangle])
-        return set_up_edges(corners, self.settings.fill_rule)
+        resolved = resolve(self.settings)
+        return edge_functions(corners, resolved.owns_tie, resolved.pixel_rule)
 
     def _undrawn(self, triangle: Integers) -> Integers:
         """Choose those whose box contains the pixel; one that crosses the eye must cover it too."""

@@ -6,7 +6,7 @@ from typing import TypeVar
 
 import numpy as np
 
-from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside
+from core.raster.edges.edge_functions import EdgeFunctions, is_inside
 from core.raster.fills.incremental import stepped_values
 from core.raster.number_formats.exact import ExactFormat, decide_filtered
 from core.raster.pixel_runs import ADDED_A, EVALUATED, Raster, Runs, expand
@@ -76,18 +76,15 @@ def examine_pixels(edges: EdgeFunctions, runs: Runs, raster: Raster) -> PixelTes
     primitive, column, row = runs.triangle[run], runs.start[run] + place, runs.row[run]
     numbers, before, added = edges.numbers, np.full((len(run), 3), np.nan), np.full(len(run), EVALUATED)
     if runs.stepping is None:
-        x, y = (numbers.of_pixels(place) for place in raster.centers(column, row))
-        a, b, c = (part.take(primitive, axis=0) for part in (edges.a, edges.b, edges.c))
-        with np.errstate(over="ignore", invalid="ignore"):
-            values = edge_value(a, b, c, x[:, None], y[:, None])
+        values, sides = edges.decide(primitive, *raster.centers(column, row))
     else:
         values = stepped_values(edges, runs)
         added = np.where(place > 0, ADDED_A, runs.stepping.added[run])
         earlier = np.where((place > 0)[:, None], np.roll(values, 1, axis=0), runs.stepping.before[run])
         before[added != EVALUATED] = numbers.shown_values(earlier[added != EVALUATED])
-    inside = every_edge(is_inside(values, edges.owns_tie.take(primitive, axis=0)))
+        sides = is_inside(values, edges.owns_tie.take(primitive, axis=0))
     accepted = runs.accepted[run]
-    covered, tie = inside | accepted, np.asarray(values == 0)
+    covered, tie = every_edge(sides) | accepted, np.asarray(values == 0)
     shown = numbers.shown_values(values)
     return PixelTests(run, primitive, column, row, shown, accepted, covered, tie, before, added)
 
@@ -125,6 +122,9 @@ def _cover_batch(edges: EdgeFunctions, runs: Runs, length: Integers, raster: Ras
         return Fragments(primitive, column, row), 0
     if runs.stepping is not None:
         sides = is_inside(stepped_values(edges, runs), edges.owns_tie[primitive])
+        return Fragments(primitive, column, row).select(every_edge(sides)), len(sides)
+    if edges.rule is not None:
+        _, sides = edges.decide(primitive, *raster.centers(column, row))
         return Fragments(primitive, column, row).select(every_edge(sides)), len(sides)
     x, y = raster.along(column), raster.along(runs.row)
     covered = runs.accepted.take(run)

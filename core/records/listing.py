@@ -8,6 +8,7 @@ import inspect
 import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
+from difflib import SequenceMatcher
 from functools import cache
 from textwrap import dedent
 from typing import Any
@@ -98,6 +99,39 @@ def _stored(node: ast.stmt) -> Iterator[str]:
                 yield part.id
 
 
+@dataclass(frozen=True)
+class TypedText:
+    """A text that a user has typed in place of the listing of a function."""
+
+    of: Callable[..., Any]
+    text: str
+
+
+@dataclass(frozen=True, eq=False)
+class EditedListing(Listing):
+    """A listing that was edited; its labels stand on the lines that the old ones have become."""
+
+    original: Listing
+
+
+def edited_listing(of: Callable[..., Any], text: str) -> EditedListing:
+    """Return the listing of a function with another source, under the same name."""
+    original, source = listing(of), "\n".join(text.splitlines())
+    moved = moved_lines(original.source, source)
+    lines = {label: moved[line] for label, line in original.lines.items()}
+    return EditedListing(of, source, lines, original.purpose, original)
+
+
+def moved_lines(old: str, new: str) -> dict[int, int]:
+    """Return where every line of a text, from 1, stands in a changed one; for one that is gone: the line above."""
+    before, after = old.splitlines(), new.splitlines()
+    found: dict[int, int] = {}
+    for _, first, end, new_first, new_end in SequenceMatcher(None, before, after, False).get_opcodes():
+        for k in range(end - first):
+            found[first + k + 1] = max(min(new_first + k, new_end - 1), new_first - 1, 0) + 1
+    return found
+
+
 _PRINTED: dict[Callable[..., Any], str] = {}
 
 
@@ -112,8 +146,10 @@ def without_labels(text: str) -> str:
 
 
 @cache
-def listing(function: Callable[..., Any]) -> Listing:
-    """Return what is shown of ``function``: its source, or the text that it is printed as."""
+def listing(function: Callable[..., Any] | TypedText) -> Listing:
+    """Return what is shown of ``function``: its source, or a text that it is printed as or that was typed."""
+    if isinstance(function, TypedText):
+        return edited_listing(function.of, function.text)
     own, text = source_listing(function), _PRINTED.get(function)
     if text is None:
         return own

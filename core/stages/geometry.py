@@ -125,7 +125,8 @@ class Geometry:
     def edges(self) -> EdgeFunctions:
         """The edge functions of the primitives."""
         with self.count:
-            return edge_functions(self.corners, resolve(self.settings).owns_tie)
+            resolved = resolve(self.settings)
+            return edge_functions(self.corners, resolved.owns_tie, resolved.pixel_rule)
 
     @cached_property
     def planes(self) -> Planes:

@@ -84,6 +84,8 @@ class DecidedFragments:
     stacks: PixelStacks
     passes: Flags
     """(F,) bool."""
+    left: Stored | None = None
+    """(F,) what the depth buffer holds after each, where an edited depth test says so."""
 
     @property
     def passing(self) -> Fragments:
@@ -107,7 +109,11 @@ class DecidedFragments:
         """Return the pixels that something is seen at (V,), the owner there (V,), and the depth buffer (H*W,)."""
         pixel, last = self.last_kept(raster)
         depth = cleared_buffers(raster.shape[0] * raster.shape[1], depth_format).depth.copy()
-        depth[pixel] = self.stored[last]
+        if self.left is None:
+            depth[pixel] = self.stored[last]
+        else:
+            # Of several fragments of a pixel, the last one's value stays.
+            depth[raster.index(self.fragments.column, self.fragments.row)] = self.left
         return pixel, owner_of(self.fragments)[last], depth
 
 
@@ -148,4 +154,4 @@ def decide_fragments(
     stacks = stack_fragments(raster.index(fragments.column, fragments.row))
     start = cleared_buffers(raster.shape[0] * raster.shape[1], depth_format)
     tests, _ = run_visibility_tests(geometry, fragments, stored, stacks, start, raster, depth_format)
-    return DecidedFragments(fragments, stored, stacks, tests.passes)
+    return DecidedFragments(fragments, stored, stacks, tests.passes, tests.left)

@@ -91,3 +91,11 @@ def check_needs(scene: AnyScene, settings: Settings) -> None:
             continue
         if reason := refusal(family, name, scene):
             raise ValueError(f"{family} {name} {reason}")
+
+
+def check_edits(scene: AnyScene, settings: Settings) -> None:
+    """Raise ValueError, with a sentence, for an edited listing that would not run; before settings are `suited`."""
+    for method in settings.replacements.values():
+        for edit in method.edits:
+            if reason := edit.passed_over(settings, scene):
+                raise ValueError(f"{edit.title} would not run: {reason[0].lower()}{reason[1:].rstrip('.')}")

@@ -25,7 +25,7 @@ from core.scene import AnyScene, ClipScene
 from core.settings import Settings, families, no_effect
 from core.stages.declared import GEOMETRY_STAGES
 from core.stages.geometry import Geometry, all_projected, clipping_distances, line_reach
-from core.stages.needs import check_needs
+from core.stages.needs import check_edits, check_needs
 
 __all__ = [
     "Geometry",
@@ -62,6 +62,7 @@ def process_geometry(
     raster : Raster, optional
         Leave out what lies beside it: a part of a picture is drawn from the triangles of that part.
     """
+    check_edits(scene, settings)
     if scene.corner_count != 3:
         settings = suited(settings, scene)
     settings = resolve(settings).settings

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.framebuffer.depth import depth_in_range, depth_test, store_depth
+from core.framebuffer.depth import depth_in_range, store_depth
 from core.framebuffer.packed_keys import packed_depth_test, rounded_depth_test
 from core.records.arrays import Flags, Integers
 from core.records.listing import RETURN, Listing, listing
@@ -43,7 +43,7 @@ def trace_depth(source: TraceSource) -> StageTrace:
     depth, keeps, stored = source.depths
     writes = np.ones(len(fragments), bool) if source.writes_depth is None else source.writes_depth
     is_stored = tests.passes & writes
-    after = np.where(is_stored, stored, tests.before)
+    after = np.where(is_stored, stored, tests.before) if tests.left is None else tests.left
     tested = source.geometry.uses_depth_test
     columns: dict[str, np.ndarray] = {
         "column": fragments.column,
@@ -60,13 +60,14 @@ def trace_depth(source: TraceSource) -> StageTrace:
     }
     operations = _operations(source)
     listings = {
-        "test": listing(depth_test),
+        "test": listing(source.depth_format.listing),
         "out-of-range": listing(depth_in_range),
         "store": listing(store_depth),
     }
     columns |= value_columns(source)
     listings |= value_listings(source)
-    if not source.depth_format.keeps_nearest:
+    is_table = source.scene.corner_count == 0
+    if is_table:
         listings["cell"] = listing(source.depth_format.listing)
     if source.depth_format.is_planar:
         columns |= plane_columns(source)
@@ -76,7 +77,7 @@ def trace_depth(source: TraceSource) -> StageTrace:
     triangle = source.triangle_of_fragment
     steps = Steps(
         kinds=tuple(operations),
-        kind=_kinds(tuple(operations), tested, keeps, columns, source.depth_format.keeps_nearest),
+        kind=_kinds(tuple(operations), tested, keeps, columns, is_table),
         operations=operations,
         triangle_ends=ends_of(triangle),
         group_ends=ends_of(
@@ -84,6 +85,7 @@ def trace_depth(source: TraceSource) -> StageTrace:
         ),
     )
     kept = np.flatnonzero(is_stored)
+    changed = kept if tests.left is None else np.flatnonzero(keeps)
     place = source.place
     identity = source.start.primitive
     every = np.arange(len(fragments))
@@ -99,7 +101,9 @@ def trace_depth(source: TraceSource) -> StageTrace:
         constants={**value_constants(source), **_test_constants(source)},
         marks={"covered": tests.passes, "depth-failed": ~tests.passes, "nan": np.isnan(depth)},
         buffers=(
-            BufferTrack("depth", source.start.depth, kept, place[kept], stored[kept], starts_known=True),
+            BufferTrack(
+                "depth", source.start.depth, changed, place[changed], after[changed], starts_known=True
+            ),
             BufferTrack("primitive", identity, kept, place[kept], triangle[kept], "ids", True),
             BufferTrack("passes", unknown, every, place, tests.passes.astype(float), "flags"),
         ),
@@ -108,13 +112,12 @@ def trace_depth(source: TraceSource) -> StageTrace:
 
 def _test_constants(source: TraceSource) -> dict[str, str]:
     """Return how depths are compared, where a table of depths has chosen it."""
-    kept = source.depth_format
-    return {} if kept.keeps_nearest else {"comparison": kept.comparison}
+    return {"comparison": source.depth_format.comparison} if source.scene.corner_count == 0 else {}
 
 
 def _operations(source: TraceSource) -> dict[str, tuple[Operation, ...]]:
     """Return what the rows do; most depth methods make the value that is stored in steps of their own."""
-    if not source.depth_format.keeps_nearest:
+    if source.scene.corner_count == 0:
         return {**OPERATIONS, "cell": CELL}
     made = value_operations(source)
     if not made:
@@ -123,10 +126,10 @@ def _operations(source: TraceSource) -> dict[str, tuple[Operation, ...]]:
 
 
 def _kinds(
-    names: tuple[str, ...], tested: bool, keeps: Flags, columns: dict[str, np.ndarray], keeps_nearest: bool
+    names: tuple[str, ...], tested: bool, keeps: Flags, columns: dict[str, np.ndarray], is_table: bool
 ) -> Integers:
     """Return (R,) int64, which of ``names`` each row is."""
-    test = "test" if keeps_nearest else "cell"
+    test = "cell" if is_table else "test"
     usual = names.index(test if tested else "store")
     kind = np.where(keeps, usual, names.index("out-of-range"))
     if "is_linear" in columns:

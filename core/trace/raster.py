@@ -1,12 +1,12 @@
 """Trace of coverage: every pixel that the fill looks at, and the spans of the fills that have them."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
+from typing import Any
 
 import numpy as np
 
 from core.fragments.interpolation import numerators
 from core.raster.binning import pixels_of_block
-from core.raster.edges.edge_functions import covers
 from core.raster.fills.incremental import step_covers
 from core.raster.fills.scanline import span
 from core.raster.fills.scanline_lecture import draw_bottom, draw_top, drawn_columns
@@ -15,7 +15,7 @@ from core.raster.pixel_runs import Runs
 from core.raster.spans.lanes import tie_owners
 from core.raster.spans.order import SpanOrder, order_of_spans
 from core.records.arrays import Flags
-from core.records.listing import Listing, listing
+from core.records.listing import Listing, TypedText, listing
 from core.records.steps import Steps, ends_of
 from core.trace.lines import trace_lines
 from core.trace.polygon_fill import trace_polygon_fill
@@ -75,7 +75,7 @@ def trace_raster(source: TraceSource) -> StageTrace:
         columns=columns,
         triangle=triangle,
         pixel=rows.pixel,
-        listings=_listings(source.runs),
+        listings=_listings(source.runs, fill_traits(fill).test_listing),
         marks=rows.marks,
         buffers=buffers,
         extra={
@@ -181,14 +181,14 @@ def any_edge(flags: Flags) -> Flags:
     return found
 
 
-def _listings(runs: Runs) -> dict[str, Listing]:
+def _listings(runs: Runs, test: Callable[..., Any] | TypedText) -> dict[str, Listing]:
     stepping, of_row, printed = listing(step_covers), listing(span), listing(drawn_columns)
     accepted = listing(pixels_of_block) if runs.blocks is not None else of_row
     sides = {"top": listing(draw_top), "bottom": listing(draw_bottom)}
     return {
         "climb": stepping,
         "step": stepping,
-        "test": listing(covers),
+        "test": listing(test),
         "accept": accepted if runs.walk is None else printed,
         "span": of_row,
         **{kind: sides[kind.removesuffix("-first")] for kind in PRINTED},

@@ -29,6 +29,7 @@ from core.stages.fragment_color import Surface, shade_fragments
 from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
 from core.stages.fragments import fragment_values, texture_slopes
 from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
+from core.stages.needs import check_edits
 from core.stages.vertices import Geometry, drawing_order, process_geometry
 from core.trace.stage_rows import StageRows
 from core.visibility.ray_casting import RayTests
@@ -48,6 +49,7 @@ class TraceSource:
     """Buffers at the start: as the ``"earlier"`` triangles left them, or ``"cleared"``."""
 
     def __post_init__(self) -> None:
+        check_edits(self.scene, self.settings)
         if self.scene.corner_count != 3:
             object.__setattr__(self, "settings", suited(self.settings, self.scene))
 
@@ -204,7 +206,11 @@ class TraceSource:
         before = np.full(len(stored), np.nan, stored.dtype)
         passes = np.zeros(len(stored), bool)
         before[keeps], passes[keeps] = tests.before, tests.passes
-        return DepthTests(before, passes)
+        left = None
+        if tests.left is not None:
+            left = before.copy()
+            left[keeps] = tests.left
+        return DepthTests(before, passes, left)
 
     @cached_property
     def known_rows(self) -> dict[str, StageRows]:

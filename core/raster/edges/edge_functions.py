@@ -31,6 +31,7 @@ J. Pineda, *A parallel algorithm for polygon rasterization*, 1988.
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
@@ -71,6 +72,8 @@ class EdgeFunctions:
     """(P,) float64: twice the signed area in pixels where all corners are projected, else the 3x3 determinant."""
     numbers: NumberFormat
     """What kind of numbers a, b, c and the values are."""
+    rule: "PixelRule | None" = None
+    """What decides on a pixel instead of `is_inside`: an edited listing."""
 
     def __len__(self) -> int:
         return len(self.a)
@@ -97,7 +100,39 @@ class EdgeFunctions:
     def take(self, at: Integers | slice) -> "EdgeFunctions":
         """Return the edge functions of the triangles ``at`` (C,)."""
         parts = (self.a[at], self.b[at], self.c[at], self.owns_tie[at])
-        return EdgeFunctions(*parts, self.corners.take(at), self.doubled_area[at], self.numbers)
+        return EdgeFunctions(*parts, self.corners.take(at), self.doubled_area[at], self.numbers, self.rule)
+
+    def decide(self, primitive: Integers, x: Floats, y: Floats) -> tuple[FormatValue, Flags]:
+        """Return the values (Q, 3) of triangles at pixel centres, and on which side (Q, 3) of each edge these lie.
+
+        All three sides hold where a pixel is covered, and only there: of a rule of its own only the whole is known, so
+        the edge with the least value stands for it.
+        """
+        a, b, c = (part.take(primitive, axis=0) for part in (self.a, self.b, self.c))
+        owns_tie = self.owns_tie.take(primitive, axis=0)
+        if self.rule is None:
+            held_x, held_y = (self.numbers.of_pixels(place[:, None]) for place in (x, y))
+            with np.errstate(over="ignore", invalid="ignore"):
+                values = edge_value(a, b, c, held_x, held_y)
+            return values, is_inside(values, owns_tie)
+        if self.numbers.held_as is not np.float64:
+            raise ValueError(
+                f"an edited inside test runs in float64, not in the numbers of coverage {self.numbers.name}"
+            )
+        values, covered = self.rule(a, b, c, owns_tie, x, y)
+        sides = is_inside(values, owns_tie) | covered[:, None]
+        left_out = np.flatnonzero(sides.all(axis=1) & ~covered)
+        sides[left_out, np.argmin(values[left_out], axis=1)] = False
+        return values, sides
+
+
+class PixelRule(Protocol):
+    """Decides on pixels by itself."""
+
+    def __call__(
+        self, a: Floats, b: Floats, c: Floats, owns_tie: Flags, x: Floats, y: Floats
+    ) -> tuple[Floats, Flags]:
+        """Return three values (Q, 3) and what is covered (Q,), from coefficients (Q, 3) at pixel centres (Q,)."""
 
 
 def orient(corners: CornerPositions) -> Floats:
@@ -161,10 +196,12 @@ def set_up_edges(corners: CornerPositions, fill_rule: str) -> EdgeFunctions:
     return edge_functions(corners, table.get("fill_rule", fill_rule).function)
 
 
-def edge_functions(corners: CornerPositions, owns_tie: Callable[..., Flags]) -> EdgeFunctions:
+def edge_functions(
+    corners: CornerPositions, owns_tie: Callable[..., Flags], rule: PixelRule | None = None
+) -> EdgeFunctions:
     """Return those of P triangles; ``owns_tie`` takes a and b (P, 3), as functions of the family ``fill_rule`` do."""
     numbers, a, b, c, doubled_area = corners.numbers.set_up(corners)
-    return EdgeFunctions(a, b, c, owns_tie(a, b), corners, doubled_area, numbers)
+    return EdgeFunctions(a, b, c, owns_tie(a, b), corners, doubled_area, numbers, rule)
 
 
 def set_up_per_edge(corners: CornerPositions) -> tuple[Floats, Floats, Floats, Floats]:

@@ -1,8 +1,12 @@
 """What is known of a fill without running it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from core.methods import table
+from core.raster.edges.edge_functions import PixelRule, covers
+from core.records.listing import TypedText
 
 
 @dataclass(frozen=True)
@@ -15,6 +19,10 @@ class FillTraits:
     """Whether it sets all rows of a triangle up in one lane, and draws rows of the same length of all triangles."""
     group_label: str = "Row"
     """What a step between a pixel and a triangle is, on a button."""
+    rule: PixelRule | None = None
+    """What decides on a pixel, where it is not the inside test."""
+    test_listing: Callable[..., Any] | TypedText = covers
+    """The decision on one pixel."""
 
 
 def fill_traits(fill: str) -> FillTraits:

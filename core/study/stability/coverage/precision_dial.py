@@ -10,7 +10,7 @@ from fractions import Fraction
 
 import numpy as np
 
-from core.raster.edges.edge_functions import EdgeFunctions, edge_value, is_inside, set_up_edges
+from core.raster.edges.edge_functions import EdgeFunctions, set_up_edges
 from core.raster.edges.snapping import place_corners
 from core.raster.number_formats.bit_patterns import FIXED, bit_pattern
 from core.raster.number_formats.number_format import NumberFormat
@@ -130,10 +130,8 @@ def _read(name: str, case: _Case, fill_rule: str) -> DialReading:
     """Return what one format makes of the pixel."""
     edges = set_up_edges(place_corners(case.clip, case.size, name), fill_rule)
     numbers = edges.numbers
-    x, y = (numbers.of_pixels(np.array([[index + half()]])) for index in case.pixel)
-    with np.errstate(over="ignore", invalid="ignore"):
-        held = edge_value(edges.a, edges.b, edges.c, x, y)
-    inside = is_inside(held, edges.owns_tie)[0]
+    held, sides = edges.decide(np.zeros(1, np.int64), *(np.array([index + half()]) for index in case.pixel))
+    inside = sides[0]
     values = numbers.shown_values(held)[0]
     is_covered = bool(inside.all()) and bool(edges.doubled_area[0] != 0)
     is_right = is_covered == case.is_covered

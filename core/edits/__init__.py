@@ -1,0 +1,20 @@
+"""Edited listings: a text that a user has typed in place of a listing draws instead of the method's rule.
+
+The rule draws where nothing was typed; only what was typed runs in the lanes of `core.lanes`. An edit starts from the
+method whose listing is edited, and keeps what this method needs.
+"""
+
+from core.edits.edit import Edit, apply_edit, edits_of, original, place_of, without_edits
+from core.edits.editable import EDITABLE, Part, refusal
+
+__all__ = [
+    "EDITABLE",
+    "Edit",
+    "Part",
+    "apply_edit",
+    "edits_of",
+    "original",
+    "place_of",
+    "refusal",
+    "without_edits",
+]

@@ -1,0 +1,104 @@
+"""Edited inside tests and fill rules."""
+
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from core.edits.typed import Typed
+from core.methods import Method, is_registered, table
+from core.raster.fills.traits import FillTraits
+from core.raster.number_formats.number_format import number_format
+from core.records.arrays import Flags, Floats
+from core.settings import Settings
+
+VALUES = "the three values, and whether the pixel is covered"
+OWNS = "whether the edge owns the pixel centre"
+
+
+@dataclass(frozen=True)
+class TypedTest:
+    """A rule of `core.raster.edges.edge_functions.EdgeFunctions` that runs a typed text."""
+
+    typed: Typed
+
+    def __call__(
+        self, a: Floats, b: Floats, c: Floats, owns_tie: Flags, x: Floats, y: Floats
+    ) -> tuple[Floats, Flags]:
+        """Return values (Q, 3) and coverage (Q,) of pixels, from coefficients (Q, 3) and centres (Q,)."""
+        values, covered = np.empty(a.shape), np.empty(len(a), bool)
+
+        def of_block(part: slice) -> list[Any]:
+            triples = [
+                [np.ascontiguousarray(each[part, k]) for k in range(3)] for each in (a, b, c, owns_tie)
+            ]
+            return [*triples, x[part], y[part]]
+
+        shape = (("number",) * 3, "flag")
+        for part, (three, inside) in self.typed.over_blocks(of_block, len(a), shape, VALUES):
+            covered[part] = inside
+            for k in range(3):
+                values[part, k] = three[k]
+        return values, covered
+
+
+def check_test(typed: Typed) -> None:
+    """Raise `Problem` for a text that cannot run."""
+    none, flags = [np.zeros(0)] * 3, [np.zeros(0, bool)] * 3
+    typed.checked([none, none, none, flags, np.zeros(0), np.zeros(0)], (("number",) * 3, "flag"), VALUES)
+
+
+def edited_test(method: Method, typed: Typed) -> Method:
+    """Return a fill that decides by a text."""
+    traits = method.traits or FillTraits()
+    return replace(method, traits=replace(traits, rule=TypedTest(typed), test_listing=typed))
+
+
+def test_is_passed_over(settings: Settings, scene: Any) -> str:
+    """Return why an edited inside test would not run."""
+    if number_format(settings.coverage).held_as is not np.float64:
+        return f"It runs in float64, not in the numbers of coverage {settings.coverage}."
+    return areas_pass_over(settings)
+
+
+def areas_pass_over(settings: Settings) -> str:
+    """Return why no pixel centre is tested."""
+    if is_registered(settings.antialiasing, "area"):
+        return "Exact areas test no pixel centre: choose another antialiasing."
+    return ""
+
+
+def fill_rule_is_passed_over(settings: Settings, scene: Any) -> str:
+    """Return why an edited fill rule would not run."""
+    if number_format(settings.coverage).held_as is object:
+        return f"It takes no whole numbers of any length, as those of coverage {settings.coverage}."
+    if "projected" in table.get("fill", settings.fill).needs:
+        return f"The fill {settings.fill} has no fill rule."
+    return areas_pass_over(settings)
+
+
+@dataclass(frozen=True)
+class TypedFillRule:
+    """A fill rule that runs a typed text."""
+
+    typed: Typed
+
+    def __call__(self, a: np.ndarray, b: np.ndarray) -> Flags:
+        """Return who owns the centres on its edge; any shape, as a and b."""
+        a, b = np.broadcast_arrays(a, b)
+        flat_a, flat_b, owns = a.ravel(), b.ravel(), np.empty(a.size, bool)
+        for part, found in self.typed.over_blocks(
+            lambda part: [flat_a[part], flat_b[part]], a.size, "flag", OWNS
+        ):
+            owns[part] = found
+        return owns.reshape(a.shape)
+
+
+def check_fill_rule(typed: Typed) -> None:
+    """Raise `Problem` for a text that cannot run."""
+    typed.checked([np.zeros(0), np.zeros(0)], "flag", OWNS)
+
+
+def edited_fill_rule(method: Method, typed: Typed) -> Method:
+    """Return a fill rule that runs a text."""
+    return replace(method, function=TypedFillRule(typed), listing=typed)

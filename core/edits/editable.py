@@ -1,0 +1,139 @@
+"""Which listings can be edited, and why others cannot: one table for window, command line, help and tests."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Any
+
+from core.edits import coverage, framebuffer, interpolation, lines
+from core.edits.typed import Typed
+from core.framebuffer.depth import depth_test
+from core.methods import Method, table
+from core.raster.edges.edge_functions import covers
+from core.settings import FAMILIES, Settings
+
+
+def own_listing(method: Method) -> Callable[..., Any] | None:
+    """Return the listing of a method."""
+    return method.listing
+
+
+def never(settings: Settings, scene: Any) -> str:
+    """Settings and scene always run it."""
+    return ""
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A kind of listings that can be edited."""
+
+    name: str
+    noun: str
+    """What one is called in a sentence."""
+    family: str
+    """The setting that an edit stands in."""
+    check: Callable[[Typed], None]
+    """Raises `Problem` for a text that cannot run."""
+    made: Callable[[Method, Typed], Method]
+    """The method with a text in place of its listing."""
+    function: Callable[[Method], Callable[..., Any] | None] = own_listing
+    """Of a method, what is edited."""
+    passed_over: Callable[[Settings, Any], str] = never
+    """Of settings and a scene, or None: why they would not run an edit, as a sentence; empty: they do."""
+    refused: dict[str, str] = field(default_factory=dict)
+    """By method: why its listing cannot be edited, as a sentence."""
+
+    @property
+    def stage(self) -> str:
+        """The stage that runs it."""
+        return FAMILIES[self.family].stage
+
+
+def _test_of(method: Method) -> Callable[..., Any]:
+    return covers
+
+
+def _depth_test_of(method: Method) -> Callable[..., Any]:
+    return depth_test
+
+
+_BLOCKS = "It takes or leaves whole blocks without testing their pixels: choose fill bounding-box."
+_SPANS = "It tests no pixel, but finds the spans of rows: choose fill bounding-box."
+_PLANAR = "It compares whole numbers that stand in integer planes, packed with the triangle's number."
+EDITABLE = {
+    part.name: part
+    for part in (
+        Part(
+            "line",
+            "listing",
+            "line",
+            lines.check_line,
+            lines.edited_line,
+            refused={
+                "diamond-exit": "Its listing computes with fractions, which are not in the language of listings."
+            },
+        ),
+        Part(
+            "fill_rule",
+            "rule",
+            "fill_rule",
+            coverage.check_fill_rule,
+            coverage.edited_fill_rule,
+            passed_over=coverage.fill_rule_is_passed_over,
+        ),
+        Part(
+            "fill",
+            "inside test",
+            "fill",
+            coverage.check_test,
+            coverage.edited_test,
+            function=_test_of,
+            passed_over=coverage.test_is_passed_over,
+            refused={
+                "hierarchy": _BLOCKS,
+                "blocks": _BLOCKS,
+                "incremental": "It adds from pixel to pixel: choose fill bounding-box.",
+                "scanline": _SPANS,
+                "spans": _SPANS,
+                "scanline-lecture": _SPANS,
+            },
+        ),
+        Part(
+            "interpolation",
+            "listing",
+            "interpolation",
+            interpolation.check_interpolation,
+            interpolation.edited_interpolation,
+            passed_over=interpolation.interpolation_is_passed_over,
+        ),
+        Part(
+            "depth_test",
+            "depth test",
+            "depth",
+            framebuffer.check_depth_test,
+            framebuffer.edited_depth_test,
+            function=_depth_test_of,
+            passed_over=framebuffer.depth_test_is_passed_over,
+            refused={"fixed-38": _PLANAR},
+        ),
+        Part(
+            "blend",
+            "listing",
+            "blend",
+            framebuffer.check_blend,
+            framebuffer.edited_blend,
+            passed_over=framebuffer.blend_is_passed_over,
+        ),
+    )
+}
+"""By name, which the command line takes before ``=``."""
+
+
+def refusal(part: str, of: str) -> str:
+    """Return why the listing of a method cannot be edited, as a sentence; empty: it can."""
+    if part not in EDITABLE:
+        return f"What can be edited is one of {', '.join(EDITABLE)}, not {part}."
+    known = EDITABLE[part]
+    method = table.get(known.family, str(of))
+    if of in known.refused:
+        return known.refused[of]
+    return "" if known.function(method) is not None else f"{method.title} has no listing."

@@ -1,0 +1,127 @@
+"""Edited depth tests, depth formats and blending."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, fields, replace
+from typing import Any, ClassVar
+
+import numpy as np
+
+from core.edits.typed import Typed
+from core.framebuffer.depth import DepthFormat, Stored
+from core.methods import Method, is_registered
+from core.records.arrays import Flags, Floats, Singles
+from core.resolved import resolve
+from core.settings import Settings
+
+TESTED = "what the buffer holds then, and whether the fragment passes"
+COLOR = "four numbers"
+FOUR = ("number",) * 4
+
+
+@dataclass(frozen=True)
+class TypedDepths(DepthFormat):
+    """A depth format whose test is a typed text; fragments are tested in drawing order."""
+
+    typed: Typed | None = None
+
+    keeps_nearest: ClassVar[bool] = False
+
+    def try_depths(self, new: Stored, old: Stored, writes: Flags | None) -> Flags:
+        """Return which depths (F,) pass; ``old`` (F,) becomes what the text says."""
+        assert self.typed is not None
+        passes, writes = np.empty(len(new), bool), np.ones(len(new), bool) if writes is None else writes
+
+        def of_block(part: slice) -> list[Any]:
+            return [new[part], old[part].copy(), self.larger_is_nearer, writes[part]]
+
+        for part, (held, passed) in self.typed.over_blocks(of_block, len(new), ("number", "flag"), TESTED):
+            passes[part], old[part] = passed, held
+        return passes
+
+    def is_nearer(self, new: Stored, old: Stored) -> Flags:
+        """Decide the test alone."""
+        return self.try_depths(new, old.copy(), None)
+
+
+@dataclass(frozen=True)
+class TypedDepthTest:
+    """Makes the depth format of a method with a typed test."""
+
+    right: Callable[[], DepthFormat]
+    typed: Typed
+
+    def __call__(self) -> DepthFormat:
+        """Return it."""
+        known = self.right()
+        kept = {known_field.name: getattr(known, known_field.name) for known_field in fields(DepthFormat)}
+        kept["test_listing"] = self.typed
+        return TypedDepths(**kept, typed=self.typed)
+
+
+def check_depth_test(typed: Typed) -> None:
+    """Raise `Problem` for a text that cannot run."""
+    none = np.zeros(0, np.float32)
+    typed.checked([none, none, False, np.zeros(0, bool)], ("number", "flag"), TESTED)
+
+
+def edited_depth_test(method: Method, typed: Typed) -> Method:
+    """Return a depth method that tests by a text."""
+    return replace(method, function=TypedDepthTest(method.function, typed))
+
+
+def depth_test_is_passed_over(settings: Settings, scene: Any) -> str:
+    """Return why an edited depth test would not run."""
+    if not is_registered(settings.visibility, "z-buffer"):
+        return "Only the depth buffer tests depths: choose visibility z-buffer."
+    if is_registered(settings.antialiasing, "area"):
+        return "Exact areas have a depth test of their own: choose another antialiasing."
+    return ""
+
+
+@dataclass(frozen=True)
+class TypedBlend:
+    """A blend rule that runs a typed text."""
+
+    typed: Typed
+    takes_both: bool
+    """Whether the listing takes what is there, too."""
+
+    def __call__(self, source: Floats, destination: Singles) -> Singles:
+        """Return colours (F, 4) float32, of fragments (F, 4) over those of their pixels (F, 4)."""
+        result = np.empty(destination.shape, np.float32)
+
+        def of_block(part: slice) -> list[Any]:
+            both = (source, destination) if self.takes_both else (source,)
+            return [[np.ascontiguousarray(color[part, k]) for k in range(4)] for color in both]
+
+        for part, found in self.typed.over_blocks(of_block, len(source), FOUR, COLOR):
+            for k in range(4):
+                result[part, k] = found[k]
+        return result
+
+
+def _takes_both(typed: Typed) -> bool:
+    return typed.of.__code__.co_argcount == 2
+
+
+def check_blend(typed: Typed) -> None:
+    """Raise `Problem` for a text that cannot run."""
+    colors = [[np.zeros(0)] * 4, [np.zeros(0, np.float32)] * 4]
+    typed.checked(colors if _takes_both(typed) else colors[:1], FOUR, COLOR)
+
+
+def edited_blend(method: Method, typed: Typed) -> Method:
+    """Return a blend method that runs a text, of which nothing else is known: it may hide nothing."""
+    rule = TypedBlend(typed, _takes_both(typed))
+    traits = replace(method.traits, hides=_hides_nothing)
+    return replace(method, function=rule, listing=typed, traits=traits)
+
+
+def _hides_nothing(alpha: Floats) -> Flags:
+    return np.zeros(alpha.shape, bool)
+
+
+def blend_is_passed_over(settings: Settings, scene: Any) -> str:
+    """Return why an edited blend method would not run."""
+    inserted = resolve(settings).blend_inserted_for
+    return f"Lines of {inserted} are mixed by blend over." if inserted else ""
