@@ -1,6 +1,8 @@
 """Edited line methods: all segments run in step, and put their pixels to one list."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -10,9 +12,11 @@ from core.lanes.limits import LISTING, line_rounds
 from core.lanes.problem import Place, Problem
 from core.lanes.python_values import Log, Many, is_number, rows_put
 from core.methods import Method
+from core.raster.lines.bresenham import bresenham_float_listing
 from core.raster.lines.records import BLENDING, LineRun, Segments
 from core.raster.lines.traits import LineTraits
 from core.records.arrays import Flags, Floats, Integers
+from core.records.operation import Columns
 
 WORDS = "the list of pixels"
 NUMBERS_A_ROUND = 16
@@ -27,6 +31,8 @@ class TypedLines:
     traits: LineTraits
     is_smooth: bool
     """Whether its pixels have intensities."""
+    decides_by_sum: bool = True
+    """Of a Bresenham method, whether the sum that it lists decides by its sign; else with the slope added."""
 
     def __call__(self, segments: Segments, last_pixel: bool) -> LineRun:
         """Run the text for L segments.
@@ -89,13 +95,30 @@ class TypedLines:
         moved = [(values != np.roll(values, 1)) & ~is_first for values in (column, row)]
         is_steep = (size[:, 1] > size[:, 0])[owner]
         has_stepped: Flags = np.where(is_steep, moved[0], moved[1])
-        is_tie = decision == 0 if self.traits.takes_pixels else decision - np.floor(decision) == 0.5
+        if self.traits.takes_pixels:
+            return self._bresenham_run(owner, number, column, row, decision, has_stepped)
+        is_tie = decision - np.floor(decision) == 0.5
         if not self.is_smooth:
             return LineRun(owner, number, column, row, decision, has_stepped, is_tie)
         index = _index_in_columns(
             number, np.where(is_steep, moved[1], moved[0]), self.traits.pixels_in_column
         )
         return LineRun(owner, index, column, row, decision, has_stepped, is_tie, intensity=intensity)
+
+    def _bresenham_run(
+        self,
+        owner: Integers,
+        number: Integers,
+        column: Integers,
+        row: Integers,
+        after: Floats,
+        stepped: Flags,
+    ) -> LineRun:
+        """Return the run of a listing that lists the sum after a pixel: the one before has chosen it."""
+        before = np.where(number == 0, np.nan, np.roll(after, 1))
+        chosen_by = before if self.decides_by_sum else np.full(len(before), np.nan)
+        run = LineRun(owner, number, column, row, chosen_by, stepped, chosen_by == 0)
+        return replace(run, sum_before=before, sum_advanced=after)
 
 
 def _index_in_columns(number: Integers, is_next_column: Flags, in_column: int) -> Integers:
@@ -114,9 +137,17 @@ def check_line(typed: Typed) -> None:
     typed.checked([np.zeros(0, np.int64)] * 4 + [True], "list", WORDS)
 
 
+def _unknown_columns(own: Callable[[Columns], dict[str, Any]], columns: Columns) -> dict[str, Any]:
+    """Return the columns of a method by name, NaN: a typed text says nothing of them."""
+    names = own({name: values[:0] for name, values in columns.items()})
+    count = len(columns["row"])
+    return {name: np.full((count, *values.shape[1:]), np.nan) for name, values in names.items()}
+
+
 def edited_line(method: Method, typed: Typed) -> Method:
     """Return a line method that runs a text."""
     traits = method.traits if isinstance(method.traits, LineTraits) else LineTraits()
-    rule = TypedLines(typed, traits, BLENDING in method.needs)
-    kept = replace(traits, find_pixels=None)
+    decides_by_sum = typed.of is not bresenham_float_listing
+    rule = TypedLines(typed, traits, BLENDING in method.needs, decides_by_sum)
+    kept = replace(traits, find_pixels=None, columns=partial(_unknown_columns, traits.columns))
     return replace(method, function=rule, listing=typed, traits=kept)

@@ -13,6 +13,7 @@ from core.explain.records import Asked, Formula, Value, Variable
 from core.explain.rows import REMARKS, Row, find_row
 from core.explain.step_values import StepValues, key_fields, row_key
 from core.explain.variable_text import Held, held_values
+from core.records.listing import EditedListing
 from core.records.words import counted, joined
 from core.trace import Explanation, StageTrace
 from core.trace.stage_trace import KEPT_EXPLANATIONS
@@ -73,9 +74,20 @@ def _earlier_formula(
 
 def _said(step: StepValues) -> tuple[str, Formula | None]:
     """Return the sentence of a step with its numbers marked, and its formula."""
+    listed = step.explanation.listing
+    if isinstance(listed, EditedListing):
+        return edited_line_said(listed, step.explanation.line), None
     row = row_of(step.explanation.key)
     said = row.say(step) if row is not None else _plain_account(step)
     return (said, None) if isinstance(said, str) else said
+
+
+def edited_line_said(listed: EditedListing, line: int | None) -> str:
+    """Return what is true of any step of an edited listing: the sentences of the right method are not."""
+    lines = listed.source.splitlines()
+    if line is None or not 1 <= line <= len(lines):
+        return f"The edited listing {listed.name} runs."
+    return f"Line {line} of the edited listing runs: {lines[line - 1].strip()}"
 
 
 def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | None) -> str:
