@@ -58,7 +58,7 @@ class Method:
 class ReplacedName(str):
     """A setting whose method runs another function: it reads as the name of its method, the table returns ``method``.
 
-    Two of them are equal only where function and listing are the same; see `core.settings.Settings.replaced`.
+    Two of them are equal only where function, listing and edits are the same; see `core.settings.Settings.replaced`.
     """
 
     method: Method
@@ -72,8 +72,8 @@ class ReplacedName(str):
     def __eq__(self, other: object) -> bool:
         if isinstance(other, ReplacedName):
             mine, its = self.method, other.method
-            of_mine = mine.family, mine.name, mine.function, mine.listing
-            return of_mine == (its.family, its.name, its.function, its.listing)
+            of_mine = mine.family, mine.name, mine.function, mine.listing, mine.edits
+            return of_mine == (its.family, its.name, its.function, its.listing, its.edits)
         return str.__eq__(self, other)
 
     def __ne__(self, other: object) -> bool:

@@ -6,6 +6,7 @@ from typing import Any
 
 from core.edits.editable import EDITABLE, Part, refusal
 from core.edits.typed import Typed
+from core.families import suited
 from core.methods import Method, ReplacedName, table
 from core.records.listing import EditedListing, Listing, listing
 from core.settings import Settings, no_effect, with_method
@@ -34,7 +35,10 @@ class Edit:
     def passed_over(self, settings: Settings, scene: Any) -> str:
         """Return why these settings, or this scene, would not run it, as a sentence; empty: they do."""
         part = EDITABLE[self.part]
-        return no_effect(settings, part.family, scene) or part.passed_over(settings, scene)
+        if scene is None:
+            return part.passed_over(settings, None)
+        reason = no_effect(settings, part.family, scene)
+        return reason or part.passed_over(suited(settings, scene), scene)
 
 
 def original(part: str, of: str) -> Listing:

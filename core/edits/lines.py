@@ -1,7 +1,7 @@
 """Edited line methods: all segments run in step, and put their pixels to one list."""
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
@@ -28,7 +28,7 @@ class TypedLines:
     """The rule of a line method that runs a typed text for all segments together."""
 
     typed: Typed
-    traits: LineTraits
+    traits: LineTraits = field(compare=False)
     is_smooth: bool
     """Whether its pixels have intensities."""
     decides_by_sum: bool = True

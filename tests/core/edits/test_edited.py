@@ -1,0 +1,264 @@
+"""Edited lines draw what they say: each mistake that is an edit of a line is its twin of the shelf."""
+
+import pickle
+from copy import deepcopy
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from core import Settings, draw_picture, render, trace
+from core.edits import EDITABLE, Edit, apply_edit, edits_of, original, place_of, refusal, without_edits
+from core.explain.steps import sentence
+from core.framebuffer.display import to_display
+from core.lanes.problem import Problem
+from core.methods import table
+from core.pixel_history import why
+from core.records.listing import EditedListing
+from lessons.mistakes import coverage, depths, fragments, lines
+from lessons.mistakes.twin import line_pixels
+from lessons.scenes import make_scene
+from lessons.small_scenes import pixel_segments
+
+TWINS = {twin.name: twin for module in (coverage, depths, fragments, lines) for twin in module.TWINS}
+DRAW = "pixels.append((y, x, D) if is_steep else (x, y, D))"
+ROW = "y0 + sy * (x - x0) * dy // max(dx, 1)"
+COLOR = "color[k] * alpha + destination[k] * (1 - alpha)"
+ALPHA = "result.append(alpha + destination[3] * (1 - alpha))"
+MISTAKES = {
+    "ties-step": ("line", "if D > 0:", "if D >= 0:"),
+    "not-corrected": ("line", "D -= 2 * dx", "D -= 0"),
+    "one-octant": ("line", "not abs(y1 - y0) < abs(x1 - x0)", "False"),
+    "ends-not-ordered": ("line", "if x0 > x1:", "if False:"),
+    "slope-always-up": ("line", "(-1 if y1 < y0 else 1)", "1"),
+    "start-not-doubled": ("line", "D = 2 * dy - dx", "D = dy - dx"),
+    "last-pixel-lost": ("line", "while x <= x1:", "while x < x1:"),
+    "first-pixel-lost": ("line", DRAW, f"if x > x0: {DRAW}"),
+    "row-truncated": ("line", DRAW, f"pixels.append(({ROW}, x, D) if is_steep else (x, {ROW}, D))"),
+    "all-edges-inclusive": ("fill", "value > 0 or (value == 0 and owns_tie[k])", "value >= 0"),
+    "all-edges-exclusive": ("fill", "value > 0 or (value == 0 and owns_tie[k])", "value > 0"),
+    "level-edges-never": ("fill_rule", "return b > 0", "return False"),
+    "level-edges-always": ("fill_rule", "return b > 0", "return True"),
+    "last-wins-ties": ("depth_test", "new < old", "new <= old"),
+    "first-drawn-wins": ("depth_test", "new < old", "old == 1"),
+    "weights-permuted": (
+        "interpolation",
+        "weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]",
+        "weights[0] * values[2] + weights[1] * values[0] + weights[2] * values[1]",
+    ),
+    "multiplied-twice": ("blend", COLOR, f"color[k] * alpha * alpha + {COLOR[19:]}"),
+    "factors-exchanged": ("blend", COLOR, "color[k] * (1 - alpha) + destination[k] * alpha"),
+    "not-multiplied": ("blend", COLOR, "color[k] + (1 - alpha) * destination[k]"),
+    "alpha-of-source": ("blend", ALPHA, "result.append(alpha)"),
+    "alpha-kept": ("blend", ALPHA, "result.append(destination[3])"),
+    "alpha-squared": ("blend", ALPHA, "result.append(alpha * alpha + (1 - alpha) * destination[3])"),
+}
+"""By twin: what is edited, and one line of it, before and after."""
+OF = {
+    "line": "bresenham-lecture",
+    "fill": "bounding-box",
+    "fill_rule": "shared-edge",
+    "depth_test": "z-float32",
+    "interpolation": "perspective",
+    "blend": "over",
+}
+
+
+def edit(part: str, old: str, new: str, of: str = "") -> Edit:
+    """Return an edit of one place of a listing."""
+    source = original(part, of or OF[part]).source
+    assert source.count(old) == 1, (old, source)
+    return Edit(part, of or OF[part], source.replace(old, new))
+
+
+def mistaken(name: str, settings: Settings) -> Settings:
+    """Return settings with a mistake of the shelf, as an edit of a line."""
+    part, *change = MISTAKES[name]
+    others = replace(settings, fill="bounding-box") if part == "fill" else settings
+    return apply_edit(others, edit(part, *change))
+
+
+@pytest.mark.parametrize("name", MISTAKES)
+def test_a_mistake_that_is_an_edit_of_a_line_is_its_twin(name):
+    twin = TWINS[name]
+    for case, differs in ((twin.shows, True), (twin.hides, False)):
+        same = replace(
+            twin, change_settings=lambda settings: mistaken(name, settings), change_scene=lambda s: s
+        )
+        assert same.read(case) == twin.read(case)
+        right = replace(twin, change_settings=lambda settings: settings, change_scene=lambda s: s).read(case)
+        assert (same.read(case) != right) == differs
+
+
+@pytest.mark.parametrize("name", [name for name, (part, *_) in MISTAKES.items() if part == "line"])
+def test_a_mistake_in_lines_is_its_twin_in_all_octants(name):
+    rng = np.random.default_rng(8)
+    ends = [tuple(map(tuple, pair)) for pair in rng.integers(0, 20, (60, 2, 2)).tolist()]
+    scene, settings = pixel_segments(ends, (20, 20)), Settings(line="bresenham-lecture")
+    assert line_pixels(scene, mistaken(name, settings)) == line_pixels(
+        scene, TWINS[name].change_settings(settings)
+    )
+
+
+def test_values_come_from_the_listing_not_only_weights():
+    settings = Settings()
+    doubled = apply_edit(
+        settings, edit("interpolation", "weights[0] * values[0] +", "2 * weights[0] * values[0] +")
+    )
+    scene = make_scene("intersecting")
+    right, ours = render(scene, settings), render(scene, doubled)
+    assert not np.array_equal(right.attributes, ours.attributes)
+    np.testing.assert_array_equal(right.primitive, ours.primitive)
+    wrong = trace(scene, doubled).stage("interpolate")
+    np.testing.assert_array_equal(
+        wrong.columns["weights"], trace(scene, settings).stage("interpolate").columns["weights"]
+    )
+    assert not np.array_equal(
+        wrong.columns["values"], trace(scene, settings).stage("interpolate").columns["values"]
+    )
+
+
+INCLUSIVE = edit("fill", *MISTAKES["all-edges-inclusive"][1:])
+
+
+@pytest.mark.parametrize("antialiasing", ["none", "ssaa-4", "msaa-4"])
+@pytest.mark.parametrize("coverage", ["snapped", "float64", "inverse"])
+def test_an_edited_inside_test_decides_samples_pictures_and_histories(antialiasing, coverage):
+    scene = make_scene("shared-edge")
+    plain = Settings(fill="bounding-box", antialiasing=antialiasing, coverage=coverage)
+    ours, wanted = apply_edit(plain, INCLUSIVE), replace(plain, fill_rule="inclusive")
+    found, right = render(scene, ours), render(scene, wanted)
+    np.testing.assert_array_equal(found.cover_count, right.cover_count)
+    np.testing.assert_array_equal(found.color, right.color)
+    np.testing.assert_array_equal(draw_picture(scene, ours).pixels, to_display(found.color).pixels)
+    differs = np.argwhere(found.cover_count != render(scene, plain).cover_count)
+    assert len(differs)
+    if antialiasing != "none":
+        return
+    source = trace(scene, ours).source
+    for row, column in differs.tolist():
+        assert why(source, column, row).cover_count == found.cover_count[row, column]
+
+
+def test_a_pixel_that_an_edited_test_takes_or_leaves_is_so_in_its_history():
+    scene, settings = make_scene("single-triangle"), Settings(fill="bounding-box")
+    for text, key in (("return values, False", "all-missed"), ("return values, True", "seen")):
+        ours = apply_edit(settings, edit("fill", "return values, all(inside)", text))
+        frame = render(scene, ours)
+        history = why(trace(scene, ours).source, 32, 20)
+        assert (history.verdict.key == key) == ((frame.primitive[20, 32] >= 0) == (key == "seen"))
+        assert history.cover_count == frame.cover_count[20, 32]
+
+
+REFUSED = {
+    "spans": ({"fill": "spans"}, "tests no pixel"),
+    "blocks": ({"fill": "blocks"}, "whole blocks"),
+    "int64": ({"coverage": "int64"}, "float64"),
+    "exact": ({"coverage": "exact"}, "float64"),
+    "area": ({"antialiasing": "area"}, "no pixel centre"),
+}
+
+
+@pytest.mark.parametrize("name", REFUSED)
+def test_what_would_pass_an_edit_over_is_refused_with_a_sentence(name):
+    changes, words = REFUSED[name]
+    if "fill" in changes:
+        with pytest.raises(ValueError, match=words):
+            Edit("fill", changes["fill"], INCLUSIVE.text)
+        return
+    with pytest.raises(ValueError, match=words):
+        apply_edit(Settings(fill="bounding-box", **changes), INCLUSIVE)
+    later = replace(apply_edit(Settings(fill="bounding-box"), INCLUSIVE), **changes)
+    with pytest.raises(ValueError, match=words):
+        render(make_scene("shared-edge"), later)
+
+
+@pytest.mark.parametrize(
+    ("part", "scene", "changes", "words"),
+    [
+        ("line", "shared-edge", {}, "only wireframes draw lines"),
+        ("line", "points", {}, "a point is one pixel"),
+        ("fill", "polygon-holes", {}, "edge table"),
+        ("fill_rule", "segment", {}, "no area"),
+        ("fill_rule", "shared-edge", {"fill": "scanline-lecture"}, "no fill rule"),
+        ("interpolation", "segment", {}, "listings of their own"),
+        ("depth_test", "shared-edge", {"visibility": "painters"}, "only the depth buffer"),
+        ("depth_test", "depth-table", {}, "has its own"),
+        ("blend", "segment", {"line": "wu"}, "blend over"),
+    ],
+)
+def test_scenes_and_settings_that_would_not_run_an_edit_say_so(part, scene, changes, words):
+    of = "opaque" if part == "blend" else OF[part]
+    made = apply_edit(Settings(), Edit(part, of, original(part, of).source))
+    for run in (render, lambda *given: trace(*given).stage("transform")):
+        with pytest.raises(ValueError, match=words):
+            run(make_scene(scene), replace(made, **changes))
+
+
+def test_several_edits_stand_beside_each_other_in_one_family_too():
+    settings = apply_edit(Settings(), edit("blend", ALPHA, "result.append(alpha)"))
+    settings = apply_edit(settings, edit("depth_test", "new < old", "new <= old"))
+    assert {known.part for known in edits_of(settings)} == {"blend", "depth_test"}
+    again = apply_edit(settings, edit("depth_test", "new < old", "new > old"))
+    assert len(edits_of(again)) == 2
+    assert again != settings
+    assert without_edits(again) == Settings(blend="over")
+
+
+def test_an_edit_is_a_value():
+    settings = apply_edit(Settings(line="dda"), edit("line", *MISTAKES["ties-step"][1:]))
+    assert settings == deepcopy(settings) == pickle.loads(pickle.dumps(settings))
+    assert len({settings, deepcopy(settings)}) == 1
+    by_test = [
+        apply_edit(Settings(), edit("fill", "value > 0 or", text))
+        for text in ("value >= 0 or", "value > 1 or")
+    ]
+    assert by_test[0] != by_test[1]
+    assert settings.line == "bresenham-lecture"
+    method = table.get("line", settings.line)
+    assert method.listing(0, 0, 4, 2, True) == [
+        [k, y, D] for k, y, D in [(0, 0, 0), (1, 1, -4), (2, 1, 0), (3, 2, -4), (4, 2, 0)]
+    ]
+
+
+def test_the_listing_that_is_shown_is_the_text_and_labels_follow_their_lines():
+    source = original("line", "bresenham-lecture").source
+    text = source.replace("  D = 2 * dy - dx\n", "  twice = 2 * dy\n  D = twice - dx\n")
+    settings = apply_edit(Settings(), Edit("line", "bresenham-lecture", text))
+    stage = trace(make_scene("segment"), settings).stage("raster")
+    (shown,) = {listed for listed in stage.listings.values() if isinstance(listed, EditedListing)}
+    assert shown.source == text.rstrip("\n")
+    assert place_of(shown, settings) == ("line", "bresenham-lecture")
+    lines = shown.source.splitlines()
+    for label, line in shown.original.lines.items():
+        if label != "first-sum":
+            assert lines[shown.lines[label] - 1] == source.splitlines()[line - 1]
+    assert "twice" in lines[shown.lines["first-sum"] - 1]
+
+
+def test_no_step_of_an_edited_listing_is_explained_as_the_right_one():
+    stage = trace(
+        make_scene("segment"), apply_edit(Settings(), edit("line", "if D > 0:", "if D >= 0:"))
+    ).stage("raster")
+    said = {sentence(stage.explain(k), -1, None) for k in range(1, stage.steps.count + 1)}
+    assert all("edited listing" in text for text in said)
+    assert any(text.endswith("if D >= 0:") for text in said)
+
+
+def test_every_method_of_an_editable_family_is_editable_or_says_why_not():
+    for part in EDITABLE.values():
+        for of in table.names(part.family):
+            reason = refusal(part.name, of)
+            assert (reason == "") == (of not in part.refused)
+            if reason:
+                assert reason.endswith(".")
+                with pytest.raises(ValueError, match=r"\."):
+                    original(part.name, of)
+        assert part.refused.keys() <= set(table.names(part.family))
+    assert refusal("shading", "phong").startswith("What can be edited")
+
+
+def test_an_endless_loop_of_a_line_ends_with_its_line():
+    with pytest.raises(Problem, match="does it ever end") as caught:
+        render(make_scene("segment"), apply_edit(Settings(), edit("line", "x += sx", "x = x")))
+    assert caught.value.line == 12
