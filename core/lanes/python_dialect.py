@@ -48,7 +48,7 @@ class PythonDialect:
             "bool": self._truth,
             "is None": self._is_none,
             "in": self._is_in,
-            "slice": self._slice,
+            "slice of": self._slice,
             "range by": self._range_by,
             "raise": self._raise,
         }
@@ -308,7 +308,7 @@ class PythonDialect:
             return self._number(name, values, mask, place, run)
         if name not in self._of_lists:
             raise Problem(place, f"there is no function {name}{meant(name, self.functions)}")
-        many = ("zip", "range", "slice")
+        many = ("zip", "range", "slice of")
         wanted = 2 if name in ("in", "range by") else 1
         if name not in many and len(values) != wanted:
             raise Problem(place, f"{name} takes {counted(wanted, 'value')}, got {len(values)}")

@@ -281,7 +281,7 @@ class Reader:
         if ends.step is not None or "other" in written:
             raise self._refuse(ends)
         first, end = (Constant(place, number) for number in written)
-        return Call(place, "slice", (self._value(whole), first, end))
+        return Call(place, "slice of", (self._value(whole), first, end))
 
     def _call(self, place: Place, node: ast.Call) -> Expression:
         match node:

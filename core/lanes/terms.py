@@ -309,7 +309,7 @@ def _applied(function: str, arguments: Sequence[str]) -> tuple[str, int]:
         return f"{arguments[0]} in {arguments[1]}", TIGHTNESS["=="]
     if function == "range by":
         return f"{arguments[0]}[::{arguments[1]}]", LEAF
-    if function == "slice":
+    if function == "slice of":
         first, end = ("" if end == "nothing" else end for end in arguments[1:])
         return f"{arguments[0]}[{first}:{end}]", LEAF
     return f"{function}({', '.join(arguments)})", LEAF
