@@ -105,7 +105,7 @@ LOCAL_KEYS = (
         KeyAction(
             "leap",
             ("PgDown", "PgUp"),
-            "In the chapters and the timeline: go on or back by a twentieth of the stage",
+            "In the chapters and the timeline, without a lesson: go on or back by a twentieth of the stage",
             STEPPING,
         ),
         KeyAction(

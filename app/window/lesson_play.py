@@ -103,6 +103,10 @@ def _do(window: MainWindow, walk: LessonWalk, states: States) -> bool:
         answers.fill(answers.asked.question.draft.answer.reference)
         window.run_action("lesson_check")
         return True
+    if step is not None and step.show:
+        walk.view.link_chosen.emit(step.show)
+        window.pages.show_page("step")
+        return True
     if step is None or step.solution is None:
         return False
     state = states.of_step(walk.number)

@@ -58,6 +58,8 @@ class Timeline(QWidget):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.takes_leaps = True
+        """Whether Page Down and Page Up are its own; else the window's, where that has a use for them."""
         self._count = 0
         self._position = 0
         self._level = Level.PIXEL
@@ -171,7 +173,8 @@ class Timeline(QWidget):
 
     def event(self, event: QEvent) -> bool:
         """Keep Page Down and Page Up from the window, while the chapters or the bar have the focus."""
-        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.ShortcutOverride and _leap(event):
+        is_asked = event.type() == QEvent.Type.ShortcutOverride
+        if self.takes_leaps and is_asked and isinstance(event, QKeyEvent) and _leap(event):
             event.accept()
             return True
         return super().event(event)

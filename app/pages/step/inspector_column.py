@@ -144,7 +144,9 @@ class InspectorColumn(QTabWidget):
     @Slot()
     def _forget_heights(self) -> None:
         """Find the room of the formula anew, in another width or type."""
-        self.tabBar().setFont(text_font(current_theme()))  # Qt leaves it as it was while the column is hidden.
+        self.tabBar().setFont(
+            text_font(current_theme())
+        )  # Qt leaves it as it was while the column is hidden.
         self._tallest = self._wanted_height()
         self.fit()
 

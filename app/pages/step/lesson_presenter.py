@@ -142,6 +142,7 @@ class LessonPresenter(QObject):
             page.refuse(found.progress.trouble)
         page.side.show_lesson(walk.task.scroll)
         page.column.show_card(False)
+        page.timeline.takes_leaps = False
         walk.begin(found.course, found.lesson, found.step, found.progress.standings)
 
     def _make(self) -> "LessonWalk":
@@ -202,6 +203,7 @@ class LessonPresenter(QObject):
         self._walk.end()
         self._page.side.show_lesson(None)
         self._page.column.show_card(True)
+        self._page.timeline.takes_leaps = True
 
     # By key.
 

@@ -22,6 +22,7 @@ from widgets.lessons.lesson_view import LessonView
 from widgets.lessons.records import MOST_WRONG, LessonFeedback
 
 RIGHT, SHOWN = "Right.", "This is the answer."
+UNKNOWN = "It is none of the known mistakes. Try again, or choose Reveal: that shows the step."
 
 
 @dataclass(frozen=True, eq=False)
@@ -230,4 +231,5 @@ def wrong_sentences(judged: JudgedAnswer) -> tuple[str, ...]:
         or tuple(judgement.sentences)
         or tuple(filter(None, [draft.answer.first_wrong(judged.response)]))
     )
-    return (f"Not yet: {judgement.verdict.counts}.", *said)
+    counts = judgement.verdict.counts
+    return ("Not yet." if counts.startswith("0 of 1 ") else f"Not yet: {counts}.", *(said or (UNKNOWN,)))

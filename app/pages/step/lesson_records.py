@@ -17,6 +17,12 @@ TASKS = {
     "measure": "Measure",
 }
 """What a step wants to be done, by its kind, where it has no sentence of its own for it."""
+OPENS = {
+    "compare": "Open it on the Compare page",
+    "stability": "Open it on the Stability page",
+    "plan": "Open the Plan page",
+}
+"""What a link of a step to be measured says, by the page that it leads to."""
 ONCE_MORE = "Before you begin, once more:"
 _TOGETHER = re.compile(r"(?<=[\d,]) (?=-?[\d./]+\))| (?=[=<>≥≤≠])|(?<=[=<>≥≤≠]) ")
 """Spaces at which no line ends: in ``(2, 1)`` and in ``E0 = 0``."""
@@ -38,7 +44,7 @@ def step_record(lesson: Lesson, number: int, standings: Sequence[Standing]) -> L
         standings=tuple(standings),
         lead=paragraphs(lesson.question) if number == 0 else "",
         task=paragraphs(step.task) or TASKS[step.kind],
-        links=((step.show, "Open it"),) if step.show else (),
+        links=((step.show, OPENS[step.show.partition("/")[0]]),) if step.show else (),
         has_previous=number > 0 or lesson.part.recall is not None,
     )
 

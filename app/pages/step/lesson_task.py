@@ -58,6 +58,7 @@ class LessonTask(QObject):
         """Where the step began; ``None``: no lesson is open."""
         self._is_showing = self._has_peeked = self._is_revealed = False
         self.view.reveal_requested.connect(self.reveal)
+        self.view.link_chosen.connect(self._take_measured)
         # Queued: it has its place then.
         self.view.feedback_shown.connect(self._show_feedback, Qt.ConnectionType.QueuedConnection)
         self.answers.judged.connect(self._take_judged)
@@ -106,7 +107,7 @@ class LessonTask(QObject):
         page.main_area.show_asked(self.grid if asked is not None and asked.is_on_picture else None)
         if part is not None and part.until is not None:
             self._watch.begin(part.until)
-        elif part is not None and asked is None:
+        elif part is not None and asked is None and not part.show:
             self.standing_changed.emit(Standing.DONE)
         self._give_keyboard()
 
@@ -197,10 +198,18 @@ class LessonTask(QObject):
     @Slot()
     def _take_done(self) -> None:
         """Say at once that a task is done."""
+        self._conclude_task(DONE, is_right=True)
+
+    @Slot()
+    def _take_measured(self) -> None:
+        """Say what is to be seen where a step has led."""
+        if self._part is not None and self._part.show:
+            self._conclude_task("", is_right=None)
+
+    def _conclude_task(self, said: str, is_right: bool | None) -> None:
+        after = "" if self._part is None else paragraphs(self._part.after)
         self.standing_changed.emit(Standing.DONE)
-        step = self._part
-        after = () if step is None or step.after is None else (paragraphs(step.after),)
-        self.view.show_feedback(LessonFeedback((DONE, *after), is_right=True))
+        self.view.show_feedback(LessonFeedback(tuple(filter(None, (said, after))), is_right=is_right))
         self.ended.emit(1.0, None)
 
     def _has_evidence(self) -> bool:

@@ -133,6 +133,8 @@ class LessonWalk(QObject):
             self.go(self._next_number + 1)
         elif self.following is not None:
             self._page.lessons.open(self.following.name)
+        else:
+            self._page.tell("This is the end of the last lesson.")
 
     @Slot()
     def back(self) -> None:

@@ -102,10 +102,11 @@ def test_steps_on_one_scene_share_its_document(window: MainWindow, qtbot: QtBot,
 
 def test_keys_and_dots_go_through_a_lesson(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     walk = opened(window, qtbot, tmp_path)
-    window.page.grid.setFocus()
     numbers = []
-    for key in (Qt.Key.Key_PageDown, Qt.Key.Key_PageDown, Qt.Key.Key_PageUp):
-        QTest.keyClick(window.page.grid, key)
+    keys = Qt.Key.Key_PageDown, Qt.Key.Key_PageDown, Qt.Key.Key_PageUp
+    for key, focused in zip(keys, (window.page.grid, window.page.timeline.bar, walk.view), strict=True):
+        focused.setFocus()
+        QTest.keyClick(focused, key)
         numbers.append(settled(window, qtbot).number)
     assert numbers == [1, 2, 1]
     walk.view.dots.dots[3].click()
@@ -201,6 +202,9 @@ def test_a_question_hides_its_scene_until_it_is_answered(
 def test_a_wrong_answer_is_refuted_and_twice_wrong_offers_the_step(
     window: MainWindow, qtbot: QtBot, walk: LessonWalk
 ) -> None:
+    assert answered(walk, qtbot, 3).startswith("Not yet.\nIt is none of the known mistakes.")
+    walk.return_here()
+    settled(window, qtbot)
     assert answered(walk, qtbot, 25) == "That would be right if each edge counted."
     assert walk.view.reveal_button.text() == "Reveal"
     answered(walk, qtbot, 25)
