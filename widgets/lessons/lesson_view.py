@@ -238,6 +238,7 @@ class LessonView(QWidget):
         self._icon.setVisible(mark is not None)
         if mark is not None:
             self._icon.setPixmap(mark_pixmap(mark, theme.text_px + 4, ratio))
+            self._icon.setAccessibleName(mark.value)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Press a button with Return; elsewhere Return checks the answer."""

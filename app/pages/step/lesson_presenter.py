@@ -57,8 +57,8 @@ class LessonPresenter(QObject):
         self._desk: _Desk | None = None
         self.keeps_attempts = True
         """Whether what is done is kept for the user."""
-        self.last: tuple[str, int] | None = None
-        """Name and step of the lesson that was shown last."""
+        self.last: tuple[Lesson | str, int] | None = None
+        """The lesson that was shown last, and its step."""
         self._job = Job(self, expected=(ValueError, OSError, MemoryError))
         self._job.succeeded.connect(self._begin)
         self._job.failed.connect(self._refuse)
@@ -153,6 +153,7 @@ class LessonPresenter(QObject):
         self._walk, self.attempts = walk, attempts = LessonWalk(self._page), LessonAttempts(self)
         attempts.failed.connect(self._page.edit_refused)
         walk.task.left.connect(self._leave)
+        walk.begun_in_vain.connect(self._put_away)
         walk.place_changed.connect(self._remember)
         walk.task_ended.connect(self._keep)
         walk.view.close_requested.connect(self.close)
@@ -174,7 +175,7 @@ class LessonPresenter(QObject):
     def _remember(self) -> None:
         walk = self.walk
         if walk is not None and walk.lesson is not None:
-            self.last = walk.lesson.name, walk.number
+            self.last = walk.lesson, walk.number
             self.place_changed.emit()
 
     @Slot()
@@ -192,12 +193,15 @@ class LessonPresenter(QObject):
         desk = self._desk
         if desk is not None:
             self._put_away()
+            self._page.grids.show_look(desk.state.look.grid)
             if desk.state.look.panes is not None:
                 self._page.show_desk_panes(desk.state.look.panes)
             self._page.tell("The lesson is closed. Ctrl+Home opens it again at this step.")
             self.place_changed.emit()
 
+    @Slot()
     def _put_away(self) -> None:
+        """Take the pane away."""
         assert self._walk is not None
         self._desk = None
         self._walk.end()

@@ -38,6 +38,8 @@ class LessonWalk(QObject):
     """Another step is shown, or another lesson."""
     task_ended = Signal(int, float, object)
     """Number of a step, its score, and the `JudgedAnswer` that it was given, or ``None``."""
+    begun_in_vain = Signal()
+    """Nothing of the lesson can be shown."""
 
     def __init__(self, page: "StepPage") -> None:
         super().__init__(page)
@@ -220,3 +222,5 @@ class LessonWalk(QObject):
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
         self._page.refuse(f"This step cannot be opened: {error}. The open scene is unchanged.")
+        if self._home is None:
+            self.begun_in_vain.emit()

@@ -138,15 +138,17 @@ def test_wandering_off_costs_nothing(window: MainWindow, qtbot: QtBot, tmp_path:
 def test_another_scene_closes_the_lesson_and_a_key_opens_it_again(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
+    looks = window.page.grids.look()
     opened(window, qtbot, tmp_path, 1)
-    window.page.lessons.last = ("nothing-of-this-name", 1)
     window.open_path("single-triangle")
     qtbot.waitUntil(lambda: window.session.document.title == "Single triangle")
     assert not window.page.lessons.is_open
     assert not window.session.is_predicting
     assert not window.session.is_asked_about
+    assert window.page.grids.look().overlays == looks.overlays
     window.run_action("lesson_return")
-    qtbot.waitUntil(lambda: "nothing-of-this-name" in window.messages.text.text())
+    assert settled(window, qtbot).number == 1
+    assert window.session.is_predicting
 
 
 def test_what_was_open_is_kept_for_the_next_start_with_the_lesson_over_it(
