@@ -66,6 +66,7 @@ class TypedLines:
         made = self.typed.run([*columns, bool(last_pixel)], len(ends), "list", WORDS, limits)
         place = self.typed.program.functions[self.typed.program.name].place
         log = made if isinstance(made, Log) else Log([(None, value) for value in made])
+        place = log.place or place
         _, put = rows_put(log, len(ends))
         found = [self._pixels(lanes, value, len(ends), place) for lanes, value in put]
         if not found:

@@ -22,7 +22,7 @@ class Limits:
     numbers: int = 4_096
     """Numbers of a list, those of its inner lists counted."""
     calls: int = 8
-    """Calls that stand in each other."""
+    """Calls, and lists, that stand in each other."""
     stored: int = 1_500_000
     """Numbers that variables and lists of a run take up, those of all lanes counted."""
     steps: int = 20_000

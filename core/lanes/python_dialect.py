@@ -147,7 +147,7 @@ class PythonDialect:
             return Many([self.merged(flags, a, b, place, run) for a, b in pairs])
         if isinstance(new, list) or isinstance(old, list):
             many = [len(value) if isinstance(value, list) else 1 for value in (new, old)]
-            raise Problem(place, f"there are {counted(many[0], 'value')} here and {many[1]} elsewhere")
+            raise Problem(place, f"this gives {counted(many[0], 'value')} here and {many[1]} elsewhere")
         if isinstance(new, Range) and isinstance(old, Range):
             ends = ((new.start, old.start), (new.stop, old.stop), (new.step, old.step))
             return Range(*(np.where(flags, a, b) for a, b in ends))
@@ -161,7 +161,7 @@ class PythonDialect:
             entries = value.entries if isinstance(value, Log) else [(None, part) for part in value or ()]
             run.make_room(place, run.lanes * len(entries) // 8)
             found += [(where if mask is None else mask & where, part) for mask, part in entries]
-        return Log(found)
+        return Log(found, place)
 
     def many(self, parts: Sequence[Any], starred: Sequence[bool], mask: Some, place: Place, run: Run) -> Any:
         """Return a list; an empty one is a `Log`, to which each lane may put values of its own."""
@@ -172,11 +172,16 @@ class PythonDialect:
                 break
         if not made:
             return Log()
-        found = Many(made)
-        if found.leaves > run.limits.numbers:
-            raise Problem(place, f"a list has at most {run.limits.numbers:,} numbers here")
+        found = self._limited(Many(made), place, run)
         run.make_room(place, sum(part.size if isinstance(part, np.ndarray) else 1 for part in found))
         return found
+
+    def _limited(self, made: Many, place: Place, run: Run) -> Many:
+        if made.leaves > run.limits.numbers:
+            raise Problem(place, f"a list has at most {run.limits.numbers:,} numbers here")
+        if made.depth > run.limits.calls:
+            raise Problem(place, f"lists stand at most {run.limits.calls} deep in each other here")
+        return made
 
     def elements(self, value: Any, mask: Some, place: Place, run: Run) -> list[Any]:
         """Return the elements of a list or a range that is the same in all lanes."""
@@ -198,7 +203,7 @@ class PythonDialect:
 
     def unpacked(self, value: Any, starred: Sequence[bool], mask: Some, place: Place, run: Run) -> list[Any]:
         """Return a value for each of several names."""
-        parts = self.elements(value, mask, place, run)
+        parts = [value] if is_number(value) else self.elements(value, mask, place, run)
         if sum(starred) == 1 and len(parts) >= len(starred) - 1:
             first, rest = starred.index(True), len(parts) - len(starred) + 1
             middle = Many(parts[first : first + rest]) if rest else Log()
@@ -212,6 +217,10 @@ class PythonDialect:
         """Return the rounds of a for loop."""
         if isinstance(value, Range) and not value.is_uniform:
             return self._unequal_turns(value, run)
+        if is_number(value):
+            raise Problem(
+                place, f"{kind_of(value)} has no elements: a loop over numbers takes range(first, end)"
+            )
         made: Sequence[Any]
         if isinstance(value, Range):
             made = range(value.start, value.stop, value.step)
@@ -249,6 +258,7 @@ class PythonDialect:
         run.make_room(place, (lanes_in(mask, run.lanes) or 1) * leaves)
         if isinstance(whole, Log):
             whole.entries.append((mask, value))
+            whole.place = place
             return
         if value is whole or mask is not None or whole.leaves + leaves > run.limits.numbers:
             raise Problem(
@@ -258,6 +268,8 @@ class PythonDialect:
             )
         whole.append(value)
         whole.leaves += leaves
+        whole.depth = max(whole.depth, (value.depth if isinstance(value, Many) else 0) + 1)
+        self._limited(whole, place, run)
 
     def part(self, whole: Any, index: Any, mask: Some, place: Place, run: Run) -> Any:
         """Return an element; the index may differ by lane, and never counts from the end then."""
@@ -284,10 +296,10 @@ class PythonDialect:
         parts = list(self.elements(whole, mask, place, run))
         if type(index) is not int or not -len(parts) <= index < len(parts):
             raise Problem(place, f"an index must be from 0 to {len(parts) - 1} and the same in every lane")
-        if isinstance(new, Log | list):
-            raise Problem(place, "a number can be stored in a list here, not a list")
+        if isinstance(new, Log):
+            raise Problem(place, "a list that is still growing cannot be put into a list")
         parts[index] = new if mask is None else self.merged(mask, new, parts[index], place, run)
-        return Many(parts)
+        return self._limited(Many(parts), place, run)
 
     def field(self, whole: Any, name: str, place: Place) -> Any:
         """Refuse all attributes."""
@@ -433,17 +445,16 @@ def _length_of(numbers: range) -> str:
 
 def meant(name: str, known: Iterable[str]) -> str:
     """Return ``: did you mean ...?`` for a name that is close to one that there is, else nothing."""
-    found = [one for one in get_close_matches(name, list(known), 3, 0.5) if one != name]
-    for one in found:
-        if (len(name) > FEW_LETTERS and get_close_matches(name, [one], 1, 0.6)) or is_one_slip(name, one):
-            return f": did you mean {one}?"
-    return ""
+    others = [one for one in known if one != name]
+    found = [one for one in others if one.lower() == name.lower()]
+    found += [one for one in others if len(name) > 1 and is_one_slip(name, one)]
+    if len(name) > FEW_LETTERS:
+        found += get_close_matches(name, others, 1, 0.6)
+    return f": did you mean {found[0]}?" if found else ""
 
 
 def is_one_slip(first: str, second: str) -> bool:
-    """Return whether two names differ by one letter more, less or other, or in the case of letters."""
-    if first.lower() == second.lower():
-        return True
+    """Return whether two names differ by one letter more, less or other."""
     short, long = sorted((first, second), key=len)
     if len(short) == len(long):
         return sum(a != b for a, b in zip(short, long, strict=True)) == 1 and len(long) > 1

@@ -61,6 +61,8 @@ def problem_of(error: SyntaxError, text: str) -> Problem:
     typed = _bare(lines[number - 1])
     line = typed.strip()
     bracket = open_bracket(text)
+    if re.search(r"\belse if\b", line) and not re.search(r"\bif\b.*\belse if\b.*\belse\b", line):
+        return Problem(place, "write elif")
     if "expected ':'" in said or _lacks_colon(line):
         return Problem(Place(number, len(typed.rstrip()) + 1), "a colon is missing at the end of this line")
     if bracket is not None:
@@ -69,8 +71,6 @@ def problem_of(error: SyntaxError, text: str) -> Problem:
         return Problem(place, "this bracket was never opened")
     if "unterminated" in said or "EOL while" in said:
         return Problem(place, "the quotation mark is never closed")
-    if re.search(r"\belse if\b", line) and not re.search(r"\bif\b.*\belse if\b.*\belse\b", line):
-        return Problem(place, "write elif")
     if "&&" in line or "||" in line:
         return Problem(place, "write and, or")
     if re.search(r"!(?!=)", line):
@@ -79,6 +79,16 @@ def problem_of(error: SyntaxError, text: str) -> Problem:
         return Problem(place, "write += 1 or -= 1")
     if re.search(r"=>|=<", line):
         return Problem(place, "write >= or <=")
+    if re.search(r"[<>=!]\s+=", line):
+        return Problem(place, "write <=, >=, == and != without a blank between the two signs")
+    if re.search(r"\w:=|\w :=", line):
+        return Problem(place, "write = to store a value")
+    if re.match(r"(int|float|double|bool|var|let|const|auto)\s+\w", line):
+        return Problem(place, "a variable has no type in front of it: it begins with name = value")
+    if ".." in line:
+        return Problem(place, "write range(first, end) for numbers one after the other")
+    if "expected 'else'" in said:
+        return Problem(place, "else is missing: one value if a condition else another")
     if re.search(r"<>", line):
         return Problem(place, "write != for unequal")
     if re.match(r"(if|while|elif)\b", line) and re.search(r"(?<![=<>!])=(?!=)", line):
@@ -99,9 +109,16 @@ def problem_of(error: SyntaxError, text: str) -> Problem:
         return Problem(place, "this character is not in the language of listings")
     if re.search(r"[-+*/%=<>,]\s*:?$|\b(and|or|not|in)\s*:?$", line):
         return Problem(Place(number, len(typed.rstrip()) + 1), "something is missing at the end of this line")
-    if "perhaps you forgot a comma" in said.lower():
+    if "perhaps you forgot a comma" in said.lower() or _begins_a_value(typed, place.column):
         return Problem(place, "an operator or a comma is missing here")
     return Problem(place, "this cannot be read: something is missing here, or too much")
+
+
+def _begins_a_value(line: str, column: int) -> bool:
+    """Return whether a name or a number begins at a column, right behind another value."""
+    before, here = line[: column - 1].rstrip(), line[column - 1 :]
+    is_behind = re.search(r"[\w)\]]$", before) and not re.search(r"\b(and|or|not|if|else|in|return)$", before)
+    return bool(is_behind and re.match(r"\w", here))
 
 
 def _lacks_colon(line: str) -> bool:

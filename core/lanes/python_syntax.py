@@ -112,7 +112,12 @@ class Reader:
         if given.kwonlyargs or given.vararg or given.kwarg or given.posonlyargs or node.decorator_list:
             raise Problem(self.place(node), "a function has plain parameters only")
         parameters = tuple(argument.arg for argument in given.args)
-        return Function(self.place(node), node.name, parameters, self._body(node.body))
+        body = self._body(node.body)
+        if _returns_somewhere(body) and not _always_returns(body):
+            raise Problem(
+                body[-1].place, f"{node.name} may end here without return: its last line must be return ..."
+            )
+        return Function(self.place(node), node.name, parameters, body)
 
     def _refuse(self, node: ast.AST) -> Problem:
         word = OUTSIDE.get(type(node))
@@ -165,7 +170,11 @@ class Reader:
                 return Continue(place)
             case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), "append"), [value], [])):
                 return Put(place, name, self._value(value))
-            case ast.Expr(ast.Call(ast.Attribute(ast.Name(name), attribute))):
+            case ast.Expr(ast.Call(ast.Attribute(ast.Name(), "append"))):
+                raise Problem(
+                    place, ".append takes one value: put brackets around several, as .append((x, y))"
+                )
+            case ast.Expr(ast.Call(ast.Attribute(ast.Name(), attribute))):
                 raise Problem(
                     place, f".{attribute} is not in the language of listings: a list has .append(value)"
                 )
@@ -306,3 +315,28 @@ def _whole_number(node: ast.expr) -> int | str:
         case ast.UnaryOp(ast.USub(), ast.Constant(int() as number)):
             return -number
     return "other"
+
+
+def _returns_somewhere(body: Sequence[Statement]) -> bool:
+    """Return whether a return with a value stands in some statements."""
+    for statement in body:
+        match statement:
+            case Return(_, Expression()):
+                return True
+            case If(_, _, yes, no) if _returns_somewhere((*yes, *no)):
+                return True
+            case Loop(_, _, inner) | Each(_, _, _, inner) if _returns_somewhere(inner):
+                return True
+    return False
+
+
+def _always_returns(body: Sequence[Statement]) -> bool:
+    """Return whether some statements leave the function on every way through them."""
+    match body[-1]:
+        case Return() | Evaluate(_, Call(_, "raise")):
+            return True
+        case If(_, _, yes, no):
+            return bool(no) and _always_returns(yes) and _always_returns(no)
+        case Loop(_, Constant(_, True)):
+            return True
+    return False

@@ -18,11 +18,12 @@ KINDS = {"b": "true or false", "i": "a whole number", "f": "a number"}
 
 
 class Many(list[Any]):
-    """A list that is as long in every lane, and how many numbers it has with those of its lists."""
+    """A list that is as long in every lane, how many numbers it has with those in its lists, and how deep it is."""
 
     def __init__(self, parts: Sequence[Any]) -> None:
         super().__init__(parts)
         self.leaves: int = sum(part.leaves if isinstance(part, Many) else 1 for part in parts)
+        self.depth: int = 1 + max((part.depth for part in parts if isinstance(part, Many)), default=0)
 
 
 @dataclass(eq=False)
@@ -30,6 +31,8 @@ class Log:
     """A list to which lanes put values, each for a mask of them; so it may be longer in some lanes."""
 
     entries: list[tuple[Some, Any]] = field(default_factory=list)
+    place: Place | None = None
+    """Where the last one was put."""
 
     def seen(self, mask: Some, place: Place) -> list[Any]:
         """Return the values that the lanes of a mask have put, if all have put as many."""
