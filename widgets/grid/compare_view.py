@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
-from PySide6.QtGui import QGuiApplication, QKeyEvent
-from PySide6.QtWidgets import QLabel, QWidget
+from PySide6.QtGui import QGuiApplication, QKeyEvent, QResizeEvent
+from PySide6.QtWidgets import QBoxLayout, QLabel, QWidget
 
 from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
@@ -16,7 +16,7 @@ from widgets.basics.theme import theme_notifier
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.buffer_choice import BufferChoice
 from widgets.grid.geometry import GridGeometry
-from widgets.grid.linked_grids import LinkedGrids
+from widgets.grid.linked_grids import SPACING, LinkedGrids
 from widgets.grid.marks import StepMark
 from widgets.grid.overlay import Overlay
 from widgets.inspector.listing import ListingText, ListingView
@@ -25,6 +25,10 @@ LINES, LINES_WITH_CODE = (4, 5), (3, 4)
 """Lines above a picture, the last one says how far its run is, and below it."""
 LEAST_ROOM = 6
 """Letters that the box of the buffers has room for at least."""
+FOLDED_LINES = (3, 3)
+"""The same where the difference stands below A and B, with all notes beside it: there they are wider."""
+FOLDED_GAIN = 1.15
+"""How many times larger the pictures become at least where the difference is put below A and B."""
 CODE_LINES = 10
 """Lines of text that the listings of A and B are high at least, where they are shown."""
 
@@ -135,13 +139,15 @@ class CompareView(QWidget):
         choices.addLayout(buttons)
         layout.addWidget(self._choices)
         layout.addWidget(self.figure, 1)
-        figure = column_layout(self.figure, 8, margins=(8, 8, 8, 8))
+        figure = self._figure_layout = column_layout(self.figure, 8, margins=(8, 8, 8, 8))
         figure.addWidget(self.linked, 1)
-        notes = row_layout(spacing=8)
+        self._notes = QWidget(self.figure)
+        self._notes_layout = QBoxLayout(QBoxLayout.Direction.LeftToRight, self._notes)
+        self._notes_layout.setContentsMargins(0, 0, 0, 0)
         for note in self.notes:
             note.setAlignment(Qt.AlignmentFlag.AlignTop)
-            notes.addWidget(note, 1)
-        figure.addLayout(notes)
+            self._notes_layout.addWidget(note, 1)
+        figure.addWidget(self._notes)
         self._code = QWidget(self.figure)
         code = row_layout(self._code, 8)
         for name, listing in zip("AB", self.listings, strict=True):
@@ -150,6 +156,44 @@ class CompareView(QWidget):
         figure.addWidget(self._code, 1)
         self._code.hide()
         self.summary = self.notes[2]
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Put the difference below A and B where that makes the pictures larger."""
+        super().resizeEvent(event)
+        self._fold_if_larger()
+
+    def _fold_if_larger(self) -> None:
+        is_folded = self._gain() > FOLDED_GAIN
+        if is_folded == self.linked.is_folded:
+            return
+        # The notes are parted from their place before they get the other one.
+        self._figure_layout.removeWidget(self._notes)
+        self.linked.fold(self._notes if is_folded else None)
+        if not is_folded:
+            self._figure_layout.insertWidget(1, self._notes)
+        direction = QBoxLayout.Direction.TopToBottom if is_folded else QBoxLayout.Direction.LeftToRight
+        self._notes_layout.setDirection(direction)
+        self._show_again()
+
+    def _gain(self) -> float:
+        """Return how many times larger the pictures are with the difference below A and B; 0: its notes lack room."""
+        buffer = next((side.buffer for side in self._sides if side.buffer is not None), None)
+        if buffer is None or not self._code.isHidden():
+            return 0.0
+        line = self.fontMetrics().lineSpacing()
+        width, height = (
+            self.figure.width(),
+            self.height() - (self._choices.height() if self._choices.isVisibleTo(self) else 0),
+        )
+        above, below = (lines * line for lines in LINES)
+        folded_above, folded_below = (lines * line for lines in FOLDED_LINES)
+        if height / 2 < len(self.notes) * (folded_below + SPACING):
+            return 0.0
+        flat, folded = (
+            min(wide / buffer.columns, high / buffer.rows)
+            for wide, high in ((width / 3, height - above - below), (width / 2, height / 2 - folded_above))
+        )
+        return folded / flat if flat > 0 else 0.0
 
     def show_choices(self, is_shown: bool) -> None:
         """Offer buffers, methods and buttons, or leave all the room to the pictures."""
@@ -178,6 +222,8 @@ class CompareView(QWidget):
             sides = sides[1], sides[0], sides[2]
         has_code = any(side.listing is not None for side in sides)
         above, below = LINES_WITH_CODE if has_code else LINES
+        if self.linked.is_folded:
+            above, below = FOLDED_LINES
         for side, grid, title, note in zip(sides, self.grids, self.titles, self.notes, strict=True):
             grid.empty_text = side.reason
             grid.show_buffer(side.buffer)
@@ -185,13 +231,16 @@ class CompareView(QWidget):
             grid.show_geometry(side.geometry)
             grid.show_step(side.step)
             self._write(title, f"{side.title}\n{side.place}".rstrip(), above)
-            self._write(note, side.sentence, below)
+            # Away from its picture a note names it.
+            name = f"{side.name}: " if self.linked.is_folded and side.sentence else ""
+            self._write(note, name + side.sentence, below)
         self._code.setVisible(has_code)
         self._code.setMinimumHeight(CODE_LINES * self.fontMetrics().lineSpacing())
         for view, side in zip(self.listings, sides, strict=False):
             if side.listing is None or view.toPlainText() != side.listing.source.rstrip("\n"):
                 view.show_listing(side.listing)
             view.show_line(side.line or None)
+        self._fold_if_larger()
 
     def show_flipped(self, is_flipped: bool) -> None:
         """Show B in the place of A and A in the place of B, or both in their own places."""

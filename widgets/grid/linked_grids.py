@@ -15,6 +15,8 @@ from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
 
 NOTHING_YET = "Nothing to show yet"
+SPACING = 8
+"""Between grids, in logical pixels."""
 LEAST_HEIGHT = 9
 """Of the pictures with their titles, in heights of the text."""
 
@@ -31,10 +33,11 @@ class LinkedGrids(QWidget):
         self._names = tuple(names)
         self.grids = tuple(PixelGrid(self) for _ in names)
         self.titles = tuple(QLabel(self) for _ in names)
-        layout = QGridLayout(self)
+        self._rest: QWidget | None = None
+        self._layout = layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(8)
-        for column, (name, title, grid) in enumerate(zip(names, self.titles, self.grids, strict=True)):
+        layout.setSpacing(SPACING)
+        for name, title, grid in zip(names, self.titles, self.grids, strict=True):
             grid.setAccessibleName(f"Pixel grid {name}")
             grid.pixel_hovered.connect(self.pixel_hovered)
             grid.pixel_left.connect(self.pixel_left)
@@ -43,10 +46,33 @@ class LinkedGrids(QWidget):
             title.setWordWrap(True)
             title.setAlignment(Qt.AlignmentFlag.AlignBottom)
             title.setProperty("role", "muted")
-            layout.addWidget(title, 0, column)
-            layout.addWidget(grid, 1, column)
-            layout.setColumnStretch(column, 1)
+        self._place(len(self.grids))
+
+    def _place(self, columns: int) -> None:
+        """Put each title above its grid, a number of them beside each other."""
+        layout = self._layout
+        for number, (title, grid) in enumerate(zip(self.titles, self.grids, strict=True)):
+            row, column = divmod(number, columns)
+            layout.addWidget(title, 2 * row, column)
+            layout.addWidget(grid, 2 * row + 1, column)
+        for column in range(len(self.grids)):
+            layout.setColumnStretch(column, column < columns)
         layout.setRowStretch(1, 1)
+        layout.setRowStretch(3, columns < len(self.grids))
+
+    @property
+    def is_folded(self) -> bool:
+        """Whether the last grid stands below the others."""
+        return self._rest is not None
+
+    def fold(self, rest: QWidget | None) -> None:
+        """Put the last of three grids below the others, and beside it the ``rest``; ``None``: all in one row."""
+        if self._rest is not None:
+            self._layout.removeWidget(self._rest)
+        self._rest = rest
+        self._place(len(self.grids) - (rest is not None))
+        if rest is not None:
+            self._layout.addWidget(rest, 2, 1, 2, 1)
 
     def minimumSizeHint(self) -> QSize:
         """Return a size in which the pictures can be seen below their titles."""

@@ -1,0 +1,39 @@
+"""A | B | difference: the pictures stand where they are largest."""
+
+import numpy as np
+import pytest
+from pytestqt.qtbot import QtBot
+
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.compare_view import CompareView, Side
+
+
+@pytest.fixture
+def view(qtbot: QtBot) -> CompareView:
+    shown = CompareView()
+    qtbot.addWidget(shown)
+    buffer = GridBuffer("depth", np.zeros((48, 64)))
+    shown.show_sides(*(Side(name, name, sentence=f"of {name}", buffer=buffer) for name in ("A", "B", "D")))
+    shown.show_choices(False)
+    shown.resize(1200, 500)
+    shown.show()
+    return shown
+
+
+def sizes(view: CompareView) -> set[tuple[int, int]]:
+    return {(grid.width(), grid.height()) for grid in view.grids}
+
+
+def test_the_difference_stands_below_where_that_makes_the_pictures_larger(
+    view: CompareView, qtbot: QtBot
+) -> None:
+    assert len({grid.mapTo(view, grid.rect().topLeft()).y() for grid in view.grids}) == 1
+    view.resize(700, 700)
+    qtbot.waitUntil(lambda: min(sizes(view))[0] > 300)
+    first, second, difference = (grid.mapTo(view, grid.rect().topLeft()) for grid in view.grids)
+    assert first.y() == second.y() < difference.y()
+    assert [note.text() for note in view.notes] == ["A: of A", "B: of B", "D: of D"]
+    assert all(note.visibleRegion().boundingRect().height() == note.height() for note in view.notes)
+    view.resize(1200, 500)
+    qtbot.waitUntil(lambda: len({grid.mapTo(view, grid.rect().topLeft()).y() for grid in view.grids}) == 1)
+    assert [note.text() for note in view.notes] == ["of A", "of B", "of D"]
