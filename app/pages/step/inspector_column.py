@@ -177,6 +177,12 @@ class InspectorColumn(QTabWidget):
         if self.listing.height() > max(code, seen):
             self.rows.setSizes([code, max(self.rows.height() - code - self.rows.handleWidth(), details)])
 
+    def step_height(self) -> int:
+        """Return the height at which the step is read without scrolling, but for listing and variables."""
+        layout = self._step_pane.layout()
+        told = 0 if layout is None else layout.totalHeightForWidth(max(self.width(), 1))
+        return self.tabBar().sizeHint().height() + max(self._step_pane.minimumHeight(), told)
+
     def show_prediction(self, is_shown: bool) -> None:
         """Ask in place of telling: above the sentence."""
         self.prediction.setVisible(is_shown)

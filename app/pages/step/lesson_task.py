@@ -267,8 +267,8 @@ class LessonTask(QObject):
     def _show_revealed(self, shown: OpenState, *, keeps_picture: bool = False) -> None:
         """Show the state of the answer; marks on a picture stay in sight where there is no other to be seen."""
         self._page.tell("")
-        self._page.side.let_inspector_give_way(False)
         self._show(shown, is_hidden=False)
+        self._page.side.let_inspector_give_way(False)
         if not keeps_picture:
             self._page.main_area.show_asked(None)
 

@@ -9,8 +9,8 @@ from widgets.basics.controls import column_layout
 from widgets.basics.theme import current_theme
 from widgets.lessons.lesson_scroll import LessonScroll
 
-INSPECTOR_LINES, PRESENTED_LINES = 9, 6
-"""Least height of the inspector under a lesson, in lines of text: sentence and formula; presenting, without listing."""
+INSPECTOR_LINES = 9
+"""Least height of the inspector under a lesson, in lines of text: sentence and formula."""
 
 
 class SideColumn(QWidget):
@@ -65,8 +65,9 @@ class SideColumn(QWidget):
         if self._lesson is None:
             self._below.show()
             return
-        lines = PRESENTED_LINES if self._is_presenting else INSPECTOR_LINES
-        least = round(lines * 1.5 * current_theme().text_px)
+        least = round(INSPECTOR_LINES * 1.5 * current_theme().text_px)
+        if self._is_presenting:
+            least = self._inspector.step_height() + self._layout.spacing()
         has_room = self._lesson.height_for(self.width()) + least <= self.height()
         gives_way = self._gives_way or self._is_presenting
         is_inspected = not self._inspector.isHidden() and (has_room or not gives_way)
