@@ -2,7 +2,7 @@
 
 from typing import Any
 
-from PySide6.QtCore import Slot
+from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QCheckBox, QLabel, QRadioButton, QWidget
 
 from core.records.cells import Form, Marks
@@ -48,6 +48,14 @@ class ChoiceAnswerView(AnswerView):
             button.setChecked(option in (given or ()))
         if self._group is not None:
             self._group.setExclusive(True)
+
+    def set_open(self, is_open: bool) -> None:
+        """Take an answer, or only show it: the option that was chosen stays as clear as it was."""
+        for button in self.buttons:
+            is_clear = button.isChecked() and self._group is not None
+            button.setEnabled(is_open or is_clear)
+            button.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents, not is_open)
+            button.setFocusPolicy(Qt.FocusPolicy.StrongFocus if is_open else Qt.FocusPolicy.NoFocus)
 
     def show_marks(self, marks: Marks | None) -> None:
         """Mark the options that are chosen rightly or wrongly, and those that are missing."""

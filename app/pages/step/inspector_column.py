@@ -37,6 +37,7 @@ class InspectorColumn(QTabWidget):
         self._tallest = 0
         """Height of the tallest formula of the stage so far."""
         self._is_presenting, self._is_card_wanted, self._folds_listing = False, True, False
+        self._is_formula_alone = False
         self._is_history_chosen = False
         """Whether the user wants to see histories while stepping."""
         self.card, self.formula, self.listing = StageCardView(self), FormulaView(self), ListingView(self)
@@ -155,7 +156,8 @@ class InspectorColumn(QTabWidget):
         """Keep room for the sentence, the tallest formula and some of the listing, in any type."""
         line = round(1.25 * current_theme().text_px)
         self.sentence.setMinimumHeight(SENTENCE_LINES * line)
-        step, details = SENTENCE_LINES * line + 4 + self._tallest, VARIABLE_LINES * (line + 6)
+        told = 0 if self._is_formula_alone else SENTENCE_LINES * line + 4
+        step, details = told + self._tallest, VARIABLE_LINES * (line + 6)
         self._parts.activate()  # What has just come or gone above has moved the pane.
         above = self._step_pane.y() + step
         seen = self.step.viewport().height() - above - 2 * self.rows.handleWidth()
@@ -177,11 +179,21 @@ class InspectorColumn(QTabWidget):
         if self.listing.height() > max(code, seen):
             self.rows.setSizes([code, max(self.rows.height() - code - self.rows.handleWidth(), details)])
 
-    def step_height(self) -> int:
-        """Return the height at which the step is read without scrolling, but for listing and variables."""
-        layout = self._step_pane.layout()
-        told = 0 if layout is None else layout.totalHeightForWidth(max(self.width(), 1))
-        return self.tabBar().sizeHint().height() + max(self._step_pane.minimumHeight(), told)
+    def step_heights(self) -> tuple[int, int]:
+        """Return the heights at which the step is read without scrolling, and its formula alone."""
+        line, width = round(1.25 * current_theme().text_px), max(self.width(), 1)
+        formula = max(self._tallest, self._wanted_height())
+        told = max(SENTENCE_LINES * line, self.sentence.heightForWidth(width))
+        return self.tabBar().sizeHint().height() + told + 4 + formula, formula
+
+    def show_formula_alone(self, is_alone: bool) -> None:
+        """Leave out the tabs and the sentence for want of room, or show them again."""
+        if is_alone == self._is_formula_alone:
+            return
+        self._is_formula_alone = is_alone
+        self.tabBar().setVisible(not is_alone)
+        self.sentence.setVisible(not is_alone)
+        self.fit()
 
     def show_prediction(self, is_shown: bool) -> None:
         """Ask in place of telling: above the sentence."""

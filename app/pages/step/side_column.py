@@ -64,15 +64,21 @@ class SideColumn(QWidget):
         """Give the lesson the height that it wants, unless the inspector would have too little."""
         if self._lesson is None:
             self._below.show()
+            self._inspector.show_formula_alone(False)
             return
         least = round(INSPECTOR_LINES * 1.5 * current_theme().text_px)
+        room = self.height() - self._lesson.height_for(self.width()) - self._layout.spacing()
+        is_alone, has_room = False, room >= least
         if self._is_presenting:
-            least = self._inspector.step_height() + self._layout.spacing()
-        has_room = self._lesson.height_for(self.width()) + least <= self.height()
+            whole, formula = self._inspector.step_heights()
+            is_alone, has_room = room < whole, room >= formula
         gives_way = self._gives_way or self._is_presenting
         is_inspected = not self._inspector.isHidden() and (has_room or not gives_way)
+        self._inspector.show_formula_alone(is_alone and has_room)
         self._below.setVisible(is_inspected)
-        most = max(self.height() - least, self.height() // 2) if is_inspected else self.height()
+        most = (
+            self.height() if not is_inspected or has_room else max(self.height() - least, self.height() // 2)
+        )
         self._lesson.take_room(self.width(), most)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
