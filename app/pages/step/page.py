@@ -289,8 +289,8 @@ class StepPage(Page):
         self.main_area.show_own_view()
 
     def focus_panes(self) -> list[QWidget]:
-        """Return the views' row, the run, the inspector, and what is at the side."""
-        return [self.main_area, *self.side.panes(), self.timeline, self]
+        """Return the views' row, a lesson, the run, the inspector, and what is at the side."""
+        return [self.main_area, *self.side.panes(), self.timeline, self.column, self]
 
     def view_names(self) -> list[str]:
         """Return the names of the main views."""

@@ -51,8 +51,8 @@ class SideColumn(QWidget):
         self._divide()
 
     def panes(self) -> list[QWidget]:
-        """Return both, as far as they are there."""
-        return [self._inspector] if self._lesson is None else [self._lesson, self._inspector]
+        """Return the pane of a lesson, while it is there."""
+        return [] if self._lesson is None else [self._lesson]
 
     def _follow(self) -> None:
         """Be there while one of both is."""
