@@ -10,11 +10,15 @@ from dataclasses import replace
 import numpy as np
 
 from app.cli.commands import add_allow_outside
+from app.files.input_files import read_input
 from app.files.mesh_formats import OutsideMeshError, Report
 from app.files.open_any import Opened, open_any
 from app.files.state_files import OutsideSourceError
 from app.usage import PROGRAM, UsageError
 from core import Settings
+from core.edits import EDITABLE, Edit, apply_edit
+from core.lanes.limits import LISTING
+from core.lanes.problem import Problem
 from core.scene import SIZE_LIMIT, AnyScene
 from core.settings import settings_from_texts
 
@@ -59,6 +63,8 @@ def sized(scene: AnyScene, options: argparse.Namespace) -> AnyScene:
     return scene if options.size is None else replace(scene, size=options.size)
 
 
+LISTING_BYTES = 4 * LISTING.characters + 4
+"""Largest file of a listing: as many characters as it may have, each of up to four bytes, and a mark before them."""
 SETTINGS_HELP = (
     "choose methods (rasterscope methods lists them), block_size=N, correction_interval=N or samples_across=N; "
     "the others are those of the state file, or the defaults"
@@ -78,12 +84,58 @@ def add_settings(parser: argparse.ArgumentParser, what: str = SETTINGS_HELP) -> 
     )
 
 
-def chosen_settings(settings: Settings, chosen: Sequence[tuple[str, str]]) -> Settings:
-    """Return ``settings`` with some chosen on the command line, or raise UsageError."""
+def chosen_settings(
+    settings: Settings, chosen: Sequence[tuple[str, str]], edits: Sequence[tuple[str, str]] = ()
+) -> Settings:
+    """Return ``settings`` with some chosen and listings edited on the command line.
+
+    Raises UsageError for a setting that there is not, ValueError for a text that cannot run.
+    """
     try:
-        return settings_from_texts(dict(chosen), settings)
+        found = settings_from_texts(dict(chosen), settings)
     except ValueError as problem:
         raise UsageError(f"argument --set: {problem}") from problem
+    for part, path in edits:
+        try:
+            of = str(getattr(found, EDITABLE[part].family)) if part in EDITABLE else ""
+            edit = Edit(part, of, read_listing(path))
+        except ValueError as problem:
+            reason = str(problem)
+            raise UsageError(f"argument --edit: {reason[0].lower()}{reason[1:].rstrip('.')}") from problem
+        try:
+            found = apply_edit(found, edit)
+        except Problem as problem:
+            raise ValueError(f"{path}: {problem}") from problem
+    return found
+
+
+def read_listing(path: str) -> str:
+    """Return the text of a listing; OSError if it cannot be read, ValueError if it is no text."""
+    try:
+        return read_input(path, LISTING_BYTES).decode("utf-8-sig")
+    except UnicodeDecodeError:
+        raise ValueError(f"{path} is no text in UTF-8") from None
+
+
+def edit_from_text(text: str) -> tuple[str, str]:
+    """Return what is edited, and the path of the listing, of a text such as ``line=mine.py``."""
+    part, sign, path = text.partition("=")
+    if not (part and sign and path):
+        raise argparse.ArgumentTypeError(f"must be PART=FILE such as line=mine.py, got {text}")
+    return part, path
+
+
+def add_edits(parser: argparse.ArgumentParser) -> None:
+    """Let the command take ``--edit``, of `chosen_settings`."""
+    parser.add_argument(
+        "--edit",
+        metavar="PART=FILE",
+        type=edit_from_text,
+        nargs="+",
+        action="extend",
+        default=[],
+        help=f"run the listing in FILE instead of the chosen method's own; PART is one of {', '.join(EDITABLE)}",
+    )
 
 
 def open_file(options: argparse.Namespace) -> Opened:

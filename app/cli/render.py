@@ -6,6 +6,7 @@ import os
 import numpy as np
 
 from app.cli.arguments import (
+    add_edits,
     add_file,
     add_settings,
     add_size,
@@ -42,6 +43,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", metavar="out.png", help="the picture")
     add_size(parser)
     add_settings(parser)
+    add_edits(parser)
     parser.add_argument("--buffers", metavar="out.npz", help="color, depth and primitive as arrays")
 
 
@@ -56,7 +58,7 @@ def run(options: argparse.Namespace) -> int:
         check_writable(path)
 
     opened = open_file(options)
-    settings = chosen_settings(opened.document.settings, options.set)
+    settings = chosen_settings(opened.document.settings, options.set, options.edit)
     scene = sized(opened.document.scene, options)
     blend = resolve(settings).blend_name
     check_memory(scene.size, settings)

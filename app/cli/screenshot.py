@@ -4,7 +4,14 @@ import argparse
 import os
 import sys
 
-from app.cli.arguments import add_file, add_settings, chosen_settings, outside_hinted, size_from_text
+from app.cli.arguments import (
+    add_edits,
+    add_file,
+    add_settings,
+    chosen_settings,
+    outside_hinted,
+    size_from_text,
+)
 from app.cli.commands import MOST_ROUNDS, whole_number
 from app.cli.window import load_qt
 from app.files.file_names import VIEW_ENDINGS
@@ -106,6 +113,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="open the pictures of a method, or the first cell where it fails; or check a mistake's answer",
     )
     add_settings(parser)
+    add_edits(parser)
 
 
 def check_page(options: argparse.Namespace) -> None:
@@ -116,9 +124,9 @@ def check_page(options: argparse.Namespace) -> None:
         if getattr(options, name) is not None and (page not in pages or is_saved):
             where = "a saved study or atlas" if is_saved else f"page {page}"
             raise UsageError(f"argument --{name}: it is for page {' or '.join(pages)}, got {where}")
-    if is_saved and (options.page is not None or options.set):
+    if is_saved and (options.page is not None or options.set or options.edit):
         raise UsageError(
-            f"--page and --set are for scenes; a saved study or atlas has its own, got {options.file}"
+            f"--page, --set and --edit are for scenes; a saved study or atlas has its own, got {options.file}"
         )
 
 
@@ -158,7 +166,7 @@ def run(options: argparse.Namespace) -> int:
             options.stage,
             options.step,
             view,
-            lambda settings: chosen_settings(settings, options.set),
+            lambda settings: chosen_settings(settings, options.set, options.edit),
             content,
             options.allow_outside,
         )

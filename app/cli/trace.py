@@ -11,6 +11,7 @@ from time import monotonic
 import numpy as np
 
 from app.cli.arguments import (
+    add_edits,
     add_file,
     add_settings,
     chosen_settings,
@@ -96,6 +97,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help="buffers at the start: as earlier triangles left them, or cleared",
     )
     add_settings(parser)
+    add_edits(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -139,7 +141,7 @@ def make_trace(opened: Opened, options: argparse.Namespace) -> Trace:
         raise UsageError(
             f"argument --triangle: must be 0 to {document.triangle_count - 1} in {options.file}, got {triangle}"
         )
-    settings = chosen_settings(document.settings, options.set)
+    settings = chosen_settings(document.settings, options.set, options.edit)
     before = options.before or document.before
     if options.size is not None or options.region is not None:
         scene = sized(document.scene, options)

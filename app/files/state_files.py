@@ -16,7 +16,16 @@ from app.files.file_writing import write_file
 from app.files.mesh_formats import Report
 from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_arrays import array_record
-from app.files.state_models import MIGRATIONS, VERSION, Bookmark, Breakpoints, Look, RasterRecord, StateRecord
+from app.files.state_models import (
+    MIGRATIONS,
+    VERSION,
+    Bookmark,
+    Breakpoints,
+    EditRecord,
+    Look,
+    RasterRecord,
+    StateRecord,
+)
 from app.files.state_scenes import (
     Keep,
     OutsideSourceError,
@@ -26,9 +35,10 @@ from app.files.state_scenes import (
     scene_record,
 )
 from app.session.document import Document, TeachingRaster
+from core.edits import EDITABLE, Edit, apply_edit, edits_of, without_edits
 from core.scene import AnyScene
-from core.settings import settings_from_texts, settings_record
-from core.stages.needs import check_needs
+from core.settings import Settings, settings_from_texts, settings_record
+from core.stages.needs import check_edits, check_needs
 from core.trace.conditions import parse_condition
 
 __all__ = ["EXTENSION", "OutsideSourceError", "State", "StateFileError", "load_state", "save_state"]
@@ -77,13 +87,14 @@ def save_state(path: str | Path, state: State, keep: Keep = array_record) -> Non
     path = Path(path)
     document = state.document
     with in_field("settings"):
-        settings = settings_record(document.settings)
+        settings = settings_record(without_edits(document.settings))
     record = StateRecord(
         program="rasterscope",
         version=VERSION,
         title=document.title,
         scene=scene_record(document.scene, document.path, path.resolve().parent, keep),
         settings=settings,
+        edits=[EditRecord(**vars(edit)) for edit in edits_of(document.settings)],
         raster=RasterRecord(
             columns=document.raster.columns, rows=document.raster.rows, origin=document.raster.origin
         ),
@@ -146,7 +157,7 @@ def load_state(
             record.scene, path.resolve(), progress, is_cancelled, allows_outside
         )
         state = _state(record, scene, mesh_path)
-        return without_stray_pin(state, warnings)
+        return without_stray_pin(state, (*warnings, *edit_notes(state.document.settings)))
     except OutsideSourceError as problem:
         raise OutsideSourceError(f"{path.name} cannot be opened: {problem}") from problem
     except (SavedRecordError, StateFileError) as problem:
@@ -155,11 +166,25 @@ def load_state(
         raise StateFileError(f"{path.name} cannot be opened: there is not enough memory for it") from problem
 
 
+def edit_notes(settings: Settings) -> tuple[str, ...]:
+    """Return what is said when a state opens that runs edited listings."""
+    return tuple(
+        f"This runs a listing that was edited: {edit.title.removeprefix('the edited ')}."
+        for edit in edits_of(settings)
+    )
+
+
 def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
     """Return the state of a record, or say which field does not fit."""
     with in_field("settings"):
         settings = settings_from_texts({name: str(value) for name, value in record.settings.items()})
         check_needs(scene, settings)
+    with in_field("edits"):
+        for edit in record.edits:
+            if getattr(settings, EDITABLE[edit.part].family if edit.part in EDITABLE else "line") != edit.of:
+                raise ValueError(f"{edit.part} of {edit.of} is not the method that settings choose")
+            settings = apply_edit(settings, Edit(edit.part, edit.of, edit.text))
+        check_edits(scene, settings)
     with in_field("look.other"):
         settings_from_texts({name: str(value) for name, value in record.look.other.items()})
     if record.breakpoints.condition:

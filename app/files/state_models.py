@@ -7,6 +7,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 
 from app.session.document import VIEWS
 from core import STAGES
+from core.lanes.limits import LISTING
 from widgets.space.orbit import EXTENT_LIMITS
 
 VERSION: Literal[3] = 3
@@ -263,6 +264,14 @@ class Look(Record):
     """Name of the lesson that is open over it, and the number of its step; ``None``: none is."""
 
 
+class EditRecord(Record):
+    """A ``core.edits.edit.Edit``: a text in place of the listing of a method."""
+
+    part: str
+    of: str
+    text: Annotated[str, Field(max_length=LISTING.characters)]
+
+
 class StateRecord(Record):
     """A whole state file."""
 
@@ -272,6 +281,8 @@ class StateRecord(Record):
     scene: Annotated[MeshSceneRecord | ClipSceneRecord | TableSceneRecord, Field(discriminator="kind")]
     settings: dict[str, str | int]
     """Family to method; a family that is left out has its default."""
+    edits: list[EditRecord] = []
+    """Listings that were edited, of methods that ``settings`` choose."""
     raster: RasterRecord
     triangle: Count | None
     before: str

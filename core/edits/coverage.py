@@ -7,9 +7,10 @@ import numpy as np
 
 from core.edits.typed import Typed
 from core.methods import Method, is_registered, table
+from core.raster.edges.edge_functions import EdgeFunctions
 from core.raster.fills.traits import FillTraits
 from core.raster.number_formats.number_format import number_format
-from core.records.arrays import Flags, Floats
+from core.records.arrays import Flags, Floats, Integers
 from core.settings import Settings
 
 VALUES = "the three values, and whether the pixel is covered"
@@ -23,23 +24,25 @@ class TypedTest:
     typed: Typed
 
     def __call__(
-        self, a: Floats, b: Floats, c: Floats, owns_tie: Flags, x: Floats, y: Floats
+        self, edges: EdgeFunctions, primitive: Integers, x: Floats, y: Floats
     ) -> tuple[Floats, Flags]:
-        """Return values (Q, 3) and coverage (Q,) of pixels, from coefficients (Q, 3) and centres (Q,)."""
-        values, covered = np.empty(a.shape), np.empty(len(a), bool)
+        """Return values (Q, 3) and coverage (Q,) of triangles at pixel centres (Q,)."""
+        count = len(primitive)
+        values, covered = np.empty((3, count)), np.empty(count, bool)
+        rows = [[np.ascontiguousarray(part[:, k]) for k in range(3)] for part in (edges.a, edges.b, edges.c)]
+        owns_tie = [np.ascontiguousarray(edges.owns_tie[:, k]) for k in range(3)]
 
         def of_block(part: slice) -> list[Any]:
-            triples = [
-                [np.ascontiguousarray(each[part, k]) for k in range(3)] for each in (a, b, c, owns_tie)
-            ]
+            shown = primitive[part]
+            triples = [[row.take(shown) for row in three] for three in (*rows, owns_tie)]
             return [*triples, x[part], y[part]]
 
         shape = (("number",) * 3, "flag")
-        for part, (three, inside) in self.typed.over_blocks(of_block, len(a), shape, VALUES):
+        for part, (three, inside) in self.typed.over_blocks(of_block, count, shape, VALUES):
             covered[part] = inside
             for k in range(3):
-                values[part, k] = three[k]
-        return values, covered
+                values[k, part] = three[k]
+        return values.T, covered
 
 
 def check_test(typed: Typed) -> None:

@@ -82,12 +82,12 @@ def _said(step: StepValues) -> tuple[str, Formula | None]:
     return (said, None) if isinstance(said, str) else said
 
 
-def edited_line_said(listed: EditedListing, line: int | None) -> str:
+def edited_line_said(listed: EditedListing, line: int) -> str:
     """Return what is true of any step of an edited listing: the sentences of the right method are not."""
     lines = listed.source.splitlines()
-    if line is None or not 1 <= line <= len(lines):
-        return f"The edited listing {listed.name} runs."
-    return f"Line {line} of the edited listing runs: {lines[line - 1].strip()}"
+    if not 1 <= line <= len(lines):
+        return "An edited listing runs."
+    return f"Edited listing, line {line}: {lines[line - 1].strip()}"
 
 
 def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | None) -> str:

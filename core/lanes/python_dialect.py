@@ -255,7 +255,8 @@ class PythonDialect:
             raise Problem(place, "a list that is still growing cannot be put into a list")
         self.check_stored(value, mask, place, run)
         leaves = value.leaves if isinstance(value, Many) else 1
-        run.make_room(place, (lanes_in(mask, run.lanes) or 1) * leaves)
+        # The numbers of a list were counted when it was made.
+        run.make_room(place, 1 if isinstance(value, Many) else lanes_in(mask, run.lanes) or 1)
         if isinstance(whole, Log):
             whole.entries.append((mask, value))
             whole.place = place

@@ -124,8 +124,8 @@ def _cover_batch(edges: EdgeFunctions, runs: Runs, length: Integers, raster: Ras
         sides = is_inside(stepped_values(edges, runs), edges.owns_tie[primitive])
         return Fragments(primitive, column, row).select(every_edge(sides)), len(sides)
     if edges.rule is not None:
-        _, sides = edges.decide(primitive, *raster.centers(column, row))
-        return Fragments(primitive, column, row).select(every_edge(sides)), len(sides)
+        covered = edges.covers(primitive, *raster.centers(column, row))
+        return Fragments(primitive, column, row).select(covered), len(covered)
     x, y = raster.along(column), raster.along(runs.row)
     covered = runs.accepted.take(run)
     tested = len(covered) - int(np.count_nonzero(covered))

@@ -108,31 +108,42 @@ class EdgeFunctions:
         All three sides hold where a pixel is covered, and only there: of a rule of its own only the whole is known, so
         the edge with the least value stands for it.
         """
-        a, b, c = (part.take(primitive, axis=0) for part in (self.a, self.b, self.c))
         owns_tie = self.owns_tie.take(primitive, axis=0)
         if self.rule is None:
+            a, b, c = (part.take(primitive, axis=0) for part in (self.a, self.b, self.c))
             held_x, held_y = (self.numbers.of_pixels(place[:, None]) for place in (x, y))
             with np.errstate(over="ignore", invalid="ignore"):
                 values = edge_value(a, b, c, held_x, held_y)
             return values, is_inside(values, owns_tie)
-        if self.numbers.held_as is not np.float64:
-            raise ValueError(
-                f"an edited inside test runs in float64, not in the numbers of coverage {self.numbers.name}"
-            )
-        values, covered = self.rule(a, b, c, owns_tie, x, y)
+        values, covered = self._by_rule(primitive, x, y)
         sides = is_inside(values, owns_tie) | covered[:, None]
         left_out = np.flatnonzero(sides.all(axis=1) & ~covered)
         sides[left_out, np.argmin(values[left_out], axis=1)] = False
         return values, sides
+
+    def covers(self, primitive: Integers, x: Floats, y: Floats) -> Flags:
+        """Return (Q,) bool, whether triangles cover pixel centres: the same decision as that of `decide`."""
+        if self.rule is not None:
+            return self._by_rule(primitive, x, y)[1]
+        sides = self.decide(primitive, x, y)[1]
+        return np.asarray(sides[:, 0] & sides[:, 1] & sides[:, 2])
+
+    def _by_rule(self, primitive: Integers, x: Floats, y: Floats) -> tuple[Floats, Flags]:
+        assert self.rule is not None
+        if self.numbers.held_as is not np.float64:
+            raise ValueError(
+                f"an edited inside test runs in float64, not in the numbers of coverage {self.numbers.name}"
+            )
+        return self.rule(self, primitive, x, y)
 
 
 class PixelRule(Protocol):
     """Decides on pixels by itself."""
 
     def __call__(
-        self, a: Floats, b: Floats, c: Floats, owns_tie: Flags, x: Floats, y: Floats
+        self, edges: EdgeFunctions, primitive: Integers, x: Floats, y: Floats
     ) -> tuple[Floats, Flags]:
-        """Return three values (Q, 3) and what is covered (Q,), from coefficients (Q, 3) at pixel centres (Q,)."""
+        """Return three values (Q, 3) and what is covered (Q,), of triangles at pixel centres (Q,)."""
 
 
 def orient(corners: CornerPositions) -> Floats:

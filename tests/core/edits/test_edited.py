@@ -241,7 +241,7 @@ def test_no_step_of_an_edited_listing_is_explained_as_the_right_one():
         make_scene("segment"), apply_edit(Settings(), edit("line", "if D > 0:", "if D >= 0:"))
     ).stage("raster")
     said = {sentence(stage.explain(k), -1, None) for k in range(1, stage.steps.count + 1)}
-    assert all("edited listing" in text for text in said)
+    assert all(text.startswith("Edited listing, line ") for text in said)
     assert any(text.endswith("if D >= 0:") for text in said)
 
 
