@@ -100,9 +100,8 @@ class Expressions:
         run, dialect, names = frame.run, self._dialect, frame.names
         dialect.check_stored(value, mask, place, run)
         is_known = name in names and not is_new
-        if not is_known:
-            run.make_room(place, dialect.size(value))
-        elif dialect.is_typed:
+        held = dialect.size(names[name]) if name in names else 0
+        if is_known and dialect.is_typed:
             dialect.check_kept(name, names[name], value, place)
         if mask is None:
             names[name] = value
@@ -113,6 +112,7 @@ class Expressions:
                 frame.given[name] = frame.given[name] | mask
         else:
             names[name], frame.given[name] = value, mask
+        run.make_room(place, dialect.size(names[name]) - held)
 
     def look(self, frame: Frame, mask: Some, name: str, place: Place) -> Value:
         """Return the value of a variable, which all lanes of a mask must have given one."""
@@ -194,13 +194,14 @@ class Expressions:
         tests = [self.value(test) for test in node.tests]
 
         def gather(frame: Frame, mask: Some) -> Value:
-            kept, given, made = dict(frame.names), dict(frame.given), []
+            kept, given, made, size = dict(frame.names), dict(frame.given), list[Value](), 0
             for thing in dialect.elements(things(frame, mask), mask, place, frame.run):
                 frame.run.tick(place)
                 store(frame, None, thing)
                 if all(dialect.uniform(test(frame, mask), place) for test in tests):
                     made.append(element(frame, mask))
-                    frame.run.make_room(place, 1)
+                    size += dialect.size(made[-1])
+                    frame.run.check_room(place, size)
             frame.names, frame.given = kept, given
             return dialect.many(made, [False] * len(made), mask, place, frame.run)
 

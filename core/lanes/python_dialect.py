@@ -9,7 +9,7 @@ import numpy as np
 
 from core.lanes.dialect import Rule, Turn
 from core.lanes.limits import LARGEST
-from core.lanes.masks import NOBODY, Mask, Some, lanes_in, split
+from core.lanes.masks import NOBODY, Mask, Some, split
 from core.lanes.problem import Place, Problem, counted
 from core.lanes.python_functions import NATIVE, ROUNDING, applied, rounded
 from core.lanes.python_rules import TOO_LARGE, operator_rule
@@ -125,8 +125,10 @@ class PythonDialect:
         """Python lets a variable change its type."""
 
     def size(self, value: Any) -> int:
-        """Return how many numbers a variable takes up; those of lists were counted when they were made."""
-        return value.size if isinstance(value, np.ndarray) else 1
+        """Return how many numbers a variable takes up; those that lanes put to a list are counted when they do."""
+        if isinstance(value, np.ndarray):
+            return value.size
+        return sum(map(self.size, value)) if isinstance(value, Many) else 1
 
     def zero(self, of: Any) -> Any:
         """Return what a variable without a value would have: listings declare none."""
@@ -143,6 +145,7 @@ class PythonDialect:
         if isinstance(new, Log) or isinstance(old, Log):
             return self._merged_logs(flags, new, old, place, run)
         if isinstance(new, list) and isinstance(old, list) and len(new) == len(old):
+            run.check_room(place, run.lanes * len(new))
             pairs = zip(new, old, strict=True)
             return Many([self.merged(flags, a, b, place, run) for a, b in pairs])
         if isinstance(new, list) or isinstance(old, list):
@@ -159,6 +162,7 @@ class PythonDialect:
         found = []
         for value, where in ((old, ~flags), (new, flags)):
             entries = value.entries if isinstance(value, Log) else [(None, part) for part in value or ()]
+            # Their masks are made anew, a byte a lane.
             run.make_room(place, run.lanes * len(entries) // 8)
             found += [(where if mask is None else mask & where, part) for mask, part in entries]
         return Log(found, place)
@@ -173,7 +177,7 @@ class PythonDialect:
         if not made:
             return Log()
         found = self._limited(Many(made), place, run)
-        run.make_room(place, sum(part.size if isinstance(part, np.ndarray) else 1 for part in found))
+        run.check_room(place, self.size(found))
         return found
 
     def _limited(self, made: Many, place: Place, run: Run) -> Many:
@@ -255,8 +259,7 @@ class PythonDialect:
             raise Problem(place, "a list that is still growing cannot be put into a list")
         self.check_stored(value, mask, place, run)
         leaves = value.leaves if isinstance(value, Many) else 1
-        # The numbers of a list were counted when it was made.
-        run.make_room(place, 1 if isinstance(value, Many) else lanes_in(mask, run.lanes) or 1)
+        run.make_room(place, self.size(value))
         if isinstance(whole, Log):
             whole.entries.append((mask, value))
             whole.place = place

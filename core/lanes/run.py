@@ -72,9 +72,13 @@ class Run:
                 raise Problem(place, "stopped")
 
     def make_room(self, place: Place, count: int) -> None:
-        """Count numbers that are stored."""
+        """Count numbers that are stored from now on; fewer than none: so many are no longer."""
+        self.check_room(place, count)
         self._stored += count
-        if self._stored > self.limits.stored:
+
+    def check_room(self, place: Place, count: int) -> None:
+        """Refuse numbers for which there is no room beside those that are stored."""
+        if self._stored + count > self.limits.stored:
             raise Problem(
                 place, f"variables and lists have more than {self.limits.stored:,} numbers: stopped here"
             )
