@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
-from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from core.lanes.limits import LARGEST
 from core.lanes.masks import NOBODY, Mask, Some, split
 from core.lanes.problem import Place, Problem, counted
 from core.lanes.python_functions import NATIVE, ROUNDING, applied, rounded
+from core.lanes.python_lists import ListFunctions
 from core.lanes.python_rules import TOO_LARGE, operator_rule
 from core.lanes.python_values import Log, Many, Range, is_flag, is_number, kind_of, number_kind
 from core.lanes.run import Run
@@ -32,32 +32,12 @@ class PythonDialect:
 
     def __init__(self, constants: Mapping[str, Any] | None = None) -> None:
         self._names = {"nan": float("nan"), "inf": float("inf"), **(constants or {})}
-        self._of_lists: dict[str, Callable[..., Any]] = {
-            "all": self._every,
-            "any": self._every,
-            "len": self._length,
-            "tuple": self._listed,
-            "list": self._listed,
-            "zip": self._zipped,
-            "enumerate": self._enumerated,
-            "pairwise": self._pairs,
-            "reversed": self._turned,
-            "sorted": self._sorted,
-            "sum": self._total,
-            "range": self._range,
-            "bool": self._truth,
-            "is None": self._is_none,
-            "in": self._is_in,
-            "slice of": self._slice,
-            "range by": self._range_by,
-            "raise": self._raise,
-        }
+        self._lists = ListFunctions(self)
 
     @property
     def functions(self) -> tuple[str, ...]:
         """Names of all functions that may be typed."""
-        typed = (name for name in self._of_lists if name.isidentifier() and name not in ("in", "raise"))
-        return (*typed, *NATIVE, *ROUNDING)
+        return (*self._lists.typed, *NATIVE, *ROUNDING)
 
     def names(self) -> Mapping[str, Any]:
         """Return the numbers that a listing knows by name."""
@@ -322,13 +302,9 @@ class PythonDialect:
         """Return what a function of the table makes of values."""
         if name in ROUNDING or name in NATIVE:
             return self._number(name, values, mask, place, run)
-        if name not in self._of_lists:
+        if name not in self._lists:
             raise Problem(place, f"there is no function {name}{meant(name, self.functions)}")
-        many = ("zip", "range", "slice of")
-        wanted = 2 if name in ("in", "range by") else 1
-        if name not in many and len(values) != wanted:
-            raise Problem(place, f"{name} takes {counted(wanted, 'value')}, got {len(values)}")
-        return self._of_lists[name](values, mask, place, run, name)
+        return self._lists.call(name, values, mask, place, run)
 
     def _number(self, name: str, values: Sequence[Any], mask: Some, place: Place, run: Run) -> Any:
         if name in ("min", "max") and len(values) == 1:
@@ -341,105 +317,6 @@ class PythonDialect:
             if not is_number(value):
                 raise Problem(place, f"{name} of {kind_of(value)} is not possible")
         return rounded(name, values[0], mask, place) if name in ROUNDING else applied(name, values, place)
-
-    def _every(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        found: Any = name == "all"
-        for part in self.elements(values[0], mask, place, run):
-            truth = self.truth(part, place)
-            found = found & truth if name == "all" else found | truth
-        return found
-
-    def _length(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        return len(self.elements(values[0], mask, place, run))
-
-    def _listed(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        return self._made(self.elements(values[0], mask, place, run), mask, place, run)
-
-    def _zipped(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        lists = [self.elements(value, mask, place, run) for value in values]
-        if len({len(parts) for parts in lists}) > 1:
-            lengths = " and ".join(str(len(parts)) for parts in lists)
-            raise Problem(place, f"zip takes lists of one length, these have {lengths} elements")
-        return self._made([Many(parts) for parts in zip(*lists, strict=True)], mask, place, run)
-
-    def _enumerated(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        parts = self.elements(values[0], mask, place, run)
-        return self._made([Many([k, part]) for k, part in enumerate(parts)], mask, place, run)
-
-    def _pairs(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        parts = self.elements(values[0], mask, place, run)
-        return self._made([Many(pair) for pair in pairwise(parts)], mask, place, run)
-
-    def _turned(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        return self._made(self.elements(values[0], mask, place, run)[::-1], mask, place, run)
-
-    def _slice(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        whole, first, end = values
-        return self._made(self.elements(whole, mask, place, run)[first:end], mask, place, run)
-
-    def _sorted(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        parts = self.elements(values[0], mask, place, run)
-        if not all(is_number(part) for part in parts):
-            raise Problem(place, "sorted takes numbers only")
-        if any(np.ndim(part) for part in parts):
-            return self._made(list(np.sort(np.stack(np.broadcast_arrays(*parts)), axis=0)), mask, place, run)
-        return self._made(sorted(parts), mask, place, run)
-
-    def _total(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        add, total = operator_rule("+", place), 0
-        for part in self.elements(values[0], mask, place, run):
-            total = add(total, part, mask, run)
-        return total
-
-    def _range(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        if not 1 <= len(values) <= 3:
-            raise Problem(place, f"range takes 1 to 3 values, got {len(values)}")
-        for value in values:
-            if not is_number(value) or number_kind(value) == "f":
-                raise Problem(place, f"range takes whole numbers, this is {kind_of(value)}")
-        whole = [value.astype(np.int64) if np.ndim(value) else int(value) for value in values]
-        if len(whole) == 3 and (np.asarray(whole[2]) == 0).any():
-            raise Problem(place, "the step of a range cannot be 0")
-        return Range(0, whole[0], 1) if len(whole) == 1 else Range(*whole, *([1] if len(whole) == 2 else []))
-
-    def _range_by(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        whole, step = values
-        if not isinstance(whole, Range) or not is_number(step) or number_kind(step) != "i":
-            raise Problem(place, "only a range can be turned round by [::step]")
-        if (np.abs(np.asarray(step)) != 1).any() or (np.abs(np.asarray(whole.step)) != 1).any():
-            raise Problem(place, "a range is turned round by [::-1], or left by [::1]")
-        ways = (step, whole.start, whole.stop, whole.step)
-        if not any(np.ndim(part) for part in ways):
-            kept = range(whole.start, whole.stop, whole.step)[::step]
-            return Range(kept.start, kept.stop, kept.step)
-        stays = np.asarray(step) > 0
-        # Of no number, the turned range must stay without one.
-        return Range(
-            np.where(stays, whole.start, whole.stop - whole.step),
-            np.where(stays, whole.stop, whole.start - whole.step),
-            np.where(stays, whole.step, -np.asarray(whole.step)),
-        )
-
-    def _truth(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        return self.truth(values[0], place)
-
-    def _is_none(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        return values[0] is None
-
-    def _is_in(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        found: Any = False
-        same = operator_rule("==", place)
-        for part in self.elements(values[1], mask, place, run):
-            found = found | same(part, values[0], mask, run)
-        return found
-
-    def _raise(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
-        if not run.is_checking:
-            raise Problem(place, str(values[0]))
-        return None
-
-    def _made(self, parts: Sequence[Any], mask: Some, place: Place, run: Run) -> Any:
-        return self.many(parts, [False] * len(parts), mask, place, run)
 
 
 def _length_of(numbers: range) -> str:
