@@ -116,6 +116,15 @@ EDITABLE = {
             refused={"fixed-38": _PLANAR},
         ),
         Part(
+            "depth",
+            "rounding",
+            "depth",
+            framebuffer.check_depth_format,
+            framebuffer.edited_depth_format,
+            passed_over=framebuffer.depth_format_is_passed_over,
+            refused={"fixed-38": _PLANAR},
+        ),
+        Part(
             "blend",
             "listing",
             "blend",

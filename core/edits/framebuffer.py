@@ -6,25 +6,31 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from core.edits.typed import Typed
-from core.framebuffer.depth import DepthFormat, Stored
+from core.edits.typed import Typed, parameters_of
+from core.framebuffer.depth import DepthFormat, Stored, as_float32
 from core.methods import Method, is_registered
 from core.records.arrays import Flags, Floats, Singles
 from core.resolved import resolve
 from core.settings import Settings
 
 TESTED = "what the buffer holds then, and whether the fragment passes"
+STORED = "the depth as it is stored"
 COLOR = "four numbers"
 FOUR = ("number",) * 4
 
 
 @dataclass(frozen=True)
-class TypedDepths(DepthFormat):
-    """A depth format whose test is a typed text; fragments are tested in drawing order."""
-
-    typed: Typed | None = None
+class OrderedDepths(DepthFormat):
+    """A depth format of which nothing is known: fragments are tested in drawing order, and depths may be negative."""
 
     keeps_nearest: ClassVar[bool] = False
+
+
+@dataclass(frozen=True)
+class TypedDepths(OrderedDepths):
+    """A depth format whose test is a typed text."""
+
+    typed: Typed | None = None
 
     def try_depths(self, new: Stored, old: Stored, writes: Flags | None) -> Flags:
         """Return which depths (F,) pass; ``old`` (F,) becomes what the text says."""
@@ -43,6 +49,11 @@ class TypedDepths(DepthFormat):
         return self.try_depths(new, old.copy(), None)
 
 
+def fields_of(known: DepthFormat) -> dict[str, Any]:
+    """Return the fields that every depth format has."""
+    return {field.name: getattr(known, field.name) for field in fields(DepthFormat)}
+
+
 @dataclass(frozen=True)
 class TypedDepthTest:
     """Makes the depth format of a method with a typed test."""
@@ -52,10 +63,56 @@ class TypedDepthTest:
 
     def __call__(self) -> DepthFormat:
         """Return it."""
-        known = self.right()
-        kept = {known_field.name: getattr(known, known_field.name) for known_field in fields(DepthFormat)}
-        kept["test_listing"] = self.typed
+        kept = fields_of(self.right()) | {"test_listing": self.typed}
         return TypedDepths(**kept, typed=self.typed)
+
+
+@dataclass(frozen=True)
+class TypedStore:
+    """What a depth is stored as, by a typed text."""
+
+    typed: Typed
+    scale: float
+
+    def __call__(self, depth: Floats) -> Stored:
+        """Return depths (F,) as they are stored; what is not finite is never seen, and stays as it is."""
+        stored = depth.astype(np.float32)
+        known = np.flatnonzero(np.isfinite(depth))
+        finite, found = depth.take(known), np.empty(len(known))
+        steps = [self.scale] * (len(parameters_of(self.typed.of)) - 1)
+        for part, value in self.typed.over_blocks(
+            lambda part: [finite[part], *steps], len(known), "number", STORED
+        ):
+            found[part] = value
+        stored[known] = as_float32(found)
+        return stored
+
+
+@dataclass(frozen=True)
+class TypedDepthFormat:
+    """Makes the depth format of a method that stores by a typed text."""
+
+    right: Callable[[], DepthFormat]
+    typed: Typed
+
+    def __call__(self) -> DepthFormat:
+        """Return it."""
+        known = self.right()
+        store = TypedStore(self.typed, known.scale)
+        if isinstance(known, OrderedDepths):
+            return replace(known, store=store)
+        return OrderedDepths(**(fields_of(known) | {"store": store}))
+
+
+def check_depth_format(typed: Typed) -> None:
+    """Raise `Problem` for a text that cannot run."""
+    steps = [1.0] * (len(parameters_of(typed.of)) - 1)
+    typed.checked([np.zeros(0), *steps], "number", STORED)
+
+
+def edited_depth_format(method: Method, typed: Typed) -> Method:
+    """Return a depth method that stores by a text."""
+    return replace(method, function=TypedDepthFormat(method.function, typed), listing=typed)
 
 
 def check_depth_test(typed: Typed) -> None:
@@ -75,6 +132,13 @@ def depth_test_is_passed_over(settings: Settings, scene: Any) -> str:
         return "Only the depth buffer tests depths: choose visibility z-buffer."
     if is_registered(settings.antialiasing, "area"):
         return "Exact areas have a depth test of their own: choose another antialiasing."
+    return ""
+
+
+def depth_format_is_passed_over(settings: Settings, scene: Any) -> str:
+    """Return why an edited depth format would not run."""
+    if is_registered(settings.visibility, "ray-casting"):
+        return "Rays compare triangles exactly, without a depth buffer."
     return ""
 
 
