@@ -74,7 +74,7 @@ class Autosave(QObject):
 
     @Slot(Change)
     def _follow(self, what: Change) -> None:
-        if what & (Change.DOCUMENT | Change.PIN):
+        if what & (Change.DOCUMENT | Change.EDITS | Change.PIN):
             self.ask()
 
     @property

@@ -3,6 +3,7 @@
 import re
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -13,6 +14,9 @@ from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene
 from core.trace import TraceSource, scene_triangle_count
 from core.trace.length import LONGEST_RUN, most_tests
+
+if TYPE_CHECKING:
+    from core.edits import Edit  # The window opens without the evaluator.
 
 TEACHING_LIMIT = (96, 72)
 """Largest teaching raster in pixels; every pixel can be pointed at, and all buffers are traced at once."""
@@ -71,6 +75,13 @@ class Document:
     title: str = ""
     path: str = ""
     """File that the scene came from; empty: built in or typed."""
+    edits: tuple["Edit", ...] = ()
+    """Listings as the user has edited them: side B of A | B runs them, beside the methods of the settings."""
+
+    def has_run_of(self, other: "Document") -> bool:
+        """Return whether it is the same run: of the same scene, under the same settings."""
+        mine, theirs = ((each.raster, each.triangle, each.before, each.settings) for each in (self, other))
+        return self.scene is other.scene and mine == theirs
 
     @property
     def file_stem(self) -> str:

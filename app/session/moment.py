@@ -22,6 +22,8 @@ class Change(Flag):
     """That document is no edit of the one before: it was opened."""
     RETURNED = auto()
     """That document was open before: an edit, or opening another one, was undone or redone."""
+    EDITS = auto()
+    """Other edited listings run in side B; the run that is open is the same."""
     CURSOR = auto()
     """Another step of the same trace, or another stage."""
     PIN = auto()

@@ -220,15 +220,27 @@ class Session(QObject):
         document, stage = self._history.neighbour(direction), self.cursor.stage
         if document is None:
             return
-        if document.estimated_seconds > RESTING_SECONDS:
+        if not self._is_same_run(document) and document.estimated_seconds > RESTING_SECONDS:
             self.tracing.start(Order(document, "", stage, direction, self.trace))
             return
         self.tracing.cancel()
+        if self._is_same_run(document):
+            self._move_in_history(direction)
+            self._become(Change.EDITS, document=document)
+            return
         self._take_neighbour(direction, trace_now(document, stage, self.trace))
+
+    def _is_same_run(self, document: Document) -> bool:
+        """Return whether a document differs from the open one in its edited listings only: they run in side B."""
+        is_named_alike = (document.title, document.path) == (self.document.title, self.document.path)
+        return document.edits != self.document.edits and is_named_alike and document.has_run_of(self.document)
+
+    def _move_in_history(self, direction: int) -> Document:
+        return self._history.undo() if direction < 0 else self._history.redo()
 
     def _take_neighbour(self, direction: int, trace: Trace) -> None:
         before = self.document
-        after = self._history.undo() if direction < 0 else self._history.redo()
+        after = self._move_in_history(direction)
         was_opened = (before.title, before.path) != (after.title, after.path)
         self._document_replaced(trace, also=Change.RETURNED | (Change.OPENED if was_opened else NOTHING))
 
@@ -244,6 +256,10 @@ class Session(QObject):
 
     def _put(self, document: Document, gesture: str = "") -> None:
         stage = self.cursor.stage
+        if self._is_same_run(document):
+            self._history.put(document, gesture)
+            self._become(Change.EDITS, document=document)
+            return
         if document.estimated_seconds > QUICK_SECONDS:
             document.check_length()
             self.tracing.start(Order(document, gesture, stage, earlier=self.trace))

@@ -413,6 +413,7 @@ ACTIONS: tuple[Action, ...] = (
         Row("flip", "X", "Swap the pictures of A and B while held", lambda w: w.page.flip())
     ),
     *_rows("step", VIEWING, "View", _window)(
+        Row("edit_line", "F2", "Edit the line of the listing", lambda w: w.page.editing.edit_chosen_line()),
         Row("divergence", "D", "First divergence of A and B", lambda w: w.page.comparing.go_to_divergence()),
         *map(_pane, PANES),
         Row(

@@ -6,7 +6,7 @@ from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QLabel, QWidget
+from PySide6.QtWidgets import QBoxLayout, QGraphicsOpacityEffect, QLabel, QWidget
 
 from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
@@ -19,6 +19,7 @@ from widgets.grid.geometry import GridGeometry
 from widgets.grid.linked_grids import SPACING, LinkedGrids
 from widgets.grid.marks import StepMark
 from widgets.grid.overlay import Overlay
+from widgets.grid.pixel_grid import PixelGrid
 from widgets.inspector.listing import ListingText, ListingView
 
 LINES, LINES_WITH_CODE = (4, 5), (3, 4)
@@ -29,6 +30,8 @@ FOLDED_LINES = (3, 3)
 """The same where the difference stands below A and B, with all notes beside it: there they are wider."""
 FOLDED_GAIN = 1.15
 """How many times larger the pictures become at least where the difference is put below A and B."""
+OLD_OPACITY = 0.4
+"""Of a picture that is no longer that of what stands there."""
 CODE_LINES = 10
 """Lines of text that the listings of A and B are high at least, where they are shown."""
 
@@ -48,6 +51,8 @@ class Side:
     """``None``: there is no picture."""
     reason: str = ""
     """Why there is none."""
+    is_old: bool = False
+    """Whether its picture is no longer that of what stands there: it is greyed, and its place says so."""
     overlays: tuple[Overlay, ...] = ()
     geometry: GridGeometry | None = None
     """Its triangles."""
@@ -230,7 +235,9 @@ class CompareView(QWidget):
             grid.show_overlays(side.overlays)
             grid.show_geometry(side.geometry)
             grid.show_step(side.step)
-            self._write(title, f"{side.title}\n{side.place}".rstrip(), above)
+            place = "the last version that ran" if side.is_old else side.place
+            self._write(title, f"{side.title}\n{place}".rstrip(), above)
+            _grey(grid, side.is_old)
             # Away from its picture a note names it.
             name = f"{side.name}: " if self.linked.is_folded and side.sentence else ""
             self._write(note, name + side.sentence, below)
@@ -290,3 +297,14 @@ class CompareView(QWidget):
     @Slot()
     def _choose_value(self) -> None:
         self.setting_chosen.emit(self.family_box.currentData(), self.value_box.currentData())
+
+
+def _grey(grid: PixelGrid, is_grey: bool) -> None:
+    """Show a picture faintly, or as ever."""
+    if is_grey != (grid.graphicsEffect() is not None):
+        if is_grey:
+            effect = QGraphicsOpacityEffect(grid)
+            effect.setOpacity(OLD_OPACITY)
+            grid.setGraphicsEffect(effect)
+        else:
+            grid.setGraphicsEffect(None)  # type: ignore[arg-type]

@@ -1,34 +1,26 @@
 """The algorithm as code: the line of the step just done is marked, a click runs to a line."""
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
 
-from PySide6.QtCore import QPoint, QPointF, QRect, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtCore import QPoint, Qt, Signal, Slot
 from PySide6.QtGui import (
-    QColor,
+    QContextMenuEvent,
     QFont,
-    QFontDatabase,
     QFontMetricsF,
     QKeyEvent,
     QMouseEvent,
-    QPainter,
-    QPaintEvent,
-    QPalette,
-    QPolygonF,
     QResizeEvent,
     QShowEvent,
-    QTextCharFormat,
     QTextCursor,
     QTextLayout,
     QTextOption,
 )
-from PySide6.QtWidgets import QApplication, QFrame, QPlainTextEdit, QTextEdit, QWidget
+from PySide6.QtWidgets import QApplication, QWidget
 
 from widgets.basics.key_claim import KeyClaim
-from widgets.basics.marks import Mark, blended, draw_mark
-from widgets.basics.theme import current_theme, theme_notifier
+from widgets.inspector.code_view import CodeView
 from widgets.inspector.listing_looks import color_tokens
 
 _COMMANDS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
@@ -53,7 +45,7 @@ class ListingText:
     """What it is for, for the tooltip."""
 
 
-class ListingView(QPlainTextEdit):
+class ListingView(CodeView):
     """Read-only code with the present line marked by bar, arrow and tint.
 
     Keys, when it has the focus: Up and Down choose a line, Enter runs to it, Shift+Enter breaks there.
@@ -63,13 +55,13 @@ class ListingView(QPlainTextEdit):
     """The user wants the next step of this line (from 1)."""
     breakpoint_toggled = Signal(int)
     """The user wants a breakpoint set on, or removed from, this line (from 1)."""
+    menu_opened = Signal(object, int)
+    """The menu of a right click opens: the ``QMenu``, and the line (from 1) that was clicked, 0: none."""
     room_changed = Signal()
     """`height_of` is another: for other listings, in another width or type."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._line: int | None = None
-        self._breakpoints: frozenset[int] = frozenset()
         self._pressed_at = QPoint()
         self._title = ""
         self._in_turn: frozenset[str] = frozenset()
@@ -77,22 +69,18 @@ class ListingView(QPlainTextEdit):
         """Width and type that the kept rows are for."""
         self._kept_rows: dict[str, int] = {}
         self.setReadOnly(True)
-        self.setFrameShape(QFrame.Shape.NoFrame)
-        self.setWordWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
-        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setTextInteractionFlags(
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
         )
         self.show_hint(HINT)
-        self.setCornerWidget(QWidget(self))
         self.setAccessibleName("Listing")
         self.viewport().setCursor(Qt.CursorShape.ArrowCursor)
         KeyClaim(self, _COMMANDS)
-        self._margin = ListingMargin(self)
-        self._margin.line_clicked.connect(self.breakpoint_toggled)
-        self.updateRequest.connect(self._follow_scroll)
-        theme_notifier().theme_changed.connect(self._follow_theme)
-        self._follow_theme()
+        self.margin.line_clicked.connect(self.breakpoint_toggled)
+        self.margin.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.margin.setToolTip("Click: set or clear a breakpoint on this line")
+        self.margin.setAccessibleName("Breakpoint margin")
+        self.follow_theme()
 
     @Slot(str)
     def show_hint(self, text: str) -> None:
@@ -109,7 +97,7 @@ class ListingView(QPlainTextEdit):
         self.setAccessibleName(f"Listing of {self._title}" if self._title else "Listing")
         self.setToolTip(listing.purpose if listing else "")
         color_tokens(self.document())
-        self._place_margin()
+        self.place_margin()
         if self.toPlainText() not in self._in_turn:
             self.room_changed.emit()
 
@@ -126,7 +114,7 @@ class ListingView(QPlainTextEdit):
         if line == self._line:
             return
         self._line = line
-        self._mark_line()
+        self.mark_line()
         code = self.document().findBlockByNumber(line - 1).text().strip() if line else ""
         self.setAccessibleDescription(f"Line {line} has just run: {code}" if line else "")
         self._bring_line_into_view()
@@ -153,35 +141,7 @@ class ListingView(QPlainTextEdit):
     def show_breakpoints(self, lines: Collection[int]) -> None:
         """Mark the lines that have a breakpoint."""
         self._breakpoints = frozenset(lines)
-        self._margin.update()
-
-    def visible_lines(self) -> Iterator[tuple[int, QRectF]]:
-        """Return the lines (from 1) that are in sight, and where each stands in the viewport."""
-        block = self.firstVisibleBlock()
-        while block.isValid() and not self.document().isEmpty():
-            if block.isVisible():
-                box = self.blockBoundingGeometry(block).translated(self.contentOffset())
-                yield block.blockNumber() + 1, box
-            block = block.next()
-
-    def line_at(self, y: int) -> int | None:
-        """Return the line (from 1) drawn at height `y` of the viewport; None below the last."""
-        return next((line for line, box in self.visible_lines() if box.top() <= y < box.bottom()), None)
-
-    @property
-    def line(self) -> int | None:
-        """The line of the step just done."""
-        return self._line
-
-    @property
-    def chosen_line(self) -> int | None:
-        """The line that the keys are on, if the listing has the focus."""
-        return self.textCursor().blockNumber() + 1 if self.hasFocus() and self._title else None
-
-    @property
-    def breakpoints(self) -> frozenset[int]:
-        """The lines that have a breakpoint."""
-        return self._breakpoints
+        self.margin.update()
 
     def height_of(self, lines: int, is_wrapped: bool = True) -> int:
         """Return the height of any so many lines of every listing shown in turn, wrapped, or of so many rows."""
@@ -191,7 +151,7 @@ class ListingView(QPlainTextEdit):
             bar = self.verticalScrollBar().sizeHint().width()
             width = (
                 self.contentsRect().width()
-                - self._margin.wanted_width()
+                - self.margin.wanted_width()
                 - bar
                 - 2 * self.document().documentMargin()
             )
@@ -216,7 +176,7 @@ class ListingView(QPlainTextEdit):
         if event.size().width() != event.oldSize().width():
             self.room_changed.emit()
         # After whoever gives it more room, which may be at once.
-        self._place_margin()
+        self.place_margin()
         self._bring_line_into_view()
 
     def showEvent(self, event: QShowEvent) -> None:
@@ -239,6 +199,17 @@ class ListingView(QPlainTextEdit):
         if is_click and line is not None and not self.textCursor().hasSelection():
             self.line_clicked.emit(line)
 
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:
+        """Open the menu of the text, with what else is offered for the line."""
+        menu = self.createStandardContextMenu()
+        if event.reason() == QContextMenuEvent.Reason.Mouse:
+            line = self.line_at(event.pos().y())
+        else:
+            line = self.textCursor().blockNumber() + 1
+        self.menu_opened.emit(menu, line or 0)
+        menu.exec(event.globalPos())
+        menu.deleteLater()
+
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Enter runs to the chosen line, Shift+Enter toggles its breakpoint."""
         if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
@@ -254,131 +225,21 @@ class ListingView(QPlainTextEdit):
             while cursor.movePosition(way) and not cursor.block().isVisible():
                 pass
             self.setTextCursor(cursor)
-            self._mark_line()
+            self.mark_line()
             return
         super().keyPressEvent(event)
 
-    def _place_margin(self) -> None:
-        width = self._margin.wanted_width()
-        self.setViewportMargins(width, 0, 0, 0)
-        inside = self.contentsRect()
-        self._margin.setGeometry(inside.left(), inside.top(), width, inside.height())
-
-    @Slot(QRect, int)
-    def _follow_scroll(self, area: QRect, dy: int) -> None:
-        if dy:
-            self._margin.scroll(0, dy)
-        else:
-            self._margin.update(0, area.y(), self._margin.width(), area.height())
-
-    def _mark_line(self) -> None:
-        theme = current_theme()
-        marks = []
-        if self.chosen_line not in (None, self._line):
-            chosen = self.textCursor()
-            chosen.movePosition(QTextCursor.MoveOperation.StartOfBlock)
-            chosen.movePosition(QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveMode.KeepAnchor)
-            marks.append(self._line_mark(chosen, QColor(theme.selection)))
-        if self._line is not None:
-            block = self.document().findBlockByNumber(self._line - 1)
-            if block.isValid():
-                whole = QTextCursor(block)
-                whole.movePosition(QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveMode.KeepAnchor)
-                marks.append(self._line_mark(whole, blended(theme.accent, theme.panel, 0.14)))
-        self.setExtraSelections(marks)
-        self._margin.update()
-
-    @staticmethod
-    def _line_mark(cursor: QTextCursor, color: QColor) -> QTextEdit.ExtraSelection:
-        mark = QTextEdit.ExtraSelection()
-        mark.format.setBackground(color)
-        mark.format.setProperty(int(QTextCharFormat.Property.FullWidthSelection), True)
-        mark.cursor = cursor
-        return mark
+    @property
+    def chosen_line(self) -> int | None:
+        """The line that the keys are on, if the listing has the focus."""
+        return super().chosen_line if self._title else None
 
     @Slot()
-    def _follow_theme(self) -> None:
-        theme = current_theme()
-        font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
-        font.setPixelSize(theme.code_px)
-        self.setFont(font)
-        self.viewport().setFont(font)  # of the hint
-        palette = self.palette()
-        palette.setColor(QPalette.ColorRole.Base, QColor(theme.panel))
-        palette.setColor(QPalette.ColorRole.PlaceholderText, QColor(theme.muted_text))
-        self.setPalette(palette)
+    def follow_theme(self) -> None:
+        """Take over type and colours."""
+        super().follow_theme()
         color_tokens(self.document())
-        self._mark_line()
-        self._place_margin()
         self.room_changed.emit()
-
-
-@lru_cache(maxsize=1024)
-class ListingMargin(QWidget):
-    """Paints itself beside the lines of its view, which places it."""
-
-    line_clicked = Signal(int)
-    """The line (from 1) that was clicked."""
-
-    def __init__(self, view: ListingView) -> None:
-        super().__init__(view)
-        self._view = view
-        self.setCursor(Qt.CursorShape.PointingHandCursor)
-        self.setToolTip("Click: set or clear a breakpoint on this line")
-        self.setAccessibleName("Breakpoint margin")
-
-    def wanted_width(self) -> int:
-        """Return the room for a mark and the largest line number."""
-        digits = max(2, len(str(self._view.blockCount())))
-        return self._view.fontMetrics().horizontalAdvance("0") * digits + self._mark_size() + 13
-
-    def sizeHint(self) -> QSize:
-        """Be as wide as that."""
-        return QSize(self.wanted_width(), 0)
-
-    def mouseReleaseEvent(self, event: QMouseEvent) -> None:
-        """Pass a click on."""
-        line = self._view.line_at(event.position().toPoint().y())
-        if event.button() == Qt.MouseButton.LeftButton and line is not None:
-            self.line_clicked.emit(line)
-
-    def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw breakpoints as discs, the present line as an arrow with the accent bar."""
-        painter = QPainter(self)
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.fillRect(event.rect(), QColor(current_theme().panel))
-        painter.setFont(self._view.font())
-        for line, box in self._view.visible_lines():
-            if box.top() > event.rect().bottom():
-                break
-            self._paint_line(painter, line, QRect(0, round(box.top()), self.width(), round(box.height())))
-
-    def _paint_line(self, painter: QPainter, line: int, row: QRect) -> None:
-        theme, view = current_theme(), self._view
-        size, line_height = float(self._mark_size()), view.fontMetrics().lineSpacing()
-        # A line that is wrapped has its number and marks beside its beginning.
-        middle = row.top() + line_height / 2
-        is_current = line == view.line
-        if is_current:
-            painter.fillRect(row, blended(theme.accent, theme.panel, 0.14))
-            painter.fillRect(QRect(0, row.top(), 4, row.height()), QColor(theme.accent))
-        if line in view.breakpoints:
-            draw_mark(painter, Mark.BREAKPOINT, QRectF(7.0, middle - size / 2, size, size))
-        if is_current:
-            ends = (8, middle - size / 2 + 1), (8 + size, middle), (8, middle + size / 2 - 1)
-            painter.setPen(QColor(theme.panel))
-            painter.setBrush(QColor(theme.accent))
-            painter.drawPolygon(QPolygonF([QPointF(*end) for end in ends]))
-        elif line == view.chosen_line:
-            painter.setPen(QColor(theme.focus))
-            painter.setBrush(Qt.BrushStyle.NoBrush)
-            painter.drawRect(row.adjusted(2, 0, -3, -1))
-        painter.setPen(QColor(theme.text if is_current else theme.muted_text))
-        first = QRect(row.left(), row.top(), row.width() - 3, line_height)
-        painter.drawText(first, Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter, str(line))
-
-    def _mark_size(self) -> int:
-        return max(9, round(self._view.fontMetrics().height() * 0.62))
 
 
 def _rows(source: str, lines: int, width: float, font: QFont, wrap: QTextOption.WrapMode) -> int:

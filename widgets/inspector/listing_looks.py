@@ -4,6 +4,7 @@ import io
 import keyword
 import re
 import tokenize
+from contextlib import suppress
 from functools import lru_cache
 
 from PySide6.QtGui import QColor, QFont, QTextCharFormat, QTextCursor, QTextDocument
@@ -24,10 +25,9 @@ def token_formats(source: str) -> tuple[tuple[int, int, int, int, str], ...]:
         First line (from 1), first column, last line, last column, and one of ``keyword``, ``comment``,
         ``string``, ``number``, ``vertex0``, ``vertex1``, ``vertex2``.
     """
-    try:
-        tokens = list(tokenize.generate_tokens(io.StringIO(source).readline))
-    except (tokenize.TokenError, SyntaxError):
-        return ()
+    tokens: list[tokenize.TokenInfo] = []
+    with suppress(tokenize.TokenError, SyntaxError):  # What stands before is coloured.
+        tokens.extend(tokenize.generate_tokens(io.StringIO(source).readline))
     kinds = [_token_kind(token) for token in tokens]
     return tuple((*token.start, *token.end, kind) for token, kind in zip(tokens, kinds, strict=True) if kind)
 
@@ -45,16 +45,21 @@ def _token_kind(token: tokenize.TokenInfo) -> str:
     )
 
 
-def color_tokens(document: QTextDocument) -> None:
-    """Give the tokens of a document their looks."""
+def token_looks() -> dict[str, QTextCharFormat]:
+    """Return the look of each kind of token; of all others that of the empty kind."""
     theme = current_theme()
     looks = {f"vertex{k}": _look(theme.vertex_text[k]) for k in range(3)}
     looks |= {"keyword": _look(theme.text, is_bold=True), "comment": _look(theme.muted_text, is_italic=True)}
-    looks |= {"string": _look(theme.muted_text), "number": _look(theme.text)}
+    return looks | {"string": _look(theme.muted_text), "number": _look(theme.text), "": _look(theme.text)}
+
+
+def color_tokens(document: QTextDocument) -> None:
+    """Give the tokens of a document their looks."""
+    looks = token_looks()
     everything = QTextCursor(document)
     everything.beginEditBlock()  # The text is laid out once, at its end.
     everything.select(QTextCursor.SelectionType.Document)
-    everything.setCharFormat(_look(theme.text))
+    everything.setCharFormat(looks[""])
     for first_line, first_column, last_line, last_column, kind in token_formats(document.toPlainText()):
         cursor = QTextCursor(document)
         cursor.setPosition(document.findBlockByNumber(first_line - 1).position() + first_column)

@@ -10,7 +10,7 @@ from widgets.basics.pane_splitter import PaneSplitter
 from widgets.basics.theme import current_theme, text_font, theme_notifier
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.history_view import PixelHistory
-from widgets.inspector.listing import ListingView
+from widgets.inspector.listing_pane import ListingPane
 from widgets.inspector.prediction import PredictionView
 from widgets.inspector.variables import VariablesView
 from widgets.timeline.stage_card import StageCardView
@@ -40,7 +40,8 @@ class InspectorColumn(QTabWidget):
         self._is_formula_alone = False
         self._is_history_chosen = False
         """Whether the user wants to see histories while stepping."""
-        self.card, self.formula, self.listing = StageCardView(self), FormulaView(self), ListingView(self)
+        self.card, self.formula, self.code = StageCardView(self), FormulaView(self), ListingPane(self)
+        self.listing = self.code.listing
         self.variables, self.history = VariablesView(self), PixelHistory(self)
         self.prediction = PredictionView(self)
         self.prediction.hide()
@@ -57,7 +58,7 @@ class InspectorColumn(QTabWidget):
             layout.addWidget(widget)
         layout.addStretch(1)
         self.rows = PaneSplitter(Qt.Orientation.Vertical, self)
-        for part in (self.listing, self.variables):
+        for part in (self.code, self.variables):
             self.rows.addWidget(part)
         self.rows.setChildrenCollapsible(False)
         self.rows.setStretchFactor(1, 1)
@@ -160,7 +161,8 @@ class InspectorColumn(QTabWidget):
         step, details = told + self._tallest, VARIABLE_LINES * (line + 6)
         self._parts.activate()  # What has just come or gone above has moved the pane.
         above = self._step_pane.y() + step
-        seen = self.step.viewport().height() - above - 2 * self.rows.handleWidth()
+        head = self.code.height_around
+        seen = self.step.viewport().height() - above - 2 * self.rows.handleWidth() - head
         rows, lines = (
             self.listing.height_of(self._listing_lines, is_wrapped) for is_wrapped in (False, True)
         )
@@ -177,6 +179,7 @@ class InspectorColumn(QTabWidget):
                 widget.setMinimumHeight(height)
         self.rows.setMinimumHeight(self.rows.minimumSizeHint().height())
         if self.listing.height() > max(code, seen):
+            code += head
             self.rows.setSizes([code, max(self.rows.height() - code - self.rows.handleWidth(), details)])
 
     def step_heights(self) -> tuple[int, int]:

@@ -1,21 +1,22 @@
 """The inspector: what the step just done did, in words, formula, listing and variables; and the pixel's history."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 
-from PySide6.QtCore import QObject, Slot
+from PySide6.QtCore import QObject, Signal, Slot
 
 from app.pages.step.inspector_column import InspectorColumn
 from app.pages.step.number_origins import variable_of, writer_of
 from app.pages.step.pixel_stories import story_of
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.pages.step.steps_ahead import StepsAhead, sentence_at
-from app.session.moment import Moment
+from app.session.moment import Moment, Step
 from app.session.session import Session
 from core import STAGES
 from core.explain import formula, stage_card, variables
 from core.explain.records import Variable
 from core.records.listing import Listing
 from core.stages.declared import stage_of
+from core.trace import Explanation
 from core.trace.origins import Origin, origin
 from widgets.inspector.formula_layout import FormulaNumber
 from widgets.inspector.history_view import HINT as NO_HISTORY
@@ -26,7 +27,10 @@ NO_FORMULA, NO_LISTING = "This step has no formula.", "This step has no listing.
 
 
 class InspectorPresenter(QObject):
-    """Shows the step of the session's cursor and the history of its pinned (or hovered) pixel."""
+    """Shows the step of the session's cursor, or that of B, and the history of its pinned (or hovered) pixel."""
+
+    line_beside_clicked = Signal(int)
+    """The user wants the next step of a line (from 1) of the listing that B runs."""
 
     def __init__(
         self,
@@ -39,8 +43,14 @@ class InspectorPresenter(QObject):
         self._session, self._stepping, self._column = session, stepping, column
         self._sentence, self._card, self._formula = column.sentence, column.card, column.formula
         self._listing, self._variables, self._history = column.listing, column.variables, column.history
-        self._function = ""
+        self._shown: Listing | None = None
         self._stage = ""
+        self.beside: Callable[[], Step | None] | None = None
+        """Returns the step that is shown in the place of that of the session: where B of A | B is."""
+        self.listing_shown: Callable[[Listing | None], object] = lambda _: None
+        """Is told which listing is shown."""
+        self.hint_beside = ""
+        """What is said where there is no such step."""
         self._triangles: list[int | None] = []
         self._told: tuple[object, ...] = ()
         """What the history shows: it is made anew only if this changes."""
@@ -62,17 +72,33 @@ class InspectorPresenter(QObject):
         self.refresh_step(moment)
         self.refresh_history(moment)
 
+    def step_of(self, moment: Moment) -> Step | None:
+        """Return the step that is shown; ``None``: B has none."""
+        return moment if self.beside is None or moment.is_predicting else self.beside()
+
+    @property
+    def shown_listing(self) -> Listing | None:
+        """The listing that is shown."""
+        return self._shown
+
     def refresh_step(self, moment: Moment) -> None:
         """Show the step just done."""
-        trace, cursor = moment.stage_trace, moment.cursor
+        step = self.step_of(moment)
+        if step is None:
+            self._sentence.setText(self.hint_beside)
+            self._column.show_formula(None, False)
+            self._variables.show_variables([])
+            self._listing.show_line(None)
+            return
+        trace, cursor = step.stage_trace, step.cursor
         is_new_stage = cursor.stage != self._stage
         if is_new_stage:
             self._stage = cursor.stage
             self._card.show_card(stage_card(cursor.stage, trace.method, trace.corner_count))
             self._card.show_folded(cursor.stage in self._folded)
             self._listing.keep_room_for(listing.source for listing in trace.listings.values())
-        self._sentence.setText(sentence_at(moment))
-        explanation = moment.explanation
+        self._sentence.setText(sentence_at(step))
+        explanation = step.explanation
         if explanation is None:
             self._formula.show_hint("The formula of each step appears here.")
             self._column.show_formula(None, is_new_stage)
@@ -90,14 +116,22 @@ class InspectorPresenter(QObject):
         self._listing.show_line(explanation.line or None)
 
     def _show_listing(self, listing: Listing | None) -> None:
-        function = listing.name if listing else ""
-        if function == self._function:
-            return
-        self._function = function
-        shown = ListingText(function, listing.source, listing.purpose) if listing else None
-        self._listing.show_listing(shown)
-        lines = {line for name, line in self._stepping.breaks.lines if name == function}
-        self._listing.show_breakpoints(lines)
+        if listing is not self._shown:
+            self._shown = listing
+            shown = ListingText(listing.name, listing.source, listing.purpose) if listing else None
+            self._listing.show_listing(shown)
+            self._show_breakpoints()
+        self.listing_shown(listing)
+
+    def _show_breakpoints(self) -> None:
+        """Mark the lines with breakpoints: they stand in the listings of A."""
+        self._listing.show_breakpoints(
+            {line for name, line in self._stepping.breaks.lines if name == self._function}
+        )
+
+    @property
+    def _function(self) -> str:
+        return "" if self._shown is None or self.beside is not None else self._shown.name
 
     @Slot()
     def _show_history(self) -> None:
@@ -110,7 +144,8 @@ class InspectorPresenter(QObject):
         pixel = moment.pin or moment.hover
         if pixel is not None and (moment.is_predicting or not moment.has_pixel(pixel)):
             pixel = None
-        told = (pixel, moment.trace if pixel else None, moment.is_predicting)
+        step = self.step_of(moment) or moment
+        told = (pixel, step.trace if pixel else None, moment.is_predicting)
         if told == self._told:
             return
         self._told = told
@@ -118,7 +153,7 @@ class InspectorPresenter(QObject):
             self._history.show_story(None, HIDDEN_HISTORY if moment.is_predicting else NO_HISTORY)
             self._triangles = []
             return
-        story, self._triangles = story_of(moment.trace.source, *pixel, moment.document.triangle)
+        story, self._triangles = story_of(step.trace.source, *pixel, moment.document.triangle)
         self._history.show_story(story)
 
     def folded(self) -> list[str]:
@@ -157,7 +192,7 @@ class InspectorPresenter(QObject):
     @Slot(object)
     def _go_to_number(self, shown: FormulaNumber) -> None:
         """Go to the step that made a number of the formula."""
-        explanation = self._session.explanation
+        explanation = self._explanation()
         found = None if explanation is None else variable_of(explanation, shown)
         if explanation is None or found is None:
             self._stepping.tell(f"{shown.text} is worked out here, or is a constant of the formula.")
@@ -168,7 +203,7 @@ class InspectorPresenter(QObject):
     @Slot(object)
     def _tell_origin(self, shown: FormulaNumber) -> None:
         """Say where a number of the formula comes from, before it is clicked."""
-        explanation = self._session.explanation
+        explanation = self._explanation()
         found = None if explanation is None else variable_of(explanation, shown)
         made = None if found is None else self._origin(*found)
         if made is not None:
@@ -178,7 +213,14 @@ class InspectorPresenter(QObject):
                 f"{shown.name} was made in {where}. Click to go there; Ctrl+[ comes back."
             )
 
+    def _explanation(self) -> Explanation | None:
+        """Return what the step that is shown did."""
+        step = self.step_of(self._session.moment)
+        return None if step is None else step.explanation
+
     def _origin(self, column: str, element: int | None) -> Origin | None:
+        if self.beside is not None:
+            return None
         cursor = self._session.cursor
         return origin(self._session.trace, cursor.stage, cursor.position, column, element)
 
@@ -191,6 +233,8 @@ class InspectorPresenter(QObject):
             self._stepping.tell(f"{what}. Ctrl+[ goes back.")
         elif is_new:
             self._stepping.tell(f"Made in this step: {name}.")
+        elif self.beside is not None:
+            self._stepping.tell(f"{name} was made by an earlier line: step back.")
         else:
             self._stepping.tell(f"No step shows how {name} was made: it comes in from outside.")
 
@@ -212,10 +256,15 @@ class InspectorPresenter(QObject):
 
     @Slot(int)
     def _run_to_line(self, line: int) -> None:
-        self._stepping.run_to_line(self._function, line)
+        if self.beside is None:
+            self._stepping.run_to_line(self._function, line)
+        else:
+            self.line_beside_clicked.emit(line)
 
     @Slot(int)
     def _toggle_breakpoint(self, line: int) -> None:
+        if self.beside is not None:
+            self._stepping.tell("Breakpoints stand in the listing of A.")
+            return
         self._stepping.toggle_line_breakpoint(self._function, line)
-        lines = {at for name, at in self._stepping.breaks.lines if name == self._function}
-        self._listing.show_breakpoints(lines)
+        self._show_breakpoints()

@@ -16,6 +16,7 @@ from app.pages.step.grid_presenter import GridPresenter
 from app.pages.step.inspector_column import InspectorColumn
 from app.pages.step.inspector_presenter import InspectorPresenter
 from app.pages.step.lesson_presenter import LessonPresenter
+from app.pages.step.listing_presenter import ListingPresenter
 from app.pages.step.main_area import MainArea
 from app.pages.step.narrator import StepNarrator
 from app.pages.step.navigator_presenter import NavigatorPresenter
@@ -79,6 +80,7 @@ class StepPage(Page):
         self.scene = SceneOutlinePresenter(session, self.outline, self.settings_panel, self)
         self.table_editing = DepthTablePresenter(session, self.depth_tables, self)
         self.comparing = ComparePresenter(session, self.compare_view, self)
+        self.editing = ListingPresenter(session, self.comparing, self.inspector, column, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self.grids, self)
         self.narrator = StepNarrator(session.cursor, column, self.grid, self.timeline, self)
         self.navigator = Navigator(self.grid)
@@ -138,7 +140,8 @@ class StepPage(Page):
             (pointing, self.grids.refresh_pointing),
             (document, self.scene.refresh),
             (document, self.table_editing.refresh),
-            (run, self.comparing.refresh),
+            (run | Change.EDITS, self.comparing.refresh),
+            (run | Change.EDITS | Change.ASKED, self.editing.refresh),
             (cursor, self.comparing.follow_step),
             (pointing, self.comparing.refresh_pointing),
             (step | run, self._show_place),
@@ -343,7 +346,7 @@ class StepPage(Page):
                 break
             QThread.msleep(10)
         self._settle_layouts(self.session.moment)
-        while self._is_drawing() or self.lessons.is_working:
+        while self._is_drawing() or self.lessons.is_working or self.comparing.is_drawing:
             QCoreApplication.processEvents()
             QThread.msleep(5)
 
@@ -382,6 +385,9 @@ class StepPage(Page):
         """Stop playing, or else take the pin away."""
         if self.timeline.is_playing():
             self.timeline.show_playing(False)
+            return True
+        if self.comparing.is_drawing:
+            self.editing.leave()
             return True
         has_pin = self.session.pin is not None
         self.session.set_pin(None)

@@ -88,10 +88,10 @@ def test_dragging_selects_and_asks_for_nothing(qtbot, view) -> None:
 def test_the_whole_margin_toggles_breakpoints(qtbot, view) -> None:
     seen = []
     view.breakpoint_toggled.connect(seen.append)
-    for x in (2, view._margin.wanted_width() - 3):
-        qtbot.mouseClick(view._margin, Qt.MouseButton.LeftButton, pos=QPoint(x, line_middle(view, 5)))
+    for x in (2, view.margin.wanted_width() - 3):
+        qtbot.mouseClick(view.margin, Qt.MouseButton.LeftButton, pos=QPoint(x, line_middle(view, 5)))
     assert seen == [5, 5]
-    assert view._margin.wanted_width() >= 30
+    assert view.margin.wanted_width() >= 30
 
 
 def test_keys_choose_a_line_run_to_it_and_break_on_it(qtbot, view) -> None:
@@ -110,7 +110,7 @@ def test_the_present_line_is_marked_by_bar_and_arrow_and_nothing_is_emitted(qtbo
     view.line_clicked.connect(seen.append)
     view.breakpoint_toggled.connect(seen.append)
     accent = QColor(current_theme().accent)
-    margin = view._margin
+    margin = view.margin
 
     def accent_columns() -> list[int]:
         row = margin.grab().toImage()

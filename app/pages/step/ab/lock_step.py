@@ -57,6 +57,14 @@ class LockStep:
             mine = int(ours[np.argmax(others == theirs)])
         self._put(mine, theirs)
 
+    def land_second(self, position: int) -> None:
+        """Put the second run at a position, and the first one beside the row that is done there."""
+        ours, others = self.pairs(Level.PIXEL).T
+        self._put(
+            int(ours[min(int(np.searchsorted(np.maximum.accumulate(others), position)), len(ours) - 1)]),
+            position,
+        )
+
     def text(self, run: int) -> str:
         """Return how far run 0 or 1 is, and whether it waits for the other one."""
         boundaries, pairs = self._runs[run].steps.boundaries(self._level), self.pairs(self._level)

@@ -9,15 +9,17 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job
 from app.pages.page_bar import Page
+from app.pages.step.ab.bounded_run import BoundedRun
 from app.pages.step.ab.lock_step import LockStep
 from app.pages.step.ab.pictures import divergence_text, nothing, pictured
 from app.pages.step.ab.side_b import SideB, first_difference, settings_difference
 from app.pages.step.grid_records import geometry_of
 from app.pages.step.vertex_drags import VertexDrags
 from app.session.cursor import Cursor
+from app.session.document import Document
 from app.session.moment import Moment, Pixel, Step
 from app.session.session import Session
-from app.session.tracing import QUICK_SECONDS
+from app.session.tracing import QUICK_SECONDS, trace_now
 from core import STAGES, Settings, Trace
 from core.records.steps import Level
 from core.scene import AnyScene
@@ -30,11 +32,20 @@ if TYPE_CHECKING:
 
 PREDICTING = "Prediction hides the pictures of A and B. P ends it."
 FAULTY = "B is a run with a mistake: the page cannot take it over."
+EDITED = "B runs an edited listing: the page keeps the method itself, so that both can be compared."
+
+OLD = "B is the last version that ran."
 
 
 class ComparePresenter(QObject):
     """Keeps what B is and its run, and shows both runs while the view is open."""
 
+    second_shown = Signal()
+    """B is shown where it is now, or that it cannot be shown."""
+    edit_ran = Signal(object)
+    """A text that was tried runs: the document whose side B runs it."""
+    edit_failed = Signal(object)
+    """Why it does not: the exception."""
     look_changed = Signal()
     """B differs otherwise, or another buffer is compared."""
 
@@ -53,12 +64,24 @@ class ComparePresenter(QObject):
         """The run of B; ``None``: it cannot be drawn, is being drawn, or is not shown."""
         self._steps: LockStep | None = None
         self._refusal = ""
+        self._edited: SideB | None = None
+        """B as it runs the edited listings of the document."""
+        self._tried: tuple[Document, Trace] | None = None
+        """The last document with an edit that was tried, and its run of B."""
+        self._trying: Document | None = None
+        self._is_old = False
+        """Whether B is the last run that went well, of a text that is another one by now."""
         self._goal: Callable[[], object] | None = None
         """What is done once B is drawn."""
         self._outlines = lru_cache(maxsize=4)(_outlines)
         self._job, self._search = Job(self), Job(self)
         self._job.succeeded.connect(self._take)
         self._job.failed.connect(self._refuse)
+        self._bounded, self._trial = BoundedRun(self), BoundedRun(self)
+        self._bounded.done.connect(self._take)
+        self._bounded.failed.connect(self._refuse)
+        self._trial.done.connect(self._take_trial)
+        self._trial.failed.connect(self.edit_failed)
         self._search.succeeded.connect(self._land)
         self._search.failed.connect(self._tell_no_divergence)
         # Only the document's own triangle has handles here.
@@ -85,7 +108,7 @@ class ComparePresenter(QObject):
 
     @property
     def _b(self) -> SideB:
-        return self._choice or self._suggested
+        return self._edited or self._choice or self._suggested
 
     @property
     def other(self) -> Settings:
@@ -95,7 +118,7 @@ class ComparePresenter(QObject):
     @property
     def differences(self) -> Mapping[str, str | int]:
         """What B does otherwise than A, family and value; empty: it follows the stage, or is a run with a mistake."""
-        choice = self._choice
+        choice = self._edited or self._choice
         return {} if choice is None or choice.title else choice.differences
 
     @property
@@ -151,6 +174,9 @@ class ComparePresenter(QObject):
 
     def _become(self, b: SideB | None, goal: Callable[[], object] | None = None) -> None:
         self._chosen, self._goal = b, goal
+        if self._session.latest.edits:
+            # B is one thing at a time; undo brings the edited listings back.
+            self._session.edit(replace(self._session.latest, edits=()))
         self.refresh(self._session.moment)
         self.look_changed.emit()
 
@@ -185,7 +211,7 @@ class ComparePresenter(QObject):
     def _edit(self, differences: dict[str, str | int]) -> bool:
         """Give the page the settings of B, and B other differences; return whether the page could take them."""
         if self._b.title:
-            self._page.tell(FAULTY)
+            self._page.tell(EDITED if self._b.edits else FAULTY)
             return False
         other, before = self.other, self._chosen
         self._chosen = SideB(differences)
@@ -210,19 +236,26 @@ class ComparePresenter(QObject):
 
     def refresh(self, moment: Moment) -> None:
         """Trace B anew, and show both runs."""
-        earlier, self._moment = self._second or moment.trace, moment
+        earlier, before, self._moment = self._second or moment.trace, self._moment, moment
         self._job.cancel()
+        self._bounded.cancel()
         self._search.cancel()
+        kept, self._is_old = (self._second, self._steps), False
         self._second, self._steps, self._refusal = None, None, PREDICTING
         document, stage = moment.document, moment.cursor.stage
+        refusal = self._find_edited(document)
         if not self._is_active or moment.is_predicting:
             self._show()
             return
-        if self._choice is None:
+        if refusal:
+            self._refusal = refusal
+            self._show()
+            return
+        if self._choice is None and self._edited is None:
             self._suggested = SideB(first_difference(document, moment.trace, stage))
         b, other = self._b, self._b.document(document)
         self._view.show_settings(b.shown_settings(document), frozenset(b.differences))
-        if self._choice is None and b.differences:
+        if (self._choice is None or b.edits) and b.differences:
             self._view.show_family(next(iter(b.differences)))
         self._view.linked.set_pixel_center(document.settings.pixel_center)
 
@@ -233,7 +266,20 @@ class ComparePresenter(QObject):
             trace.stage(stage)
             return trace
 
-        if other.estimated_seconds > QUICK_SECONDS:
+        is_long = other.estimated_seconds > QUICK_SECONDS
+        if b.edits:
+            if self._tried is not None and self._tried[0] is document:
+                self._take(self._tried[1])
+                return
+            if before.trace is moment.trace and before.cursor.stage == stage:
+                # The last picture stays until the next one is there.
+                self._second, self._steps = kept
+            self._refusal = "Drawing B …"
+            self._bounded.do(partial(trace_now, other, stage, earlier), is_long=is_long)
+            if self._bounded.is_running:
+                self._show()
+            return
+        if is_long:
             self._refusal = "Drawing B …"
             self._show()
             self._job.call(work)
@@ -258,12 +304,102 @@ class ComparePresenter(QObject):
     @Slot(object)
     def _refuse(self, error: Exception) -> None:
         self._goal, self._refusal = None, f"B cannot be drawn: {error}"
+        self._second, self._steps = None, None
         self._show()
 
     def stop(self) -> None:
         """End drawing in the background."""
         self._job.shut_down()
         self._search.shut_down()
+        self._bounded.stop()
+        self._trial.stop()
+
+    # Edited listings.
+
+    def _find_edited(self, document: Document) -> str:
+        """Find the B that runs the edited listings of a document; return why it cannot run them, empty: it can."""
+        self._edited = None
+        if not document.edits:
+            return ""
+        from app.session.edited_run import settings_of, title_of  # Wanted by few, long after the start.
+
+        title = title_of(document.edits)
+        try:
+            other = settings_of(document)[1]
+        except ValueError as error:
+            self._edited = SideB({}, title, edits=document.edits)
+            return f"B cannot be drawn: {error}"
+        self._edited = SideB(document.settings.differences(other), title, edits=document.edits)
+        return ""
+
+    def try_edit(self, document: Document) -> None:
+        """Run the edited listings of a document as B would; `edit_ran` or `edit_failed` follows."""
+        from app.session.edited_run import settings_of
+
+        try:
+            other = replace(document, settings=settings_of(document)[1])
+        except ValueError as error:
+            self._trial.cancel()
+            self.edit_failed.emit(error)
+            return
+        self._trying = document
+        earlier = self._second or self._moment.trace
+        is_long = other.estimated_seconds > QUICK_SECONDS
+        self._trial.do(partial(trace_now, other, self._moment.cursor.stage, earlier), is_long=is_long)
+
+    @Slot(object)
+    def _take_trial(self, trace: Trace) -> None:
+        assert self._trying is not None
+        self._tried, self._trying = (self._trying, trace), None
+        self.edit_ran.emit(self._tried[0])
+
+    @property
+    def is_drawing(self) -> bool:
+        """Whether B is being drawn in the background."""
+        return self._job.is_running or self._bounded.is_running or self._trial.is_running
+
+    def cancel_drawing(self) -> None:
+        """Draw B no further."""
+        self._job.cancel()
+        self._trial.cancel()
+        if self._bounded.is_running:
+            self._bounded.cancel()
+            self._refusal = "B was stopped."
+            self._show()
+
+    @Slot()
+    def go_to_first_difference(self) -> None:
+        """Put both runs at the first pixel that another listing draws otherwise, or at the first step that differs."""
+        from core.edits import EDITABLE
+
+        stages = [EDITABLE[edit.part].stage for edit in self._b.edits]
+        if not stages:
+            self.go_to_divergence()
+            return
+        first = min(stages, key=STAGES.index)
+        is_line = any(edit.part == "line" for edit in self._b.edits)
+        self._goal = self._go_to_other_pixel if is_line else partial(self.go_to_divergence, first)
+        self._reach_goal()
+
+    def go_to_second(self, position: int) -> None:
+        """Put B at a position of the stage at hand, and A beside it."""
+        if self._steps is not None:
+            self._steps.land_second(position)
+            mine, theirs = self._steps.positions
+            self._session.go_to(mine)
+            self._steps.positions = mine, theirs
+            self._show()
+
+    @property
+    def refusal(self) -> str:
+        """Why B has no picture."""
+        return self._refusal
+
+    def show_old(self, is_old: bool) -> None:
+        """Say that B is the last run that went well, of a text that is another one by now; or take that back."""
+        if is_old != self._is_old:
+            self._is_old = is_old
+            self._show()
 
     # Stepping.
 
@@ -283,7 +419,7 @@ class ComparePresenter(QObject):
             if self._steps is not None:
                 self._steps.follow(moment.cursor)
             self._show()
-        elif self._second is None or self._choice is None:
+        elif self._second is None or self._choice is None or self._edited is not None:
             self.refresh(moment)
         else:
             self._take(self._second)
@@ -349,7 +485,7 @@ class ComparePresenter(QObject):
         if second is None or (mine is None and theirs is None):
             return
         # B is what was compared, whatever stage it shows in.
-        self._chosen = self._b
+        self._chosen = self._chosen if self._edited is not None else self._b
         start = replace(self._moment.cursor, stage=stage, position=0)
         steps = LockStep(self._moment.trace.stage(stage), second.stage(stage), start)
         steps.land(mine, theirs)
@@ -377,8 +513,11 @@ class ComparePresenter(QObject):
         wanted = self._buffers.get(moment.cursor.stage, "")
         buffers, shown, pictures = pictured(sides, steps, self._outlines, wanted, bool(self.printed))
         self._view.buffer_box.show_buffers(buffers, shown)
+        if self._is_old:
+            pictures = pictures[0], replace(pictures[1], is_old=True), nothing(OLD)
         self._view.show_sides(*pictures)
         self.refresh_pointing(moment)
+        self.second_shown.emit()
 
     def refresh_pointing(self, moment: Moment) -> None:
         """Mark pin and hover."""

@@ -1,7 +1,8 @@
-"""What B is beside A: the same run with other settings, a listing as printed, or a run with a mistake."""
+"""What B is beside A: the same run with other settings, a listing as printed or edited, or a run with a mistake."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING
 
 from app.pages.step.scene_outline_presenter import settings_records
 from app.session.document import Document
@@ -12,6 +13,9 @@ from core.methods import ReplacedName, table
 from core.scene import AnyScene
 from core.settings import FAMILIES, no_effect
 from widgets.basics.settings_panel import Setting, SettingChoice
+
+if TYPE_CHECKING:
+    from core.edits import Edit  # As in app.session.document.
 
 SAME = "the same settings"
 NAMED = 3
@@ -81,6 +85,8 @@ class SideB:
     """Of a run that is shown and never used by the page: with a mistake, or as printed; empty: settings name it."""
     printed: str = ""
     """Name of the listing as printed that B runs; empty: none."""
+    edits: tuple["Edit", ...] = ()
+    """Edited listings that B runs."""
     scenes: tuple[AnyScene, AnyScene] | None = None
     """Where a mistake is in the scene: that of A, beside which B draws the other one."""
 
@@ -109,7 +115,8 @@ class SideB:
     def titles(self, document: Document) -> tuple[str, str]:
         """Return A and B in words: the settings in which they differ."""
         mine, other = document.settings, self.document(document).settings
-        first = settings_difference(other, mine) or ("without the mistake" if self.title else SAME)
+        plain = "without the mistake" if self.title and not self.edits else SAME
+        first = settings_difference(other, mine) or plain
         return first, self.title or settings_difference(mine, other) or SAME
 
     def named(self) -> dict[str, str | int]:
@@ -121,7 +128,7 @@ class SideB:
         label = SettingChoice("", self.title)
         return [
             replace(each, choices=(label, *each.choices), current="")
-            if self.printed and each.family in self.differences
+            if (self.printed or self.edits) and each.family in self.differences
             else each
             for each in settings_records(self.document(document))
         ]

@@ -1,0 +1,265 @@
+"""Change the line: the listing of a step is edited, and side B of A | B draws what the edited one draws."""
+
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QObject, QTimer, Slot
+
+from app.pages.step.ab.presenter import ComparePresenter
+from app.pages.step.inspector_column import InspectorColumn
+from app.pages.step.inspector_presenter import InspectorPresenter
+from app.pages.step.steps_ahead import load_stages
+from app.session.document import Document
+from app.session.moment import Moment, Step
+from app.session.session import Session
+from core.records.listing import EditedListing, Listing, moved_lines
+from core.settings import FAMILIES
+from widgets.inspector.listing_pane import A, B, ListingPane, PaneHead
+
+if TYPE_CHECKING:
+    from app.pages.step.page import StepPage
+
+HIDDEN = "While you predict, or a question is asked about this scene, no listing can be edited."
+LOADING = "The editor is being loaded."
+LATER_MS = 50
+EDITED_FAMILIES = ("line", "fill_rule", "fill", "interpolation", "depth", "blend")
+"""Families whose listings can be edited, as `core.edits.EDITABLE` has them."""
+EDITED_STAGES = frozenset(FAMILIES[family].stage for family in EDITED_FAMILIES)
+HAS_NONE = "This step has no listing."
+FIRST = '<a href="first">Go to the first difference</a>'
+SAME = "Your version does the same as the method on this scene, so far."
+
+
+class ListingPresenter(QObject):
+    """Lets the listing be edited, and shows in the inspector whose step is meant: that of A, or of B."""
+
+    def __init__(
+        self,
+        session: Session,
+        comparing: ComparePresenter,
+        inspector: InspectorPresenter,
+        column: InspectorColumn,
+        page: "StepPage",
+    ) -> None:
+        super().__init__(page)
+        self._session, self._comparing, self._inspector, self._page = session, comparing, inspector, page
+        self._pane: ListingPane = column.code
+        self._place: tuple[str, str] | None = None
+        """Part and method of what is edited in the editor."""
+        self._later = QTimer(self)
+        self._later.setSingleShot(True)
+        self._later.timeout.connect(self._show_head_later)
+        inspector.listing_shown = self._show_head
+        inspector.line_beside_clicked.connect(self._run_to_line)
+        comparing.second_shown.connect(self._follow_second)
+        comparing.edit_ran.connect(self._take)
+        comparing.edit_failed.connect(self._show_problem)
+        pane = self._pane
+        pane.edit_requested.connect(self.begin)
+        pane.reset_requested.connect(self.reset)
+        pane.side_chosen.connect(self.show_side)
+        pane.editor.text_typed.connect(self._try)
+        pane.editor.left.connect(self.leave)
+        pane.link_clicked.connect(self._follow_link)
+
+    # Which side.
+
+    @property
+    def side(self) -> int:
+        """Whose step the inspector shows."""
+        return B if self._inspector.beside is not None else A
+
+    @Slot(int)
+    def show_side(self, side: int) -> None:
+        """Show the step of A or of B in the inspector."""
+        if side == B and not self._session.document.edits:
+            side = A
+        if side == A and self._pane.is_editing:
+            self._pane.end_editing()
+        is_other = side != self.side
+        self._inspector.beside = self._second if side == B else None
+        self._pane.show_side(side)
+        if is_other:
+            if side == B:
+                self._page.show_view("compare")
+            self._inspector.refresh_run(self._session.moment)
+
+    def _second(self) -> Step | None:
+        """Return where B is; what is said where it is nowhere."""
+        self._inspector.hint_beside = self._comparing.refusal
+        return self._comparing.second
+
+    @Slot()
+    def _follow_second(self) -> None:
+        """Show where B is now."""
+        if self.side == B:
+            self._inspector.refresh_step(self._session.moment)
+            self._inspector.refresh_history(self._session.moment)
+
+    def refresh(self, moment: Moment) -> None:
+        """Follow the document: its edits may have been undone, or another scene has none."""
+        document = moment.document
+        if moment.is_predicting or moment.is_asked_about or not document.edits:
+            if self._pane.is_editing and (document.edits or self._place is None or moment.is_predicting):
+                self._pane.end_editing()
+            self.show_side(A)
+        if self._pane.is_editing and self._place is not None:
+            from app.session.edited_run import edit_of
+            from core.edits import original
+
+            edit = edit_of(document, self._place)
+            self._pane.editor.show_text(edit.text if edit else original(*self._place).source)
+            self._pane.editor.show_problem(None)
+        self._pane.show_message("")
+        self._comparing.show_old(False)
+        self._show_head(self._inspector.shown_listing)
+        if document.edits:
+            self._tell_outcome()
+
+    def _show_head(self, listing: Listing | None) -> None:
+        """Offer what can be done with the listing that is shown."""
+        moment = self._session.moment
+        document, stage = moment.document, moment.cursor.stage
+        has_head = stage in EDITED_STAGES
+        if moment.is_predicting or moment.is_asked_about:
+            self._pane.show_head(PaneHead(has_head, HIDDEN))
+            return
+        if load_stages().is_alive():
+            # The window opens without the evaluator: the head has its room, and soon its button.
+            self._pane.show_head(PaneHead(has_head, LOADING))
+            self._later.start(LATER_MS)
+            return
+        from app.session.edited_run import changed_lines, changed_text, edit_of, edited_place, why_not
+
+        edit = edit_of(document, edited_place(listing, document))
+        refusal = why_not(listing, stage, document) if listing is not None else HAS_NONE
+        lines: tuple[frozenset[int], frozenset[int]] = (frozenset(), frozenset())
+        note = ""
+        if edit is not None:
+            from core.edits import original
+
+            old = original(edit.part, edit.of).source
+            lines, note = changed_lines(old, edit.text), changed_text(old, edit.text)
+        self._pane.listing.show_changed_lines(lines[self.side])
+        self._pane.editor.show_changed_lines(lines[B])
+        self._pane.show_head(PaneHead(has_head, refusal, edit is not None, note))
+
+    @Slot()
+    def _show_head_later(self) -> None:
+        self._show_head(self._inspector.shown_listing)
+
+    # Editing.
+
+    def edit_chosen_line(self) -> None:
+        """Edit the line that is chosen in the listing, or that of the step."""
+        pane = self._pane
+        if pane.is_editing:
+            self.leave()
+        else:
+            self.begin(pane.listing.chosen_line or 0)
+
+    @Slot(int)
+    def begin(self, line: int = 0) -> None:
+        """Edit the listing that is shown, from a line (from 1) on; 0: the line of the step."""
+        from app.session.edited_run import edit_of, edited_place, why_not
+        from core.edits import original
+
+        moment, listing = self._session.moment, self._inspector.shown_listing
+        if moment.is_predicting or moment.is_asked_about:
+            self._page.tell(HIDDEN)
+            return
+        place = edited_place(listing, moment.document)
+        if listing is None or place is None:
+            self._page.tell(why_not(listing, moment.cursor.stage, moment.document) or HAS_NONE)
+            return
+        self._place, edit = place, edit_of(moment.document, place)
+        line = line or self._pane.listing.line or 1
+        text = original(*place).source if edit is None else edit.text
+        if not isinstance(listing, EditedListing):
+            line = moved_lines(listing.source, text).get(line, line)
+        self._page.show_view("compare")
+        self.show_side(B)
+        self._pane.begin_editing(text, line)
+
+    @Slot()
+    def leave(self) -> None:
+        """Stop what runs, or else leave the editor; the edit stays."""
+        if self._comparing.is_drawing:
+            self._comparing.cancel_drawing()
+            self._pane.show_message("Stopped: B is the last version that ran.", is_problem=True)
+            self._comparing.show_old(True)
+            return
+        if self._pane.is_editing:
+            self._pane.end_editing()
+            self._pane.editor.show_problem(None)
+            self._inspector.refresh_step(self._session.moment)
+
+    @Slot()
+    def reset(self) -> None:
+        """Take all changes of the listing that is shown back."""
+        from app.session.edited_run import edited_place, without_edit
+
+        document = self._session.latest
+        place = self._place if self._pane.is_editing else None
+        place = place or edited_place(self._inspector.shown_listing, document)
+        if place is not None:
+            self._session.edit(without_edit(document, place[0]))
+
+    @Slot(str)
+    def _try(self, text: str) -> None:
+        """Run what is typed; B stays the last version that ran where it cannot."""
+        from app.session.edited_run import with_edit
+        from core.edits import Edit
+
+        if self._place is None:
+            return
+        document = self._session.latest
+        edited = with_edit(document, Edit(*self._place, text))
+        if edited.edits == document.edits:
+            self._show_right()
+            self._tell_outcome()
+        elif not edited.edits:
+            self._session.edit(edited)
+        else:
+            self._comparing.try_edit(edited)
+
+    @Slot(object)
+    def _take(self, edited: Document) -> None:
+        """Take over a text that has run: one entry of undo."""
+        self._show_right()
+        self._session.edit(edited)
+        if self._pane.is_editing:
+            self.show_side(B)
+
+    def _show_right(self) -> None:
+        self._pane.editor.show_problem(None)
+        self._pane.show_message("")
+        self._comparing.show_old(False)
+
+    @Slot(object)
+    def _show_problem(self, error: Exception) -> None:
+        """Say why what is typed does not run, at its place."""
+        from core.lanes.problem import Problem
+
+        place = (error.line, error.column) if isinstance(error, Problem) else None
+        self._pane.editor.show_problem(place)
+        self._pane.show_message(f"✕ {error}", is_problem=True)
+        self._comparing.show_old(True)
+
+    # Where A and B part.
+
+    def _tell_outcome(self) -> None:
+        """Say whether B differs, and offer the way to the first difference."""
+        if self._session.document.edits and self._comparing.second is not None:
+            self._pane.show_message(FIRST)
+
+    @Slot(str)
+    def _follow_link(self, link: str) -> None:
+        """Go where a link of the sentence leads."""
+        if link == "first":
+            self._page.show_view("compare")
+            self._comparing.go_to_first_difference()
+
+    @Slot(int)
+    def _run_to_line(self, line: int) -> None:
+        """Go to the next step of B that is of a line."""
+        self._comparing.run_second_to_line(self._inspector.shown_listing, line)

@@ -1,0 +1,184 @@
+"""The listing's pane: the algorithm as it is read or edited, which version is shown, and what is said of the edit."""
+
+from dataclasses import dataclass
+
+from PySide6.QtCore import QEvent, Qt, Signal, Slot
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QMenu, QSizePolicy, QStackedWidget, QTabBar, QToolButton, QWidget
+
+from widgets.basics.controls import column_layout, row_layout
+from widgets.basics.labels import ElidedLabel, set_role, text_label
+from widgets.basics.theme import theme_notifier
+from widgets.inspector.listing import ListingView
+from widgets.inspector.listing_editor import ListingEditor
+
+A, B = 0, 1
+EDIT_TIP = "Change a line: side B draws at once what your version draws (F2)"
+
+
+@dataclass(frozen=True)
+class PaneHead:
+    """What the head of the pane offers."""
+
+    is_shown: bool = False
+    """Whether some listing of the stage can be edited."""
+    refusal: str = ""
+    """Why the listing that is shown cannot be edited; empty: it can."""
+    is_edited: bool = False
+    """Whether there is an edited version of it."""
+    note: str = ""
+    """How many lines are changed."""
+
+
+class ListingPane(QWidget):
+    """A listing under its head: tabs A and B where it is edited, Edit and Reset; below it one sentence on the edit."""
+
+    edit_requested = Signal(int)
+    """The user wants to edit, from a line (from 1) on; 0: wherever."""
+    reset_requested = Signal()
+    """The user wants the listing as it was."""
+    side_chosen = Signal(int)
+    """The user wants to see `A` or `B`."""
+    link_clicked = Signal(str)
+    """The user has clicked a link of the sentence."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._head = PaneHead()
+        self.listing, self.editor = ListingView(self), ListingEditor(self)
+        self.sides = QTabBar(self)
+        self.sides.setDrawBase(False)
+        self.sides.setExpanding(False)
+        self.sides.setAccessibleName("Version of the listing")
+        self.sides.addTab("A")
+        self.sides.addTab("B: mine")
+        self.sides.setTabToolTip(A, "The method as it is")
+        self.sides.setTabToolTip(B, "Your version")
+        self.sides.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.note = ElidedLabel(self)
+        self.note.setProperty("role", "muted")
+        self.edit_button, self.reset_button = QToolButton(self), QToolButton(self)
+        for button, text, tip in (
+            (self.edit_button, "Edit", EDIT_TIP),
+            (self.reset_button, "Reset", "Take all changes of the listing back"),
+        ):
+            button.setText(text)
+            button.setToolTip(tip)
+            button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.edit_button.setCheckable(True)
+        self.message = text_label("", self, wraps=True)
+        self.message.setTextInteractionFlags(
+            Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.LinksAccessibleByMouse
+        )
+        self.message.hide()
+        self.stack = QStackedWidget(self)
+        for view in (self.listing, self.editor):
+            self.stack.addWidget(view)
+        # A text that is typed must not make the pane wider or higher.
+        self.stack.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Expanding)
+        self.head = QWidget(self)
+        row = row_layout(self.head, spacing=4, margins=(0, 0, 4, 0))
+        row.addWidget(self.sides)
+        row.addWidget(self.note, 1)
+        row.addWidget(self.reset_button)
+        row.addWidget(self.edit_button)
+        layout = column_layout(self, 0)
+        layout.addWidget(self.head)
+        layout.addWidget(self.stack, 1)
+        layout.addWidget(self.message)
+        self.edit_button.clicked.connect(self._toggle)
+        self.reset_button.clicked.connect(self.reset_requested)
+        self.sides.tabBarClicked.connect(self.side_chosen)
+        self.sides.currentChanged.connect(self._choose_side)
+        self.editor.left.connect(self.end_editing)
+        self.message.linkActivated.connect(self.link_clicked)
+        self.listing.menu_opened.connect(self._add_to_menu)
+        self.listing.room_changed.connect(self._follow_room)
+        theme_notifier().theme_changed.connect(self._follow_room)
+        self.show_head(PaneHead())
+
+    @property
+    def is_editing(self) -> bool:
+        """Whether the editor is shown."""
+        return self.stack.currentWidget() is self.editor
+
+    @property
+    def height_around(self) -> int:
+        """Height of the head."""
+        return self.head.sizeHint().height() if self._head.is_shown else 0
+
+    def show_head(self, head: PaneHead) -> None:
+        """Offer what can be done with the listing that is shown."""
+        was_shown = self._head.is_shown
+        self._head = head
+        self.head.setVisible(head.is_shown)
+        self.sides.setVisible(head.is_edited)
+        self.reset_button.setVisible(head.is_edited)
+        self.note.setText(head.note)
+        self.edit_button.setVisible(not head.refusal)
+        if was_shown != head.is_shown:
+            self.listing.room_changed.emit()
+
+    def show_side(self, side: int) -> None:
+        """Show that the listing is that of `A` or `B`."""
+        self.sides.blockSignals(True)
+        self.sides.setCurrentIndex(side)
+        self.sides.blockSignals(False)
+
+    def show_message(self, text: str, *, is_problem: bool = False) -> None:
+        """Say one sentence below the listing; empty: none. A problem is read out with the editor."""
+        self.message.setText(text)
+        set_role(self.message, "bad" if is_problem else "muted")
+        self.message.setVisible(bool(text))
+        self.editor.setAccessibleDescription(text if is_problem else "")
+
+    def begin_editing(self, text: str, line: int) -> None:
+        """Put the editor in the place of the listing, on a line (from 1)."""
+        self.stack.setCurrentWidget(self.editor)
+        self.edit_button.setChecked(True)
+        self.editor.begin(text, line)
+
+    @Slot()
+    def end_editing(self) -> None:
+        """Put the listing back in the place of the editor; the edit stays."""
+        had_focus = self.editor.hasFocus()
+        self.edit_button.setChecked(False)
+        self.stack.setCurrentWidget(self.listing)
+        if had_focus:
+            self.listing.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    @Slot()
+    def _toggle(self) -> None:
+        if self.is_editing:
+            self.end_editing()
+        else:
+            self.edit_button.setChecked(False)
+            self.edit_requested.emit(0)
+
+    @Slot(int)
+    def _choose_side(self, side: int) -> None:
+        self.side_chosen.emit(side)
+
+    @Slot(object, int)
+    def _add_to_menu(self, menu: QMenu, line: int) -> None:
+        """Offer the edit of a line in the menu of the listing, or say why it is not offered."""
+        menu.addSeparator()
+        head = self._head
+        text = f"Edit line {line}" if line else "Edit"
+        edit = QAction(head.refusal or text, menu)
+        edit.setEnabled(not head.refusal)
+        edit.triggered.connect(lambda: self.edit_requested.emit(line))
+        menu.addAction(edit)
+        if head.is_edited:
+            menu.addAction("Reset the listing", self.reset_requested.emit)
+
+    @Slot()
+    def _follow_room(self) -> None:
+        """Give the editor the height of the listing."""
+        self.editor.setMinimumHeight(self.listing.minimumHeight())
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Keep the head as high in any type."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self._follow_room()
