@@ -74,20 +74,14 @@ def _earlier_formula(
 
 def _said(step: StepValues) -> tuple[str, Formula | None]:
     """Return the sentence of a step with its numbers marked, and its formula."""
-    listed = step.explanation.listing
-    if isinstance(listed, EditedListing):
-        return edited_line_said(listed, step.explanation.line), None
+    if isinstance(step.explanation.listing, EditedListing):
+        from core.explain.edited import edited_account  # Wanted by few: it takes the evaluator.
+
+        place = f"{step.pixel_name}: " if step.has("column", "row") else ""
+        return edited_account(step.explanation, place)
     row = row_of(step.explanation.key)
     said = row.say(step) if row is not None else _plain_account(step)
     return (said, None) if isinstance(said, str) else said
-
-
-def edited_line_said(listed: EditedListing, line: int) -> str:
-    """Return what is true of any step of an edited listing: the sentences of the right method are not."""
-    lines = listed.source.splitlines()
-    if not 1 <= line <= len(lines):
-        return "An edited listing runs."
-    return f"Edited listing, line {line}: {lines[line - 1].strip()}"
 
 
 def sentence(explanation: Explanation, triangle: int, pixel: tuple[int, int] | None) -> str:
@@ -179,6 +173,10 @@ def variables(explanation: Explanation) -> tuple[Variable, ...]:
     Variables that a later operation sets are left out until then.
     """
     load_subjects()
+    if isinstance(explanation.listing, EditedListing):
+        from core.explain.edited import edited_variables
+
+        return edited_variables(explanation)
     step = StepValues(explanation)
     found = [
         replace(variable, column=held.column) for held in held_values(step) for variable in _shown(step, held)
