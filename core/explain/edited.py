@@ -276,9 +276,11 @@ def edited_variables(explanation: Explanation) -> tuple[Variable, ...]:
         return tuple(place)
     before = step.steps[0].before if step.steps else step.latest.after
     digits = made.digits if (made := edited_account(explanation)[1]) is not None else {}
+    given = set(Typed(step.listing.original.function, step.listing.source).program.parameters)
     own = [
         replace(variable, digits=digits)
-        for name, value in step.latest.after.items()
+        # What it has been given stands last: it is known from the steps before.
+        for name, value in sorted(step.latest.after.items(), key=lambda item: item[0] in given)
         if name != "_"
         for variable in _shown(name, value, before.get(name))
     ]

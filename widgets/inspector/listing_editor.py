@@ -39,6 +39,8 @@ class ListingEditor(CodeView):
         self._problem: tuple[int, int] | None = None
         self._is_set = False
         """Whether the text is being set by the program."""
+        self._is_new = True
+        """Whether a pause came before what is typed next."""
         self._highlighter = _Highlighter(self.document())
         self._pause = QTimer(self)
         self._pause.setSingleShot(True)
@@ -54,6 +56,11 @@ class ListingEditor(CodeView):
     def text(self) -> str:
         """What is typed."""
         return self.toPlainText()
+
+    @property
+    def has_problem(self) -> bool:
+        """Whether a place is marked."""
+        return self._problem is not None
 
     @property
     def is_pausing(self) -> bool:
@@ -141,6 +148,7 @@ class ListingEditor(CodeView):
 
     @Slot()
     def _type(self) -> None:
+        self._is_new = True
         self.text_typed.emit(self.toPlainText())
 
     def event(self, event: QEvent) -> bool:
@@ -176,6 +184,13 @@ class ListingEditor(CodeView):
             )
             cursor.insertText("\n" + depth)
             self.ensureCursorVisible()
+        elif self._is_new and event.text():
+            # What is typed after a pause is undone by itself: Qt joins keys that follow each other.
+            self._is_new = False
+            cursor = self.textCursor()
+            cursor.beginEditBlock()
+            super().keyPressEvent(event)
+            cursor.endEditBlock()
         else:
             super().keyPressEvent(event)
 

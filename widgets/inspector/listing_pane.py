@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, Qt, Signal, Slot
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QTextDocumentFragment
 from PySide6.QtWidgets import QMenu, QSizePolicy, QStackedWidget, QTabBar, QToolButton, QWidget
 
+from widgets.basics.accessible import announce
 from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.labels import ElidedLabel, set_role, text_label
 from widgets.basics.theme import theme_notifier
@@ -67,6 +68,7 @@ class ListingPane(QWidget):
             button.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.edit_button.setCheckable(True)
         self.message = text_label("", self, wraps=True)
+        self.message.setTextFormat(Qt.TextFormat.RichText)
         self.message.setTextInteractionFlags(
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.LinksAccessibleByMouse
         )
@@ -126,11 +128,14 @@ class ListingPane(QWidget):
         self.sides.blockSignals(False)
 
     def show_message(self, text: str, *, is_problem: bool = False) -> None:
-        """Say one sentence below the listing; empty: none. A problem is read out with the editor."""
+        """Say one sentence, HTML, below the listing; empty: none. A problem is read out with the editor."""
         self.message.setText(text)
         set_role(self.message, "bad" if is_problem else "muted")
         self.message.setVisible(bool(text))
-        self.editor.setAccessibleDescription(text if is_problem else "")
+        said = QTextDocumentFragment.fromHtml(text).toPlainText()
+        self.editor.setAccessibleDescription(said if is_problem else "")
+        if is_problem:
+            announce(self.editor, said)
 
     def begin_editing(self, text: str, line: int) -> None:
         """Put the editor in the place of the listing, on a line (from 1)."""

@@ -106,14 +106,19 @@ class InspectorPresenter(QObject):
             first = None if moment.is_predicting else trace.explain(1)
             self._listing.show_hint(HINT if first is None else NO_LISTING)
             self._show_listing(first.listing if first else None)
-            self._listing.show_line(None)
+            self._show_line(None)
             return
         self._formula.show_hint(NO_FORMULA)
         self._column.show_formula(formula(explanation), is_new_stage)
         self._variables.show_variables(variables(explanation))
         self._listing.show_hint(NO_LISTING)
         self._show_listing(explanation.listing)
-        self._listing.show_line(explanation.line or None)
+        self._show_line(explanation.line or None)
+
+    def _show_line(self, line: int | None) -> None:
+        """Mark the line that has run, also where that listing is being edited."""
+        self._listing.show_line(line)
+        self._column.code.editor.show_line(line)
 
     def _show_listing(self, listing: Listing | None) -> None:
         if listing is not self._shown:

@@ -1,9 +1,12 @@
 """Change the line: the listing of a step is edited, and side B of A | B draws what the edited one draws."""
 
+from functools import partial
+from html import escape
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Slot
 
+from app.background.workers import Job
 from app.pages.step.ab.presenter import ComparePresenter
 from app.pages.step.inspector_column import InspectorColumn
 from app.pages.step.inspector_presenter import InspectorPresenter
@@ -17,6 +20,7 @@ from widgets.inspector.listing_pane import A, B, ListingPane, PaneHead
 
 if TYPE_CHECKING:
     from app.pages.step.page import StepPage
+    from app.session.named_mistakes import Outcome
 
 HIDDEN = "While you predict, or a question is asked about this scene, no listing can be edited."
 LOADING = "The editor is being loaded."
@@ -25,8 +29,8 @@ EDITED_FAMILIES = ("line", "fill_rule", "fill", "interpolation", "depth", "blend
 """Families whose listings can be edited, as `core.edits.EDITABLE` has them."""
 EDITED_STAGES = frozenset(FAMILIES[family].stage for family in EDITED_FAMILIES)
 HAS_NONE = "This step has no listing."
-FIRST = '<a href="first">Go to the first difference</a>'
-SAME = "Your version does the same as the method on this scene, so far."
+FIRST = '<a href="first">First difference</a>'
+SAME = "On this scene your version draws the same picture as the method."
 
 
 class ListingPresenter(QObject):
@@ -45,6 +49,10 @@ class ListingPresenter(QObject):
         self._pane: ListingPane = column.code
         self._place: tuple[str, str] | None = None
         """Part and method of what is edited in the editor."""
+        self._naming = Job(self)
+        """Looks for the mistake that an edit is."""
+        self._naming.succeeded.connect(self._name_mistake)
+        self._naming.failed.connect(self._leave_unnamed)
         self._later = QTimer(self)
         self._later.setSingleShot(True)
         self._later.timeout.connect(self._show_head_later)
@@ -75,6 +83,9 @@ class ListingPresenter(QObject):
             side = A
         if side == A and self._pane.is_editing:
             self._pane.end_editing()
+        self._set_side(side)
+
+    def _set_side(self, side: int) -> None:
         is_other = side != self.side
         self._inspector.beside = self._second if side == B else None
         self._pane.show_side(side)
@@ -99,9 +110,9 @@ class ListingPresenter(QObject):
         """Follow the document: its edits may have been undone, or another scene has none."""
         document = moment.document
         if moment.is_predicting or moment.is_asked_about or not document.edits:
-            if self._pane.is_editing and (document.edits or self._place is None or moment.is_predicting):
+            if moment.is_predicting or moment.is_asked_about:
                 self._pane.end_editing()
-            self.show_side(A)
+            self._set_side(A)
         if self._pane.is_editing and self._place is not None:
             from app.session.edited_run import edit_of
             from core.edits import original
@@ -109,10 +120,11 @@ class ListingPresenter(QObject):
             edit = edit_of(document, self._place)
             self._pane.editor.show_text(edit.text if edit else original(*self._place).source)
             self._pane.editor.show_problem(None)
+        self._naming.cancel()
         self._pane.show_message("")
         self._comparing.show_old(False)
         self._show_head(self._inspector.shown_listing)
-        if document.edits:
+        if document.edits and not (moment.is_predicting or moment.is_asked_about):
             self._tell_outcome()
 
     def _show_head(self, listing: Listing | None) -> None:
@@ -228,7 +240,7 @@ class ListingPresenter(QObject):
         self._show_right()
         self._session.edit(edited)
         if self._pane.is_editing:
-            self.show_side(B)
+            self._set_side(B)
 
     def _show_right(self) -> None:
         self._pane.editor.show_problem(None)
@@ -238,26 +250,69 @@ class ListingPresenter(QObject):
     @Slot(object)
     def _show_problem(self, error: Exception) -> None:
         """Say why what is typed does not run, at its place."""
+        self._naming.cancel()
         from core.lanes.problem import Problem
 
         place = (error.line, error.column) if isinstance(error, Problem) else None
         self._pane.editor.show_problem(place)
-        self._pane.show_message(f"✕ {error}", is_problem=True)
+        self._pane.show_message(f"✕ {escape(str(error))}", is_problem=True)
         self._comparing.show_old(True)
 
     # Where A and B part.
 
     def _tell_outcome(self) -> None:
-        """Say whether B differs, and offer the way to the first difference."""
-        if self._session.document.edits and self._comparing.second is not None:
-            self._pane.show_message(FIRST)
+        """Offer the way to the first difference, and look for the mistake that the edit is."""
+        from app.session.named_mistakes import outcome_of
+
+        self._pane.show_message(FIRST)
+        self._naming.call(partial(outcome_of, self._session.document))
+
+    @Slot(object)
+    def _name_mistake(self, outcome: "Outcome") -> None:
+        """Say that an edit draws what a mistake of the shelf draws, or what the method draws."""
+        from app.session.named_mistakes import exercise_about, lesson_about
+        from core.edits import EDITABLE
+
+        if self._pane.editor.has_problem or not self._session.document.edits:
+            return
+        if outcome.is_right:
+            self._pane.show_message(SAME)
+            return
+        if outcome.mistake is None:
+            return
+        name = outcome.mistake.name
+        links = [FIRST]
+        if exercise := exercise_about(EDITABLE[self._session.document.edits[-1].part].family):
+            links.append(f'<a href="exercise/{exercise}">Exercise</a>')
+        if lesson := lesson_about(name):
+            links.append(f'<a href="lesson/{lesson[0]}/{lesson[1]}">Lesson</a>')
+        said = f"On this scene this is the mistake “{name.replace('-', ' ')}”: {escape(outcome.mistake.sentence)}"
+        self._pane.show_message(f"{said} {' · '.join(links)}")
+
+    @Slot(object)
+    def _leave_unnamed(self, error: Exception) -> None:
+        """Say nothing more: why B cannot be drawn stands in its place."""
+
+    @property
+    def is_working(self) -> bool:
+        """Whether the mistake that an edit is is being looked for."""
+        return self._naming.is_running
+
+    def stop(self) -> None:
+        """End looking for mistakes."""
+        self._naming.shut_down()
 
     @Slot(str)
     def _follow_link(self, link: str) -> None:
         """Go where a link of the sentence leads."""
-        if link == "first":
+        kind, *names = link.split("/")
+        if kind == "first":
             self._page.show_view("compare")
             self._comparing.go_to_first_difference()
+        elif kind == "lesson":
+            self._page.lesson_requested.emit(names[0], int(names[1]))
+        else:
+            self._page.link_requested.emit(link)
 
     @Slot(int)
     def _run_to_line(self, line: int) -> None:

@@ -346,7 +346,8 @@ class StepPage(Page):
                 break
             QThread.msleep(10)
         self._settle_layouts(self.session.moment)
-        while self._is_drawing() or self.lessons.is_working or self.comparing.is_drawing:
+        parts = (self.lessons, self.editing)
+        while self._is_drawing() or self.comparing.is_drawing or any(part.is_working for part in parts):
             QCoreApplication.processEvents()
             QThread.msleep(5)
 
@@ -405,6 +406,7 @@ class StepPage(Page):
         """Play no further, and end drawing in the background."""
         self.timeline.show_playing(False)
         self.comparing.stop()
+        self.editing.stop()
         self.lessons.stop()
         self.views.stop()
         self.navigation.stop()
