@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, Qt, Signal, Slot
-from PySide6.QtGui import QAction, QTextDocumentFragment
+from PySide6.QtGui import QAction, QResizeEvent, QTextDocumentFragment
 from PySide6.QtWidgets import QMenu, QSizePolicy, QStackedWidget, QTabBar, QToolButton, QWidget
 
 from widgets.basics.accessible import announce
@@ -46,6 +46,8 @@ class ListingPane(QWidget):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._head = PaneHead()
+        self._message_room: tuple[bool, int] = True, 0
+        """Whether the sentence is hidden, and its height, when the column was told."""
         self.listing, self.editor = ListingView(self), ListingEditor(self)
         self.sides = QTabBar(self)
         self.sides.setDrawBase(False)
@@ -106,8 +108,9 @@ class ListingPane(QWidget):
 
     @property
     def height_around(self) -> int:
-        """Height of the head."""
-        return self.head.sizeHint().height() if self._head.is_shown else 0
+        """Height of the head, and of the sentence below."""
+        head = self.head.sizeHint().height() if self._head.is_shown else 0
+        return head + (0 if self.message.isHidden() else self.message.height())
 
     def show_head(self, head: PaneHead) -> None:
         """Offer what can be done with the listing that is shown."""
@@ -132,10 +135,24 @@ class ListingPane(QWidget):
         self.message.setText(text)
         set_role(self.message, "bad" if is_problem else "muted")
         self.message.setVisible(bool(text))
+        self._fit_message()
         said = QTextDocumentFragment.fromHtml(text).toPlainText()
         self.editor.setAccessibleDescription(said if is_problem else "")
         if is_problem:
             announce(self.editor, said)
+
+    def _fit_message(self) -> None:
+        """Give the sentence the height that it needs, and the listing the rest."""
+        self.message.setFixedHeight(max(self.message.heightForWidth(max(self.width(), 1)), 0))
+        if (self.message.isHidden(), self.message.height()) != self._message_room:
+            self._message_room = self.message.isHidden(), self.message.height()
+            self.listing.room_changed.emit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Break the sentence anew in another width."""
+        super().resizeEvent(event)
+        if event.size().width() != event.oldSize().width():
+            self._fit_message()
 
     def begin_editing(self, text: str, line: int) -> None:
         """Put the editor in the place of the listing, on a line (from 1)."""
