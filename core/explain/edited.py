@@ -76,7 +76,7 @@ def edited_step(explanation: Explanation) -> EditedStep | None:
     inputs = _inputs(explanation, listing)
     if inputs is None:
         return None
-    ran = _recorded(Typed(listing.original.function, listing.source), _frozen(inputs))
+    ran: Sequence[LaneStep] = _recorded(Typed(listing.original.function, listing.source), _frozen(inputs))
     if explanation.key.startswith("raster.") and "first_end" in explanation.values:
         found = _of_pixel(ran, explanation.values)
         if found is None:

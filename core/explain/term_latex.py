@@ -41,7 +41,12 @@ SIGNS = {
     "<<": r"\ll",
     ">>": r"\gg",
 }
-NAMED = {"floor": r"\lfloor|\rfloor", "ceil": r"\lceil|\rceil", "abs": "|~|", "sqrt": r"\sqrt{|}"}
+AROUND = {
+    "floor": (r"\lfloor ", r" \rfloor"),
+    "ceil": (r"\lceil ", r" \rceil"),
+    "abs": ("| ", " |"),
+    "sqrt": (r"\sqrt{", "}"),
+}
 """Functions that stand around what they take."""
 FUNCTIONS = {"min": r"\min", "max": r"\max"}
 _ELEMENT = re.compile(r"^(?P<name>\w+)\[(?P<index>\w+)\]$")
@@ -170,10 +175,8 @@ class TermLatex:
                 return rf"({', '.join(self._inner(part, CHOICE, puts_in) for part in parts)})", LEAF
             case Gathered(element, target, things, written):
                 if written:
-                    each = [
-                        TermLatex({**self._now, target: k}).text(part, puts_in)
-                        for k, part in enumerate(written)
-                    ]
+                    printers = (TermLatex({**self._now, target: k}) for k in range(len(written)))
+                    each = (one.text(part, puts_in) for one, part in zip(printers, written, strict=True))
                     return f"({', '.join(each)})", LEAF
                 inner = self._inner(element, CHOICE, False)
                 among = self._inner(things, CHOICE, False)
@@ -182,14 +185,9 @@ class TermLatex:
 
     def _applied(self, function: str, arguments: Sequence[Term], puts_in: bool) -> tuple[str, int]:
         texts = [self._inner(argument, CHOICE, puts_in) for argument in arguments]
-        if function in NAMED and len(texts) == 1:
-            before, after = (
-                NAMED[function].replace("~", "\0").split("|", 1) if function != "abs" else ("|", "|")
-            )
-            return (
-                f"{before}{texts[0]}{after}" if function == "sqrt" else f"{before} {texts[0]} {after}",
-                LEAF,
-            )
+        if function in AROUND and len(texts) == 1:
+            before, after = AROUND[function]
+            return f"{before}{texts[0]}{after}", LEAF
         if function in ("bool", "int", "float") and len(texts) == 1:
             return texts[0], self._printed(arguments[0], puts_in)[1]
         if function == "is None":

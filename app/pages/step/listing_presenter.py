@@ -8,8 +8,10 @@ from PySide6.QtCore import QObject, QTimer, Slot
 
 from app.background.workers import Job
 from app.pages.step.ab.presenter import ComparePresenter
+from app.pages.step.breaks import line_positions
 from app.pages.step.inspector_column import InspectorColumn
 from app.pages.step.inspector_presenter import InspectorPresenter
+from app.pages.step.stepping_presenter import nearest
 from app.pages.step.steps_ahead import load_stages
 from app.session.document import Document
 from app.session.moment import Moment, Step
@@ -216,6 +218,16 @@ class ListingPresenter(QObject):
         if place is not None:
             self._session.edit(without_edit(document, place[0]))
 
+    def show_edited(self) -> str:
+        """Show A | B with the edited listings; return why they cannot run on the open scene, else nothing."""
+        before = self._page.current_view()
+        self._page.show_view("compare")
+        if self._comparing.second is not None or self._comparing.is_drawing:
+            return ""
+        said = self._comparing.refusal.removeprefix("B cannot be drawn: ")
+        self._page.show_view(before)
+        return f"Your edited listing stays, but it does not run on this scene: {said}"
+
     @Slot(str)
     def _try(self, text: str) -> None:
         """Run what is typed; B stays the last version that ran where it cannot."""
@@ -316,5 +328,13 @@ class ListingPresenter(QObject):
 
     @Slot(int)
     def _run_to_line(self, line: int) -> None:
-        """Go to the next step of B that is of a line."""
-        self._comparing.run_second_to_line(self._inspector.shown_listing, line)
+        """Go to the next step of B that is of a line: one without a label is run with the labelled one before it."""
+        step, listing = self._comparing.second, self._inspector.shown_listing
+        if step is None or listing is None:
+            return
+        line = max((at for at in listing.lines.values() if at <= line), default=line)
+        at = nearest(line_positions(step.stage_trace, listing.name, line), step.cursor.position, 1)
+        if at is None:
+            self._page.tell(f"No further step at line {line} in this stage.")
+        else:
+            self._comparing.go_to_second(at)
