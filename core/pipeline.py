@@ -49,6 +49,7 @@ from core.stages.fragment_depth import fragment_depth
 from core.stages.fragments import fragments_at, interpolate, owner_of, shade, shade_once
 from core.stages.hidden_surfaces import Visible, decide_fragments
 from core.stages.needs import check_edits
+from core.stages.vertex_program import has_program, not_discarded
 from core.stages.vertices import Geometry, process_geometry
 
 SAMPLE_BAND = 1 << 21
@@ -146,7 +147,7 @@ def draw_centers(
 def draw_geometry(scene: AnyScene, geometry: Geometry, raster: Raster, counts: Counts) -> Frame:
     """Draw what is known of the triangles already, at the pixels' centres; the work is added to ``counts``."""
     # Bin, raster, depth: which fragment is seen at every pixel.
-    visible = find_visible(geometry, raster, counts)
+    visible = find_visible(scene, geometry, raster, counts)
     pixel, depth = visible.pixel, visible.depth
     counts["depth"].outgoing = len(pixel)
 
@@ -178,7 +179,7 @@ def draw_geometry(scene: AnyScene, geometry: Geometry, raster: Raster, counts: C
     )
 
 
-def find_visible(geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
+def find_visible(scene: AnyScene, geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
     """Bin, raster, depth: find every fragment, in batches, and which of them are seen."""
     resolved = resolve(geometry.settings)
     depth_format, outlines, tested = resolved.depth_format, geometry.outlines, geometry.uses_depth_test
@@ -193,6 +194,8 @@ def find_visible(geometry: Geometry, raster: Raster, counts: Counts) -> Visible:
     for fragments in fragments_of(geometry, raster, counts):
         with counts["depth"] as count:
             _, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
+            if has_program(scene):
+                keeps = keeps & not_discarded(scene, geometry, raster, fragments)
             if not keeps.all():
                 fragments, stored = fragments.select(keeps), stored[keeps]
             pixel = raster.index(fragments.column, fragments.row)
@@ -263,7 +266,8 @@ def draw_multisampled(
     wide = grown(raster, reach_of(weights))
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, settings, counts, chosen)
-    visible = [find_visible(at_sample(geometry, sample), wide, counts) for sample in range(len(ROTATED_GRID))]
+    moved = [at_sample(geometry, sample) for sample in range(len(ROTATED_GRID))]
+    visible = [find_visible(scene, of_sample, wide, counts) for of_sample in moved]
     counts["bin"].incoming //= len(visible)
     seen = [fragments_at(geometry, of_sample.owner, *wide.position(of_sample.pixel)) for of_sample in visible]
     values = interpolate(geometry, wide, seen[0], counts["interpolate"])
@@ -313,6 +317,8 @@ def draw_areas(scene: AnyScene, settings: Settings, raster: Raster, chosen: Inte
     """
     from core.antialiasing.exact_area import draw_pieces, sum_areas
 
+    if has_program(scene):
+        raise ValueError("exact areas run no shaders: choose several samples instead (antialiasing=ssaa-4)")
     frame = draw_centers(scene, settings, raster, chosen)
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, settings, counts, chosen)

@@ -12,6 +12,7 @@ from core.records.cached import cached_property
 from core.records.clip_region import checked_polygon_region, checked_region
 from core.records.depth_table import DepthTable
 from core.records.rings import checked_rings
+from core.shaders.record import ShaderProgram
 
 SIZE_LIMIT = 16384
 """Largest raster, in pixels each way: edge functions stay exact in float64 (see core.raster.edges.edge_functions)."""
@@ -220,6 +221,8 @@ class Scene:
     """(width, height) of the raster in pixels."""
     background: Floats = field(default_factory=lambda: np.zeros(4))
     """(4,) float64 linear colour that the frame is cleared to."""
+    program: ShaderProgram | None = None
+    """Its shaders, which replace matrices, light and textures; ``None``: the settings say how it is lit."""
     corner_count: ClassVar[int] = 3
     """How many corners a primitive has."""
 

@@ -22,6 +22,7 @@ from core.records.cached import cached_property
 from core.records.depth_table import DepthTable
 from core.records.primitives import own_corners
 from core.records.rings import Rings
+from core.records.shaded import ShadedVertices
 from core.scene import ClipScene, Mesh, Scene
 
 
@@ -95,6 +96,8 @@ class VertexStage:
     """(R,) int64, first corner of each ring of a polygon, see ``ClipScene``; ``None``: no polygons."""
     region_rings: Integers | None = None
     """(R,) int64, first corner of each ring of ``clip_region``."""
+    shaded: ShadedVertices | None = None
+    """What a vertex shader gave, which has made ``clip``, too; ``None``: the matrices did."""
 
     @property
     def all_corners(self) -> Integers:

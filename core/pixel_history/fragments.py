@@ -12,10 +12,10 @@ from core.pixel_history.records import Link, PixelState
 from core.raster.lines.intensities import weigh_alpha, writes_depth
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.resolved import resolve
-from core.stages.fragment_color import shade_fragments
 from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
-from core.stages.fragments import fragment_values, texture_slopes
+from core.stages.fragments import fragment_values, surface_of
 from core.stages.hidden_surfaces import cleared_buffers, run_visibility_tests
+from core.stages.vertex_program import has_program, not_discarded
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +35,8 @@ class PixelFragments:
     depth: Floats
     """(F,) float64 window depth."""
     keeps: Flags
+    """(F,) bool, in depth range, and not discarded by a fragment shader."""
+    in_range: Flags
     """(F,) bool, in depth range."""
     stored: Singles
     """(F,) float32."""
@@ -54,17 +56,18 @@ class PixelFragments:
 
 def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> PixelFragments:
     """Take the covering candidates through the stages behind the raster, by the rules of the picture."""
-    geometry, settings, raster = candidates.geometry, candidates.settings, candidates.raster
+    geometry, raster = candidates.geometry, candidates.raster
     fragments = candidates.fragments
     primitive, count = fragments.primitive, len(fragments)
     of_colors = candidates.colored_by or geometry
     weights, values = fragment_values(of_colors, fragments, raster)
-    mesh, layout = geometry.primitives.mesh[primitive], geometry.primitives.layout
-    slopes = texture_slopes(of_colors, raster, fragments, values)
-    surface = shade_fragments(candidates.scene, settings, layout, mesh, values, slopes)
+    surface = surface_of(candidates.scene, of_colors, raster, fragments, values)
 
     # Only what is in range gets to the depth test.
-    depth, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
+    depth, in_range, stored = fragment_depth(geometry, fragments, raster, depth_format)
+    keeps = in_range
+    if has_program(candidates.scene):
+        keeps = in_range & not_discarded(candidates.scene, of_colors, raster, fragments)
     index = np.flatnonzero(keeps)
     here = stack_fragments(np.zeros(len(index), np.int64))
     writes = writes_depth(fragments)
@@ -84,6 +87,7 @@ def run_fragments(candidates: PixelCandidates, depth_format: DepthFormat) -> Pix
         surface.color,
         depth,
         keeps,
+        in_range,
         stored,
         before,
         passes,
@@ -144,7 +148,9 @@ def _depth_link(fragments: PixelFragments, k: int, holder: int, tested: bool) ->
         "scale": fragments.scale,
         "inverse_w": float(fragments.inverse_w[k]),
     }
-    if not fragments.keeps[k]:
+    if fragments.in_range[k] and not fragments.keeps[k]:
+        key = "discarded"
+    elif not fragments.keeps[k]:
         key = "before-near" if depth < 0 else "behind-far" if depth > 1 else "undefined"
     elif not tested:
         key = "not-tested"

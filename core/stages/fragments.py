@@ -18,8 +18,8 @@ from core.records.arrays import Floats, Integers
 from core.records.frame import StageCount
 from core.records.primitives import interpolation_form
 from core.resolved import resolve
-from core.scene import AnyScene
-from core.stages.fragment_color import shade_fragments
+from core.scene import AnyScene, Scene
+from core.stages.fragment_color import Surface, shade_fragments
 from core.stages.geometry import Geometry
 
 
@@ -76,10 +76,21 @@ def shade(
     """Return the colours (F, 4) float64 of fragments with interpolated ``values`` (F, K)."""
     with count:
         count.incoming = count.outgoing = len(fragments)
-        mesh = geometry.primitives.mesh[fragments.primitive]
-        slopes = texture_slopes(geometry, raster, fragments, values)
-        layout = geometry.primitives.layout
-        return shade_fragments(scene, geometry.settings, layout, mesh, values, slopes).color
+        return surface_of(scene, geometry, raster, fragments, values).color
+
+
+def surface_of(
+    scene: AnyScene, geometry: Geometry, raster: Raster, fragments: Fragments, values: Floats
+) -> Surface:
+    """Return the shaded fragments (F) with interpolated ``values`` (F, K): by the scene's shader, where it has one."""
+    if isinstance(scene, Scene) and scene.program is not None:
+        from core.shaders.fragment_stage import run_fragments
+
+        color = run_fragments(scene, geometry, raster, fragments, values).color.astype(np.float64)
+        return Surface(color, None, None, color)
+    mesh = geometry.primitives.mesh[fragments.primitive]
+    slopes = texture_slopes(geometry, raster, fragments, values)
+    return shade_fragments(scene, geometry.settings, geometry.primitives.layout, mesh, values, slopes)
 
 
 def shade_once(

@@ -13,7 +13,7 @@ from core.geometry.culling import PLANES, CullVerdicts, cull, plane_distances
 from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, outcodes, shared_bits
 from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
-from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
+from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage
 from core.raster.edges.edge_functions import doubled_areas, orient
 from core.raster.edges.snapping import WindowVertices, place_corners, place_vertices
 from core.raster.pixel_runs import Raster
@@ -26,6 +26,7 @@ from core.settings import Settings, families, no_effect
 from core.stages.declared import GEOMETRY_STAGES
 from core.stages.geometry import Geometry, all_projected, clipping_distances, line_reach
 from core.stages.needs import check_edits, check_needs
+from core.stages.vertex_program import vertex_stage
 
 __all__ = [
     "Geometry",
@@ -88,7 +89,7 @@ def _process(
     if not resolve(settings).draws_any_scene:
         check_needs(scene, settings)
     with counts["transform"]:
-        vertices = transform_vertices(scene)
+        vertices = vertex_stage(scene)
         assembled = assemble(scene, vertices, settings, counts["transform"], chosen)
         triangle_count = len(assembled)
         counts["transform"].incoming = counts["transform"].outgoing = triangle_count
@@ -189,6 +190,8 @@ def corner_values(
     """Return what is interpolated over triangles (P,); the time goes to ``count``."""
     if isinstance(scene, ClipScene):
         find_values = partial(_given_values, scene, vertices)
+    elif vertices.shaded is not None:
+        find_values = partial(_shaded_values, vertices, resolve(settings).interpolation[1])
     else:
         from core.stages.vertex_light import (
             light_vertices,  # Triangles given in clip space come without light.
@@ -210,6 +213,19 @@ def _given_values(scene: ClipScene, vertices: VertexStage, triangle: Integers) -
     layout = {"uv": slice(0, 2)} if scene.texture else {"color": slice(0, min(4, width))}
     rows = scene.attributes.reshape(count * corners, width)
     return CornerValues(rows, layout, vertices.corner_rows.take(triangle, axis=1))
+
+
+def _shaded_values(vertices: VertexStage, provoking: int, triangle: Integers) -> CornerValues:
+    """Return the outs of the vertex shader at the corners of triangles (P,); ``flat`` ones of one corner only."""
+    shaded, corner = vertices.shaded, vertices.corner_rows.take(triangle, axis=1)
+    assert shaded is not None
+    if not shaded.flat:
+        return CornerValues(shaded.rows, shaded.layout, corner)
+    rows = shaded.rows.take(corner.T.ravel(), axis=0).reshape(len(triangle), 3, -1)
+    for columns in shaded.flat:
+        rows[..., columns] = rows[:, provoking : provoking + 1, columns]
+    own = own_corners(np.arange(len(triangle)))
+    return CornerValues(rows.reshape(3 * len(triangle), -1), shaded.layout, own)
 
 
 def place(

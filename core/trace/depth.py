@@ -27,6 +27,8 @@ OPERATIONS: dict[str, tuple[Operation, ...]] = {
     ),
 }
 """Kind of row to what it does."""
+DISCARDED: dict[str, tuple[Operation, ...]] = {"discarded": (Operation("discard", "", (), ("passes",)),)}
+"""What the row of a fragment does that the fragment shader has discarded: it comes to no test."""
 CELL = (
     Operation("depth", "", (), ("stored",)),
     Operation("compare", "compare", ("passes",), ("before",)),
@@ -75,9 +77,13 @@ def trace_depth(source: TraceSource) -> StageTrace:
         if tested:
             columns |= key_columns(source)
     triangle = source.triangle_of_fragment
+    kind = _kinds(tuple(operations), tested, keeps, columns, is_table)
+    if not source.goes_on.all():
+        kind[~source.goes_on] = len(operations)
+        operations = operations | DISCARDED
     steps = Steps(
         kinds=tuple(operations),
-        kind=_kinds(tuple(operations), tested, keeps, columns, is_table),
+        kind=kind,
         operations=operations,
         triangle_ends=ends_of(triangle),
         group_ends=ends_of(

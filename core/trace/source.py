@@ -8,7 +8,6 @@ import numpy as np
 from core.families import suited
 from core.framebuffer.depth import DepthFormat, DepthTests
 from core.framebuffer.stacks import stack_fragments
-from core.geometry.vertex_stage import transform_vertices
 from core.pipeline import draw
 from core.raster.binning import bound
 from core.raster.coverage import Fragments, PixelTests, examine_pixels
@@ -25,11 +24,12 @@ from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
-from core.stages.fragment_color import Surface, shade_fragments
+from core.stages.fragment_color import Surface
 from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
-from core.stages.fragments import fragment_values, texture_slopes
+from core.stages.fragments import fragment_values, surface_of, texture_slopes
 from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
 from core.stages.needs import check_edits
+from core.stages.vertex_program import not_discarded, vertex_stage
 from core.stages.vertices import Geometry, drawing_order, process_geometry
 from core.trace.stage_rows import StageRows
 from core.visibility.ray_casting import RayTests
@@ -61,7 +61,7 @@ class TraceSource:
     @cached_property
     def order(self) -> Integers:
         """(T,) int64, all triangles of the scene in drawing order."""
-        return drawing_order(self.scene, transform_vertices(self.scene), self.settings).order
+        return drawing_order(self.scene, vertex_stage(self.scene), self.settings).order
 
     @cached_property
     def geometry(self) -> Geometry:
@@ -158,9 +158,7 @@ class TraceSource:
     @cached_property
     def surface(self) -> Surface:
         """The fragments' colours."""
-        mesh = self.geometry.primitives.mesh[self.fragments.primitive]
-        layout = self.geometry.primitives.layout
-        return shade_fragments(self.scene, self.settings, layout, mesh, self.interpolated[1], self.uv_slopes)
+        return surface_of(self.scene, self.geometry, self.raster, self.fragments, self.interpolated[1])
 
     @cached_property
     def depth_format(self) -> DepthFormat:
@@ -169,8 +167,14 @@ class TraceSource:
 
     @cached_property
     def depths(self) -> tuple[Floats, Flags, Singles]:
-        """Window depth (F,), whether it is in range (F,), stored value (F,)."""
-        return fragment_depth(self.geometry, self.fragments, self.raster, self.depth_format)
+        """Window depth (F,), whether it is in range and not discarded (F,), stored value (F,)."""
+        depth, keeps, stored = fragment_depth(self.geometry, self.fragments, self.raster, self.depth_format)
+        return depth, keeps & self.goes_on, stored
+
+    @cached_property
+    def goes_on(self) -> Flags:
+        """(F,) bool, what the fragment shader of the scene does not discard; it comes before the depth test."""
+        return not_discarded(self.scene, self.geometry, self.raster, self.fragments)
 
     @cached_property
     def writes_depth(self) -> Flags | None:

@@ -368,6 +368,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
     ),
     ("depth", "behind-far"): lambda v: f"beyond the far plane: depth {exact_text(v['depth'])} is above 1",
     ("depth", "undefined"): "its depth is not a number",
+    ("depth", "discarded"): "discarded by the fragment shader",
     ("blend", "written"): "written and visible",
     ("blend", "overwritten"): lambda v: f"written, later overwritten by triangle {v['by']}",
     ("blend", "blended"): lambda v: f"blended with alpha {exact_text(v['alpha'])}",

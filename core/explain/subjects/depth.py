@@ -200,6 +200,12 @@ def out_of_range(step: StepValues) -> Said:
     )
 
 
+@explains("depth.discarded.discard")
+def discarded(step: StepValues) -> Said:
+    """A fragment that the scene's fragment shader ended."""
+    return f"{step.pixel_name} is dropped: the fragment shader discarded this fragment."
+
+
 shows(
     "depth",
     {

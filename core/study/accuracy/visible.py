@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from core.geometry.vertex_stage import transform_vertices
 from core.methods import table
 from core.records.arrays import Floats, Integers
 from core.records.cached import cached_property
 from core.records.frame import Frame
 from core.scene import Camera, DirectionalLight, Mesh, Scene
 from core.settings import Settings
+from core.stages.vertex_program import vertex_stage
 from core.study.accuracy.family import Assignment, Errors, StudyFamily
 from core.study.accuracy.fill import MISCLASSIFIED
 from core.study.accuracy.frame_task import WRONG_VISIBLE, SeenTask, depth_bits, per_million, scalar_pictures
@@ -105,7 +105,7 @@ def make_culling(assignment: Assignment) -> SeenTask:
     scene = Scene((mesh,), camera, (DirectionalLight(np.array([0.4, -0.8, -0.7])),), (SIDE, SIDE))
 
     def reference() -> Integers:
-        vertices = transform_vertices(scene)
+        vertices = vertex_stage(scene)
         clip = vertices.clip[vertices.corners]
         seen = np.arange(len(clip))
         if assignment.work == "closed":

@@ -9,9 +9,9 @@ from math import ceil, pi
 
 import numpy as np
 
-from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
 from core.scene import AnyScene, Scene
+from core.stages.vertex_program import vertex_stage
 from core.study.planner.records import Tessellation
 
 WANTED = 0.25
@@ -22,7 +22,7 @@ def tessellations(scene: AnyScene) -> tuple[Tessellation, ...]:
     """Return advice for every mesh of a scene; it is not applied."""
     if not isinstance(scene, Scene):
         return ()
-    vertices = transform_vertices(scene)
+    vertices = vertex_stage(scene)
     assert vertices.normals is not None
     found = []
     for number, mesh in enumerate(scene.meshes):

@@ -10,10 +10,10 @@ from fractions import Fraction
 import numpy as np
 
 from core.geometry.matrices import camera_axes
-from core.geometry.vertex_stage import transform_vertices
 from core.raster.edges.snapping import window_position
 from core.records.arrays import Floats
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Material, Mesh, Scene, Texture
+from core.stages.vertex_program import vertex_stage
 from core.study.accuracy.workloads import flat_scene, outline_scene
 from core.study.stability.minimization import Field, Kind, Parts
 
@@ -38,7 +38,7 @@ def in_clip_space(scene: AnyScene) -> ClipScene:
     """Return the triangles of a scene after projection; one that is in clip space stays as it is."""
     if isinstance(scene, ClipScene):
         return scene
-    vertices = transform_vertices(scene)
+    vertices = vertex_stage(scene)
     return flat_scene(vertices.clip[vertices.corners], scene.size)
 
 

@@ -2,9 +2,9 @@
 
 from functools import cache
 
-from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene
+from core.stages.vertex_program import vertex_stage
 from core.study.accuracy.workloads import flat_scene
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, coverage_experiment, on_its_grid
 from core.study.stability.record import Axis, ExperimentInfo
@@ -48,7 +48,7 @@ def watertightness(scene: AnyScene, title: str) -> CoverageExperiment:
     @cache
     def clip() -> Floats:
         """Not before it is run: the scene may be large, and nobody may ask."""
-        vertices = transform_vertices(scene)
+        vertices = vertex_stage(scene)
         if len(vertices.corners) > MOST_TRIANGLES:
             raise ValueError(
                 f"at most {MOST_TRIANGLES:,} triangles can be counted exactly, got {len(vertices.corners):,}."

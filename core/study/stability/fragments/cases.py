@@ -2,13 +2,13 @@
 
 import numpy as np
 
-from core.geometry.vertex_stage import transform_vertices
 from core.methods import table
 from core.pipeline import render
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
 from core.scene import AnyScene, ClipScene, Mesh, Scene
 from core.settings import Settings
+from core.stages.vertex_program import vertex_stage
 from core.study.exact.values import exact_fragments, exact_visible
 from core.study.stability.case_text import pixels_text
 from core.study.stability.experiment import Case, Judgement
@@ -114,7 +114,7 @@ class NearestCase(Case):
 
 def clip_corners(scene: Scene) -> Floats:
     """Return the corners (T, 3, 4) of all triangles in clip space."""
-    vertices = transform_vertices(scene)
+    vertices = vertex_stage(scene)
     return np.asarray(vertices.clip[vertices.corners])
 
 

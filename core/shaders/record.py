@@ -1,0 +1,75 @@
+"""The shaders of a scene: a vertex and a fragment shader with the values of their uniforms."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import TYPE_CHECKING
+
+from core.lanes.problem import Place, Problem
+from core.records.cached import cached_property
+
+if TYPE_CHECKING:
+    from core.shaders.shader import Shader
+
+
+class ShaderProblem(Problem):
+    """A shader that cannot be read or run, or two that do not fit; ``stage`` says which it is about."""
+
+    def __init__(self, stage: str, place: Place, sentence: str) -> None:
+        super().__init__(place, sentence)
+        self.args = (stage, place, sentence)
+        self.stage = stage
+
+    def __str__(self) -> str:
+        return f"{self.stage} shader, {super().__str__()}"
+
+
+@dataclass(frozen=True)
+class ShaderProgram:
+    """Two shaders that fit each other.
+
+    Raises
+    ------
+    ShaderProblem
+        With the shader, its line and column, and one sentence.
+    ValueError
+        A uniform's value that does not fit its declaration, or an unknown dialect.
+    """
+
+    vertex: str
+    """Source of the vertex shader, GLSL ES 3.00."""
+    fragment: str
+    """Source of the fragment shader."""
+    uniforms: tuple[tuple[str, tuple[float, ...]], ...] = ()
+    """Name of a uniform and its numbers, of a matrix column by column; those that are missing are 0."""
+    dialect: str = "shader-material"
+    """Who declares three.js's names, see `core.shaders.declared.DIALECTS`."""
+    name: str = field(default="", compare=False)
+    """Title of the preset that it began with."""
+
+    def __post_init__(self) -> None:
+        given = self.uniforms.items() if isinstance(self.uniforms, Mapping) else self.uniforms
+        object.__setattr__(
+            self, "uniforms", tuple(sorted((name, tuple(map(float, values))) for name, values in given))
+        )
+        for name, values in self.uniforms:
+            if not all(map(isfinite, values)):
+                raise ValueError(f"uniform {name} must be finite, got {list(values)}")
+        from core.shaders.linking import check_program
+
+        check_program(self)
+
+    @cached_property
+    def shaders(self) -> "tuple[Shader, Shader]":
+        """The vertex and the fragment shader, read and checked."""
+        from core.shaders.linking import read_shader
+
+        return (
+            read_shader(self.vertex, "vertex", self.dialect),
+            read_shader(self.fragment, "fragment", self.dialect),
+        )
+
+    @property
+    def values(self) -> dict[str, tuple[float, ...]]:
+        """The uniforms' numbers by name."""
+        return dict(self.uniforms)
