@@ -9,6 +9,7 @@ from app.opengl_check.compare import Comparison, compare
 from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer
 from app.opengl_check.families import FAMILIES, make_case
 from app.opengl_check.judge import BOUND
+from app.opengl_check.shader_check import SHADERS, check_shaders
 
 LISTED = 5
 """Cases of a family that are listed one by one where they disagree."""
@@ -27,7 +28,7 @@ def run_opengl_check(
     Parameters
     ----------
     families : iterable of str, optional
-        Some of `app.opengl_check.families.FAMILIES`; all by default.
+        Some of `app.opengl_check.families.FAMILIES`, or ``shaders``; all by default.
     count : int
         Cases of each family.
     seed : int
@@ -41,20 +42,25 @@ def run_opengl_check(
         Exit code: 0 if all families agree, 1 if one does not or there is no OpenGL, 2 if there is no such family, or
         for a wrong number. What went wrong is one line on stderr.
     """
-    chosen = list(FAMILIES) if families is None else list(families)
+    chosen = [*FAMILIES, SHADERS] if families is None else list(families)
     try:
         if count < 1:
             raise ValueError(f"count must be at least 1, got {count}")
         if seed < 0:
             raise ValueError(f"seed must be at least 0, got {seed}")
-        for family in chosen:
+        drawn = [family for family in chosen if family != SHADERS]
+        for family in drawn:
+            if family not in FAMILIES:
+                raise ValueError(f"family must be one of {', '.join((*FAMILIES, SHADERS))}, got {family}")
             make_case(family, seed, 0)
         with OpenGLRenderer() as renderer:
             write(f"Core against {renderer.name}; seed {seed}")
             write(_row("family", TITLES))
             disagreeing = [
-                family for family in chosen if not _check_family(renderer, family, count, seed, write)
+                family for family in drawn if not _check_family(renderer, family, count, seed, write)
             ]
+            if SHADERS in chosen and not check_shaders(renderer, seed, write):
+                disagreeing.append(SHADERS)
     except (OpenGLMissingError, ValueError) as error:
         print(f"rasterscope opengl-check: {error}", file=sys.stderr)
         return 1 if isinstance(error, OpenGLMissingError) else 2

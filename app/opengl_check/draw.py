@@ -85,15 +85,15 @@ class OpenGLRenderer:
                 else glcontext.default_backend()
             )
             self._loader = make(mode="standalone", glversion=SHADER_VERSION)
-            self._context = moderngl.create_context(context=self._loader, standalone=True)
+            self.context = moderngl.create_context(context=self._loader, standalone=True)
         except Exception as error:  # glcontext raises plain Exception
             sentence = str(error).strip().splitlines()
             raise OpenGLMissingError(
                 f"OpenGL 3.3 could not be started: {sentence[0] if sentence else type(error).__name__}"
             ) from error
-        self._stack.callback(self._context.release)
-        self._resting = _owned(self._stack, self._context.simple_framebuffer((1, 1)))
-        self.name = f"{self._context.info['GL_RENDERER']}, OpenGL {self._context.info['GL_VERSION']}"
+        self._stack.callback(self.context.release)
+        self._resting = owned(self._stack, self.context.simple_framebuffer((1, 1)))
+        self.name = f"{self.context.info['GL_RENDERER']}, OpenGL {self.context.info['GL_VERSION']}"
         convention = getattr(ctypes, "WINFUNCTYPE", ctypes.CFUNCTYPE)
         integers = [ctypes.c_int] * 5
         self._bind_texture = convention(None, ctypes.c_uint, ctypes.c_uint)(
@@ -110,18 +110,21 @@ class OpenGLRenderer:
         self._stack.close()
         self._programs.clear()
 
+    def rest(self) -> None:
+        """Go back to a framebuffer that stays: moderngl returns to the one in use when it makes another."""
+        self._resting.use()
+
     def draw(self, case: Case) -> Picture:
         """Draw the triangles or lines of ``case``."""
-        context = self._context
+        context = self.context
         width, height = case.size
         with context, ExitStack() as stack:
             # Buffers, cleared.
-            color = _owned(stack, context.texture(case.size, 4, dtype="f4"))
-            primitive = _owned(stack, context.texture(case.size, 1, dtype="i4"))
-            depth = _owned(stack, self._depth_texture(case.size))
-            frame = _owned(stack, context.framebuffer([color, primitive], depth))
-            # moderngl goes back to the framebuffer in use when it makes another: not to a released one.
-            stack.callback(self._resting.use)
+            color = owned(stack, context.texture(case.size, 4, dtype="f4"))
+            primitive = owned(stack, context.texture(case.size, 1, dtype="i4"))
+            depth = owned(stack, self._depth_texture(case.size))
+            frame = owned(stack, context.framebuffer([color, primitive], depth))
+            stack.callback(self.rest)
             frame.use()
             frame.clear(0, 0, 0, 0, depth=1)
             primitive.write(np.full((height, width), -1, np.int32))
@@ -155,9 +158,9 @@ class OpenGLRenderer:
             vertices["value"][..., : case.attributes.shape[2]] = case.attributes
             vertices["number"] = np.arange(len(case.clip))[:, None]
             program = self._program(case.interpolation, case.texture is not None)
-            buffer = _owned(stack, context.buffer(vertices.tobytes()))
+            buffer = owned(stack, context.buffer(vertices.tobytes()))
             layout = (buffer, "4f 4f 1i", "position", "value", "number")
-            array = _owned(stack, context.vertex_array(program, [layout]))
+            array = owned(stack, context.vertex_array(program, [layout]))
             array.render(context.LINES if case.is_lines else context.TRIANGLES)
 
             problem = context.error
@@ -170,7 +173,7 @@ class OpenGLRenderer:
             )
 
     def _depth_texture(self, size: tuple[int, int]) -> Any:
-        texture = self._context.depth_texture(size)
+        texture = self.context.depth_texture(size)
         self._bind_texture(TEXTURE_2D, texture.glo)
         self._define_texture(TEXTURE_2D, 0, DEPTH_COMPONENT_32F, *size, 0, DEPTH_COMPONENT, FLOAT, None)
         return texture
@@ -183,8 +186,8 @@ class OpenGLRenderer:
         image[..., :3] = texels[..., :3]
         if channels == 4:
             image[..., 3] = texels[..., 3]
-        texture = _owned(stack, self._context.texture((columns, rows), 4, image.tobytes(), dtype="f4"))
-        gl_filter = {"nearest": self._context.NEAREST, "bilinear": self._context.LINEAR}[case.texture_filter]
+        texture = owned(stack, self.context.texture((columns, rows), 4, image.tobytes(), dtype="f4"))
+        gl_filter = {"nearest": self.context.NEAREST, "bilinear": self.context.LINEAR}[case.texture_filter]
         texture.filter = (gl_filter, gl_filter)
         texture.repeat_x = texture.repeat_y = {"repeat": True, "clamp": False}[case.wrap]
         texture.use(0)
@@ -196,14 +199,14 @@ class OpenGLRenderer:
                 "qualifier": QUALIFIERS[interpolation],
                 "color": "texture(image, interpolated.xy)" if is_textured else "interpolated",
             }
-            self._programs[key] = self._context.program(
+            self._programs[key] = self.context.program(
                 VERTEX_SHADER.format(**texts), FRAGMENT_SHADER.format(**texts)
             )
             self._stack.callback(self._programs[key].release)
         return self._programs[key]
 
 
-def _owned(stack: ExitStack, thing: Any) -> Any:
+def owned(stack: ExitStack, thing: Any) -> Any:
     """Release ``thing`` when the stack is left."""
     stack.callback(thing.release)
     return thing

@@ -73,10 +73,14 @@ def _construct(name: str, values: Sequence[GlslValue], place: Place) -> GlslValu
     """Return a vector or scalar of the components of values, converted."""
     scalar, count = split_type(name)
     types = [value.of for value in values]
-    if any(of in MATRICES or of == "sampler2D" for of in types):
+    if "sampler2D" in types:
         raise Problem(place, f"there is no {name}({', '.join(types)})")
-    parts = [part for value in values for part in value.parts]
-    kinds = [split_type(value.of)[0] for value in values for _ in value.parts]
+    parts: list[Any] = []
+    kinds: list[str] = []
+    for value in values:
+        of_value = sum(value.parts, ()) if value.of in MATRICES else value.parts
+        parts += of_value
+        kinds += ["float" if value.of in MATRICES else split_type(value.of)[0]] * len(of_value)
     if not parts:
         raise Problem(place, f"{name}() needs {_numbers(count)}")
     if len(values) == 1 and len(parts) == 1:

@@ -265,7 +265,7 @@ class ExpressionParser:
                 place, f"{name} is a variable and cannot be called: is a * missing before the bracket?"
             )
         known = [*FUNCTIONS, *self.signatures, *TYPES]
-        more = proposal(name, known) or ": a function must stand before the one that calls it"
+        more = proposal(name, known) or ": write a function before the functions that call it"
         raise Problem(place, f"there is no function {name}{more}")
 
     def _behind(self, whole: Expression) -> Expression:
@@ -311,4 +311,4 @@ def _number(text: str, place: Place) -> object:
         raise Problem(place, "unsigned numbers are not supported here: write an int without u")
     if re.fullmatch(r"0[xX][0-9a-fA-F]+", text):
         raise Problem(place, "write the number with the digits 0 to 9")
-    raise Problem(place, f"{text[:20]} is no number of GLSL")
+    raise Problem(place, f"{text[:20]} is not a number in GLSL")

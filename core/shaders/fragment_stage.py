@@ -182,7 +182,7 @@ def run_lanes(
     _add_own(given, shader, geometry, raster, primitive, lanes.column[chosen], lanes.row[chosen])
     for variable in shader.inputs:
         if variable.of == "sampler2D":
-            colors_of = partial(_texture_colors, geometry.settings)
+            colors_of = partial(texture_colors_of, geometry.settings)
             sampler = Sampler((scene.meshes[number].texture,), colors_of)
             given[variable.name] = GlslValue("sampler2D", (sampler,))
     try:
@@ -191,7 +191,7 @@ def run_lanes(
         raise ShaderProblem("fragment", problem.place, problem.sentence) from None
 
 
-def _texture_colors(settings: Settings, texture: Texture, uv: Floats, slopes: Floats | None) -> Floats:
+def texture_colors_of(settings: Settings, texture: Texture, uv: Floats, slopes: Floats | None) -> Floats:
     """Return the colours (L, 4) of a texture by the filter and wrap of the settings."""
     if not uses_mipmaps(settings.texture_filter):
         return texture_colors(texture, uv, settings.texture_filter, settings.wrap)

@@ -101,7 +101,7 @@ def _no_operator(operator: str, a: str, b: str) -> str:
     if kinds == {"int", "float"}:
         more = CONVERTS_NOTHING
     elif "bool" in kinds and operator in ARITHMETIC:
-        more = " (a bool is no number: write c ? 1.0 : 0.0)"
+        more = " (a bool is not a number: write c ? 1.0 : 0.0)"
     elif (
         kinds == {"float"} and a != b and (a in VECTORS or a in MATRICES) and (b in VECTORS or b in MATRICES)
     ):

@@ -2,8 +2,9 @@
 
 Notes
 -----
-Sums of products go from the last component to the first, and ``normalize`` multiplies by the inverse square root: Mesa
-(llvmpipe) does the same, so that ``dot``, ``length``, ``normalize`` and ``reflect`` give the same bits.
+Sums of products go from the last component to the first, and ``normalize`` multiplies by the inverse square root; a
+matrix times a vector adds columns from the first to the last. Mesa (llvmpipe)
+does the same, so that all of these give the same bits.
 """
 
 from collections.abc import Callable, Sequence

@@ -14,6 +14,7 @@ from app.opengl_check.command import describe, run_opengl_check
 from app.opengl_check.compare import compare
 from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer
 from app.opengl_check.families import FAMILIES, make_case
+from app.opengl_check.shader_check import SHADERS
 from tests.oracle.record_cases import read_case, write_case
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -109,7 +110,7 @@ def test_command_writes_a_line_for_every_family(renderer):
     lines = []
     assert run_opengl_check(count=2, seed=SEED, write=lines.append) == 0
     assert renderer.name in lines[0]
-    assert [line.split()[0] for line in lines[2:-2]] == list(FAMILIES)
+    assert [line.split()[0] for line in lines[2:-2]] == [*FAMILIES, SHADERS]
     assert all(line.endswith("  agrees") for line in lines[2:-2])
     assert lines[-1] == "All families agree within the tolerances."
 

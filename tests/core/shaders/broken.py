@@ -80,7 +80,7 @@ BODIES: list[tuple[int, str, str]] = [
     (9, "GLSL has no character '$'", "c = vec4($t);"),
     (9, "this comment never ends", "c = vec4(1.0); /* why"),
     (9, "write it behind the name: i++", "int i = 0; ++i;"),
-    (9, "a bool is no number: write c ? 1.0 : 0.0", "c = vec4(1.0) * (t > 0.0);"),
+    (9, "a bool is not a number: write c ? 1.0 : 0.0", "c = vec4(1.0) * (t > 0.0);"),
     (9, "write 1.0 instead of 1f", "c = vec4(1f);"),
     (9, "n is a variable and cannot be called: is a * missing before the bracket?", "c = vec4(n(t), 1.0);"),
     (9, "normal is not declared", "c = vec4(normal, 1.0);"),
@@ -123,7 +123,7 @@ WHOLE: list[tuple[int, str, str]] = [
     ),
     (
         8,
-        "there is no function g: a function must stand before the one that calls it",
+        "there is no function g: write a function before the functions that call it",
         HEAD + "void main() { c = vec4(g()); }\nfloat g() { return 1.0; }\n",
     ),
     (8, "f ends without return", HEAD + "float f() { float x = 1.0; }\nvoid main() { c = vec4(f()); }\n"),
