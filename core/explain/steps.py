@@ -13,7 +13,7 @@ from core.explain.records import Asked, Formula, Value, Variable
 from core.explain.rows import REMARKS, Row, find_row
 from core.explain.step_values import StepValues, key_fields, row_key
 from core.explain.variable_text import Held, held_values
-from core.records.listing import EditedListing
+from core.records.listing import EditedListing, ShaderListing
 from core.records.words import counted, joined
 from core.trace import Explanation, StageTrace
 from core.trace.stage_trace import KEPT_EXPLANATIONS
@@ -79,6 +79,8 @@ def _said(step: StepValues) -> tuple[str, Formula | None]:
 
         place = f"{step.pixel_name}: " if step.has("column", "row") else ""
         return edited_account(step.explanation, place)
+    if isinstance(step.explanation.listing, ShaderListing):
+        return str(step.explanation.values["said"]), None
     row = row_of(step.explanation.key)
     said = row.say(step) if row is not None else _plain_account(step)
     return (said, None) if isinstance(said, str) else said
@@ -172,6 +174,8 @@ def variables(explanation: Explanation) -> tuple[Variable, ...]:
 
     Variables that a later operation sets are left out until then.
     """
+    if isinstance(explanation.listing, ShaderListing):
+        return _shader_variables(explanation)
     load_subjects()
     if isinstance(explanation.listing, EditedListing):
         from core.explain.edited import edited_variables
@@ -186,6 +190,21 @@ def variables(explanation: Explanation) -> tuple[Variable, ...]:
         tuple(replace(variable, digits=made.digits) for variable in found)
         if made is not None
         else tuple(found)
+    )
+
+
+def _shader_variables(explanation: Explanation) -> tuple[Variable, ...]:
+    """Return the shader's own variables after a statement."""
+    values = explanation.values
+    own = [name for name in explanation.known if f"{name} before" in values or name in explanation.changed]
+    return tuple(
+        Variable(
+            name,
+            _value(values[name]),
+            _value(values.get(f"{name} before")) if name in explanation.changed else _value(values[name]),
+            "A variable of the shader.",
+        )
+        for name in own
     )
 
 

@@ -114,6 +114,32 @@ class EditedListing(Listing):
     original: Listing
 
 
+@dataclass(frozen=True, eq=False)
+class ShaderListing(Listing):
+    """The source of a shader, whose labels are its lines; what a line sets is known by the step that ran."""
+
+    shader: str
+    """Its title."""
+
+    @property
+    def name(self) -> str:
+        """Title of the shader."""
+        return self.shader
+
+    def assigned(self, line: int) -> frozenset[str]:
+        """Return nothing: the names are those of the steps."""
+        return frozenset()
+
+    def decides(self, line: int) -> bool:
+        """Return False: a step says whether it tests."""
+        return False
+
+    @property
+    def everywhere(self) -> frozenset[str]:  # type: ignore[override]
+        """No names."""
+        return frozenset()
+
+
 def edited_listing(of: Callable[..., Any], text: str) -> EditedListing:
     """Return the listing of a function with another source, under the same name."""
     original, source = listing(of), "\n".join(text.splitlines())

@@ -143,7 +143,7 @@ class GlslDialect:
 
     def part(self, whole: GlslValue, index: GlslValue, mask: Some, place: Place, run: Run) -> GlslValue:
         """Return a component of a vector, or a column of a matrix, in the lanes of a mask (L,)."""
-        k = _index(whole, index, place)
+        k = _index(whole, index, mask, place)
         if whole.of in MATRICES:
             return GlslValue(f"vec{MATRICES[whole.of]}", whole.parts[k])
         return GlslValue(split_type(whole.of)[0], (whole.parts[k],))
@@ -161,7 +161,7 @@ class GlslDialect:
             for k, part in zip(picks, new.parts, strict=True):
                 parts[k] = part
             return GlslValue(whole.of, tuple(parts))
-        k = _index(whole, index, place)
+        k = _index(whole, index, mask, place)
         if whole.of in MATRICES:
             expect(f"vec{MATRICES[whole.of]}", new, place, "a column is")
             parts[k] = new.parts
@@ -261,13 +261,15 @@ def _merge(flags: Any, new: Sequence[Any], old: Sequence[Any]) -> tuple[Any, ...
     return tuple(a if a is b else np.where(flags, a, b) for a, b in zip(new, old, strict=True))
 
 
-def _index(whole: GlslValue, index: GlslValue, place: Place) -> int:
-    """Return a number of a component, which must be the same in all lanes."""
+def _index(whole: GlslValue, index: GlslValue, mask: Some, place: Place) -> int:
+    """Return a number of a component, which must be the same in all lanes of a mask."""
     if whole.of not in VECTORS and whole.of not in MATRICES:
         raise Problem(place, f"{whole.of} has no parts: [ ] is for vectors and matrices")
     if index.of != "int":
         raise Problem(place, f"an index must be int, this is {index.of}")
     found = np.asarray(index.parts[0])
+    if found.ndim and found.size and mask is not None:
+        found = found[mask]
     if found.ndim and found.size and (found != found.flat[0]).any():
         raise Problem(place, "an index must be the same in all lanes here")
     k = int(found.flat[0]) if found.size else 0

@@ -43,6 +43,8 @@ class FragmentLanes:
     """(L, K) float64, what was interpolated."""
     lane: Integers
     """(F,) int64, the lane of every fragment."""
+    in_quads: bool = False
+    """Whether lanes come four by four."""
 
     def __len__(self) -> int:
         return len(self.primitive)
@@ -151,7 +153,7 @@ def lanes_of(
     lane = 4 * number.reshape(-1) + 2 * (fragments.row & 1) + (fragments.column & 1)
     # What is known of the fragments themselves stays as it is.
     whole[lane] = values
-    return FragmentLanes(primitive, columns, in_rows, whole, lane)
+    return FragmentLanes(primitive, columns, in_rows, whole, lane, True)
 
 
 def _by_mesh(

@@ -6,11 +6,10 @@ from typing import Any
 import numpy as np
 
 from core.lanes.masks import Some
-from core.lanes.nodes import Statement
+from core.lanes.nodes import Assign, Declare, Field, Index, Name, Statement
 from core.lanes.problem import Problem
 from core.lanes.run import Frame
 from core.records.arrays import Flags
-from core.shaders.glsl_types import GlslValue
 
 STEP_LIMIT = 20_000
 """Statements of a run that is recorded."""
@@ -28,6 +27,8 @@ class ExecutedStatement:
     lanes: int
     value: Any
     """What was stored, tested or returned: a `GlslValue`, flags, or ``None``."""
+    whole: Any = None
+    """The whole variable afterwards, where the statement stores."""
 
     @property
     def line(self) -> int:
@@ -59,6 +60,21 @@ class Recorder:
         for at in range(len(self.steps) - 1, -1, -1):
             step = self.steps[at]
             if step.node is statement and step.depth == frame.depth:
-                if isinstance(value, GlslValue) or value is not None:
-                    self.steps[at] = ExecutedStatement(statement, step.depth, step.packed, self._lanes, value)
+                name = stored_name(statement)
+                whole = frame.names.get(name) if name else None
+                self.steps[at] = ExecutedStatement(
+                    statement, step.depth, step.packed, self._lanes, value, whole
+                )
                 return
+
+
+def stored_name(statement: Statement) -> str:
+    """Return the own name of the variable that a statement gives a value; empty: none."""
+    if isinstance(statement, Declare):
+        return statement.name
+    if not isinstance(statement, Assign):
+        return ""
+    target = statement.target
+    while isinstance(target, Index | Field):
+        target = target.whole
+    return target.name if isinstance(target, Name) else ""

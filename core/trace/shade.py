@@ -16,6 +16,7 @@ from core.records.operation import Labels, Operation
 from core.records.steps import Steps, ends_of
 from core.scene import ClipScene, Scene, Texture
 from core.stages.vertex_light import material_of, viewpoint
+from core.stages.vertex_program import has_program
 from core.trace.source import TraceSource
 from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace
@@ -27,6 +28,10 @@ KINDS = ("plain", "textured", "lit", "textured-lit")
 
 def trace_shade(source: TraceSource) -> StageTrace:
     """Return one row for every fragment: its texels where the mesh has a texture, its light where it is lit."""
+    if has_program(source.scene):
+        from core.trace.shader_stages import trace_fragment_shader
+
+        return trace_fragment_shader(source)
     rows, is_lit = source.rows_of("shade", _rows), source.surface.diffuse_light is not None
     is_textured = rows.kind % 2 > 0
     has_normals = "normal" in source.geometry.primitives.layout

@@ -6,6 +6,7 @@ from core.geometry.matrices import transform_component
 from core.records.listing import RETURN, listing
 from core.records.operation import Operation
 from core.records.steps import Steps, ends_of
+from core.stages.vertex_program import has_program
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace, no_pixels
 
@@ -24,6 +25,15 @@ def divide_and_map(clip: np.ndarray, width: int, height: int) -> tuple[float, fl
 
 
 def trace_transform(source: TraceSource) -> StageTrace:
+    """Return the rows of every vertex: the statements of the scene's vertex shader, or one row for every space."""
+    if has_program(source.scene):
+        from core.trace.shader_stages import trace_vertex_shader
+
+        return trace_vertex_shader(source)
+    return trace_spaces(source)
+
+
+def trace_spaces(source: TraceSource) -> StageTrace:
     """Return one row for every vertex and space; a scene given in clip space starts at the division."""
     vertices = source.geometry.vertices
     triangle = source.geometry.assembled.triangle

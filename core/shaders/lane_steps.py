@@ -1,0 +1,188 @@
+"""The steps of one lane of a shader, with plain numbers: what each line had, computed and left, in words."""
+
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from core.lanes.masks import Some
+from core.lanes.nodes import (
+    Assign,
+    Binary,
+    Break,
+    Call,
+    Choose,
+    Continue,
+    Declare,
+    Discard,
+    Evaluate,
+    Expression,
+    Field,
+    If,
+    Index,
+    Logic,
+    Loop,
+    Name,
+    Return,
+    Statement,
+    Unary,
+)
+from core.lanes.notes import LaneStep
+from core.lanes.run import Frame, Watch
+from core.lanes.terms import in_numbers, in_symbols, said, term_of
+from core.shaders.glsl_types import MATRICES, GlslValue
+from core.shaders.scopes import typed_name
+
+SAME = {"++": "+", "--": "-", "^^": "!="}
+"""Operators that words have another name for."""
+LEAVES = {Break: "break: the loop ends here", Continue: "continue: the next round begins"}
+
+
+def record_lane(run: Callable[[Watch], object], lane: int) -> tuple[LaneStep, ...]:
+    """Run a shader and return the steps that one of its lanes lived through."""
+    recorder = _LaneRecorder(lane)
+    run(recorder)
+    return tuple(step for step in recorder.steps if step is not None)
+
+
+class _LaneRecorder:
+    """Keeps what one lane does, in the order in which its statements begin."""
+
+    def __init__(self, lane: int) -> None:
+        self.steps: list[LaneStep | None] = []
+        self._lane = lane
+        self._open: list[tuple[Statement, int, dict[str, Any]]] = []
+
+    def begin(self, statement: Statement, mask: Some, frame: Frame) -> None:
+        """Keep the variables before a statement."""
+        if mask is None or mask[self._lane]:
+            self._open.append((statement, len(self.steps), dict(frame.names)))
+            self.steps.append(None)
+
+    def end(self, statement: Statement, mask: Some, frame: Frame, value: Any) -> None:
+        """Keep the step."""
+        if not (mask is None or mask[self._lane]):
+            return
+        while self._open:
+            begun, place, before = self._open.pop()
+            if begun is statement:
+                self.steps[place] = LaneStep(
+                    statement,
+                    self._plain(before),
+                    self._plain(frame.names),
+                    plain_value(value, self._lane),
+                    frame.depth,
+                )
+                return
+
+    def _plain(self, names: Mapping[str, Any]) -> dict[str, Any]:
+        return {
+            name: plain_value(value, self._lane) for name, value in names.items() if value.of != "sampler2D"
+        }
+
+
+def plain_value(value: Any, lane: int) -> Any:
+    """Return a lane's value as Python numbers: a list of a vector, a list of columns of a matrix."""
+    if not isinstance(value, GlslValue):
+        return None if value is None else _number(value, lane)
+    if value.of in MATRICES:
+        return [[_number(part, lane) for part in column] for column in value.parts]
+    parts = [_number(part, lane) for part in value.parts]
+    return None if not parts else parts[0] if len(parts) == 1 else parts
+
+
+def _number(part: Any, lane: int) -> Any:
+    array = np.asarray(part)
+    return (array if array.ndim == 0 else array[lane]).item()
+
+
+def words_of(step: LaneStep) -> str:
+    """Return a step in words: its line, the line with its numbers, and what came out."""
+    node = step.statement
+    if isinstance(node, Discard):
+        return "discard: the fragment ends here, and nothing of it is written"
+    if type(node) in LEAVES:
+        return LEAVES[type(node)]  # type: ignore[index]
+    now = Typed(step.before)
+    if isinstance(node, Evaluate):
+        return f"{in_symbols(term_of(now.expression(node.value), now.values))} runs"
+    if isinstance(node, Return) and node.value is None:
+        return "return: this function ends here"
+    if isinstance(node, Declare) and node.value is None:
+        return f"{typed_name(node.name)} begins without a value: here it is 0"
+    whole = now.statement(node)
+    told = said(replace(step, statement=whole, before=now.values, after=now.values))
+    if isinstance(node, Loop):
+        return f"{told}: {'one more round' if step.value else 'the loop ends'}"
+    return told
+
+
+def parts_of(step: LaneStep) -> tuple[str, str]:
+    """Return the right side of a step, or its condition, in symbols and with its numbers."""
+    node, now = step.statement, Typed(step.before)
+    match node:
+        case Assign(_, _, value) | Declare(_, _, _, Expression() as value) | Return(_, Expression() as value):
+            right = value
+        case If(_, test) | Loop(_, test):
+            right = test
+        case _:
+            return "", ""
+    term = term_of(now.expression(right), now.values)
+    return in_symbols(term), in_numbers(term)
+
+
+class Typed:
+    """A step's expressions with the names that were typed, and with components as variables of their own."""
+
+    def __init__(self, before: Mapping[str, Any]) -> None:
+        self._before = before
+        self.values: dict[str, Any] = {}
+
+    def statement(self, node: Statement) -> Statement:
+        """Return a statement of typed names."""
+        match node:
+            case Assign(place, target, value):
+                return Assign(place, self.expression(target), self.expression(value))
+            case Declare(place, of, name, value):
+                return Declare(place, of, typed_name(name), None if value is None else self.expression(value))
+            case Return(place, value):
+                return Return(place, None if value is None else self.expression(value))
+            case If(place, test):
+                return If(place, self.expression(test), (), ())
+            case Loop(place, test):
+                return Loop(place, self.expression(test), ())
+        return node
+
+    def expression(self, node: Expression) -> Expression:
+        """Return an expression of typed names."""
+        match node:
+            case Name(place, name):
+                return self._named(place, typed_name(name), self._before.get(name))
+            case Field(place, Name(_, name), letters):
+                held = self._before.get(name)
+                picks = [next((k.index(x) for k in ("xyzw", "rgba", "stpq") if x in k), 0) for x in letters]
+                value = None
+                if isinstance(held, list) and max(picks) < len(held):
+                    value = held[picks[0]] if len(picks) == 1 else [held[k] for k in picks]
+                return self._named(place, f"{typed_name(name)}.{letters}", value)
+            case Field(place, whole, letters):
+                return Field(place, self.expression(whole), letters)
+            case Index(place, whole, index):
+                return Index(place, self.expression(whole), self.expression(index))
+            case Binary(place, operator, left, right):
+                same = SAME.get(operator, operator)
+                return Binary(place, same, self.expression(left), self.expression(right))
+            case Unary(place, operator, operand):
+                return Unary(place, "not" if operator == "!" else operator, self.expression(operand))
+            case Logic(place, is_and, parts):
+                return Logic(place, is_and, tuple(map(self.expression, parts)))
+            case Choose(place, test, yes, no):
+                return Choose(place, self.expression(test), self.expression(yes), self.expression(no))
+            case Call(place, function, arguments):
+                return Call(place, function, tuple(map(self.expression, arguments)))
+        return node
+
+    def _named(self, place: Any, name: str, value: Any) -> Name:
+        self.values[name] = value
+        return Name(place, name)

@@ -1,0 +1,242 @@
+"""Stages Transform and Shade of a scene with shaders: their statements, vertex by vertex and fragment by fragment."""
+
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from core.lanes.notes import LaneStep
+from core.records.arrays import Integers
+from core.records.listing import listing
+from core.records.steps import Steps, ends_of
+from core.scene import Scene
+from core.shaders.fragment_stage import FragmentLanes, lanes_of, run_lanes
+from core.shaders.lane_steps import record_lane
+from core.shaders.shader import Shader
+from core.shaders.vertex_stage import run_vertices
+from core.trace.shader_rows import (
+    STATEMENT,
+    LaneRows,
+    ShaderStageTrace,
+    join_rows,
+    record_rows,
+    remembered,
+    shader_listing,
+)
+from core.trace.source import TraceSource
+from core.trace.stage_trace import BufferTrack, StageTrace, no_pixels
+from core.trace.transform import divide_and_map, trace_spaces
+
+
+def trace_vertex_shader(source: TraceSource) -> StageTrace:
+    """Return one row for each statement of each corner's vertex, and its way from clip space to the window."""
+    scene = source.scene
+    assert isinstance(scene, Scene)
+    assert scene.program is not None
+    shader, divided = scene.program.shaders[0], trace_spaces(source)
+    corners = divided.columns["vertex"][::2]
+    mesh, own = _vertices_of_meshes(scene, corners)
+    parts = []
+    for number in np.unique(mesh):
+        at = np.flatnonzero(mesh == number)
+        run = partial(_run_corners, scene, int(number), own[at])
+        parts.append((at, record_rows(len(at), np.arange(len(at)), run, shader)))
+    rows = _side_by_side(parts)
+
+    def steps_of(corner: int) -> tuple[LaneStep, ...]:
+        run = partial(_run_corners, scene, int(mesh[corner]), own[corner : corner + 1])
+        return _without_prelude(record_lane(run, 0), shader)
+
+    # Statements of a corner, then its two divisions.
+    count, kinds = len(rows.lane), len(STATEMENT)
+    corner = np.concatenate([rows.lane, np.repeat(np.arange(len(corners)), 2)])
+    order = np.lexsort((np.arange(len(corner)), corner))
+    columns = {name: _after_nothing(count, values)[order] for name, values in divided.columns.items()}
+    for name, values in _statement_columns(rows).items():
+        columns[name] = _before_nothing(values, 2 * len(corners))[order]
+    columns["vertex"], columns["corner"] = (
+        np.concatenate([divided.columns[name][::2][rows.lane], divided.columns[name]])[order]
+        for name in ("vertex", "corner")
+    )
+    owner = divided.triangle[::2][corner][order]
+    first = divided.steps.kinds.index("divide")
+    kind = np.concatenate([np.zeros(count, np.int64), divided.steps.kind - first + kinds])[order]
+    projection = listing(divide_and_map)
+    nan = np.concatenate([rows.undefined, divided.marks["nan"]])
+    return ShaderStageTrace(
+        stage="transform",
+        method="",
+        steps=Steps(
+            kinds=("statement", "divide", "viewport"),
+            kind=kind,
+            operations={**STATEMENT, **{k: divided.steps.operations[k] for k in ("divide", "viewport")}},
+            triangle_ends=ends_of(owner),
+            group_ends=ends_of(corner[order]),
+        ),
+        columns=columns,
+        triangle=owner,
+        pixel=no_pixels(len(order)),
+        listings={
+            "statement": shader_listing(shader.source, "vertex"),
+            "divide": projection,
+            "viewport": projection,
+        },
+        marks={"nan": nan[order]},
+        extra=divided.extra,
+        constants=divided.constants,
+        lane_rows=rows,
+        steps_of=remembered(steps_of),
+    )
+
+
+def _run_corners(scene: Scene, number: int, vertex: Integers, watch: Any) -> object:
+    assert scene.program is not None
+    return run_vertices(scene, scene.program.shaders[0], number, vertex, watch)
+
+
+def _vertices_of_meshes(scene: Scene, vertex: Integers) -> tuple[Integers, Integers]:
+    """Return the mesh of vertices of the scene, and their numbers in it."""
+    ends = np.cumsum([len(mesh.positions) for mesh in scene.meshes])
+    mesh = np.searchsorted(ends, vertex, "right")
+    return mesh, vertex - np.concatenate([[0], ends])[mesh]
+
+
+def trace_fragment_shader(source: TraceSource) -> StageTrace:
+    """Return one row for each statement of each fragment; statements of helpers are in no row."""
+    scene, fragments = source.scene, source.fragments
+    assert isinstance(scene, Scene)
+    assert scene.program is not None
+    shader, geometry = scene.program.shaders[1], source.geometry
+    lanes = lanes_of(shader, geometry, source.raster, fragments, source.interpolated[1])
+    mesh = geometry.primitives.mesh[fragments.primitive]
+    parts = []
+    for number in np.unique(mesh):
+        at = np.flatnonzero(mesh == number)
+        chosen = np.flatnonzero(geometry.primitives.mesh[lanes.primitive] == number)
+        place = np.searchsorted(chosen, lanes.lane[at])
+        run = partial(_run_fragments, source, lanes, chosen)
+        parts.append((at, record_rows(len(chosen), place, run, shader)))
+    rows = _side_by_side(parts)
+
+    def steps_of(fragment: int) -> tuple[LaneStep, ...]:
+        lane = int(lanes.lane[fragment])
+        chosen = lane // 4 * 4 + np.arange(4) if lanes.in_quads else np.array([lane])
+        run = partial(_run_fragments, source, lanes, chosen)
+        return _without_prelude(record_lane(run, int(np.searchsorted(chosen, lane))), shader)
+
+    color = source.surface.color
+    columns = _statement_columns(rows)
+    columns |= {
+        "column": fragments.column[rows.lane],
+        "row": fragments.row[rows.lane],
+        "primitive": fragments.primitive[rows.lane],
+        "color": color[rows.lane],
+    }
+    triangle = source.triangle_of_fragment[rows.lane]
+    pixel = np.stack([columns["column"], columns["row"]], axis=1)
+    return ShaderStageTrace(
+        stage="shade",
+        method="",
+        steps=Steps(
+            kinds=("statement",),
+            kind=np.zeros(len(rows.lane), np.int64),
+            operations=STATEMENT,
+            triangle_ends=ends_of(triangle),
+            group_ends=ends_of(rows.lane),
+        ),
+        columns=columns,
+        triangle=triangle,
+        pixel=pixel,
+        listings={"statement": shader_listing(shader.source, "fragment")},
+        marks={"nan": rows.undefined},
+        buffers=_buffers(source, rows, color),
+        extra={"mesh": mesh},
+        lane_rows=rows,
+        steps_of=remembered(steps_of),
+    )
+
+
+def _run_fragments(source: TraceSource, lanes: FragmentLanes, chosen: Any, watch: Any) -> object:
+    assert isinstance(source.scene, Scene)
+    return run_lanes(source.scene, source.geometry, source.raster, lanes, chosen, watch)
+
+
+def _without_prelude(steps: tuple[LaneStep, ...], shader: Shader) -> tuple[LaneStep, ...]:
+    """Leave out the declarations of global variables, which have no rows."""
+    prelude = {node.place for node in shader.syntax.prelude}
+    return tuple(step for step in steps if step.statement.place not in prelude)
+
+
+def _side_by_side(parts: list[tuple[Integers, LaneRows]]) -> LaneRows:
+    """Join the rows of the lanes of several meshes, lane by lane; each part has the numbers of its lanes."""
+    if len(parts) == 1:
+        return parts[0][1]
+    lane = np.concatenate([at[rows.lane] for at, rows in parts])
+    order = np.argsort(lane, kind="stable")
+    back = np.empty(len(order), np.int64)
+    back[order] = np.arange(len(order))
+    stored: dict[str, list[tuple[Integers, Any]]] = {}
+    first = 0
+    for _, rows in parts:
+        for name, (of, values) in rows.stored.items():
+            stored.setdefault(name, []).append((back[first + of], values))
+        first += len(rows.lane)
+    joined = {
+        name: np.concatenate([getattr(rows, name) for _, rows in parts])[order]
+        for name in ("step", "line", "live", "result", "lanes", "undefined")
+    }
+    return LaneRows(
+        lane=lane[order], stored={name: join_rows(found) for name, found in stored.items()}, **joined
+    )
+
+
+def _statement_columns(rows: LaneRows) -> dict[str, Any]:
+    return {
+        "lane": rows.lane,
+        "lane_step": rows.step,
+        "line": rows.line,
+        "live": rows.live,
+        "lanes": rows.lanes,
+        "result": rows.result,
+    }
+
+
+def _missing(values: Any, count: int) -> Any:
+    return np.full((count, *values.shape[1:]), np.nan if values.dtype.kind == "f" else -1, values.dtype)
+
+
+def _after_nothing(count: int, values: Any) -> Any:
+    """Return a column that has nothing in its first ``count`` rows."""
+    return np.concatenate([_missing(values, count), values])
+
+
+def _before_nothing(values: Any, count: int) -> Any:
+    """Return a column that has nothing in its last ``count`` rows."""
+    return np.concatenate([values, _missing(values, count)])
+
+
+def _buffers(source: TraceSource, rows: LaneRows, color: Any) -> tuple[BufferTrack, ...]:
+    """Return the colour, how many lanes run together, and every variable that some line stores."""
+    place, shape = source.place, source.raster.shape
+    last = np.flatnonzero(np.append(rows.lane[1:] != rows.lane[:-1], len(rows.lane) > 0))
+    shown = last[source.goes_on[rows.lane[last]]]
+
+    def track(name: str, at: Integers, values: Any, kind: str) -> BufferTrack:
+        initial = np.full((*shape, *values.shape[1:]), np.nan)
+        return BufferTrack(name, initial, at, place[rows.lane[at]], values, kind)
+
+    every = np.arange(len(rows.lane))
+    tracks = [
+        track("fragment color", shown, color[rows.lane[shown]], "color"),
+        track("lanes together", every, rows.live.astype(float), "scalar"),
+    ]
+    for name, (at, values) in rows.stored.items():
+        width = values.shape[1]
+        if width >= 3:
+            whole = values if width == 4 else np.column_stack([values, np.ones(len(values))])
+            tracks.append(track(name, at, whole, "color"))
+        elif width == 2:
+            tracks += [track(f"{name}.{letter}", at, values[:, k], "scalar") for k, letter in enumerate("xy")]
+        else:
+            tracks.append(track(name, at, values[:, 0], "scalar"))
+    return tuple(tracks)

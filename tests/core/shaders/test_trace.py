@@ -1,0 +1,126 @@
+"""Shaders stepped: the rows of Transform and Shade, their words and variables, and buffers of any variable."""
+
+import numpy as np
+import pytest
+
+from core import Settings, render, trace
+from core.explain.steps import sentence, variables
+from core.records.listing import ShaderListing
+from core.records.steps import Level
+from tests.core.shaders.scenes import TASK_FRAGMENT, TASK_VERTEX, square_scene, tutorial_scene
+
+BRANCHES = """
+vec2 p = vUv - 0.5;
+float r = length(p) * 2.0;
+if (r > 0.9) discard;
+vec3 k = vec3(0.0);
+for (int i = 0; i < 2; i++) {
+   if (p.x > 0.2) continue;
+   k[i] += p.x > 0.0 ? r : 1.0 - r;
+}
+c = vec4(k, 1.0);
+c.r *= dFdx(r) + 0.5;
+"""
+
+
+def _sentences(stage, rows, column=0, line=0):
+    return [sentence(stage.explain(int(stage.steps.starts[row]) + 1), 0, (column, line)) for row in rows]
+
+
+def test_folding_all_rows_gives_the_picture():
+    for scene in (tutorial_scene(size=(24, 18)), square_scene(BRANCHES)):
+        frame, stage = render(scene), trace(scene, Settings()).stage("shade")
+        color = next(track for track in stage.buffers if track.name == "fragment color")
+        folded = color.at(stage.steps.row_count)
+        seen = frame.primitive >= 0
+        np.testing.assert_array_equal(np.isfinite(folded[..., 0]), seen)
+        np.testing.assert_array_equal(np.float32(folded[seen]), frame.color[seen])
+        assert np.isnan(color.at(0)).all()
+
+
+def test_the_rows_of_a_lane_are_the_statements_of_its_own_run():
+    stage = trace(square_scene(BRANCHES), Settings()).stage("shade")
+    for row in range(0, stage.steps.row_count, 7):
+        step = stage.step_at(row)
+        assert step.line == stage.columns["line"][row]
+        own = np.atleast_1d(np.array([] if step.value is None else step.value, float))
+        found = stage.columns["result"][row]
+        np.testing.assert_array_equal(found[: len(own)], own)
+        assert np.isnan(found[len(own) :]).all()
+
+
+def test_a_statement_and_a_fragment_are_levels():
+    stage = trace(square_scene(BRANCHES), Settings(), 0).stage("shade")
+    lane = stage.columns["lane"]
+    ends = stage.steps.starts[np.flatnonzero(np.append(lane[1:] != lane[:-1], True)) + 1]
+    np.testing.assert_array_equal(stage.steps.boundaries(Level.GROUP), [0, *ends])
+    assert len(stage.steps.boundaries(Level.PIXEL)) == stage.steps.row_count + 1
+
+
+def test_a_step_says_its_line_its_numbers_and_what_came_out():
+    stage = trace(square_scene(BRANCHES), Settings(), 0).stage("shade")
+    rows = stage.rows_at_pixel(3, 0)
+    said = _sentences(stage, rows)
+    assert said[:3] == [
+        "Line 8: p = vUv − 0.5 = [−0.0625, −0.4375].",
+        "Line 9: r = length(p) · 2 = 0.8839.",
+        "Line 10: r > 0.9: 0.8839 > 0.9 is false.",
+    ]
+    assert said[5].startswith("Line 12: i < 2: 0 < 2 is true: one more round. ")
+    assert said[6].startswith("Line 13: p.x > 0.2: −0.0625 > 0.2 is false.")
+    assert (
+        "k[i] = k[i] + (r if p.x > 0 else 1 − r) = 0 + (0.8839 if −0.0625 > 0 else 1 − 0.8839) = 0.1161"
+        in said[7]
+    )
+    assert "27 of 40 lanes run this line." in said[5]
+    corner = _sentences(stage, stage.rows_at_pixel(0, 0))
+    assert corner[-1].startswith("Line 10: discard: the fragment ends here, and nothing of it is written.")
+
+
+def test_the_variables_are_those_of_the_shader():
+    stage = trace(square_scene(BRANCHES), Settings(), 0).stage("shade")
+    row = int(stage.rows_at_pixel(3, 0)[1])
+    shown = {v.name: v for v in variables(stage.explain(int(stage.steps.starts[row]) + 1))}
+    assert shown["p"].now == (-0.0625, -0.4375)
+    assert shown["r"].now == pytest.approx(0.8839, abs=1e-4)
+    assert shown["r"].is_changed()
+    assert not shown["p"].is_changed()
+    assert "k" not in shown
+
+
+def test_any_variable_is_a_buffer():
+    stage = trace(square_scene(BRANCHES), Settings()).stage("shade")
+    names = [track.name for track in stage.buffers]
+    assert names == ["fragment color", "lanes together", "p.x", "p.y", "r", "k", "i", "c"]
+    radius = stage.buffers[names.index("r")].at(stage.steps.row_count)
+    u = (np.arange(8) + 0.5) / 8 - 0.5
+    np.testing.assert_allclose(radius, 2 * np.hypot(*np.meshgrid(u, u)), rtol=1e-6)
+
+
+def test_the_vertex_shader_is_stepped_before_the_division():
+    stage = trace(tutorial_scene(), Settings(), 0).stage("transform")
+    kinds = [stage.kind_of(row) for row in range(stage.steps.row_count)]
+    assert kinds == ["statement", "statement", "divide", "viewport"] * 3
+    assert stage.columns["vertex"].tolist() == [0] * 4 + [2] * 4 + [1] * 4
+    said = _sentences(stage, [0, 1, 2])
+    assert said[0].startswith(
+        "Line 8: gl_Position = projectionMatrix · modelViewMatrix · vec4(position.x · 1.5, "
+    )
+    assert "vec4(−5 · 1.5, −3 · 0.5, −10 · 2, 1)" in said[0]
+    assert said[1] == "Line 16: vColor = color = [0.2, 0.6, 1]."
+    assert said[2].startswith("Vertex 0 of triangle 0: its NDC x is −0.679")
+
+
+def test_the_listing_is_the_students_own_source():
+    traced = trace(tutorial_scene(size=(24, 18)), Settings(), 0)
+    for name, source in (("transform", TASK_VERTEX), ("shade", TASK_FRAGMENT)):
+        listed = traced.stage(name).listings["statement"]
+        assert isinstance(listed, ShaderListing)
+        assert listed.source == source.rstrip("\n")
+        assert listed.lines["1"] == 1
+
+
+def test_too_many_lane_steps_are_refused(monkeypatch):
+    monkeypatch.setattr("core.trace.shader_rows.LANE_STEP_LIMIT", 100)
+    with pytest.raises(ValueError, match="too many to step: trace one triangle, or a region"):
+        trace(square_scene(BRANCHES), Settings()).stage("shade")
