@@ -69,6 +69,10 @@ class ShaderProgram:
             read_shader(self.fragment, "fragment", self.dialect),
         )
 
+    def __reduce__(self) -> tuple[type["ShaderProgram"], tuple[object, ...]]:
+        """Send the texts to another process, which reads them itself."""
+        return type(self), (self.vertex, self.fragment, self.uniforms, self.dialect, self.name)
+
     @property
     def values(self) -> dict[str, tuple[float, ...]]:
         """The uniforms' numbers by name."""

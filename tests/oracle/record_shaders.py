@@ -17,7 +17,8 @@ from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer
 from app.opengl_check.shader_cases import CASES, shader_inputs
 from app.opengl_check.shader_draw import draw_scene_with_opengl, draw_with_opengl
 from core.scene import Scene
-from tests.core.shaders.scenes import MINIMAL_FRAGMENT, MINIMAL_VERTEX, tutorial_scene
+from core.shaders.presets import MINIMAL_FRAGMENT, MINIMAL_VERTEX
+from tests.core.shaders.scenes import tutorial_scene
 
 FILE = Path(__file__).parent / "shaders" / "answers.npz"
 SIDE = 8

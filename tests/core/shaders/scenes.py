@@ -1,58 +1,12 @@
-"""The tutorial's shaders, word for word, and scenes that tests draw."""
+"""Scenes with shaders that tests draw: the tutorial's triangle, and a square over the whole window."""
 
 import numpy as np
 
 from core import Camera, Mesh, Scene
 from core.scene import Texture
+from core.shaders.presets import TASK_FRAGMENT, TASK_VERTEX
 from core.shaders.record import ShaderProgram
 
-MINIMAL_VERTEX = """#version 300 es
-precision highp float;
-in vec3 position;
-uniform mat4 modelViewMatrix;
-uniform mat4 projectionMatrix;
-void main() {
-   gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
-}
-"""
-MINIMAL_FRAGMENT = """#version 300 es
-precision highp float;
-
-out vec4 out_frag_color;
-
-void main() {
-   out_frag_color = vec4(1.0, 1.0, 0.0, 1.0); // yellow
-}
-"""
-TASK_VERTEX = """#version 300 es
-precision highp float;
-// define the out to transmit the vertex color to
-// the subsequent shaders
-out vec3 vColor;
-void main() {
-   // TODO: scale x by 1.5, y by 0.5, and z by 2.0
-   gl_Position = projectionMatrix * modelViewMatrix * vec4(
-       position.x*1.5,
-       position.y*0.5,
-       position.z*2.0,
-       1.0
-   );
-   // TODO: set the vColor out to the color we recieved
-   // from the three.js code
-   vColor = color;
-}
-"""
-TASK_FRAGMENT = """#version 300 es
-precision highp float;
-out vec4 outColor;
-// TODO: define the in to receive
-// the (interpolated) vertex color
-// from the previous shaders
-in vec3 vColor;
-void main() {
-   outColor = vec4(vColor, 1.0);
-}
-"""
 POSITIONS = np.array([[-5, -3, -10], [0, 5, -10], [10, -5, -10]], float)
 COLORS = np.array([[0x33, 0x99, 0xFF], [0, 0xFF, 0xFF], [0x55, 0, 0xEE]]) / 255
 CAMERA = Camera(np.zeros(3), np.array([0.0, 0, -1]), field_of_view=np.radians(45), near=0.1, far=100)

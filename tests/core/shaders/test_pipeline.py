@@ -11,16 +11,10 @@ from core.fragments.textures import texture_colors
 from core.framebuffer.display import to_display
 from core.pixel_history import why
 from core.scene import Texture
+from core.shaders.presets import MINIMAL_FRAGMENT, MINIMAL_VERTEX, TASK_FRAGMENT, TASK_VERTEX
 from core.shaders.record import ShaderProblem, ShaderProgram
 from core.trace.source import TraceSource
-from tests.core.shaders.scenes import (
-    MINIMAL_FRAGMENT,
-    MINIMAL_VERTEX,
-    TASK_FRAGMENT,
-    TASK_VERTEX,
-    square_scene,
-    tutorial_scene,
-)
+from tests.core.shaders.scenes import square_scene, tutorial_scene
 
 
 def test_the_minimal_shaders_draw_the_same_triangle_in_yellow():

@@ -1,5 +1,7 @@
 """Shaders stepped: the rows of Transform and Shade, their words and variables, and buffers of any variable."""
 
+from importlib import import_module
+
 import numpy as np
 import pytest
 
@@ -7,7 +9,8 @@ from core import Settings, render, trace
 from core.explain.steps import sentence, variables
 from core.records.listing import ShaderListing
 from core.records.steps import Level
-from tests.core.shaders.scenes import TASK_FRAGMENT, TASK_VERTEX, square_scene, tutorial_scene
+from core.shaders.presets import TASK_FRAGMENT, TASK_VERTEX
+from tests.core.shaders.scenes import square_scene, tutorial_scene
 
 BRANCHES = """
 vec2 p = vUv - 0.5;
@@ -121,6 +124,6 @@ def test_the_listing_is_the_students_own_source():
 
 
 def test_too_many_lane_steps_are_refused(monkeypatch):
-    monkeypatch.setattr("core.trace.shader_rows.LANE_STEP_LIMIT", 100)
+    monkeypatch.setattr(import_module("core.trace.shader_rows"), "LANE_STEP_LIMIT", 100)
     with pytest.raises(ValueError, match="too many to step: trace one triangle, or a region"):
         trace(square_scene(BRANCHES), Settings()).stage("shade")
