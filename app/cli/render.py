@@ -15,6 +15,7 @@ from app.cli.arguments import (
     overflow_reported,
     sized,
 )
+from app.cli.shaders import add_shaders, with_shaders
 from app.files.file_writing import check_writable, whole_file
 from app.session.memory import check_free
 from app.usage import UsageError
@@ -33,6 +34,7 @@ EXAMPLES = """The npz file has three arrays; row 0 is the bottom row.
 examples:
   rasterscope render teapot.obj -o teapot.png
   rasterscope render teapot.obj -o teapot.png --size 640x480 --set shading=flat cull=back
+  rasterscope render teapot.obj -o toon.png --fragment toon.glsl --uniform steps=4
   rasterscope render shared-edge -o edge.png --set fill=blocks block_size=4 --buffers edge.npz
 """
 
@@ -44,6 +46,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     add_size(parser)
     add_settings(parser)
     add_edits(parser)
+    add_shaders(parser)
     parser.add_argument("--buffers", metavar="out.npz", help="color, depth and primitive as arrays")
 
 
@@ -59,7 +62,7 @@ def run(options: argparse.Namespace) -> int:
 
     opened = open_file(options)
     settings = chosen_settings(opened.document.settings, options.set, options.edit)
-    scene = sized(opened.document.scene, options)
+    scene = with_shaders(sized(opened.document.scene, options), options)
     blend = resolve(settings).blend_name
     check_memory(scene.size, settings)
     with overflow_reported():

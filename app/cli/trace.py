@@ -22,6 +22,7 @@ from app.cli.arguments import (
     sized,
 )
 from app.cli.commands import whole_number
+from app.cli.shaders import add_shaders, with_shaders
 from app.cli.trace_tables import arrays, table_parts
 from app.files.file_writing import check_writable, whole_file
 from app.files.open_any import Opened
@@ -98,6 +99,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     add_settings(parser)
     add_edits(parser)
+    add_shaders(parser)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -133,7 +135,7 @@ def run(options: argparse.Namespace) -> int:
 
 def make_trace(opened: Opened, options: argparse.Namespace) -> Trace:
     """Prepare the trace that the options ask for."""
-    document = opened.document
+    document = replace(opened.document, scene=with_shaders(opened.document.scene, options))
     triangle = document.triangle if options.triangle is None else options.triangle
     if options.triangle is None and opened.state is None:
         triangle = None

@@ -119,6 +119,17 @@ class SourceRecord(Record):
         return self
 
 
+class ProgramRecord(Record):
+    """A ``core.shaders.record.ShaderProgram``: its shaders as text."""
+
+    vertex: Annotated[str, Field(max_length=20_000)]
+    fragment: Annotated[str, Field(max_length=20_000)]
+    uniforms: dict[str, list[float]] = {}
+    """Name to numbers; of a matrix column by column."""
+    dialect: Literal["shader-material", "raw-shader-material"] = "shader-material"
+    title: str = ""
+
+
 class MeshSceneRecord(Record):
     """A ``core.scene.Scene``."""
 
@@ -129,6 +140,7 @@ class MeshSceneRecord(Record):
     lights: list[LightRecord]
     size: Size
     background: Numbers4
+    program: ProgramRecord | None = None
 
 
 class ClipSceneRecord(Record):

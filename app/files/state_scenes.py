@@ -35,6 +35,7 @@ from app.files.state_models import (
     MaterialRecord,
     MeshRecord,
     MeshSceneRecord,
+    ProgramRecord,
     SourceRecord,
     TableSceneRecord,
 )
@@ -52,6 +53,7 @@ from core.scene import (
     Scene,
     Texture,
 )
+from core.shaders.record import ShaderProgram
 from lessons.scenes import make_scene
 
 CLIP_ARRAYS = ("clip", "attributes", "shared", "clip_region", "rings", "region_rings", "texture")
@@ -108,6 +110,17 @@ def scene_record(
         lights=[_light_record(light) for light in scene.lights],
         size=scene.size,
         background=_numbers(scene.background),
+        program=None if scene.program is None else _program_record(scene.program),
+    )
+
+
+def _program_record(program: ShaderProgram) -> ProgramRecord:
+    return ProgramRecord(
+        vertex=program.vertex,
+        fragment=program.fragment,
+        uniforms={name: list(values) for name, values in program.values.items()},
+        dialect=program.dialect,  # type: ignore[arg-type]
+        title=program.name,
     )
 
 
@@ -236,8 +249,16 @@ def scene_from_record(
         }
         camera = Camera(**camera_values)
     lights = tuple(_light(k, light) for k, light in enumerate(record.lights))
+    with in_field("scene.program"):
+        program = None if record.program is None else _program(record.program)
     with in_field("scene"):
-        return Scene(meshes, camera, lights, record.size, np.array(record.background)), path, warnings
+        scene = Scene(meshes, camera, lights, record.size, np.array(record.background), program)
+    return scene, path, warnings
+
+
+def _program(record: ProgramRecord) -> ShaderProgram:
+    uniforms = tuple((name, tuple(values)) for name, values in record.uniforms.items())
+    return ShaderProgram(record.vertex, record.fragment, uniforms, record.dialect, record.title)
 
 
 def _clip_scene(record: ClipSceneRecord) -> ClipScene:

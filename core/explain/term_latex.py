@@ -178,9 +178,8 @@ class TermLatex:
                     printers = (TermLatex({**self._now, target: k}) for k in range(len(written)))
                     each = (one.text(part, puts_in) for one, part in zip(printers, written, strict=True))
                     return f"({', '.join(each)})", LEAF
-                inner = self._inner(element, CHOICE, False)
-                among = self._inner(things, CHOICE, False)
-                return rf"({inner} \text{{ for }} {name_latex(target)} \in {among})", LEAF
+                one_of, among = (self._inner(part, CHOICE, False) for part in (element, things))
+                return rf"({one_of} \text{{ for }} {name_latex(target)} \in {among})", LEAF
         raise AssertionError(f"{type(term).__name__} has no printer")
 
     def _applied(self, function: str, arguments: Sequence[Term], puts_in: bool) -> tuple[str, int]:

@@ -32,12 +32,15 @@ class Program:
         Programs whose functions may be called by the name of the key.
     """
 
+    compiler: type[Statements] = Statements
+    """What compiles the statements of a language."""
+
     def __init__(
         self, dialect: Dialect, functions: Sequence[Function], helpers: "Mapping[str, Program] | None" = None
     ) -> None:
         self.dialect, self.helpers = dialect, helpers or {}
         self.functions = {function.name: function for function in functions}
-        statements = Statements(dialect, self)
+        statements = self.compiler(dialect, self)
         self._bodies = {function.name: statements.body(function.body) for function in functions}
 
     @property

@@ -43,7 +43,7 @@ class Statements:
 
     def body(self, body: Sequence[Statement]) -> Step:
         """Compile statements that run one after the other."""
-        steps = [self._statement(statement) for statement in body]
+        steps = [self.statement(statement) for statement in body]
         if len(steps) == 1:
             return steps[0]
 
@@ -60,7 +60,8 @@ class Statements:
 
         return run_body
 
-    def _statement(self, node: Statement) -> Step:
+    def statement(self, node: Statement) -> Step:
+        """Compile a statement."""
         match node:
             case Nothing():
                 return lambda _frame, mask: mask
@@ -179,7 +180,7 @@ class Statements:
 
     def _loop(self, node: Loop) -> Step:
         test, body, place = self._value(node.test), self.body(node.body), node.place
-        step = None if node.step is None else self._statement(node.step)
+        step = None if node.step is None else self.statement(node.step)
 
         def turn(frame: Frame, mask: Some, number: int) -> tuple[Mask, Mask]:
             run = frame.run

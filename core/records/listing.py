@@ -135,7 +135,7 @@ class ShaderListing(Listing):
         return False
 
     @property
-    def everywhere(self) -> frozenset[str]:  # type: ignore[override]
+    def everywhere(self) -> frozenset[str]:
         """No names."""
         return frozenset()
 

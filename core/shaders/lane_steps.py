@@ -36,7 +36,10 @@ from core.shaders.scopes import typed_name
 
 SAME = {"++": "+", "--": "-", "^^": "!="}
 """Operators that words have another name for."""
-LEAVES = {Break: "break: the loop ends here", Continue: "continue: the next round begins"}
+LEAVES: dict[type[Statement], str] = {
+    Break: "break: the loop ends here",
+    Continue: "continue: the next round begins",
+}
 
 
 def record_lane(run: Callable[[Watch], object], lane: int) -> tuple[LaneStep, ...]:
@@ -102,8 +105,8 @@ def words_of(step: LaneStep) -> str:
     node = step.statement
     if isinstance(node, Discard):
         return "discard: the fragment ends here, and nothing of it is written"
-    if type(node) in LEAVES:
-        return LEAVES[type(node)]  # type: ignore[index]
+    if isinstance(node, Break | Continue):
+        return LEAVES[type(node)]
     now = Typed(step.before)
     if isinstance(node, Evaluate):
         return f"{in_symbols(term_of(now.expression(node.value), now.values))} runs"

@@ -7,12 +7,14 @@ from typing import Any, cast
 
 import numpy as np
 
+from core.lanes.dialect import Dialect
 from core.lanes.limits import SHADER, Limits
 from core.lanes.masks import NOBODY, Mask, Nobody, Some
 from core.lanes.nodes import Break, Call, Continue, Discard, Evaluate, Expression, Function, Node, Statement
 from core.lanes.problem import Place, Problem
 from core.lanes.program import NOT_COMPUTED, Program
 from core.lanes.run import UNSET, Frame, Run, Stop, Watch
+from core.lanes.statements import Statements, Step
 from core.records.arrays import Flags
 from core.shaders.declared import DIALECTS, declared_elsewhere, declared_for
 from core.shaders.dialect import GlslDialect
@@ -47,8 +49,43 @@ class ShaderRun(Run):
         self.given: dict[str, Any] = {}
 
 
+class ShaderStatements(Statements):
+    """Compiles the statements of a shader, whose lanes may be discarded within a call."""
+
+    def __init__(self, dialect: Dialect, functions: Program) -> None:
+        super().__init__(dialect, functions)
+        self._functions = functions.functions
+
+    def statement(self, node: Statement) -> Step:
+        """Compile a statement; one that calls a function which may discard lanes goes on without these."""
+        step = super().statement(node)
+        if isinstance(node, Break | Continue | Discard | Evaluate):
+            step = _watched(node, step)
+        if not self._may_discard_within(node):
+            return step
+
+        def run_step(frame: Frame, mask: Some) -> Mask:
+            here = _without(mask, frame.run.dead, frame.run.lanes)
+            if isinstance(here, Nobody):
+                return NOBODY
+            after = step(frame, here)
+            return after if frame.run.is_checking else _without(after, frame.run.dead, frame.run.lanes)
+
+        return run_step
+
+    def _may_discard_within(self, node: Statement) -> bool:
+        return any(
+            isinstance(each, Call)
+            and each.function in self._functions
+            and any(isinstance(inner, Discard) for inner in walk(self._functions[each.function]))
+            for each in walk(node)
+        )
+
+
 class ShaderFunctions(Program):
     """The functions of a shader over lanes."""
+
+    compiler = ShaderStatements
 
     def _called(
         self,
@@ -84,31 +121,6 @@ class ShaderFunctions(Program):
             raise
         except NOT_COMPUTED as problem:
             raise Problem(run.place, f"this cannot be computed ({type(problem).__name__})") from None
-
-    def _statement(self, node: Statement) -> Any:
-        """Compile a statement; one that calls a function which may discard lanes goes on without these."""
-        step = super()._statement(node)
-        if isinstance(node, Break | Continue | Discard | Evaluate):
-            step = _watched(node, step)
-        if not self._may_discard_within(node):
-            return step
-
-        def run_step(frame: Frame, mask: Some) -> Mask:
-            here = _without(mask, frame.run.dead, frame.run.lanes)
-            if isinstance(here, Nobody):
-                return NOBODY
-            after = step(frame, here)
-            return after if frame.run.is_checking else _without(after, frame.run.dead, frame.run.lanes)
-
-        return run_step
-
-    def _may_discard_within(self, node: Statement) -> bool:
-        return any(
-            isinstance(each, Call)
-            and each.function in self.functions
-            and any(isinstance(inner, Discard) for inner in walk(self.functions[each.function]))
-            for each in walk(node)
-        )
 
 
 def _watched(node: Statement, step: Any) -> Any:

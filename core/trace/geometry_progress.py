@@ -22,7 +22,11 @@ def spaces_reached(trace: Trace, stage: str, position: int) -> Integers:
         return np.full(shape, WINDOW)
     first = 0 if trace.source.geometry.vertices.object is not None else CLIP
     rows = WINDOW - first
-    done = trace.stage(stage).steps.rows_done(position)
+    steps = trace.stage(stage).steps
+    done = steps.rows_done(position)
+    if "statement" in steps.kinds:
+        # A vertex shader has any number of rows; what comes behind it is the division and the viewport.
+        done = int(np.count_nonzero(steps.kind[:done] != steps.kinds.index("statement")))
     reached: Integers = first + np.clip(done - rows * np.arange(shape[0] * shape[1]), 0, rows)
     return reached.reshape(shape)
 

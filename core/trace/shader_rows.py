@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from core.lanes.nodes import Declare
+from core.lanes.nodes import Declare, Name
 from core.lanes.notes import LaneStep
 from core.lanes.run import Watch
 from core.records.arrays import Flags, Integers
@@ -16,7 +16,7 @@ from core.records.operation import Columns, Operation
 from core.shaders.glsl_types import GlslValue
 from core.shaders.lane_steps import words_of
 from core.shaders.scopes import typed_name
-from core.shaders.shader import Shader
+from core.shaders.shader import Shader, walk
 from core.shaders.steps import Recorder, stored_name
 from core.trace.stage_trace import Explanation, StageTrace, Value
 
@@ -134,6 +134,8 @@ class ShaderStageTrace(StageTrace):
     lane_rows: LaneRows | None = None
     steps_of: Callable[[int], tuple[LaneStep, ...]] | None = field(default=None)
     """The steps of a lane, run again."""
+    names: frozenset[str] = frozenset()
+    """Own names of the variables that occur in the shader."""
 
     def step_at(self, row: int) -> LaneStep | None:
         """Return the step of a row; ``None`` of rows that run no statement."""
@@ -148,8 +150,10 @@ class ShaderStageTrace(StageTrace):
         if step is None:
             return super()._done(row, values, operation)
         explanation = super()._done(row, values, operation)
-        held = _shown_variables(step.after)
-        before = {f"{name} before": value for name, value in _shown_variables(step.before).items()}
+        held = _shown_variables(step.after, self.names)
+        before = {
+            f"{name} before": value for name, value in _shown_variables(step.before, self.names).items()
+        }
         changed = tuple(map(typed_name, filter(None, (stored_name(step.statement),))))
         said = _sentence(step, int(self.columns["live"][row]), int(self.columns["lanes"][row]))
         return Explanation(
@@ -168,14 +172,22 @@ def _sentence(step: LaneStep, live: int, lanes: int) -> str:
     return f"Line {step.line}: {words}.{together}"
 
 
-def _shown_variables(names: Mapping[str, Any]) -> dict[str, Any]:
+def _shown_variables(names: Mapping[str, Any], occurring: frozenset[str]) -> dict[str, Any]:
     """Return variables by the names that were typed; of several with one name the innermost, which came last."""
     found: dict[str, Any] = {}
     for name, value in names.items():
-        if value is None or (name.startswith("gl_") and name not in ("gl_Position", "gl_FragCoord")):
+        if value is None or name not in occurring:
             continue
         found[typed_name(name)] = np.array(value, float).T if isinstance(value, list) else value
     return found
+
+
+def occurring_names(shader: Shader) -> frozenset[str]:
+    """Return the own names of the variables that a shader reads or stores."""
+    nodes = [node for function in shader.syntax.functions.values() for node in walk(function)]
+    nodes += [node for statement in shader.syntax.prelude for node in walk(statement)]
+    found = {node.name for node in nodes if isinstance(node, Name)}
+    return frozenset(found | {node.name for node in nodes if isinstance(node, Declare)})
 
 
 def remembered(steps_of: Callable[[int], tuple[LaneStep, ...]]) -> Callable[[int], tuple[LaneStep, ...]]:

@@ -19,6 +19,7 @@ from core.trace.shader_rows import (
     LaneRows,
     ShaderStageTrace,
     join_rows,
+    occurring_names,
     record_rows,
     remembered,
     shader_listing,
@@ -86,6 +87,7 @@ def trace_vertex_shader(source: TraceSource) -> StageTrace:
         constants=divided.constants,
         lane_rows=rows,
         steps_of=remembered(steps_of),
+        names=occurring_names(shader),
     )
 
 
@@ -153,6 +155,7 @@ def trace_fragment_shader(source: TraceSource) -> StageTrace:
         extra={"mesh": mesh},
         lane_rows=rows,
         steps_of=remembered(steps_of),
+        names=occurring_names(shader),
     )
 
 

@@ -7,6 +7,7 @@ from difflib import get_close_matches
 import numpy as np
 
 from core.scene import Camera, ClipScene, Mesh, Scene
+from core.shaders.presets import preset_program
 from lessons.depth_tables import equal_depths, larger_is_nearer, two_triangles, two_triangles_turned
 from lessons.run_place import RunPlace
 from lessons.scenes import CATALOGUE, RED_GREEN_BLUE, TEACHING_SIZE, BuiltInScene, window_triangle
@@ -32,6 +33,18 @@ def three_js_triangle(face: tuple[int, int, int] = (0, 2, 1)) -> Scene:
     mesh = Mesh(VERTICES * (1.5, 0.5, 2.0), np.array([face]), colors=colors, name="three.js triangle")
     camera = Camera(np.zeros(3), np.array([0.0, 0.0, -1.0]), near=0.1, far=100.0)
     return Scene((mesh,), camera, (), (64, 48))
+
+
+def shaded_triangle(preset: str) -> Callable[[], Scene]:
+    """Return the maker of the three.js triangle drawn by two shaders, before any of them has run."""
+
+    def make() -> Scene:
+        scene = three_js_triangle()
+        mesh = replace(scene.meshes[0], positions=VERTICES)
+        plain = replace(scene, meshes=(mesh,))
+        return replace(plain, program=preset_program(preset, plain))
+
+    return make
 
 
 def segment(
@@ -284,6 +297,22 @@ LECTURE_SCENES = {
             RunPlace("cull", 'kind == "facing"'),
             cull="back",
             shading="unlit",
+        ),
+        _scene(
+            "lmu-minimal-shaders",
+            "Minimal shaders",
+            "The minimal vertex and fragment shader of the slides paint the three.js triangle yellow.",
+            shaded_triangle("minimal"),
+            RunPlace("transform", 'kind == "statement"'),
+            cull="back",
+        ),
+        _scene(
+            "lmu-shaders",
+            "Task 2 g), GLSL shaders",
+            "The task's shaders scale the triangle and hand its colours from vertex to fragment.",
+            shaded_triangle("task"),
+            RunPlace("shade", 'kind == "statement"'),
+            cull="back",
         ),
     ),
 }

@@ -145,6 +145,10 @@ CLAIMS = {
         and (np.diff(s.document.scene.table.depths[:, 1:3, 2:4], axis=0) == 0).all()
     ),
     "lmu-three-js": lambda s: not s.pixels(cull="front") and most_cyan(s) < 16,
+    "lmu-minimal-shaders": lambda s: (
+        s.frame().color[s.ids() >= 0].tolist() == [[1, 1, 0, 1]] * len(s.pixels()) and len(s.pixels()) > 900
+    ),
+    "lmu-shaders": lambda s: s.pixels() == Shown("lmu-three-js").pixels() and not s.pixels(cull="front"),
 }
 
 

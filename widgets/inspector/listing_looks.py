@@ -4,6 +4,7 @@ import io
 import keyword
 import re
 import tokenize
+from bisect import bisect_right
 from contextlib import suppress
 from functools import lru_cache
 
@@ -12,6 +13,39 @@ from PySide6.QtGui import QColor, QFont, QTextCharFormat, QTextCursor, QTextDocu
 from widgets.basics.theme import current_theme
 
 _VERTEX_NAME = re.compile(r"^[A-Za-z]+_?([012])$")
+KINDS_OF_VECTORS = ("vec", "ivec", "bvec", "mat")
+_GLSL = re.compile(r"^\s*#version|\bvoid\s+main\s*\(", re.MULTILINE)
+_GLSL_TOKEN = re.compile(
+    r"(?P<comment>//[^\n]*|/\*.*?\*/|#[^\n]*)|(?P<number>\b\d[\w.]*|\.\d\w*)|(?P<word>[A-Za-z_]\w*)",
+    re.DOTALL,
+)
+_GLSL_WORDS = frozenset(
+    (
+        *(
+            "in",
+            "out",
+            "uniform",
+            "const",
+            "flat",
+            "precision",
+            "highp",
+            "mediump",
+            "lowp",
+            "layout",
+            "true",
+            "false",
+        ),
+        *(
+            "void",
+            "float",
+            "int",
+            "bool",
+            "sampler2D",
+            *(f"{kind}{n}" for kind in KINDS_OF_VECTORS for n in (2, 3, 4)),
+        ),
+        *("if", "else", "for", "while", "return", "break", "continue", "discard"),
+    )
+)
 _EDGE_NAMES = {"alpha": 0, "beta": 1, "gamma": 2}
 
 
@@ -25,11 +59,29 @@ def token_formats(source: str) -> tuple[tuple[int, int, int, int, str], ...]:
         First line (from 1), first column, last line, last column, and one of ``keyword``, ``comment``,
         ``string``, ``number``, ``vertex0``, ``vertex1``, ``vertex2``.
     """
+    if _GLSL.search(source):
+        return _glsl_formats(source)
     tokens: list[tokenize.TokenInfo] = []
     with suppress(tokenize.TokenError, SyntaxError):  # What stands before is coloured.
         tokens.extend(tokenize.generate_tokens(io.StringIO(source).readline))
     kinds = [_token_kind(token) for token in tokens]
     return tuple((*token.start, *token.end, kind) for token, kind in zip(tokens, kinds, strict=True) if kind)
+
+
+def _glsl_formats(source: str) -> tuple[tuple[int, int, int, int, str], ...]:
+    """Return the same of a shader."""
+    begins = [0, *(found.end() for found in re.finditer("\n", source))]
+    found = []
+    for token in _GLSL_TOKEN.finditer(source):
+        kind = token.lastgroup or ""
+        if kind == "word":
+            kind = "keyword" if token[0] in _GLSL_WORDS else ""
+        if kind:
+            first, last = (bisect_right(begins, at) for at in (token.start(), token.end()))
+            found.append(
+                (first, token.start() - begins[first - 1], last, token.end() - begins[last - 1], kind)
+            )
+    return tuple(found)
 
 
 def _token_kind(token: tokenize.TokenInfo) -> str:

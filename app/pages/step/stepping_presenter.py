@@ -343,6 +343,12 @@ def _level_names(moment: Moment) -> dict[Level, str]:
     stage, settings = moment.cursor.stage, moment.document.settings
     declared, corner_count = stage_of(stage), moment.document.scene.corner_count
     names = {Level.TRIANGLE: of_kind("Triangle", corner_count)} if corner_count != 3 else {}
+    if "statement" in moment.stage_trace.steps.kinds:
+        # A scene's own shader runs line by line.
+        return names | {
+            Level.GROUP: "Vertex" if stage == "transform" else "Fragment",
+            Level.PIXEL: "Statement",
+        }
     if stage == "raster":
         is_wireframe = corner_count < 3 or table.get("polygon_mode", settings.polygon_mode).function()
         fill = effective_fill(settings.fill, settings.coverage)

@@ -10,6 +10,7 @@ from core.records.alike import is_alike
 from core.records.arrays import Flags, Integers
 from core.scene import AnyScene, ClipScene
 from core.stages.fragment_depth import logarithm_range
+from core.stages.vertex_program import has_program
 from core.trace.incremental.row_pieces import same_rows
 from core.trace.source import TraceSource
 
@@ -33,6 +34,7 @@ def _are_comparable(now: TraceSource, before: TraceSource) -> bool:
     """Return whether everything is the same that the pixels of all primitives depend on."""
     return (
         now.settings == before.settings
+        and not (has_program(now.scene) or has_program(before.scene))
         and now.raster == before.raster
         and is_alike(_surroundings(now.scene), _surroundings(before.scene))
         and now.geometry.outlines is None

@@ -48,8 +48,19 @@ def test_what_a_listing_is_for_stands_in_its_tooltip(view) -> None:
 
 def test_source_that_does_not_parse_is_shown_plainly(view) -> None:
     assert list(token_formats('x = """never closed')) == []
+
     view.show_listing(ListingText("broken", 'x = """never closed'))
     assert view.toPlainText() == 'x = """never closed'
+
+
+def test_tokens_of_a_shader():
+    source = "#version 300 es\nin vec3 n; // from\nvoid main() {\n   float E0 = 1.5;\n}"
+    found = token_formats(source)
+    assert (1, 0, 1, 15, "comment") in found
+    assert (2, 0, 2, 2, "keyword") in found
+    assert (2, 11, 2, 18, "comment") in found
+    assert (4, 14, 4, 17, "number") in found
+    assert not [token for token in found if token[0] == 4 and token[1] == 9]
 
 
 def test_a_click_on_a_line_asks_to_run_to_it(qtbot, view) -> None:
