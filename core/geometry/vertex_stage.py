@@ -97,7 +97,10 @@ class VertexStage:
     region_rings: Integers | None = None
     """(R,) int64, first corner of each ring of ``clip_region``."""
     shaded: ShadedVertices | None = None
-    """What a vertex shader gave, which has made ``clip``, too; ``None``: the matrices did."""
+    """What a vertex shader gave, which has made ``clip``, too; ``None``: the matrices did.
+
+    Then ``world`` is where the camera sees ``clip``, and there is no ``object`` or ``camera``.
+    """
 
     @property
     def all_corners(self) -> Integers:

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from core.geometry.matrices import projection, transform, world_to_camera
 from core.geometry.vertex_stage import VertexStage, transform_vertices, unit, vertex_normals
 from core.lanes.problem import Problem
 from core.lanes.run import Watch, bounded
@@ -50,8 +51,20 @@ def shade_vertices(scene: Scene) -> VertexStage:
         corners=plain.corners,
         mesh=plain.mesh,
         size=scene.size,
+        world=_placed_in_world(scene, clip, plain),
         shaded=ShadedVertices(read_only(rows), layout, tuple(flat)),
     )
+
+
+def _placed_in_world(scene: Scene, clip: Floats, plain: VertexStage) -> Floats:
+    """Return where in the world clip positions (N, 4) are seen by the camera, (N, 4); without one the mesh's own."""
+    assert plain.world is not None
+    width, height = scene.size
+    back = np.linalg.inv(projection(scene.camera, width / height) @ world_to_camera(scene.camera))
+    moved = transform(back, clip)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        placed = moved / moved[:, 3:]
+    return read_only(np.where(np.isfinite(placed).all(axis=1)[:, None], placed, plain.world))
 
 
 def _out_rows(shader: Shader, outcome: Outcome, lanes: int) -> Floats:
@@ -112,8 +125,6 @@ def _attribute(mesh: Mesh, name: str) -> Floats:
 
 def uniform_values(scene: Scene, number: int) -> dict[str, GlslValue]:
     """Return the uniforms of a mesh: the scene's matrices, and those of the program."""
-    from core.geometry.matrices import projection, world_to_camera
-
     view = world_to_camera(scene.camera)
     model = scene.meshes[number].transform
     both = view @ model

@@ -14,7 +14,7 @@ from core.scene import Texture
 from core.shaders.presets import MINIMAL_FRAGMENT, MINIMAL_VERTEX, TASK_FRAGMENT, TASK_VERTEX
 from core.shaders.record import ShaderProblem, ShaderProgram
 from core.trace.source import TraceSource
-from tests.core.shaders.scenes import square_scene, tutorial_scene
+from tests.core.shaders.scenes import POSITIONS, square_scene, tutorial_scene
 
 
 def test_the_minimal_shaders_draw_the_same_triangle_in_yellow():
@@ -42,6 +42,13 @@ def test_a_vertex_without_a_place_draws_nothing():
             f"#version 300 es\nvoid main() {{ gl_Position = {position}; }}\n", MINIMAL_FRAGMENT
         )
         assert (render(scene).primitive >= 0).sum() == 0
+
+
+def test_the_3d_scene_shows_where_the_shader_puts_the_vertices():
+    vertices = trace(tutorial_scene(), Settings()).source.geometry.vertices
+    np.testing.assert_allclose(vertices.world[:, :3], POSITIONS * (1.5, 0.5, 2), rtol=1e-4)
+    nowhere = tutorial_scene("#version 300 es\nvoid main() { gl_Position = vec4(0.0); }\n", MINIMAL_FRAGMENT)
+    np.testing.assert_allclose(trace(nowhere, Settings()).source.geometry.vertices.world[:, :3], POSITIONS)
 
 
 def test_discard_leaves_depth_and_colour_alone():
