@@ -5,10 +5,11 @@ method whose listing is edited, and keeps what this method needs.
 """
 
 from core.edits.edit import Edit, apply_edit, edits_of, original, place_of, without_edits
-from core.edits.editable import EDITABLE, Part, refusal
+from core.edits.editable import EDITABLE, NOT_EDITABLE, Part, refusal
 
 __all__ = [
     "EDITABLE",
+    "NOT_EDITABLE",
     "Edit",
     "Part",
     "apply_edit",

@@ -135,10 +135,31 @@ EDITABLE = {
     )
 }
 """By name, which the command line takes before ``=``."""
+_FIXED = "It chooses what is drawn, and has no listing."
+NOT_EDITABLE = {
+    "cull": "Its listing returns words, and facings are decided before any pixel.",
+    "clipping": "Its listing builds polygons of any number of corners.",
+    "coverage": "The edge functions of all triangles are set up together, in numbers of their own.",
+    "polygon_mode": _FIXED,
+    "line_clipping": "What is traced of it is more than its listing returns.",
+    "polygon_clipping": "Its listing walks along lists of crossings that differ from polygon to polygon.",
+    "polygon_fill": "Its listing keeps tables of edges.",
+    "pixel_center": _FIXED,
+    "provoking": _FIXED,
+    "texture_filter": "The picture asks it which texels are read, and its listing returns their colour.",
+    "wrap": "The picture asks it only where a texel lies outside of the texture.",
+    "shading": "Its listing takes materials and lights as records.",
+    "visibility": "It orders triangles, or casts rays, for the whole picture at once.",
+    "antialiasing": _FIXED,
+    "resolve_filter": "Its listing takes all samples of a pixel.",
+}
+"""Families without a part, and why, as sentences."""
 
 
 def refusal(part: str, of: str) -> str:
     """Return why the listing of a method cannot be edited, as a sentence; empty: it can."""
+    if part in NOT_EDITABLE:
+        return NOT_EDITABLE[part]
     if part not in EDITABLE:
         return f"What can be edited is one of {', '.join(EDITABLE)}, not {part}."
     known = EDITABLE[part]

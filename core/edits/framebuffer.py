@@ -45,7 +45,7 @@ class TypedDepths(OrderedDepths):
         return passes
 
     def is_nearer(self, new: Stored, old: Stored) -> Flags:
-        """Decide the test alone."""
+        """Decide the test of stored values (F,) alone."""
         return self.try_depths(new, old.copy(), None)
 
 

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 
 from core.edits.typed import Typed, parameters_of
-from core.fragments.interpolation import Planes, ValuePlaces, ValueRule, interpolate_affine_at, interpolate_at
+from core.fragments.interpolation import Planes, interpolate_affine_at, interpolate_at
+from core.fragments.value_rule import ValuePlaces, ValueRule
 from core.methods import Method
 from core.records.arrays import Floats, Integers
 from core.resolved import resolve

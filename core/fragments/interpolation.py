@@ -10,14 +10,13 @@ M. Zwicker, *Computergrafik*, lecture "Perspective correct interpolation", Bern 
 M. Olano, T. Greer, *Triangle scan conversion using 2D homogeneous coordinates*, 1997.
 """
 
-from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from core.fragments.mixing import BLOCK, LocalNumbers, Mixer
+from core.fragments.value_rule import ValuePlaces, ValueRule
 from core.methods import method, table
 from core.records.arrays import Floats, Integers
 from core.records.cached import cached_property
@@ -279,33 +278,6 @@ def interpolate(
     return Interpolator(planes, varyings, rule, corner, interval).weighted(primitive, x, y)
 
 
-class ValuePlaces(NamedTuple):
-    """What a rule of the family ``interpolation`` takes: F fragments, and how they are interpolated."""
-
-    planes: Planes
-    primitive: Integers
-    """(F,) int64."""
-    x: Floats
-    """(F,) float64, pixel centres."""
-    y: Floats
-    provoking: int
-    interval: int
-
-
-class ValueRule(ABC):
-    """A rule that finds values by itself, not only the weights with which they are mixed: an edited listing."""
-
-    @abstractmethod
-    def __call__(
-        self, planes: Planes, primitive: Integers, x: Floats, y: Floats, provoking: int, interval: int
-    ) -> Floats:
-        """Return weights (F, 3)."""
-
-    @abstractmethod
-    def weights_and_values(self, at: ValuePlaces, corners: Floats) -> tuple[Floats, Floats]:
-        """Return weights (3, F) and the values (F,) between those of the corners, (3, F)."""
-
-
 class Interpolator:
     """Interpolates the values at the corners of P primitives, a block of fragments at a time.
 
@@ -388,7 +360,7 @@ class Interpolator:
             if weights is not None:
                 weights[:, part] = shares
 
-    def _write_found(self, rule: "ValueRule", at: "ValuePlaces", tables: Floats, values: Floats) -> Floats:
+    def _write_found(self, rule: ValueRule, at: ValuePlaces, tables: Floats, values: Floats) -> Floats:
         """Write the values (K, F) that a rule finds by itself; return its weights (3, F)."""
         shares = None
         for places, corners in self._mixer.at_corners(tables, at.primitive):

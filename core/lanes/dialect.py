@@ -48,7 +48,7 @@ class Dialect(Protocol):
         """Return what an operator does with one operand."""
 
     def check_stored(self, value: Value, mask: Some, place: Place, run: Run) -> None:
-        """Say what may not be stored in a variable."""
+        """Say what may not be stored in a variable; the mask is (L,)."""
 
     def check_kept(self, name: str, old: Value, new: Value, place: Place) -> None:
         """Say where a variable would change its type."""
@@ -68,10 +68,10 @@ class Dialect(Protocol):
     def many(
         self, parts: Sequence[Value], starred: Sequence[bool], mask: Some, place: Place, run: Run
     ) -> Value:
-        """Return a list; of a starred part its elements."""
+        """Return a list; of a starred part its elements; the mask is (L,)."""
 
     def elements(self, value: Value, mask: Some, place: Place, run: Run) -> list[Value]:
-        """Return the elements of a value that has as many in every lane."""
+        """Return the elements of a value that has as many in every lane; the mask is (L,)."""
 
     def unpacked(
         self, value: Value, starred: Sequence[bool], mask: Some, place: Place, run: Run
@@ -79,22 +79,22 @@ class Dialect(Protocol):
         """Return a value for each of several names; one of them may be starred."""
 
     def turns(self, value: Value, mask: Some, place: Place, run: Run) -> Turn:
-        """Return the rounds of a loop over a value."""
+        """Return the rounds of a loop over a value; the mask is (L,)."""
 
     def put(self, whole: Value, value: Value, mask: Some, place: Place, run: Run) -> None:
-        """Put a value at the end of a list."""
+        """Put a value at the end of a list; the mask is (L,)."""
 
     def part(self, whole: Value, index: Value, mask: Some, place: Place, run: Run) -> Value:
-        """Return an element."""
+        """Return an element; the mask is (L,)."""
 
     def with_part(self, whole: Value, index: Value, new: Value, mask: Some, place: Place, run: Run) -> Value:
-        """Return a value with another element."""
+        """Return a value with another element; the mask is (L,)."""
 
     def field(self, whole: Value, name: str, place: Place) -> Value:
         """Return a part that has a name."""
 
     def call(self, name: str, values: Sequence[Value], mask: Some, place: Place, run: Run) -> Value:
-        """Return what a function of the language makes of values."""
+        """Return what a function of the language makes of values; the mask is (L,)."""
 
     def arguments(
         self, name: str, parameters: Sequence[str], values: Sequence[Value], place: Place

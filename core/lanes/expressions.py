@@ -96,7 +96,7 @@ class Expressions:
     def keep(
         self, frame: Frame, mask: Some, name: str, value: Value, place: Place, is_new: bool = False
     ) -> None:
-        """Store a value in a variable, in the lanes of a mask."""
+        """Store a value in a variable, in the lanes of a mask; the mask is (L,)."""
         run, dialect, names = frame.run, self._dialect, frame.names
         dialect.check_stored(value, mask, place, run)
         is_known = name in names and not is_new
@@ -115,7 +115,7 @@ class Expressions:
         run.make_room(place, dialect.size(names[name]) - held)
 
     def look(self, frame: Frame, mask: Some, name: str, place: Place) -> Value:
-        """Return the value of a variable, which all lanes of a mask must have given one."""
+        """Return the value of a variable, which all lanes of a mask must have given one; the mask is (L,)."""
         if name not in frame.names:
             known = [*frame.names, *self._functions.names()]
             raise Problem(place, self._dialect.unknown(name, known))

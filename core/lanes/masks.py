@@ -20,7 +20,7 @@ Mask = Flags | Nobody | None
 
 
 def joined(first: Mask, second: Mask) -> Mask:
-    """Return the lanes of either mask."""
+    """Return the lanes (L,) of either mask."""
     if isinstance(first, Nobody) or second is None:
         return second
     if isinstance(second, Nobody) or first is None:
@@ -29,7 +29,7 @@ def joined(first: Mask, second: Mask) -> Mask:
 
 
 def lanes_in(mask: Mask, lanes: int) -> int:
-    """Return how many of so many lanes a mask has."""
+    """Return how many of so many lanes a mask (L,) has."""
     if isinstance(mask, Nobody):
         return 0
     return lanes if mask is None else int(np.count_nonzero(mask))

@@ -116,7 +116,7 @@ class Program:
         return found
 
     def call_named(self, name: str, values: Sequence[Value], mask: Some, place: Place, frame: Frame) -> Value:
-        """Return what a function of this program, or a helper, gives."""
+        """Return what a function of this program, or a helper, gives; the mask is (L,)."""
         owner = self if name in self.functions else self.helpers[name]
         function = owner.functions[name]
         given = self.dialect.arguments(name, function.parameters, values, place)

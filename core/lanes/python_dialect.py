@@ -89,7 +89,7 @@ class PythonDialect:
         return run
 
     def check_stored(self, value: Any, mask: Some, place: Place, run: Run) -> None:
-        """Refuse whole numbers beyond 2^53, in a list too."""
+        """Refuse whole numbers beyond 2^53, in a list too; the mask is (L,)."""
         if type(value) is np.ndarray:
             if value.dtype.kind == "i" and value.size:
                 is_large = np.abs(value) > LARGEST
@@ -168,7 +168,7 @@ class PythonDialect:
         return made
 
     def elements(self, value: Any, mask: Some, place: Place, run: Run) -> list[Any]:
-        """Return the elements of a list or a range that is the same in all lanes."""
+        """Return the elements of a list or a range that is the same in all lanes; the mask is (L,)."""
         if isinstance(value, Log):
             return value.seen(mask, place)
         if isinstance(value, list):
@@ -186,7 +186,7 @@ class PythonDialect:
         raise Problem(place, f"{kind_of(value)} has no elements")
 
     def unpacked(self, value: Any, starred: Sequence[bool], mask: Some, place: Place, run: Run) -> list[Any]:
-        """Return a value for each of several names."""
+        """Return a value for each of several names; the mask is (L,)."""
         parts = [value] if is_number(value) else self.elements(value, mask, place, run)
         if sum(starred) == 1 and len(parts) >= len(starred) - 1:
             first, rest = starred.index(True), len(parts) - len(starred) + 1
@@ -198,7 +198,7 @@ class PythonDialect:
         return parts
 
     def turns(self, value: Any, mask: Some, place: Place, run: Run) -> Turn:
-        """Return the rounds of a for loop."""
+        """Return the rounds of a for loop; the mask is (L,)."""
         if isinstance(value, Range) and not value.is_uniform:
             return self._unequal_turns(value, run)
         if is_number(value):
@@ -232,7 +232,7 @@ class PythonDialect:
         return turn
 
     def put(self, whole: Any, value: Any, mask: Some, place: Place, run: Run) -> None:
-        """Put a value at the end of a list."""
+        """Put a value at the end of a list; the mask is (L,)."""
         if not isinstance(whole, Log | Many):
             raise Problem(place, f".append needs a list, this is {kind_of(whole)}")
         if isinstance(value, Log):
@@ -256,7 +256,7 @@ class PythonDialect:
         self._limited(whole, place, run)
 
     def part(self, whole: Any, index: Any, mask: Some, place: Place, run: Run) -> Any:
-        """Return an element; the index may differ by lane, and never counts from the end then."""
+        """Return an element; the index may differ by lane, and never counts from the end then; the mask is (L,)."""
         if not is_number(index) or number_kind(index) != "i":
             raise Problem(place, f"an index must be a whole number, this is {kind_of(index)}")
         if is_number(whole) or isinstance(whole, str) or whole is None:
@@ -276,7 +276,7 @@ class PythonDialect:
         return parts[index]
 
     def with_part(self, whole: Any, index: Any, new: Any, mask: Some, place: Place, run: Run) -> Any:
-        """Return a list with another element."""
+        """Return a list with another element; the mask is (L,)."""
         parts = list(self.elements(whole, mask, place, run))
         if type(index) is not int or not -len(parts) <= index < len(parts):
             raise Problem(place, f"an index must be from 0 to {len(parts) - 1} and the same in every lane")
@@ -299,7 +299,7 @@ class PythonDialect:
         return values
 
     def call(self, name: str, values: Sequence[Any], mask: Some, place: Place, run: Run) -> Any:
-        """Return what a function of the table makes of values."""
+        """Return what a function of the table makes of values; the mask is (L,)."""
         if name in ROUNDING or name in NATIVE:
             return self._number(name, values, mask, place, run)
         if name not in self._lists:

@@ -106,7 +106,7 @@ ROUNDING: dict[str, Callable[[Any], Any]] = {
 
 
 def rounded(name: str, value: Any, mask: Some, place: Place) -> Any:
-    """Return a number rounded to a whole number, as Python rounds it; ``rint`` gives a float."""
+    """Return a number rounded to a whole number, as Python rounds it; ``rint`` gives a float; the mask is (L,)."""
     if number_kind(value) != "f":
         return value.astype(np.int64) if np.ndim(value) else int(value)
     value = np.asarray(value)

@@ -104,7 +104,7 @@ def problem_of(error: SyntaxError, text: str) -> Problem:
     if re.search(r"[;{}]", line):
         return Problem(place, "no ; { } here: a line ends by itself, and blocks are indented")
     if "leading zeros" in said or "invalid decimal literal" in said:
-        return Problem(place, "this is no number: names begin with a letter, numbers have no leading 0")
+        return Problem(place, "this cannot be read: names begin with a letter, numbers without a 0 in front")
     if "invalid character" in said or "non-printable" in said:
         return Problem(place, "this character is not in the language of listings")
     if re.search(r"[-+*/%=<>,]\s*:?$|\b(and|or|not|in)\s*:?$", line):

@@ -4,7 +4,7 @@ A list is as long in every lane (`Many`), or lanes have put unlike numbers of va
 """
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -26,16 +26,16 @@ class Many(list[Any]):
         self.depth: int = 1 + max((part.depth for part in parts if isinstance(part, Many)), default=0)
 
 
-@dataclass(eq=False)
 class Log:
     """A list to which lanes put values, each for a mask of them; so it may be longer in some lanes."""
 
-    entries: list[tuple[Some, Any]] = field(default_factory=list)
-    place: Place | None = None
-    """Where the last one was put."""
+    def __init__(self, entries: Sequence[tuple[Some, Any]] = (), place: Place | None = None) -> None:
+        self.entries = list(entries)
+        self.place = place
+        """Where the last one was put."""
 
     def seen(self, mask: Some, place: Place) -> list[Any]:
-        """Return the values that the lanes of a mask have put, if all have put as many."""
+        """Return the values that the lanes of a mask have put, if all have put as many; the mask is (L,)."""
         found = []
         for lanes, value in self.entries:
             if lanes is not None:

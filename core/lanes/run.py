@@ -34,10 +34,10 @@ class Watch(Protocol):
     """What looks on while a program runs."""
 
     def begin(self, statement: Statement, mask: Some, frame: "Frame") -> None:
-        """A statement is about to run."""
+        """A statement is about to run; the mask is (L,)."""
 
     def end(self, statement: Statement, mask: Some, frame: "Frame", value: Any) -> None:
-        """It has run; ``value`` is what was stored, put, tested or returned."""
+        """It has run; ``value`` is what was stored, put, tested or returned; the mask is (L,)."""
 
 
 class Run:
@@ -84,7 +84,7 @@ class Run:
             )
 
     def some(self, mask: Mask) -> str:
-        """Return in which part of the lanes something is so, for a sentence."""
+        """Return in which part of the lanes something is so, for a sentence; the mask is (L,)."""
         count = lanes_in(mask, self.lanes)
         return (
             "" if self.lanes < 2 or count == self.lanes else f" in {count:,} of {counted(self.lanes, 'lane')}"

@@ -140,7 +140,7 @@ BROKEN = [
         "D = 2 * dy - dx",
         "D = 2dy - dx",
         10,
-        "this is no number: names begin with a letter, numbers have no leading 0",
+        "this cannot be read: names begin with a letter, numbers without a 0 in front",
     ),
     ("line", "D = 2 * dy - dx", "D = 2 * dy - ", 10, "something is missing at the end of this line"),
     ("line", "D = 2 * dy - dx", "2 * dy - dx = D", 10, "= stores a value; to compare write =="),

@@ -8,13 +8,24 @@ import numpy as np
 import pytest
 
 from core import Settings, draw_picture, render, trace
-from core.edits import EDITABLE, Edit, apply_edit, edits_of, original, place_of, refusal, without_edits
+from core.edits import (
+    EDITABLE,
+    NOT_EDITABLE,
+    Edit,
+    apply_edit,
+    edits_of,
+    original,
+    place_of,
+    refusal,
+    without_edits,
+)
 from core.explain.steps import sentence
 from core.framebuffer.display import to_display
 from core.lanes.problem import Problem
 from core.methods import table
 from core.pixel_history import why
 from core.records.listing import EditedListing
+from core.settings import families
 from lessons.mistakes import coverage, depths, fragments, lines
 from lessons.mistakes.twin import line_pixels
 from lessons.scenes import make_scene
@@ -255,7 +266,11 @@ def test_every_method_of_an_editable_family_is_editable_or_says_why_not():
                 with pytest.raises(ValueError, match=r"\."):
                     original(part.name, of)
         assert part.refused.keys() <= set(table.names(part.family))
-    assert refusal("shading", "phong").startswith("What can be edited")
+    with_part = {part.family for part in EDITABLE.values()}
+    assert with_part | NOT_EDITABLE.keys() == set(families())
+    assert not with_part & NOT_EDITABLE.keys()
+    assert refusal("shading", "phong") == NOT_EDITABLE["shading"]
+    assert refusal("shade", "phong").startswith("What can be edited")
 
 
 def test_an_endless_loop_of_a_line_ends_with_its_line():
