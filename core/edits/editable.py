@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from core.edits import coverage, framebuffer, interpolation, lines
+from core.edits import coverage, framebuffer, interpolation, line_clipping, lines
 from core.edits.typed import Typed
 from core.framebuffer.depth import depth_test
 from core.methods import Method, table
@@ -58,6 +58,7 @@ def _depth_test_of(method: Method) -> Callable[..., Any]:
 
 _BLOCKS = "It takes or leaves whole blocks without testing their pixels: choose fill bounding-box."
 _SPANS = "It tests no pixel, but finds the spans of rows: choose fill bounding-box."
+_ARRAYS = "Its listing computes with arrays, which are not in the language of listings."
 _PLANAR = "It compares whole numbers that stand in integer planes, packed with the triangle's number."
 EDITABLE = {
     part.name: part
@@ -70,6 +71,20 @@ EDITABLE = {
             lines.edited_line,
             refused={
                 "diamond-exit": "Its listing computes with fractions, which are not in the language of listings."
+            },
+        ),
+        Part(
+            "line_clipping",
+            "listing",
+            "line_clipping",
+            line_clipping.check_clipper,
+            line_clipping.edited_clipper,
+            refused={
+                "none": "Nothing is clipped.",
+                "cohen-sutherland": "Its listing counts the bits of numbers by a method of Python's own.",
+                "cyrus-beck": _ARRAYS,
+                "cyrus-beck-lecture": _ARRAYS,
+                "exact": "Its listing computes with fractions, which are not in the language of listings.",
             },
         ),
         Part(
@@ -141,7 +156,6 @@ NOT_EDITABLE = {
     "clipping": "Its listing builds polygons of any number of corners.",
     "coverage": "The edge functions of all triangles are set up together, in numbers of their own.",
     "polygon_mode": _FIXED,
-    "line_clipping": "What is traced of it is more than its listing returns.",
     "polygon_clipping": "Its listing walks along lists of crossings that differ from polygon to polygon.",
     "polygon_fill": "Its listing keeps tables of edges.",
     "pixel_center": _FIXED,

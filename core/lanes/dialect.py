@@ -56,8 +56,8 @@ class Dialect(Protocol):
     def size(self, value: Value) -> int:
         """Return how many numbers a variable takes up."""
 
-    def merged(self, flags: Any, new: Value, old: Value, place: Place, run: Run) -> Value:
-        """Return ``new`` where ``flags`` (L,) hold, else ``old``."""
+    def merged(self, flags: Any, new: Value, old: Value, place: Place, run: Run, returned: int = 0) -> Value:
+        """Return ``new`` where ``flags`` (L,) hold, else ``old``; 1: it is returned, 2: it is a part of that."""
 
     def zero(self, of: Any) -> Value:
         """Return what a variable of a type begins with that is declared without a value."""

@@ -118,8 +118,11 @@ class PythonDialect:
         """Return the value itself: listings have no types."""
         return value
 
-    def merged(self, flags: Any, new: Any, old: Any, place: Place, run: Run) -> Any:
-        """Return ``new`` where ``flags`` (L,) hold, else ``old``; lists element by element."""
+    def merged(self, flags: Any, new: Any, old: Any, place: Place, run: Run, returned: int = 0) -> Any:
+        """Return ``new`` where ``flags`` (L,) hold, else ``old``; lists element by element.
+
+        Lists in what is returned may be longer in some lanes.
+        """
         if new is old or (isinstance(new, str) and isinstance(old, str) and new == old):
             return new
         if isinstance(new, Log) or isinstance(old, Log):
@@ -127,7 +130,9 @@ class PythonDialect:
         if isinstance(new, list) and isinstance(old, list) and len(new) == len(old):
             run.check_room(place, run.lanes * len(new))
             pairs = zip(new, old, strict=True)
-            return Many([self.merged(flags, a, b, place, run) for a, b in pairs])
+            return Many([self.merged(flags, a, b, place, run, 2 * returned) for a, b in pairs])
+        if returned > 1 and isinstance(new, list) and isinstance(old, list):
+            return self._merged_logs(flags, new, old, place, run)
         if isinstance(new, list) or isinstance(old, list):
             many = [len(value) if isinstance(value, list) else 1 for value in (new, old)]
             raise Problem(place, f"this gives {counted(many[0], 'value')} here and {many[1]} elsewhere")
@@ -278,10 +283,16 @@ class PythonDialect:
     def with_part(self, whole: Any, index: Any, new: Any, mask: Some, place: Place, run: Run) -> Any:
         """Return a list with another element; the mask is (L,)."""
         parts = list(self.elements(whole, mask, place, run))
-        if type(index) is not int or not -len(parts) <= index < len(parts):
-            raise Problem(place, f"an index must be from 0 to {len(parts) - 1} and the same in every lane")
         if isinstance(new, Log):
             raise Problem(place, "a list that is still growing cannot be put into a list")
+        if isinstance(index, np.ndarray) and index.dtype.kind == "i":
+            self.part(whole, index, mask, place, run)
+            for k, part in enumerate(parts):
+                here = index == k if mask is None else (index == k) & mask
+                parts[k] = self.merged(here, new, part, place, run) if here.any() else part
+            return self._limited(Many(parts), place, run)
+        if type(index) is not int or not -len(parts) <= index < len(parts):
+            raise Problem(place, f"an index must be a whole number from 0 to {len(parts) - 1}")
         parts[index] = new if mask is None else self.merged(mask, new, parts[index], place, run)
         return self._limited(Many(parts), place, run)
 

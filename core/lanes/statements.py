@@ -249,7 +249,7 @@ class Statements:
                 frame.value = value
             else:
                 flags = np.ones(frame.run.lanes, bool) if mask is None else mask
-                frame.value = dialect.merged(flags, value, frame.value, place, frame.run)
+                frame.value = dialect.merged(flags, value, frame.value, place, frame.run, 1)
             frame.returned += 1
             if watch is not None:
                 watch.end(node, mask, frame, value)

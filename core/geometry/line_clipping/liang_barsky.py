@@ -10,6 +10,8 @@ Y.-D. Liang, B. Barsky, *A new concept and method for line clipping*, 1984.
 LMU, *Computer Graphics 1*, tutorial 5, "Liang-Barsky Algorithm".
 """
 
+from math import nan
+
 import numpy as np
 
 from core.geometry.line_clipping.edge_walk import clipped_lines, points_at, walk_edges
@@ -30,7 +32,7 @@ def liang_barsky_listing(
     t_enter, t_leave, entry, exit = 0.0, 1.0, -1, -1
     seen: Listed = []
     for k, (p, q) in enumerate(edges):  #: edges
-        t = float("nan")
+        t = nan
         if p == 0:
             if q < 0:  #: parallel
                 return [], [*seen, (p, q, t, t_enter, t_leave)]  #: outside

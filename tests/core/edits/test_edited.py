@@ -26,12 +26,14 @@ from core.methods import table
 from core.pixel_history import why
 from core.records.listing import EditedListing
 from core.settings import families
-from lessons.mistakes import coverage, depths, fragments, lines
+from lessons.mistakes import clipping, coverage, depths, fragments, lines
 from lessons.mistakes.twin import line_pixels
 from lessons.scenes import make_scene
 from lessons.small_scenes import pixel_segments
 
-TWINS = {twin.name: twin for module in (coverage, depths, fragments, lines) for twin in module.TWINS}
+TWINS = {
+    twin.name: twin for module in (clipping, coverage, depths, fragments, lines) for twin in module.TWINS
+}
 DRAW = "pixels.append((y, x, D) if is_steep else (x, y, D))"
 ROW = "y0 + sy * (x - x0) * dy // max(dx, 1)"
 COLOR = "color[k] * alpha + destination[k] * (1 - alpha)"
@@ -46,6 +48,17 @@ MISTAKES = {
     "last-pixel-lost": ("line", "while x <= x1:", "while x < x1:"),
     "first-pixel-lost": ("line", DRAW, f"if x > x0: {DRAW}"),
     "row-truncated": ("line", DRAW, f"pixels.append(({ROW}, x, D) if is_steep else (x, {ROW}, D))"),
+    "parallel-kept": ("line_clipping", "if q < 0:", "if False:"),
+    "normals-inward": (
+        "line_clipping",
+        "[(-dx, x0 - left), (dx, right - x0), (-dy, y0 - bottom), (dy, top - y0)]",
+        "[(dx, left - x0), (-dx, x0 - right), (dy, bottom - y0), (-dy, y0 - top)]",
+    ),
+    "top-and-bottom": (
+        "line_clipping",
+        "(-dy, y0 - bottom), (dy, top - y0)]",
+        "(-dy, top - y0), (dy, y0 - bottom)]",
+    ),
     "all-edges-inclusive": ("fill", "value > 0 or (value == 0 and owns_tie[k])", "value >= 0"),
     "all-edges-exclusive": ("fill", "value > 0 or (value == 0 and owns_tie[k])", "value > 0"),
     "level-edges-never": ("fill_rule", "return b > 0", "return False"),
@@ -67,6 +80,7 @@ MISTAKES = {
 """By twin: what is edited, and one line of it, before and after."""
 OF = {
     "line": "bresenham-lecture",
+    "line_clipping": "liang-barsky",
     "fill": "bounding-box",
     "fill_rule": "shared-edge",
     "depth_test": "z-float32",

@@ -12,6 +12,7 @@ from core.lanes.python_values import at_lane
 from core.methods import table
 from core.pixel_history import why
 from core.raster.lines.records import check_segments
+from core.stages.needs import refusal as refusal_of_scene
 from lessons.mistakes.twin import frame_bytes
 from lessons.scenes import make_scene, scene_names
 
@@ -22,6 +23,8 @@ CASES = [
     if not refusal(part.name, of)
 ]
 SCENES = {name: scene for name in scene_names() if max((scene := make_scene(name)).size) <= 64}
+OF_LINES = ("line", "line_clipping")
+"""Parts of which only outlines are drawn."""
 FEW = ("intersecting", "near-plane", "fan")
 """Of the triangles, those whose outlines are drawn here."""
 
@@ -29,8 +32,8 @@ FEW = ("intersecting", "near-plane", "fan")
 def settings_for(part: str, of: str) -> Settings:
     """Return settings in which an edit of a part runs."""
     family = EDITABLE[part].family
-    plain = Settings(fill="bounding-box", blend="opaque" if part == "line" else "over")
-    return replace(plain, **{"polygon_mode": "wireframe" if part == "line" else "fill", family: of})
+    plain = Settings(fill="bounding-box", blend="opaque" if part in OF_LINES else "over")
+    return replace(plain, **{"polygon_mode": "wireframe" if part in OF_LINES else "fill", family: of})
 
 
 def unedited(part: str, of: str) -> Settings:
@@ -44,7 +47,9 @@ def test_draws_what_the_rule_draws_in_every_small_scene(part, of):
     (edit,) = edits_of(typed)
     drawn = 0
     for name, scene in SCENES.items():
-        if part == "line" and scene.corner_count == 3 and name not in FEW:
+        if part in OF_LINES and scene.corner_count == 3 and name not in FEW:
+            continue
+        if refusal_of_scene(EDITABLE[part].family, of, scene):
             continue
         if edit.passed_over(typed, scene):
             with pytest.raises(ValueError, match="would not run"):
@@ -58,7 +63,7 @@ def test_draws_what_the_rule_draws_in_every_small_scene(part, of):
 @pytest.mark.parametrize(("part", "of"), CASES)
 def test_the_trace_and_the_history_of_a_pixel_are_those_of_the_rule(part, of):
     plain, typed = settings_for(part, of), unedited(part, of)
-    stage, scene = EDITABLE[part].stage, SCENES["segment" if part == "line" else "intersecting"]
+    stage, scene = EDITABLE[part].stage, SCENES["clipped-segment" if part in OF_LINES else "intersecting"]
     right, ours = trace(scene, plain), trace(scene, typed)
     for name, column in right.stage(stage).columns.items():
         if part != "line" or name not in left_open(of):
