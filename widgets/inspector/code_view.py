@@ -36,7 +36,7 @@ class CodeView(QPlainTextEdit):
         self.setCornerWidget(QWidget(self))
         self.margin = CodeMargin(self)
         self.updateRequest.connect(self._follow_scroll)
-        theme_notifier().theme_changed.connect(self.follow_theme)
+        theme_notifier().theme_changed.connect(self._follow_theme)
 
     @property
     def line(self) -> int | None:
@@ -124,6 +124,9 @@ class CodeView(QPlainTextEdit):
         return mark
 
     @Slot()
+    def _follow_theme(self) -> None:
+        self.follow_theme()
+
     def follow_theme(self) -> None:
         """Take over type and colours."""
         theme = current_theme()

@@ -234,7 +234,6 @@ class ListingView(CodeView):
         """The line that the keys are on, if the listing has the focus."""
         return super().chosen_line if self._title else None
 
-    @Slot()
     def follow_theme(self) -> None:
         """Take over type and colours."""
         super().follow_theme()

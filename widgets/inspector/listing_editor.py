@@ -222,7 +222,6 @@ class ListingEditor(CodeView):
         super().resizeEvent(event)
         self.ensureCursorVisible()
 
-    @Slot()
     def follow_theme(self) -> None:
         """Take over type and colours."""
         super().follow_theme()

@@ -2,18 +2,20 @@
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, Qt, Signal, Slot
+from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QAction, QResizeEvent, QTextDocumentFragment
 from PySide6.QtWidgets import QMenu, QSizePolicy, QStackedWidget, QTabBar, QToolButton, QWidget
 
 from widgets.basics.accessible import announce
-from widgets.basics.controls import column_layout, row_layout
+from widgets.basics.controls import LEAST_TARGET, column_layout, row_layout
 from widgets.basics.labels import ElidedLabel, set_role, text_label
-from widgets.basics.theme import theme_notifier
+from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.listing import ListingView
 from widgets.inspector.listing_editor import ListingEditor
 
 A, B = 0, 1
+HEAD_HEIGHT = 1.85
+"""Height of the head, in heights of the text."""
 EDIT_TIP = "Change a line: side B draws at once what your version draws (F2)"
 
 
@@ -98,7 +100,8 @@ class ListingPane(QWidget):
         self.message.linkActivated.connect(self.link_clicked)
         self.listing.menu_opened.connect(self._add_to_menu)
         self.listing.room_changed.connect(self._follow_room)
-        theme_notifier().theme_changed.connect(self._follow_room)
+        theme_notifier().theme_changed.connect(self._follow_theme)
+        self._follow_theme()
         self.show_head(PaneHead())
 
     @property
@@ -109,7 +112,7 @@ class ListingPane(QWidget):
     @property
     def height_around(self) -> int:
         """Height of the head, and of the sentence below."""
-        head = self.head.sizeHint().height() if self._head.is_shown else 0
+        head = self.head.height() if self._head.is_shown else 0
         return head + (0 if self.message.isHidden() else self.message.height())
 
     def show_head(self, head: PaneHead) -> None:
@@ -195,12 +198,12 @@ class ListingPane(QWidget):
             menu.addAction("Reset the listing", self.reset_requested.emit)
 
     @Slot()
+    def _follow_theme(self) -> None:
+        """Be as low as what is clicked may be: the listing needs the room."""
+        self.head.setFixedHeight(max(LEAST_TARGET, round(HEAD_HEIGHT * current_theme().text_px)))
+        self._follow_room()
+
+    @Slot()
     def _follow_room(self) -> None:
         """Give the editor the height of the listing."""
         self.editor.setMinimumHeight(self.listing.minimumHeight())
-
-    def changeEvent(self, event: QEvent) -> None:
-        """Keep the head as high in any type."""
-        super().changeEvent(event)
-        if event.type() == QEvent.Type.FontChange:
-            self._follow_room()
