@@ -152,9 +152,9 @@ def _check(question: Question, path: Path, user: str | None) -> int:
     given = file.checked(AnswerFile).answer
     try:
         response = answer.read(given)
+        judgement = judge(question, response)
     except NotCheckedError as problem:
         raise ValueError(f"not checked yet: {file.error(('answer',), str(problem))}") from None
-    judgement = judge(question, response)
     attempt = None if user is None else attempts.attempt_for(user, question, response, judgement)
     print(f"Understood:\n{answer.text(response)}")
     print(f"{judgement.points:.3g} of {points_text(question.template.points)}: {judgement.verdict.counts}")

@@ -91,7 +91,10 @@ def _question(template: Template, seed: int) -> Question | None:
 
 def _judged(attempt: Attempt, question: Question) -> Attempt | None:
     """Return an attempt with what its answer earns; ``None``: its text is no answer to the question."""
-    judgements = [judge(question, response) for response in responses_of(question, attempt.answer)]
+    try:
+        judgements = [judge(question, response) for response in responses_of(question, attempt.answer)]
+    except NotCheckedError:  # A listing whose run does not end.
+        return None
     if not judgements:
         return None
     found = next((one for one in judgements if abs(one.verdict.score - attempt.score) < 1e-9), judgements[0])

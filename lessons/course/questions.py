@@ -8,6 +8,7 @@ from lessons.course.lesson_file import Lesson
 from lessons.course.state import State, States
 from lessons.exercises.answer_parts import ChoicePart
 from lessons.exercises.answers.answer import Response
+from lessons.exercises.answers.code import CodeAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.exercise_file import wrong_pixels
 from lessons.exercises.file_answers import answer_of
@@ -65,7 +66,9 @@ def _draft(lesson: Lesson, number: int, state: State) -> Draft:
     assert step.answer is not None
     draws = _AsWritten(0) if isinstance(step.answer, ChoicePart) else Draws(0)
     answer, given = answer_of(step.answer, state.drawn, state.settings, draws)
-    mistakes = wrong_pixels(step.answer, step.mistakes, state.scene, state.settings) if step.mistakes else {}
+    mistakes: dict[str, Response] = answer.named_mistakes if isinstance(answer, CodeAnswer) else {}
+    if step.mistakes:
+        mistakes = {**wrong_pixels(step.answer, step.mistakes, state.scene, state.settings)}
     text = "\n\n".join(filter(None, (step.text, step.task)))
     return Draft(
         text,

@@ -193,6 +193,30 @@ class LinePart(Part):
         return self
 
 
+class CodePart(Part):
+    """A listing to be repaired or written, checked on the hidden inputs of a task."""
+
+    type: Literal["code"]
+    task: Word
+    """Name of what the listing must do, as ``bresenham-lecture``."""
+    line: Annotated[int, Field(ge=1)] | None = None
+    """Number of the line that is wrong, or missing, from 1; left out: the function is to be written."""
+    wrong: Word | None = None
+    """What stands there; left out: the line is missing."""
+    listing: Text | None = None
+    """What stands in the editor at first, where neither a line of the task's listing nor its head alone does."""
+    right: Text | None = None
+    """A listing that does something else than that of the task, which must be changed so."""
+
+    @model_validator(mode="after")
+    def _has_one_start(self) -> "CodePart":
+        if self.wrong is not None and self.line is None:
+            raise ValueError("expected line, the number of the wrong line, beside wrong")
+        if self.listing is not None and self.line is not None:
+            raise ValueError("expected either line or listing")
+        return self
+
+
 class SpotPart(Part):
     """The picture that a mistake makes of the scene, and mistakes to choose from."""
 
@@ -272,6 +296,7 @@ AnswerPart = (
     | ChoicePart
     | PlacePart
     | LinePart
+    | CodePart
     | SpotPart
     | StepsPart
     | BreakPart

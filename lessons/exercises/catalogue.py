@@ -30,6 +30,7 @@ from lessons.exercises.templates import (
     polygon_rows,
     polygons,
     reading,
+    repairs,
     running,
     stepping,
     stepping_numbers,
@@ -66,6 +67,7 @@ _MODULES = (
     beliefs_looks,
     wrong_lines,
     stepping_numbers,
+    repairs,
 )
 
 _FILES = Path(templates.__file__).parent.glob("*.toml")

@@ -11,6 +11,7 @@ from core import Settings
 from core.scene import AnyScene, ClipScene
 from core.settings import settings_from_texts
 from lessons.exercises.answer_parts import AnswerPart, ChoicePart, PixelPart, PlacePart
+from lessons.exercises.answers.code import CodeAnswer
 from lessons.exercises.answers.pixels import NothingToMarkError, Pixels
 from lessons.exercises.drawn_scene import Corner, draw_scene, seen_pixels
 from lessons.exercises.draws import Draws
@@ -98,7 +99,11 @@ def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:
             return None
         raise
     scene = None if drawn is None else drawn.scene
-    mistakes = {} if scene is None else wrong_pixels(part, exercise.mistakes, scene, settings)
+    mistakes: dict[str, Any] = {}
+    if isinstance(answer, CodeAnswer):
+        mistakes = answer.named_mistakes
+    elif scene is not None:
+        mistakes = dict(wrong_pixels(part, exercise.mistakes, scene, settings))
     # The outline of a scene is shown while its question is asked: not where it would show a corner to be placed.
     is_hidden = isinstance(exercise.answer, PlacePart) and bool(exercise.answer.corner)
     drawn_of = None if is_hidden else scene

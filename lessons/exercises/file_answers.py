@@ -1,6 +1,7 @@
 """The answer of an exercise file: what it says, or what the pipeline draws of its scene."""
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import partial
 
@@ -13,6 +14,7 @@ from lessons.exercises.answer_parts import (
     BreakPart,
     CheapestPart,
     ChoicePart,
+    CodePart,
     LinePart,
     NumberPart,
     OrderPart,
@@ -23,9 +25,10 @@ from lessons.exercises.answer_parts import (
     StepsPart,
     TablePart,
 )
-from lessons.exercises.answers.answer import Answer
+from lessons.exercises.answers.answer import Answer, NotCheckedError
 from lessons.exercises.answers.cells import Dial, Entry
 from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
+from lessons.exercises.answers.code import MISSING, WRITE, CodeAnswer, head_alone, with_line
 from lessons.exercises.answers.fields import Column, NumberAnswer, TableAnswer
 from lessons.exercises.answers.listings import LineAnswer
 from lessons.exercises.answers.pixels import PixelAnswer, read_art
@@ -33,6 +36,7 @@ from lessons.exercises.answers.places import PlaceAnswer, Places
 from lessons.exercises.answers.spots import SpotAnswer
 from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family, Values
+from lessons.exercises.coding.tasks import task_named
 from lessons.exercises.drawn_scene import DrawnScene, different_pixels, frame_art, seen_pixels
 from lessons.exercises.draws import Draws
 from lessons.mistakes.shelf import SHELF
@@ -71,6 +75,8 @@ def answer_of(
     if isinstance(part, LinePart):
         lines, also = part.listing.strip("\n").split("\n"), frozenset(line - 1 for line in part.also)
         return LineAnswer(tuple(lines), part.wrong - 1, also), given
+    if isinstance(part, CodePart):
+        return code_answer(part), given
     if isinstance(part, StepsPart):
         size = (1, 1) if drawn is None else drawn.scene.size
         return StepsAnswer(tuple(map(_step, part.steps)), size), given
@@ -91,6 +97,24 @@ def answer_of(
     if isinstance(part, BreakPart):
         return _break_answer(part, drawn, settings, draws), given
     return _cheapest_answer(part, drawn.scene, settings), given
+
+
+def code_answer(part: CodePart) -> CodeAnswer:
+    """Return a listing of a task: with another line, without one, the head alone, or as the part has it."""
+    task = task_named(part.task)
+    if part.right is not None:
+        task = replace(task, text=part.right.strip("\n").rstrip(), faults=(), draws_other=True)
+    count = len(task.text.split("\n"))
+    if part.line is not None and not 2 <= part.line <= count:
+        raise ValueError(f"expected a line from 2 to {count} of the listing of {task.name}, got {part.line}")
+    if part.line is not None:
+        start = with_line(task, part.line, part.wrong or MISSING)
+    else:
+        start = head_alone(task, WRITE) if part.listing is None else part.listing.strip("\n").rstrip()
+    try:
+        return CodeAnswer(task, start)
+    except NotCheckedError as problem:
+        raise ValueError(f"the right listing cannot run: {problem}") from None
 
 
 def choice_answer(part: ChoicePart, right: Sequence[str], draws: Draws) -> ChoiceAnswer:

@@ -5,6 +5,7 @@ from PySide6.QtWidgets import QWidget
 from core.records.cells import Form
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.choice_answer import ChoiceAnswerView
+from widgets.exercises.code_answer import CodeAnswerView
 from widgets.exercises.dial_answer import DialAnswerView
 from widgets.exercises.field_answer import FieldAnswerView
 from widgets.exercises.list_answers import ListingAnswerView, OrderAnswerView
@@ -23,6 +24,7 @@ VIEWS: dict[str, type[AnswerView]] = {
     "choice": ChoiceAnswerView,
     "places": PlaceAnswerView,
     "line": ListingAnswerView,
+    "code": CodeAnswerView,
     "spot": SpotAnswerView,
     "steps": StepsAnswerView,
     "break": DialAnswerView,

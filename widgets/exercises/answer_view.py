@@ -20,6 +20,9 @@ class AnswerView(QWidget):
     note_changed = Signal(str)
     """How what is being typed is understood; empty: nothing is to be said."""
 
+    stop_requested = Signal()
+    """A check of the answer that runs is to end."""
+
     uses_grid = False
     """Whether it is answered on the picture."""
 
@@ -39,6 +42,9 @@ class AnswerView(QWidget):
     def show_given(self, given: Any) -> None:
         """Fill the form with what was in it; ``None`` empties it."""
         raise NotImplementedError
+
+    def show_problem(self, problem: tuple[int, int, str] | None) -> None:
+        """Mark line and column, from 1, at which a listing cannot run; ``None``: it can."""
 
     def show_marks(self, marks: Marks | None) -> None:
         """Mark what is right and what is not; ``None`` takes the marks away. Where a run decides, words say it."""

@@ -13,6 +13,7 @@ from core.records.cells import Marks
 from core.records.frame import Frame
 from core.records.sketch import Place
 from lessons.exercises.answers.answer import Response, Verdict
+from lessons.exercises.answers.code import CodeAnswer
 from lessons.exercises.answers.fields import NumberAnswer
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.answers.places import PlaceAnswer
@@ -43,6 +44,9 @@ def size_of(draft: Draft) -> tuple[int, int] | None:
     answer = draft.answer
     if isinstance(answer, PixelAnswer | SpotAnswer | PlaceAnswer):
         return answer.size
+    if isinstance(answer, CodeAnswer) and answer.picture is not None:
+        rows, columns = answer.picture.primitive.shape
+        return columns, rows
     if isinstance(answer, BreakAnswer):
         return answer.scene_of(answer.start).size
     return None if draft.scene is None else draft.scene.size
@@ -51,7 +55,7 @@ def size_of(draft: Draft) -> tuple[int, int] | None:
 def shown_frame(draft: Draft) -> Frame | None:
     """Return the picture that the question gives as text; ``None``: it gives none."""
     answer = draft.answer
-    if isinstance(answer, SpotAnswer):
+    if isinstance(answer, SpotAnswer | CodeAnswer):
         return answer.picture
     if not isinstance(answer, PlaceAnswer) or answer.scene_of is None or answer.is_right is None:
         return None

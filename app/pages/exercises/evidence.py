@@ -10,10 +10,12 @@ from app.pages.exercises.runs import (
     explaining_run,
     faulty_picture,
     faulty_run,
+    is_opened,
     is_pictured,
     is_stepped,
     refuting_step,
     right_run,
+    wrong_run,
 )
 from app.pages.exercises.work import Checked
 from app.pages.page_bar import Page, StepRequest
@@ -21,7 +23,7 @@ from lessons.exercises.question import Question
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
 
-BACK, SEVERAL, EXPLAIN = "Back to my answer", "Show those runs", "Step it"
+BACK, SEVERAL, EXPLAIN, OPEN = "Back to my answer", "Show those runs", "Step it", "Show it in A | B"
 
 
 class Evidence(QObject):
@@ -85,6 +87,8 @@ class Evidence(QObject):
                 shown[f"Show that run{words}"] = partial(self._step, partial(faulty_run, question, name))
             elif is_pictured(question, name):
                 shown[f"Show that picture{words}"] = partial(self._show_picture, name)
+        if is_opened(question, judgement.verdict.score):
+            shown[OPEN] = partial(self._step, partial(wrong_run, question, self._checked.response))
         if judgement.refutation is not None:
             title = question.template.title
             shown["Show the step"] = partial(self._step, partial(refuting_step, judgement.refutation, title))

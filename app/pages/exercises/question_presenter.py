@@ -21,6 +21,7 @@ from core.records.words import counted
 from lessons.attempts.practice import MISSES_IN_A_ROW, TRY_LIMIT, first_tries, is_correction, misses_in_a_row
 from lessons.attempts.record import Attempt
 from lessons.exercises.answers.answer import NotCheckedError, Response
+from lessons.exercises.answers.code import CannotRunError, CodeAnswer
 from lessons.exercises.answers.spots import SpotAnswer
 from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.question import Question, Template, ask, hints_after
@@ -86,7 +87,7 @@ class QuestionPresenter(QObject):
         # Queued: the verdict is shown first.
         self._checking.ended.connect(self._go_on, Qt.ConnectionType.QueuedConnection)
         self._checking.succeeded.connect(self._show_checked)
-        self._checking.failed.connect(self._refuse)
+        self._checking.failed.connect(self._not_checked)
         self._drawing.succeeded.connect(self._show_live)
         self._drawing.failed.connect(self._refuse)
         view.check_requested.connect(self.check)
@@ -102,6 +103,11 @@ class QuestionPresenter(QObject):
         return bool(self._waiting) or any(
             job.is_running for job in (self._asking, self._checking, self._drawing)
         )
+
+    @property
+    def is_checking(self) -> bool:
+        """Whether an answer is being checked."""
+        return self._checking.is_running
 
     def stop(self) -> None:
         """End all work."""
@@ -198,7 +204,7 @@ class QuestionPresenter(QObject):
         self._grid.setVisible(size is not None)
         if size is not None:
             self._grid.show_raster(size, asked.outline, draft.pixel)
-            if isinstance(draft.answer, SpotAnswer):
+            if isinstance(draft.answer, SpotAnswer | CodeAnswer) and draft.answer.picture is not None:
                 self._grid.show_picture(picture_of(draft.answer.picture))
         credit = f"{counted(template.points, 'point')}. {draft.answer.credit}"
         record = QuestionRecord(
@@ -206,6 +212,7 @@ class QuestionPresenter(QObject):
         )
         answer = self._view.show_question(record, draft.answer.form)
         answer.answer_changed.connect(self._change)
+        answer.stop_requested.connect(self.stop_check)
         if kept.given is not None:
             try:
                 answer.show_given(kept.given)
@@ -310,7 +317,7 @@ class QuestionPresenter(QObject):
                 raise NotCheckedError(unread)
             response = answer.read(given)
         except NotCheckedError as problem:
-            self._view.show_not_checked(f"Not checked yet: {problem}.")
+            self._not_checked(problem)
             return
         left_out = answer.left_out(response)
         if left_out and given != self._left_out:
@@ -322,6 +329,23 @@ class QuestionPresenter(QObject):
         self._checking.start(
             checking(question, given, response, self.user, seconds, is_kept=not self._is_shown)
         )
+
+    @Slot(object)
+    def _not_checked(self, problem: Exception) -> None:
+        """Say why the answer is not checked; of a listing, mark where it cannot run."""
+        if not isinstance(problem, NotCheckedError):
+            self._refuse(problem)
+            return
+        if isinstance(problem, CannotRunError) and self._view.answer is not None:
+            self._view.answer.show_problem((*problem.place, problem.sentence))
+        self._view.show_not_checked(f"Not checked yet: {problem}.")
+
+    @Slot()
+    def stop_check(self) -> None:
+        """End a check that runs: nothing is charged."""
+        if self._checking.is_running:
+            self._checking.cancel()
+            self._view.show_not_checked("Not checked: you have stopped it.")
 
     @Slot(object)
     def _show_checked(self, checked: Checked) -> None:

@@ -5,9 +5,12 @@ from dataclasses import replace
 from app.pages.exercises.answer_pictures import Live, picture_of
 from app.pages.exercises.scene_outline import document_of, scene_outline
 from app.pages.page_bar import StepRequest
+from core.lanes.limits import LISTING
+from core.lanes.run import bounded
 from core.scene import ClipScene
 from core.study.accuracy.record import Opening
 from lessons.exercises.answers.answer import Response
+from lessons.exercises.answers.code import CodeAnswer
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.question import Question
 from lessons.exercises.refutation import Refutation
@@ -73,5 +76,29 @@ def faulty_run(question: Question, mistake: str) -> StepRequest | None:
         twin.change_settings(request.opening.settings),
         other_scene=twin.change_scene(scene),
         other_title=f"with the mistake: {mistake.replace('-', ' ')}",
+        is_asked=False,
+    )
+
+
+def is_opened(question: Question, score: float) -> bool:
+    """Return whether an answer is a wrong listing that the program can run beside the right one."""
+    answer = question.draft.answer
+    return isinstance(answer, CodeAnswer) and score < 1 and answer.is_shown
+
+
+def wrong_run(question: Question, response: Response) -> StepRequest | None:
+    """Return what steps the right listing beside a wrong one, on the smallest input that shows it."""
+    answer = question.draft.answer
+    assert isinstance(answer, CodeAnswer)
+    with bounded(LISTING.seconds):
+        opened = answer.opened(response)
+    if opened is None:
+        return None
+    shown, title = opened.shown, question.template.title
+    return StepRequest(
+        Opening(shown.scene, opened.right, shown.stage, shown.pixel),
+        title,
+        opened.typed,
+        other_title="your listing",
         is_asked=False,
     )

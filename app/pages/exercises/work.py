@@ -8,6 +8,7 @@ from app.background.workers import Progress
 from app.files.attempts import attempt_file
 from app.pages.exercises.answer_pictures import Live, is_live, live, marks_of
 from app.pages.exercises.scene_outline import outline_of
+from core.lanes.run import bounded
 from core.records.cells import Marks
 from lessons.attempts.practice import telling_apart
 from lessons.attempts.record import Attempt, attempt_of
@@ -15,6 +16,8 @@ from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Judgement, Question, Template, ask, judge
 from widgets.grid.geometry import GridGeometry
 
+SECONDS = 10.0
+"""Longest that the runs of one check may take together."""
 Work = Callable[[Progress, Callable[[], bool]], "Asked"]
 
 
@@ -86,7 +89,8 @@ def checking(
     """Return the work that checks an answer that was read, and keeps the attempt before anybody sees the verdict."""
 
     def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Checked:
-        judgement = judge(question, response)
+        with bounded(SECONDS, is_cancelled):  # A listing may not end by itself.
+            judgement = judge(question, response)
         marks = marks_of(question, judgement.verdict)
         if not is_kept:
             return Checked(given, response, judgement, marks, None, "")

@@ -1,18 +1,22 @@
 """The question of a step that is to be predicted: takes the answer, has it judged, and says what is wrong with it."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from time import monotonic
 from typing import Any
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.background.workers import Job
+from app.background.workers import Job, Progress
 from app.pages.exercises.answer_pictures import Live, is_live, live, marks_of, size_of
 from app.pages.exercises.scene_outline import outline_of
+from app.pages.exercises.work import SECONDS
+from core.lanes.run import bounded
 from core.records.cells import Marks
 from lessons.course.lesson_file import Lesson
 from lessons.course.questions import Outcome, outcome_of
 from lessons.exercises.answers.answer import NotCheckedError, Response
+from lessons.exercises.answers.code import CannotRunError
 from lessons.exercises.question import Question, judge
 from lessons.mistakes.shelf import MISTAKES
 from widgets.exercises.answer_view import AnswerView
@@ -86,6 +90,7 @@ class LessonAnswers(QObject):
         self._begun = monotonic()
         self._judging, self._drawing = Job(self), Job(self)
         self._judging.succeeded.connect(self._show_judged)
+        self._judging.failed.connect(self._show_not_checked)
         self._drawing.succeeded.connect(self._show_live)
         view.check_requested.connect(self.check)
         view.answer_changed.connect(self._follow_answer)
@@ -178,12 +183,20 @@ class LessonAnswers(QObject):
         self._view.show_note("")
         begun = self._begun
 
-        def work() -> JudgedAnswer:
-            outcome = asked.outcome(response)
+        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> JudgedAnswer:
+            with bounded(SECONDS, is_cancelled):  # A listing may not end by itself.
+                outcome = asked.outcome(response)
             marks = marks_of(asked.question, outcome.judgement.verdict)
             return JudgedAnswer(asked, given, response, outcome, marks, monotonic() - begun)
 
-        self._judging.call(work)
+        self._judging.start(work)
+
+    @Slot(object)
+    def _show_not_checked(self, error: Exception) -> None:
+        """Say why the answer is not judged: its run could not go on."""
+        if self.asked is not None and isinstance(error, CannotRunError):
+            self._form.show_problem((*error.place, error.sentence))
+        self._view.show_note(f"Not checked yet: {error}.")
 
     @Slot(object)
     def _show_judged(self, judged: JudgedAnswer) -> None:

@@ -1,0 +1,244 @@
+"""A listing that is repaired or written: run beside the right one on hidden inputs, never as Python."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import ClassVar, TypeVar
+
+from core import Settings, render
+from core.edits import Edit, apply_edit
+from core.lanes.problem import Place, Problem
+from core.records.cells import Form
+from core.records.frame import Frame
+from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
+from lessons.exercises.coding.task import Shown, Task, Wrong
+from lessons.exercises.draws import Draws
+
+NAMES_SHOWN = 3
+"""Most classes of inputs that are named."""
+OPENED = 12
+"""Most inputs that are drawn to find one whose pictures differ."""
+MISSING, WRITE = "# this line is missing", "# write the rest"
+"""What stands where a line, or a whole function, is to be written."""
+Found = TypeVar("Found")
+
+
+class CannotRunError(NotCheckedError):
+    """A listing that cannot be read, or whose run cannot go on: it is no wrong answer."""
+
+    def __init__(self, problem: Problem) -> None:
+        super().__init__(str(problem))
+        self.place: Place = problem.place
+        self.sentence = problem.sentence
+
+
+@dataclass(frozen=True, eq=False)
+class Opened:
+    """A hidden input on which a listing is wrong, as the program runs it: A is right, B is what was written."""
+
+    shown: Shown
+    right: Settings
+    typed: Settings
+
+
+def _ran(work: Callable[[], Found]) -> Found:
+    """Do what runs a listing; CannotRunError where it cannot."""
+    try:
+        return work()
+    except Problem as problem:
+        raise CannotRunError(problem) from None
+
+
+@dataclass(frozen=True, eq=False)
+class CodeAnswer(Answer):
+    """A listing; any that gives the same as the right one on all hidden inputs is right."""
+
+    task: Task
+    start: str
+    """What stands in the editor at first: with a wrong line, without a line, or the head alone."""
+    picture: Frame | None = None
+    """What must be drawn, where that is shown."""
+
+    kind: ClassVar[str] = "code"
+
+    def __post_init__(self) -> None:
+        if not self._right_classes(self.reference) == frozenset(self.task.cases):
+            raise ValueError(f"the right listing of {self.task.name} is not right")
+        if self._start_classes == frozenset(self.task.cases):
+            raise ValueError("expected a listing that is wrong at first, got one that is right")
+
+    @property
+    def reference(self) -> str:
+        """The right listing."""
+        return self.task.text
+
+    @property
+    def named_mistakes(self) -> dict[str, str]:
+        """By mistakes of the shelf, the listing that makes them."""
+        return {fault.mistake: self.task.with_fault(fault) for fault in self.task.faults if fault.mistake}
+
+    @property
+    def credit(self) -> str:
+        """How points are given."""
+        count, classes = len(self.task.all_cases), len(self.task.cases)
+        return (
+            f"It is run on {count} hidden inputs of {classes} classes. A class counts if all of its inputs are right; "
+            "those that the listing has right at first earn nothing. Another way to write the same is right. What "
+            "cannot run costs nothing."
+        )
+
+    @property
+    def offered(self) -> str:
+        """The listing as it is at first."""
+        return self.start
+
+    @cached_property
+    def chance(self) -> float:
+        """Mean score of listings that return something simple."""
+        scores = [self.check(guess).score for guess in self._guesses]
+        return sum(scores) / len(scores)
+
+    @property
+    def _guesses(self) -> list[str]:
+        return [f"{self.task.head}\n  return {guess}" for guess in self.task.guesses]
+
+    @property
+    def form(self) -> Form:
+        """The listing in an editor."""
+        return Form(self.kind, start=(self.start,), problem=self.problem)
+
+    def problem(self, text: str) -> tuple[int, int, str] | None:
+        """Return line and column, from 1, at which a text cannot run, and why; ``None``: it can."""
+        try:
+            self.task.check_text(text)
+        except Problem as problem:
+            return problem.line, problem.column, problem.sentence
+        return None
+
+    def given(self, response: str) -> str:
+        """Return the listing."""
+        return response
+
+    def read(self, given: object) -> str:
+        """Read a listing; CannotRunError for one that cannot run."""
+        if given is None or given == []:
+            raise NotCheckedError("the answer is empty")
+        if not isinstance(given, str):
+            raise NotCheckedError(f"expected a listing as text, got {type(given).__name__}")
+        text = given.replace("\r\n", "\n").replace("\r", "\n").strip("\n").rstrip()
+        if not text.strip():
+            raise NotCheckedError("the answer is empty")
+        _ran(lambda: self.task.check_text(text))
+        return text
+
+    def left_out(self, response: str) -> str:
+        """Say that nothing is changed."""
+        return "Nothing is changed yet" if response == self.start else ""
+
+    def wrong(self, response: str) -> list[Wrong]:
+        """Return the hidden inputs on which a listing is wrong, small ones first."""
+        return _ran(lambda: self.task.wrong_cases(response))
+
+    def _right_classes(self, response: str) -> frozenset[str]:
+        return frozenset(self.task.cases) - {one.name for one in self.wrong(response)}
+
+    @cached_property
+    def _start_classes(self) -> frozenset[str]:
+        """Classes that the listing has right at first."""
+        try:
+            return self._right_classes(self.start)
+        except CannotRunError:
+            return frozenset()
+
+    def check(self, response: str) -> Verdict:
+        """Run a listing on all hidden inputs."""
+        right, total, before = self._right_classes(response), len(self.task.cases), len(self._start_classes)
+        score = max((len(right) - before) / (total - before), 0.0)
+        return Verdict(score, f"right in {len(right)} of {total} classes of inputs")
+
+    def is_same(self, one: str, other: str) -> bool:
+        """Compare what two listings return."""
+        if one == other:
+            return True
+        try:
+            return all(map(self.task.is_right, self.task.results(one), self.task.results(other)))
+        except Problem:
+            return False
+
+    def text(self, response: str) -> str:
+        """Return the listing."""
+        return response
+
+    def first_wrong(self, response: str) -> str:
+        """Name classes of inputs that are wrong."""
+        names = list(dict.fromkeys(one.name for one in self.wrong(response)))
+        if not names:
+            return ""
+        more = f", and {len(names) - NAMES_SHOWN} more classes" if len(names) > NAMES_SHOWN else ""
+        return f"Wrong: {', '.join(names[:NAMES_SHOWN])}{more}."
+
+    def reason(self, response: str) -> str:
+        """Tell the smallest input on which it is wrong, and what must come out."""
+        wrong = self.wrong(response)
+        if not wrong:
+            return ""
+        first, told = wrong[0], self.task.told
+        said = first.case.said[0].upper() + first.case.said[1:]
+        return f"{said}: yours {told(first.found)}; right {told(first.wanted)}."
+
+    @property
+    def is_shown(self) -> bool:
+        """Whether the program runs it somewhere."""
+        return any(self.task.shown(case) is not None for _, case in self.task.all_cases[:1])
+
+    def opened(self, response: str) -> Opened | None:
+        """Return the smallest wrong input whose picture differs, or else the smallest; ``None``: none is drawn."""
+        found: list[Opened] = []
+        for one in self.wrong(response)[: 4 * OPENED]:
+            shown = self.task.shown(one.case)
+            if shown is None:
+                continue
+            right = self._settings(shown, self.reference) if self.task.draws_other else shown.settings
+            found.append(Opened(shown, right, self._settings(shown, response)))
+            if _differs(found[-1]):
+                return found[-1]
+            if len(found) == OPENED:
+                break
+        return found[0] if found else None
+
+    def _settings(self, shown: Shown, text: str) -> Settings:
+        whole = f"{self.task.whole}\n{text}" if self.task.whole else text
+        return apply_edit(shown.settings, Edit(shown.part, shown.of, whole))
+
+    def random(self, draws: Draws) -> str:
+        """Return something simple."""
+        return draws.item(self._guesses)
+
+    def extremes(self) -> list[str]:
+        """Change nothing, where that runs."""
+        return [self.start] if self.problem(self.start) is None else []
+
+
+def _differs(opened: Opened) -> bool:
+    frames = [render(opened.shown.scene, settings) for settings in (opened.right, opened.typed)]
+    return any(
+        bool((one != other).any())
+        for one, other in (
+            [frame.primitive for frame in frames],
+            [frame.cover_count for frame in frames],
+            [frame.color for frame in frames],
+        )
+    )
+
+
+def with_line(task: Task, number: int, line: str) -> str:
+    """Return the right listing with another line, from 1, at the same depth."""
+    lines = task.text.split("\n")
+    old = lines[number - 1]
+    lines[number - 1] = old[: len(old) - len(old.lstrip())] + line.strip()
+    return "\n".join(lines)
+
+
+def head_alone(task: Task, note: str) -> str:
+    """Return the head of the listing, and a note below it."""
+    return f"{task.head}\n  {note}"

@@ -1,0 +1,189 @@
+"""Listings of one pixel: depth test, blending, and bilinear filtering."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from core import Settings
+from core.edits import original
+from lessons.exercises.coding.task import Case, Fault, Shown, Task
+from lessons.exercises.coding.triangles import number_text, numbers_text
+from lessons.small_scenes import triangle_scene
+
+CORNERS = [(0.5, 0.5), (5.5, 0.5), (0.5, 5.5)]
+SIZE = (6, 6)
+DEPTHS = (0.0, 0.25, 0.5, 0.75, 1.0)
+
+
+def _depth_cases() -> dict[str, tuple[Case, ...]]:
+    found: dict[str, list[Case]] = {}
+    for is_larger in (False, True):
+        for writes in (True, False):
+            for new in DEPTHS:
+                for old in DEPTHS:
+                    way = "larger is nearer" if is_larger else "smaller is nearer"
+                    name = "nothing is stored" if not writes else "equal depths" if new == old else way
+                    said = f"new {new:g}, old {old:g}, {way}" + ("" if writes else ", writes is false")
+                    found.setdefault(name, []).append(Case((new, old, is_larger, writes), said))
+    return {name: tuple(cases) for name, cases in found.items()}
+
+
+def _depth_shown(case: Case) -> Shown | None:
+    new, old, is_larger, writes = case.values
+    if not writes or is_larger:
+        return None
+    scene = triangle_scene([CORNERS, CORNERS], SIZE, depth=[[old] * 3, [new] * 3])
+    return Shown(scene, Settings(depth="z-float32"), "depth_test", "z-float32", "depth", (1, 1))
+
+
+_DEPTH = original("depth_test", "z-float32")
+DEPTH_TEST = Task(
+    "depth-test",
+    "depth",
+    "The depth test",
+    "depth_test is given the new depth and the old one that is stored, whether the larger of two depths is nearer, and "
+    "whether a passing depth is stored. It returns the depth that is stored then, and whether the new one passes: it "
+    "must be nearer. Equal depths do not pass.",
+    _DEPTH.source,
+    _depth_cases(),
+    ("number", "flag"),
+    "the depth that is stored then, and whether the new one passes",
+    lambda value: f"{number_text(value[0])} stored, {'passes' if value[1] else 'does not pass'}",
+    (
+        Fault(
+            "nearer = new > old if larger_is_nearer else new < old",
+            "nearer = new < old if larger_is_nearer else new > old",
+            "farther-wins",
+        ),
+        Fault(
+            "nearer = new > old if larger_is_nearer else new < old",
+            "nearer = new >= old if larger_is_nearer else new <= old",
+            "last-wins-ties",
+        ),
+        Fault("nearer = new > old if larger_is_nearer else new < old", "nearer = new < old"),
+        Fault("return old, False", "return new, False"),
+        Fault("return old, False", "return new if writes else old, True", "no-depth-test"),
+        Fault("return new if writes else old, True", "return new, True"),
+        Fault("return new if writes else old, True", "return old if writes else new, True"),
+    ),
+    (
+        "Take a nearer depth, a farther one and an equal one: what must be stored after each?",
+        "What changes where the larger depth is the nearer one?",
+        "Follow the lines with new = 1 and old = 0, once with each value of larger_is_nearer.",
+    ),
+    ("new, True", "old, False", "0, True"),
+    _DEPTH.function,
+    shown=_depth_shown,
+)
+
+
+def _blend_cases() -> dict[str, tuple[Case, ...]]:
+    found: dict[str, list[Case]] = {}
+    colors = ((1.0, 0.0, 0.25), (0.5, 0.75, 0.0))
+    for alpha in (0.0, 0.25, 0.5, 1.0):
+        for there in (0.0, 0.5, 1.0):
+            for one, other in (colors, colors[::-1]):
+                layer = {0.0: "a clear layer", 1.0: "an opaque layer"}.get(alpha, "a layer between")
+                below = {0.0: "a clear pixel", 1.0: "an opaque pixel"}.get(there, "a pixel between")
+                name = f"{layer} over {below}" if layer == "a layer between" else layer
+                source, destination = (*one, alpha), (*(part * there for part in other), there)
+                said = f"({numbers_text([*source])}) over ({numbers_text([*destination])})"
+                found.setdefault(name, []).append(Case((source, destination), said))
+    return {name: tuple(cases) for name, cases in found.items()}
+
+
+def _blend_shown(case: Case) -> Shown:
+    source, destination = case.values
+    scene = triangle_scene([CORNERS], SIZE, attributes=np.array([[source] * 3]))
+    scene = replace(scene, background=np.array(destination))
+    return Shown(scene, Settings(blend="over"), "blend", "over", "blend", (1, 1))
+
+
+_OVER = original("blend", "over")
+_MIX = "result = [color[k] * alpha + destination[k] * (1 - alpha) for k in range(3)]"
+_ALPHA = "result.append(alpha + destination[3] * (1 - alpha))"
+OVER = Task(
+    "over",
+    "blend",
+    "Blending: over",
+    "over_pixel is given a colour and what is there, each as red, green, blue and alpha; the colour's red, green and "
+    "blue are straight, those that are there are multiplied by their alpha. It returns the four numbers of the result: "
+    "the colour counts alpha, what is there counts 1 - alpha; the new alpha is alpha + (1 - alpha) times the one "
+    "there.",
+    _OVER.source,
+    _blend_cases(),
+    ("number",) * 4,
+    "four numbers",
+    lambda value: numbers_text([*value]),
+    (
+        Fault(
+            _MIX,
+            "result = [color[k] * (1 - alpha) + destination[k] * alpha for k in range(3)]",
+            "factors-exchanged",
+        ),
+        Fault(_MIX, "result = [color[k] + destination[k] * (1 - alpha) for k in range(3)]", "not-multiplied"),
+        Fault(
+            _MIX,
+            "result = [color[k] * alpha * alpha + destination[k] * (1 - alpha) for k in range(3)]",
+            "multiplied-twice",
+        ),
+        Fault(_MIX, "result = [color[k] * alpha + destination[k] for k in range(3)]"),
+        Fault(_ALPHA, "result.append(alpha)", "alpha-of-source"),
+        Fault(_ALPHA, "result.append(destination[3])", "alpha-kept"),
+        Fault(_ALPHA, "result.append(alpha * alpha + destination[3] * (1 - alpha))", "alpha-squared"),
+    ),
+    (
+        "What must a layer with alpha 1 give, and one with alpha 0?",
+        "Alpha is mixed, too: two half clear layers are not opaque.",
+        "Put alpha = 1, then alpha = 0 into each line, over what has alpha 1.",
+    ),
+    ("[0, 0, 0, 1]", "source", "destination"),
+    _OVER.function,
+    tolerance=1e-6,
+    shown=_blend_shown,
+)
+
+
+def _bilinear_cases() -> dict[str, tuple[Case, ...]]:
+    found: dict[str, list[Case]] = {}
+    texels = ((1.0, 3.0, 5.0, 11.0), (0.0, 8.0, 4.0, 2.0))
+    for fx in (0.0, 0.25, 0.5, 1.0):
+        for fy in (0.0, 0.5, 0.75, 1.0):
+            whole = (fx in (0, 1)) + (fy in (0, 1))
+            name = ("between four texels", "between two texels", "at a texel")[whole]
+            for four in texels:
+                said = f"texels {numbers_text([*four])}, fx = {fx:g}, fy = {fy:g}"
+                found.setdefault(name, []).append(Case((*four, fx, fy), said))
+    return {name: tuple(cases) for name, cases in found.items()}
+
+
+BILINEAR = Task(
+    "bilinear",
+    "shade",
+    "Bilinear filtering",
+    "bilinear is given four texels, t00 and t10 of the lower row, t01 and t11 of the upper one, and how far the place "
+    "is from t00 to the right, fx, and upwards, fy, from 0 to 1. It returns the mean of the four, each weighed by how "
+    "near it is: first along both rows, then between them.",
+    "def bilinear(t00, t10, t01, t11, fx, fy):\n"
+    "  low = t00 * (1 - fx) + t10 * fx\n"
+    "  high = t01 * (1 - fx) + t11 * fx\n"
+    "  return low * (1 - fy) + high * fy",
+    _bilinear_cases(),
+    "number",
+    "the filtered value",
+    number_text,
+    (
+        Fault("low = t00 * (1 - fx) + t10 * fx", "low = t00 * fx + t10 * (1 - fx)"),
+        Fault("high = t01 * (1 - fx) + t11 * fx", "high = t10 * (1 - fx) + t11 * fx"),
+        Fault("return low * (1 - fy) + high * fy", "return (low + high) / 2"),
+    ),
+    (
+        "What must come out at fx = 0 and fy = 0?",
+        "Along a row, fx says how much the right texel counts, and 1 - fx the left one.",
+        "t00 counts (1 - fx) (1 - fy), t11 counts fx fy: check the other two, t10 and t01, at fx = 1, fy = 0.",
+    ),
+    ("t00", "0", "(t00 + t10 + t01 + t11) / 4"),
+)
+
+
+TASKS = (DEPTH_TEST, OVER, BILINEAR)

@@ -1,0 +1,13 @@
+"""All tasks by name, as files name them."""
+
+from lessons.exercises.coding import lines, pixels, triangles
+from lessons.exercises.coding.task import Task
+
+TASKS: dict[str, Task] = {task.name: task for module in (lines, triangles, pixels) for task in module.TASKS}
+
+
+def task_named(name: str) -> Task:
+    """Return a task; ValueError where there is none."""
+    if name not in TASKS:
+        raise ValueError(f"expected one of {', '.join(TASKS)}, got {name!r:.60}")
+    return TASKS[name]

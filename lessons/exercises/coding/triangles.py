@@ -1,0 +1,375 @@
+"""Listings of triangles: edge function, tie rule, inside test, and interpolation, at pixels of every class."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from core import Settings
+from core.edits import original
+from lessons.exercises.coding.task import SIDE, Case, Fault, Shown, Task
+from lessons.small_scenes import triangle_scene
+
+Point = tuple[float, float]
+Corners = tuple[Point, Point, Point]
+TRIANGLES: tuple[Corners, ...] = (
+    ((1.5, 1.5), (5.5, 1.5), (1.5, 5.5)),
+    ((5.5, 1.5), (5.5, 5.5), (1.5, 5.5)),
+    ((2.0, 1.0), (8.5, 2.5), (4.5, 7.5)),
+    ((1.5, 8.5), (6.5, 3.5), (9.5, 8.5)),
+    ((2.5, 2.5), (9.5, 3.5), (3.5, 3.0)),
+)
+"""Counter-clockwise: two that share an edge through centres, two others, and a thin one."""
+
+
+def edge_of(p: Point, q: Point) -> tuple[float, float, float]:
+    """Return a, b, c of the edge function that is positive to the left of the way from p to q."""
+    a, b = p[1] - q[1], q[0] - p[0]
+    return a, b, -(a * p[0] + b * p[1])
+
+
+def edges_of(corners: Corners) -> tuple[tuple[float, ...], ...]:
+    """Return a, b and c (3,) of the three edges, each opposite to its corner."""
+    p, q, r = corners
+    rows = [edge_of(q, r), edge_of(r, p), edge_of(p, q)]
+    return tuple(zip(*rows, strict=True))
+
+
+def _owns(a: float, b: float) -> bool:
+    return a > 0 if a != 0 else b > 0
+
+
+def _pixels() -> Iterator[tuple[Corners, int, int]]:
+    for corners in TRIANGLES:
+        for row in range(10):
+            for column in range(11):
+                yield corners, column, row
+
+
+def corners_text(corners: Corners) -> str:
+    """Return corners in words."""
+    return ", ".join(f"({x:g}, {y:g})" for x, y in corners)
+
+
+def inside_cases() -> dict[str, tuple[Case, ...]]:
+    """Return edges and a centre by where it lies."""
+    found: dict[str, list[Case]] = {}
+    for corners, column, row in _pixels():
+        a, b, c = edges_of(corners)
+        owns = tuple(_owns(*pair) for pair in zip(a, b, strict=True))
+        x, y = column + 0.5, row + 0.5
+        values = [a[k] * x + b[k] * y + c[k] for k in range(3)]
+        on = [k for k in range(3) if values[k] == 0]
+        negative = sum(value < 0 for value in values)
+        if negative:
+            name = "outside of one edge" if negative == 1 else "outside of two edges"
+        elif not on:
+            name = "inside"
+        elif len(on) == 2:
+            name = "on a corner"
+        else:
+            name = "on an edge that owns its centres" if owns[on[0]] else "on an edge that does not own them"
+        if len(found.setdefault(name, [])) < 24:
+            said = f"triangle {corners_text(corners)}, centre ({x:g}, {y:g})"
+            found[name].append(Case((a, b, c, owns, x, y), said, (corners, (column, row))))
+    return {name: tuple(cases) for name, cases in found.items()}
+
+
+def number_text(number: float) -> str:
+    """Return a number with at most four digits behind the point."""
+    return f"{round(number, 4) + 0.0:g}"
+
+
+def numbers_text(numbers: list[float]) -> str:
+    """Return numbers in words."""
+    return ", ".join(map(number_text, numbers))
+
+
+def _inside_text(value: Any) -> str:
+    values, covered = value
+    return f"{numbers_text(values)}: {'covered' if covered else 'not covered'}"
+
+
+def _inside_shown(case: Case) -> Shown:
+    corners, pixel = case.about
+    return Shown(
+        triangle_scene([corners], (SIDE, SIDE)),
+        Settings(fill="bounding-box"),
+        "fill",
+        "bounding-box",
+        "raster",
+        pixel,
+    )
+
+
+_COVERS = original("fill", "bounding-box")
+TEST = "inside.append(bool(value > 0 or (value == 0 and owns_tie[k])))"
+INSIDE = Task(
+    "inside-test",
+    "raster",
+    "The inside test",
+    "covers is given a, b and c of the three edge functions a x + b y + c, whether each edge owns the centres on it, "
+    "and a centre (x, y). It returns the three values, and whether the centre is covered: every value is positive, or "
+    "0 on an edge that owns it.",
+    _COVERS.source,
+    inside_cases(),
+    (("number",) * 3, "flag"),
+    "the three values, and whether the pixel is covered",
+    _inside_text,
+    (
+        Fault("value = a[k] * x + (b[k] * y + c[k])", "value = a[k] * x - (b[k] * y + c[k])"),
+        Fault("value = a[k] * x + (b[k] * y + c[k])", "value = a[k] * y + (b[k] * x + c[k])"),
+        Fault(TEST, "inside.append(value >= 0)", "all-edges-inclusive"),
+        Fault(TEST, "inside.append(value > 0)", "all-edges-exclusive"),
+        Fault(TEST, "inside.append(bool(value > 0 or owns_tie[k]))"),
+        Fault("return values, all(inside)", "return values, any(inside)"),
+    ),
+    (
+        "Take a centre inside, one outside, and one on each edge: which of them is wrong?",
+        "How many of the three edges must agree? What decides where a value is 0?",
+        "Put a = 1, b = 0, c = -2 and x = 2 into the lines: the value is 0, and owns_tie decides.",
+    ),
+    ("[0, 0, 0], True", "[0, 0, 0], False", "[1, 1, 1], True"),
+    _COVERS.function,
+    shown=_inside_shown,
+)
+
+
+def tie_cases() -> dict[str, tuple[Case, ...]]:
+    """Return directions of edges by what they are."""
+    found: dict[str, list[Case]] = {}
+    for a in range(-3, 4):
+        for b in range(-3, 4):
+            if (a, b) == (0, 0):
+                continue
+            side = "left" if a > 0 else "right"
+            lean = "upright" if b == 0 else "rising" if (a > 0) != (b > 0) else "falling"
+            name = f"{lean} {side} edges" if a else "level edges"
+            case = Case((a, b), f"a = {a}, b = {b}", (a, b), size=abs(a) + abs(b))
+            found.setdefault(name, []).append(case)
+    return {name: tuple(cases) for name, cases in found.items()}
+
+
+def _tie_shown(case: Case) -> Shown:
+    """Return two triangles with the edge between them."""
+    a, b = case.about
+    p, q = (5.5, 5.5), (5.5 + b, 5.5 - a)
+    left, right = (p[0] + a, p[1] + b), (q[0] - a, q[1] - b)
+    scene = triangle_scene([(p, q, left), (q, p, right)], (SIDE, SIDE))
+    return Shown(scene, Settings(fill="bounding-box"), "fill_rule", "shared-edge", "raster")
+
+
+_OWNS = original("fill_rule", "shared-edge")
+TIE_RULE = Task(
+    "tie-rule",
+    "edges",
+    "The tie rule",
+    "owns is given a and b of an edge function a x + b y + c of a counter-clockwise triangle, y up. It returns whether "
+    "the edge owns the centres on it: a left edge does (a > 0), and a level edge where it is the bottom edge (b > 0).",
+    _OWNS.source,
+    tie_cases(),
+    "flag",
+    "whether the edge owns the centres on it",
+    lambda value: "owns them" if value else "does not own them",
+    (
+        Fault("if a != 0:", "if b != 0:"),
+        Fault("return a > 0", "return a < 0"),
+        Fault("return a > 0", "return a >= 0 or b > 0"),
+        Fault("return b > 0", "return b < 0"),
+        Fault("return b > 0", "return a != b", "level-edges-always"),
+        Fault("return b > 0", "return b == 0", "level-edges-never"),
+    ),
+    (
+        "Which edges have a = 0?",
+        "Go around a square: which two of its edges own their centres?",
+        "Of a square, a is 1 on the left, -1 on the right and 0 on level edges; b is 1 at the bottom.",
+    ),
+    ("True", "False", "b > a"),
+    _OWNS.function,
+    shown=_tie_shown,
+)
+
+
+def _edge_cases() -> dict[str, tuple[Case, ...]]:
+    """Return two corners and a point by the side on which it lies."""
+    found: dict[str, list[Case]] = {}
+    for p, q in (((1, 1), (4, 1)), ((4, 1), (4, 4)), ((4, 4), (1, 1)), ((2, 5), (1, 2)), ((5, 3), (2, 3))):
+        for x in range(6):
+            for y in range(6):
+                a, b, c = edge_of(p, q)
+                value = a * x + b * y + c
+                name = "on the edge" if value == 0 else "to its left" if value > 0 else "to its right"
+                said = f"from ({p[0]}, {p[1]}) to ({q[0]}, {q[1]}), point ({x}, {y})"
+                found.setdefault(name, []).append(Case((*map(float, (*p, *q, x, y)),), said))
+    return {name: tuple(cases) for name, cases in found.items()}
+
+
+EDGE = Task(
+    "edge-function",
+    "edges",
+    "The edge function",
+    "edge is given two corners and a point (x, y), y up. It returns (x1 - x0) (y - y0) - (y1 - y0) (x - x0): twice the "
+    "area of the triangle of the three, positive where the point lies to the left of the way from corner 0 to corner "
+    "1.",
+    "def edge(x0, y0, x1, y1, x, y):\n  dx, dy = x1 - x0, y1 - y0\n  return dx * (y - y0) - dy * (x - x0)",
+    _edge_cases(),
+    "number",
+    "the value of the edge function",
+    number_text,
+    (
+        Fault("return dx * (y - y0) - dy * (x - x0)", "return dy * (x - x0) - dx * (y - y0)"),
+        Fault("return dx * (y - y0) - dy * (x - x0)", "return dx * (y - y0) + dy * (x - x0)"),
+    ),
+    (
+        "What must come out for a point on the edge, as corner 0 itself?",
+        "To the left of the way to the right lies what is above: y > y0.",
+        "With corners (0, 0) and (1, 0), the point (0, 1) gives 1, and (1, 0) gives 0.",
+    ),
+    ("0", "1", "x - x0"),
+)
+
+
+def _weighted(is_perspective: bool) -> dict[str, tuple[Case, ...]]:
+    """Return triangles with w and values, and a centre, by what is special."""
+    found: dict[str, list[Case]] = {}
+    equal, unequal = (2.0, 2.0, 2.0), (1.0, 4.0, 2.0)
+    for number, (corners, column, row) in enumerate(_pixels()):
+        rows = edges_of(corners)
+        x, y = column + 0.5, row + 0.5
+        n = [rows[0][k] * x + rows[1][k] * y + rows[2][k] for k in range(3)]
+        if min(n) < 0:
+            continue
+        for w in (equal, unequal):
+            zeros = n.count(0.0)
+            where = "at a corner" if zeros == 2 else "on an edge" if zeros else "inside"
+            name = f"{where}, {'equal' if w is equal else 'unequal'} w"
+            a, b, c = (tuple(part[k] / w[k] for k in range(3)) for part in rows)
+            values = ((3.0, 1.0, 2.0), (0.0, 4.0, 8.0))[number % 2]
+            said = (
+                f"triangle {corners_text(corners)}, w {numbers_text([*w])}, values {numbers_text([*values])}, "
+                f"centre ({x:g}, {y:g})"
+            )
+            given = (a, b, c, x, y, values) if is_perspective else (a, b, c, w, x, y, values)
+            if len(found.setdefault(name, [])) < 12:
+                found[name].append(Case(given, said, (corners, w, values, (column, row))))
+    return {name: tuple(cases) for name, cases in found.items()}
+
+
+def _interpolation_shown(method: str, case: Case) -> Shown:
+    corners, w, values, pixel = case.about
+    scene = triangle_scene([corners], (SIDE, SIDE), w=[w], attributes=np.array(values).reshape(1, 3, 1))
+    settings = Settings(interpolation=method)
+    return Shown(scene, settings, "interpolation", method, "interpolate", pixel)
+
+
+def _interpolation_text(value: Any) -> str:
+    weights, total, made = value
+    return f"weights {numbers_text(weights)}, total {number_text(total)}, value {number_text(made)}"
+
+
+_VALUE = "value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]"
+_TOTAL = "total = n[0] + n[1] + n[2]"
+_WEIGHTS = "weights = [n[k] / total for k in range(3)]"
+INTERPOLATION_HINTS = (
+    "Put in equal values at all corners: what must come out?",
+    "The three weights add up to one. At a corner its own weight is one.",
+    "With n = 1, 1, 2 the weights are in the ratio 1 to 1 to 2, and add up to 1: follow each line.",
+)
+
+
+def _interpolation_task(name: str, title: str, purpose: str, n_faults: tuple[Fault, ...]) -> Task:
+    listing = original("interpolation", name)
+    return Task(
+        name,
+        "interpolate",
+        title,
+        purpose,
+        listing.source,
+        _weighted(name == "perspective"),
+        (("number",) * 3, "number", "number"),
+        "the three weights, their total, and the value",
+        _interpolation_text,
+        (
+            *n_faults,
+            Fault(_TOTAL, "total = n[0] + n[1]"),
+            Fault(_TOTAL, "total = 1"),
+            Fault(_WEIGHTS, "weights = [n[k] / n[0] for k in range(3)]"),
+            Fault(_WEIGHTS, "weights = [n[k] for k in range(3)]", "not-divided-back"),
+            Fault(
+                _VALUE,
+                "value = weights[0] * values[1] + weights[1] * values[2] + weights[2] * values[0]",
+                "weights-permuted",
+            ),
+            Fault(_VALUE, "value = (values[0] + values[1] + values[2]) / 3"),
+        ),
+        INTERPOLATION_HINTS,
+        ("[0, 0, 0], 1, 0", "[1, 1, 1], 3, 1"),
+        listing.function,
+        shown=lambda case: _interpolation_shown(name, case),
+    )
+
+
+PERSPECTIVE = _interpolation_task(
+    "perspective",
+    "Interpolation with perspective",
+    "interpolate_at is given a, b and c of three edge functions, each divided by the w of the corner opposite to it, a "
+    "centre (x, y), and the values of the corners. n[k] is a x + b y + c. It returns the weights n[k] / total, the "
+    "total of the n, and the value: the values, each times its weight, added up.",
+    (
+        Fault(
+            "n = [a[k] * x + (b[k] * y + c[k]) for k in range(3)]",
+            "n = [a[k] * y + (b[k] * x + c[k]) for k in range(3)]",
+        ),
+    ),
+)
+AFFINE = _interpolation_task(
+    "affine",
+    "Affine interpolation",
+    "interpolate_affine_at is given a, b and c of three edge functions, each divided by the w of the corner opposite "
+    "to it, the three w, a centre (x, y), and the values of the corners. n[k] is a x + b y + c, times w[k] again, so w "
+    "does not count. It returns the weights n[k] / total, the total of the n, and the value: the values, each times "
+    "its weight, added up.",
+    (
+        Fault(
+            "n = [(a[k] * x + (b[k] * y + c[k])) * w[k] for k in range(3)]",
+            "n = [a[k] * x + (b[k] * y + c[k]) for k in range(3)]",
+        ),
+        Fault(
+            "n = [(a[k] * x + (b[k] * y + c[k])) * w[k] for k in range(3)]",
+            "n = [(a[k] * x + (b[k] * y + c[k])) / w[k] for k in range(3)]",
+        ),
+    ),
+)
+STRIPES = replace(
+    INSIDE,
+    name="stripes",
+    title="A striped triangle",
+    purpose="covers must draw only the rows of a triangle that have an even number: 0, 2 and so on. It returns the "
+    "three values as before, and whether the pixel is covered; y is the height of the centre, 1/2 above the row's "
+    "number.",
+    text=_COVERS.source.replace("all(inside)", "all(inside) and floor(y) % 2 == 0"),
+    faults=(),
+    draws_other=True,
+    hints=(
+        "What does y of a centre say about its row?",
+        "Two things must hold: the pixel is covered, and its row is even. Join them by and.",
+        "floor(y) is the number of the row; floor(y) % 2 is 0 in even rows and 1 in odd ones.",
+    ),
+)
+AROUND = replace(
+    INSIDE,
+    name="around",
+    title="All but the triangle",
+    purpose="covers must draw what the box around a triangle has outside of it: a pixel is drawn where the triangle "
+    "does not cover it. It returns the three values as before, and whether the pixel is drawn.",
+    text=_COVERS.source.replace("all(inside)", "not all(inside)"),
+    faults=(),
+    draws_other=True,
+    hints=(
+        "Which pixels of the box does the triangle not cover?",
+        "What does all(inside) say, and what is its opposite?",
+        "A pixel with inside = [1, 1, 0], as true, true and false, must be drawn.",
+    ),
+)
+TASKS = (EDGE, TIE_RULE, INSIDE, PERSPECTIVE, AFFINE, STRIPES, AROUND)

@@ -1,0 +1,137 @@
+"""Listings to repair or to write: a wrong line, a missing line, a function, and a picture to be drawn."""
+
+from functools import partial
+
+from core import render
+from core.edits import Edit, apply_edit
+from core.records.frame import Frame
+from core.scene import ClipScene
+from core.settings import Settings
+from lessons.exercises.answers.code import MISSING, WRITE, CodeAnswer, head_alone, with_line
+from lessons.exercises.coding.task import SIDE, Task
+from lessons.exercises.coding.tasks import TASKS
+from lessons.exercises.drawn_scene import frame_art
+from lessons.exercises.draws import Draws
+from lessons.exercises.question import Draft, Template
+from lessons.small_scenes import pixel_segments, triangle_scene
+
+REPAIRED = (
+    "tie-rule",
+    "inside-test",
+    "bresenham-lecture",
+    "bresenham",
+    "midpoint",
+    "dda",
+    "perspective",
+    "affine",
+    "depth-test",
+    "over",
+)
+COMPLETED = ("inside-test", "bresenham-lecture", "dda", "perspective", "over")
+WRITTEN = (
+    "edge-function",
+    "tie-rule",
+    "inside-test",
+    "bresenham-step",
+    "dda",
+    "bilinear",
+    "depth-test",
+    "over",
+)
+DRAWN = ("dashes", "open-ends", "thick-line", "stripes", "around")
+LINES = pixel_segments([((1, 1), (10, 4)), ((2, 10), (10, 7)), ((0, 4), (3, 10))], (SIDE, SIDE))
+TRIANGLE = triangle_scene([[(1.5, 1.0), (10.5, 2.5), (5.0, 11.0)]], (SIDE, SIDE))
+
+
+def code_draft(task: Task, text: str, start: str, picture: Frame | None = None, given: str = "") -> Draft:
+    """Ask for a listing; the mistakes are the task's wrong lines that the shelf names."""
+    answer = CodeAnswer(task, start, picture)
+    return Draft(text, given, answer, task.hints, answer.named_mistakes)
+
+
+def draw_repair(task: Task, draws: Draws) -> Draft:
+    """A listing with one of its wrong lines."""
+    start = task.with_fault(draws.item(task.faults))
+    return code_draft(task, f"{task.purpose} One line of this listing is wrong. Repair it.", start)
+
+
+def draw_missing(task: Task, draws: Draws) -> Draft:
+    """A listing without one of its lines."""
+    lines = [line.strip() for line in task.text.split("\n")]
+    asked = list(dict.fromkeys(fault.line for fault in task.faults))
+    start = with_line(task, lines.index(draws.item(asked)) + 1, MISSING)
+    return code_draft(task, f"{task.purpose} One line of this listing is missing. Write it.", start)
+
+
+def draw_function(task: Task, draws: Draws) -> Draft:
+    """The head of a function."""
+    return code_draft(task, f"{task.purpose} Write the function.", head_alone(task, WRITE))
+
+
+def draw_picture(task: Task, draws: Draws) -> Draft:
+    """The listing of a plain method, and the picture that it must draw."""
+    is_line = task.stage == "raster" and task.shape == "list"
+    scene = LINES if is_line else TRIANGLE
+    frame = picture_of(task, scene)
+    plain = TASKS["bresenham-lecture" if is_line else "inside-test"]
+    text = f"{task.purpose} Change this listing so that it draws this picture, and others of its kind."
+    return code_draft(task, text, plain.text, frame, frame_art(frame))
+
+
+def picture_of(task: Task, scene: ClipScene) -> Frame:
+    """Return what the right listing of a task draws of a scene."""
+    shown = task.shown(task.all_cases[0][1])
+    if shown is None:
+        raise ValueError(f"{task.name} draws no picture")
+    settings: Settings = apply_edit(shown.settings, Edit(shown.part, shown.of, task.text))
+    return render(scene, settings)
+
+
+TEMPLATES = (
+    *(
+        Template(
+            f"repair-{name}",
+            1,
+            f"Repair: {TASKS[name].title}",
+            TASKS[name].stage,
+            3,
+            partial(draw_repair, TASKS[name]),
+        )
+        for name in REPAIRED
+    ),
+    *(
+        Template(
+            f"missing-{name}",
+            1,
+            f"The missing line: {TASKS[name].title}",
+            TASKS[name].stage,
+            3,
+            partial(draw_missing, TASKS[name]),
+        )
+        for name in COMPLETED
+    ),
+    *(
+        Template(
+            f"write-{name}",
+            1,
+            f"Write: {TASKS[name].title}",
+            TASKS[name].stage,
+            4,
+            partial(draw_function, TASKS[name]),
+            is_fixed=True,
+        )
+        for name in WRITTEN
+    ),
+    *(
+        Template(
+            f"draw-{name}",
+            1,
+            f"Make it draw: {TASKS[name].title}",
+            TASKS[name].stage,
+            4,
+            partial(draw_picture, TASKS[name]),
+            is_fixed=True,
+        )
+        for name in DRAWN
+    ),
+)
