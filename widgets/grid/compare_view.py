@@ -85,15 +85,17 @@ class CompareView(QWidget):
         self.figure.setAccessibleName("A, B and difference")
         self.linked = LinkedGrids(("A", "B", "Difference"), self.figure)
         self.grids, self.titles = self.linked.grids, self.linked.titles
-        self.buffer_box = BufferChoice(self)
-        self.family_box, self.value_box = ChoiceBox(self), ChoiceBox(self)
+        self.buffer_box, self.family_box, self.value_box = (
+            BufferChoice(self),
+            ChoiceBox(self),
+            ChoiceBox(self),
+        )
         self.listings = (ListingView(self.figure), ListingView(self.figure))
         """Those of A and B, where what runs is compared line by line."""
         self.notes = tuple(text_label("", self.figure, role="muted", wraps=True) for _ in self.grids)
         self._settings: tuple[Setting, ...] = ()
         self._sides: tuple[Side, ...] = ()
         self._is_flipped = False
-        self.buffer_box.setMinimumContentsLength(LEAST_ROOM)
         for box, name, tip in (
             (self.buffer_box, "Buffer", "Which buffer is compared"),
             (
@@ -139,7 +141,7 @@ class CompareView(QWidget):
         self.flip_button.released.connect(partial(self.show_flipped, False))
         buttons.addWidget(self.flip_button)
         buttons.addStretch(1)
-        layout = column_layout(self, 0, margins=(0, 4, 0, 0))
+        layout = column_layout(self, 8, margins=(0, 4, 0, 0))
         choices.addLayout(row)
         choices.addLayout(buttons)
         layout.addWidget(self._choices)

@@ -144,9 +144,9 @@ class Task:
 
     def _check_head(self, program: Program) -> None:
         function = program.functions[program.name]
-        wanted = compile_listing(f"{self.head}\n  return 0").parameters
+        wanted = _parameters(self)
         if len(function.parameters) != len(wanted):
-            sentence = f"{function.name} is given {', '.join(wanted)}: its first line must take them"
+            sentence = f"{function.name} is given {', '.join(wanted)}: its head must take them"
             raise Problem(function.place, sentence)
 
     def results(self, text: str) -> tuple[Any, ...]:
@@ -180,6 +180,12 @@ class Task:
             if not self.is_right(found, wanted)
         ]
         return sorted(wrong, key=lambda one: one.case.size)
+
+
+@lru_cache(maxsize=64)
+def _parameters(task: Task) -> tuple[str, ...]:
+    """Return what a task is given."""
+    return task.program(task.text).parameters
 
 
 @lru_cache(maxsize=512)

@@ -295,7 +295,7 @@ def _interpolation_task(name: str, title: str, purpose: str, n_faults: tuple[Fau
             Fault(_TOTAL, "total = n[0] + n[1]"),
             Fault(_TOTAL, "total = 1"),
             Fault(_WEIGHTS, "weights = [n[k] / n[0] for k in range(3)]"),
-            Fault(_WEIGHTS, "weights = [n[k] for k in range(3)]", "not-divided-back"),
+            Fault(_WEIGHTS, "weights = [n[k] for k in range(3)]"),
             Fault(
                 _VALUE,
                 "value = weights[0] * values[1] + weights[1] * values[2] + weights[2] * values[0]",
