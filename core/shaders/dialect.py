@@ -118,7 +118,9 @@ class GlslDialect:
         """Return 0: the parser limits the variables of a shader, and a loop declares them anew each round."""
         return 0
 
-    def merged(self, flags: Any, new: GlslValue, old: GlslValue, place: Place, run: Run) -> GlslValue:
+    def merged(
+        self, flags: Any, new: GlslValue, old: GlslValue, place: Place, run: Run, returned: int = 0
+    ) -> GlslValue:
         """Return ``new`` where ``flags`` hold, else ``old``."""
         if new.of != old.of:
             raise Problem(

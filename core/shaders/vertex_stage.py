@@ -61,10 +61,10 @@ def _placed_in_world(scene: Scene, clip: Floats, plain: VertexStage) -> Floats:
     assert plain.world is not None
     width, height = scene.size
     back = np.linalg.inv(projection(scene.camera, width / height) @ world_to_camera(scene.camera))
-    moved = transform(back, clip)
+    moved = transform(np.asarray(back, np.float64), clip)
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
         placed = moved / moved[:, 3:]
-    return read_only(np.where(np.isfinite(placed).all(axis=1)[:, None], placed, plain.world))
+    return read_only(np.where(np.isfinite(placed).all(axis=1, keepdims=True), placed, plain.world))
 
 
 def _out_rows(shader: Shader, outcome: Outcome, lanes: int) -> Floats:

@@ -44,12 +44,11 @@ def test_render_draws_what_the_listing_says(listings):
 
 
 def test_trace_steps_through_the_listing_with_its_own_lines(listings):
-    folder, texts = listings
+    folder, _ = listings
     run = run_program("trace", "segment", "--stage", "raster", "--edit", f"line={folder / 'line.py'}")
     assert (run.returncode, run.stderr) == (0, "")
     rows = json.loads(run.stdout)["rows"]
     done = [operation for row in rows for operation in row["operations"]]
-    lines = texts["line.py"].splitlines()
     assert all(f"ine {each['line']}" in each["sentence"] for each in done)
     assert any("D" in each["formula"]["symbolic"] for each in done if each.get("formula"))
 
@@ -72,7 +71,7 @@ def test_trace_steps_through_the_listing_with_its_own_lines(listings):
         (1, ("segment", "--edit", "line=long.py"), "more than the limit"),
         (2, ("shared-edge", "--set", "fill=spans", "--edit", "fill=test.py"), "it tests no pixel"),
         (2, ("segment", "--edit", "line=bytes.py"), "is no text in UTF-8"),
-        (2, ("segment", "--edit", "shade=line.py"), "what can be edited is one of line, fill_rule,"),
+        (2, ("segment", "--edit", "shade=line.py"), "what can be edited is one of line,"),
         (2, ("segment", "--edit", "line"), "must be PART=FILE"),
     ],
 )
