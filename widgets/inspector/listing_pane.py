@@ -99,7 +99,6 @@ class ListingPane(QWidget):
         self.editor.left.connect(self.end_editing)
         self.message.linkActivated.connect(self.link_clicked)
         self.listing.menu_opened.connect(self._add_to_menu)
-        self.listing.room_changed.connect(self._follow_room)
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._follow_theme()
         self.show_head(PaneHead())
@@ -112,7 +111,7 @@ class ListingPane(QWidget):
     @property
     def height_around(self) -> int:
         """Height of the head, and of the sentence below."""
-        head = self.head.height() if self._head.is_shown else 0
+        head = self.head.minimumHeight() if self._head.is_shown else 0
         return head + (0 if self.message.isHidden() else self.message.height())
 
     def show_head(self, head: PaneHead) -> None:
@@ -201,9 +200,3 @@ class ListingPane(QWidget):
     def _follow_theme(self) -> None:
         """Be as low as what is clicked may be: the listing needs the room."""
         self.head.setFixedHeight(max(LEAST_TARGET, round(HEAD_HEIGHT * current_theme().text_px)))
-        self._follow_room()
-
-    @Slot()
-    def _follow_room(self) -> None:
-        """Give the editor the height of the listing."""
-        self.editor.setMinimumHeight(self.listing.minimumHeight())

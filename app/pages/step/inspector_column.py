@@ -173,6 +173,8 @@ class InspectorColumn(QTabWidget):
         for widget, height in (
             (self._step_pane, step),
             (self.listing, code),
+            (self.code.editor, code),
+            (self.code, code + head),
             (self.variables, details),
         ):
             if widget.minimumHeight() != height:

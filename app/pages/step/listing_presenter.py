@@ -135,7 +135,7 @@ class ListingPresenter(QObject):
         document, stage = moment.document, moment.cursor.stage
         has_head = stage in EDITED_STAGES
         if moment.is_predicting or moment.is_asked_about:
-            self._pane.show_head(PaneHead(has_head, HIDDEN))
+            self._pane.show_head(PaneHead(refusal=HIDDEN))
             return
         if load_stages().is_alive():
             # The window opens without the evaluator: the head has its room, and soon its button.

@@ -113,7 +113,7 @@ def test_the_line_of_the_step_is_in_sight_in_a_low_window(window: MainWindow) ->
     QApplication.processEvents()
     listing, column = window.page.listing, window.page.findChild(InspectorColumn)
     line = next(box for number, box in listing.visible_lines() if number == listing.line)
-    bottom = listing.viewport().mapTo(column, line.bottomLeft().toPoint()).y()
+    bottom = listing.viewport().mapTo(column.step.viewport(), line.bottomLeft().toPoint()).y()
     assert 0 < bottom <= column.step.viewport().height()
 
 
