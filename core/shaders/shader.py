@@ -27,7 +27,7 @@ BLOCK = 16_384
 """Lanes that run at once, whole quads: their numbers stay in the processor's cache."""
 NUMBERS = 1 << 22
 """Numbers that all variables of such lanes have together: 16 MB."""
-SECONDS = 20.0
+SECONDS = 5.0
 """Seconds that a shader may run for one picture."""
 LIMITS = replace(SHADER, seconds=SECONDS)
 

@@ -33,6 +33,7 @@ STATEMENT: dict[str, tuple[Operation, ...]] = {
 }
 
 
+@lru_cache(maxsize=8)
 def shader_listing(source: str, stage: str) -> ShaderListing:
     """Return a shader's source as a listing whose labels are its lines."""
     lines = source.rstrip("\n").splitlines()

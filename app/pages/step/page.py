@@ -23,6 +23,7 @@ from app.pages.step.navigator_presenter import NavigatorPresenter
 from app.pages.step.pixel_menu import PixelMenu
 from app.pages.step.prediction_presenter import PredictionPresenter
 from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
+from app.pages.step.shader_presenter import ShaderPresenter, make_shader_pane
 from app.pages.step.side_column import SideColumn
 from app.pages.step.step_columns import StepColumns
 from app.pages.step.stepping_presenter import SteppingPresenter
@@ -62,6 +63,7 @@ class StepPage(Page):
         self.timeline = Timeline(self)
         self.outline, self.settings_panel = SceneOutline(self), SettingsPanel(self)
         self.depth_tables = DepthTableEditor(self)
+        self.shader_pane = make_shader_pane(self)
         self.legend = OverlayLegend(self)
         self.views = StageViews(session, self)
         self.main_area = MainArea(session, self.views, self)
@@ -79,6 +81,7 @@ class StepPage(Page):
         self.grids = GridPresenter(session, self.main_area, self.legend, self)
         self.scene = SceneOutlinePresenter(session, self.outline, self.settings_panel, self)
         self.table_editing = DepthTablePresenter(session, self.depth_tables, self)
+        self.shading = ShaderPresenter(session, self.shader_pane, self)
         self.comparing = ComparePresenter(session, self.compare_view, self)
         self.editing = ListingPresenter(session, self.comparing, self.inspector, column, self)
         self.predicting = PredictionPresenter(session, self.prediction, self.grid, self.grids, self)
@@ -140,6 +143,7 @@ class StepPage(Page):
             (pointing, self.grids.refresh_pointing),
             (document, self.scene.refresh),
             (document, self.table_editing.refresh),
+            (document, self.shading.refresh),
             (run | Change.EDITS, self.comparing.refresh),
             (run | Change.EDITS | Change.ASKED, self.editing.refresh),
             (cursor, self.comparing.follow_step),
@@ -466,6 +470,7 @@ SIDE_PANES = (
     SidePane("scene", "Scene", "S", _scene_pane),
     SidePane("methods", "Methods", "M", lambda page: _scrolled(page.settings_panel)),
     SidePane("overlays", "Overlays", "O", _overlay_pane),
+    SidePane("shaders", "Shaders", "L", lambda page: page.shader_pane),
 )
 PANES = (
     *SIDE_PANES,

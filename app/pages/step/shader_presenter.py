@@ -1,0 +1,159 @@
+"""The shaders of the scene in their pane: each text that runs is one edit, which undo takes back."""
+
+from dataclasses import replace
+from math import isfinite
+
+from PySide6.QtCore import QEvent, QObject, Slot
+
+from app.pages.page_bar import Page
+from app.session.moment import Moment
+from app.session.session import Session
+from core.scene import Scene
+from core.shaders.declared import DIALECTS
+from core.shaders.glsl_types import component_count
+from core.shaders.linking import own_uniforms
+from core.shaders.presets import PRESETS, preset_program, scene_uniforms
+from core.shaders.record import ShaderProblem, ShaderProgram
+from widgets.shaders.shader_pane import OWN, ShaderPane, ShownProgram, ShownUniform
+
+
+def make_shader_pane(page: Page) -> ShaderPane:
+    """Return the pane with all presets."""
+    return ShaderPane(
+        [(name, preset.title) for name, preset in PRESETS.items()], tuple(DIALECTS.items()), page
+    )
+
+
+class ShaderPresenter(QObject):
+    """Shows and edits the shaders of the session's scene."""
+
+    def __init__(self, session: Session, pane: ShaderPane, page: Page) -> None:
+        super().__init__(page)
+        self._session, self._pane, self._page = session, pane, page
+        pane.installEventFilter(self)
+        pane.source_settled.connect(self._type)
+        pane.preset_chosen.connect(self._begin)
+        pane.dialect_chosen.connect(self._choose_dialect)
+        pane.uniform_typed.connect(self._type_uniform)
+        pane.left.connect(page.setFocus)
+        self.refresh(session.moment)
+
+    def refresh(self, moment: Moment) -> None:
+        """Show the shaders while the pane is in sight."""
+        if self._pane.isVisible():
+            self._show()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Bring the pane up to date when it is unfolded."""
+        if event.type() == QEvent.Type.Show and watched is self._pane:
+            self._show()
+        return False
+
+    def _show(self) -> None:
+        scene = self._session.latest.scene
+        program = scene.program if isinstance(scene, Scene) else None
+        self._pane.show_program(
+            None if program is None else shown_program(program), is_possible=isinstance(scene, Scene)
+        )
+
+    @Slot(str)
+    def _begin(self, preset: str) -> None:
+        scene = self._session.latest.scene
+        assert isinstance(scene, Scene)
+        self._edit(preset_program(preset, scene) if preset else None)
+
+    @Slot(str, str)
+    def _type(self, stage: str, text: str) -> None:
+        program = self._program()
+        if program is None:
+            return
+        sources = {each: self._pane.editor(each).toPlainText() for each in ("vertex", "fragment")} | {
+            stage: text
+        }
+        if (sources["vertex"], sources["fragment"]) == (program.vertex, program.fragment):
+            self._pane.show_accepted(notes_of(program))
+            return
+        self._try(program, sources)
+
+    @Slot(str)
+    def _choose_dialect(self, dialect: str) -> None:
+        program = self._program()
+        if program is None or dialect == program.dialect:
+            return
+        try:
+            self._edit(replace(program, dialect=dialect))
+        except ShaderProblem as problem:
+            self._say(problem)
+            self._show()
+
+    @Slot(str, str)
+    def _type_uniform(self, name: str, text: str) -> None:
+        program = self._program()
+        if program is None:
+            return
+        count = component_count(own_uniforms(program)[name])
+        try:
+            values = tuple(float(number) for number in text.replace(";", ",").split(","))
+        except ValueError:
+            values = ()
+        if len(values) != count or not all(map(isfinite, values)):
+            numbers = "1 number" if count == 1 else f"{count} numbers, separated by commas"
+            self._pane.show_problem("", 0, 0, f"{name} needs {numbers}, got {text or 'nothing'}.")
+            return
+        self._edit(replace(program, uniforms=tuple({**program.values, name: values}.items())))
+
+    def _program(self) -> ShaderProgram | None:
+        scene = self._session.latest.scene
+        return scene.program if isinstance(scene, Scene) else None
+
+    def _try(self, program: ShaderProgram, sources: dict[str, str]) -> None:
+        scene = self._session.latest.scene
+        assert isinstance(scene, Scene)
+        try:
+            typed = ShaderProgram(sources["vertex"], sources["fragment"], program.uniforms, program.dialect)
+            given = scene_uniforms(scene)
+            new = {
+                name: given[name]
+                for name in own_uniforms(typed)
+                if name in given and name not in typed.values
+            }
+            self._edit(replace(typed, uniforms=tuple({**typed.values, **new}.items())))
+        except ShaderProblem as problem:
+            self._say(problem)
+        except ValueError as problem:
+            self._pane.show_problem("", 0, 0, ended(str(problem)))
+
+    def _say(self, problem: ShaderProblem) -> None:
+        self._pane.show_problem(problem.stage, problem.line, problem.column, ended(problem.sentence))
+
+    def _edit(self, program: ShaderProgram | None) -> None:
+        document = self._session.latest
+        assert isinstance(document.scene, Scene)
+        self._session.edit(replace(document, scene=replace(document.scene, program=program)))
+        if program is not None:
+            self._pane.show_accepted(notes_of(program))
+
+
+def ended(sentence: str) -> str:
+    """Return a sentence with its end."""
+    return sentence if sentence.endswith(("?", ".", ";")) else f"{sentence}."
+
+
+def notes_of(program: ShaderProgram) -> str:
+    """Return what is worth a sentence although both shaders run."""
+    return " ".join(note for shader in program.shaders for note in shader.notes)
+
+
+def shown_program(program: ShaderProgram) -> ShownProgram:
+    """Return what the pane shows of shaders."""
+    texts = (program.vertex, program.fragment)
+    preset = next((name for name, each in PRESETS.items() if (each.vertex, each.fragment) == texts), OWN)
+    values = program.values
+    uniforms = tuple(
+        ShownUniform(
+            name, of, ", ".join(f"{value:g}" for value in values.get(name, (0.0,) * component_count(of)))
+        )
+        for name, of in own_uniforms(program).items()
+    )
+    sources = {"vertex": program.vertex, "fragment": program.fragment}
+    return ShownProgram(sources, preset, program.dialect, uniforms, notes_of(program))

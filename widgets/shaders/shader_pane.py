@@ -1,0 +1,181 @@
+"""The pane of a scene's shaders: what to begin with, both sources, what is wrong with them, and the uniforms."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from PySide6.QtCore import Qt, Signal, Slot
+from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QTabWidget, QWidget
+
+from widgets.basics.choice_box import ChoiceBox
+from widgets.basics.controls import column_layout
+from widgets.shaders.source_editor import SourceEditor
+
+STAGES = {"vertex": "Vertex", "fragment": "Fragment"}
+OWN, BUILT_IN = "own", ""
+HINT = "Choose shaders to begin with, or type your own. They run without a graphics card."
+
+
+@dataclass(frozen=True)
+class ShownUniform:
+    """A uniform that the user sets."""
+
+    name: str
+    of: str
+    text: str
+    """Its numbers, separated by commas."""
+
+
+@dataclass(frozen=True)
+class ShownProgram:
+    """The shaders of a scene."""
+
+    sources: Mapping[str, str]
+    """``vertex`` and ``fragment`` to their text."""
+    preset: str
+    """Name of what they still are, or `OWN`."""
+    dialect: str
+    uniforms: tuple[ShownUniform, ...]
+    notes: str = ""
+
+
+class ShaderPane(QWidget):
+    """Both shaders in tabs. It never compiles: who owns it answers with `show_program` or `show_problem`."""
+
+    source_settled = Signal(str, str)
+    """The user has typed this shader: stage and text."""
+    preset_chosen = Signal(str)
+    """The user begins with another pair; empty: without shaders."""
+    dialect_chosen = Signal(str)
+    uniform_typed = Signal(str, str)
+    """Name and text."""
+    left = Signal()
+    """The user gives the keyboard back."""
+
+    def __init__(
+        self,
+        presets: Sequence[tuple[str, str]],
+        dialects: Sequence[tuple[str, str]],
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._from_document: dict[str, str] = {}
+        """Text of each stage that the document had when it was shown last: what was typed since stays."""
+        self._preset, self._dialect = ChoiceBox(self), ChoiceBox(self)
+        self._preset.setAccessibleName("Shaders to begin with")
+        self._dialect.setAccessibleName("Who declares the names of three.js")
+        self._dialect.setToolTip(
+            "three.js declares position, modelViewMatrix and more for a ShaderMaterial; with RawShaderMaterial you do."
+        )
+        for name, title in ((BUILT_IN, "Built-in shading"), *presets, (OWN, "Own shaders")):
+            self._preset.addItem(title, name)
+        for name, title in dialects:
+            self._dialect.addItem(title, name)
+        self._preset.activated.connect(self._choose_preset)
+        self._dialect.activated.connect(self._choose_dialect)
+        self._tabs = QTabWidget(self)
+        self._tabs.setDocumentMode(True)
+        self._editors: dict[str, SourceEditor] = {}
+        for stage, title in STAGES.items():
+            editor = self._editors[stage] = SourceEditor(f"{title} shader", self)
+            editor.text_settled.connect(partial(self.source_settled.emit, stage))
+            editor.left.connect(self.left)
+            self._tabs.addTab(editor, title)
+        self._tabs.setCurrentIndex(1)
+        self._message = QLabel(HINT, self)
+        self._message.setWordWrap(True)
+        self._message.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self._uniforms = QWidget(self)
+        self._rows = QGridLayout(self._uniforms)
+        self._rows.setContentsMargins(0, 0, 0, 0)
+        self._shown_uniforms: tuple[ShownUniform, ...] = ()
+        layout = column_layout(self, 6, margins=(8, 8, 8, 8))
+        for widget in (self._preset, self._dialect):
+            layout.addWidget(widget)
+        layout.addWidget(self._tabs, 1)
+        for widget in (self._message, self._uniforms):
+            layout.addWidget(widget)
+        self.show_program(None, is_possible=True)
+
+    @property
+    def message(self) -> str:
+        """What stands below the sources."""
+        return self._message.text()
+
+    def editor(self, stage: str) -> SourceEditor:
+        """Return the editor of ``vertex`` or ``fragment``."""
+        return self._editors[stage]
+
+    def show_program(self, program: ShownProgram | None, is_possible: bool) -> None:
+        """Show the shaders of the document; ``None``: it has none, and ``is_possible``: it may have some."""
+        self._preset.setEnabled(is_possible)
+        self._select(self._preset, BUILT_IN if program is None else program.preset)
+        has_program = program is not None
+        for widget in (self._dialect, self._tabs, self._uniforms):
+            widget.setVisible(has_program)
+        if program is None:
+            self._from_document = {}
+            self._message.setText(HINT if is_possible else "Only scenes of meshes can have shaders.")
+            return
+        self._select(self._dialect, program.dialect)
+        is_new = False
+        for stage, editor in self._editors.items():
+            if self._from_document.get(stage) != program.sources[stage]:
+                editor.set_source(program.sources[stage])
+                is_new = True
+        self._from_document = dict(program.sources)
+        if is_new:
+            self._show_message(program.notes)
+        if program.uniforms != self._shown_uniforms:
+            self._show_uniforms(program.uniforms)
+
+    def show_problem(self, stage: str, line: int, column: int, sentence: str) -> None:
+        """Say what is wrong with what was typed; without a stage it is about no place."""
+        title = f"{STAGES[stage]} shader, line {line}: " if stage else ""
+        self._message.setText(f"{title}{sentence[:1].upper()}{sentence[1:]}")
+        for name, editor in self._editors.items():
+            editor.mark(line if name == stage else 0, column, sentence)
+        if stage:
+            self._tabs.setCurrentIndex(list(STAGES).index(stage))
+
+    def show_accepted(self, notes: str) -> None:
+        """Say that what was typed runs."""
+        self._show_message(notes)
+
+    def _show_message(self, notes: str) -> None:
+        self._message.setText(notes or "Both shaders run.")
+        for editor in self._editors.values():
+            editor.mark(0, 0, "")
+
+    def _show_uniforms(self, uniforms: tuple[ShownUniform, ...]) -> None:
+        self._shown_uniforms = uniforms
+        while (item := self._rows.takeAt(0)) is not None:
+            widget = item.widget()
+            if widget is not None:
+                widget.hide()
+                widget.deleteLater()
+        for row, uniform in enumerate(uniforms):
+            label, field = QLabel(f"{uniform.name}  {uniform.of}", self), QLineEdit(uniform.text, self)
+            label.setBuddy(field)
+            field.setAccessibleName(f"Uniform {uniform.name}, {uniform.of}")
+            field.editingFinished.connect(partial(self._type_uniform, uniform, field))
+            self._rows.addWidget(label, row, 0)
+            self._rows.addWidget(field, row, 1)
+
+    def _type_uniform(self, uniform: ShownUniform, field: QLineEdit) -> None:
+        if field.text() != uniform.text:
+            self.uniform_typed.emit(uniform.name, field.text())
+
+    @staticmethod
+    def _select(box: ChoiceBox, name: str) -> None:
+        box.setCurrentIndex(max(box.findData(name), 0))
+
+    @Slot(int)
+    def _choose_preset(self, index: int) -> None:
+        name = self._preset.itemData(index)
+        if name != OWN:
+            self.preset_chosen.emit(name)
+
+    @Slot(int)
+    def _choose_dialect(self, index: int) -> None:
+        self.dialect_chosen.emit(self._dialect.itemData(index))

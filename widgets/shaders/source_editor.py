@@ -1,0 +1,104 @@
+"""An editor of a shader's text: it says when typing has paused, and marks the place that is wrong."""
+
+from PySide6.QtCore import QTimer, Signal, Slot
+from PySide6.QtGui import QColor, QFontDatabase, QKeyEvent, QTextCharFormat, QTextCursor
+from PySide6.QtWidgets import QFrame, QPlainTextEdit, QTextEdit, QWidget
+
+from widgets.basics.theme import current_theme, theme_notifier
+from widgets.inspector.listing_looks import color_tokens
+
+PAUSE_MS = 150
+"""After this long without a key what was typed is read."""
+INDENT = "   "
+
+
+class SourceEditor(QPlainTextEdit):
+    """One shader. Tab indents; Escape gives the keyboard back to the page."""
+
+    text_settled = Signal(str)
+    """The user has typed this, and paused."""
+    left = Signal()
+    """Escape was pressed."""
+
+    def __init__(self, name: str, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._name = name
+        self._is_coloring = False
+        self._mark: tuple[int, int] | None = None
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        self.setAccessibleName(name)
+        self._pause = QTimer(self, interval=PAUSE_MS, singleShot=True)
+        self._pause.timeout.connect(self._settle)
+        self.textChanged.connect(self._begin_pause)
+        theme_notifier().theme_changed.connect(self._follow_theme)
+        self._follow_theme()
+
+    def set_source(self, text: str) -> None:
+        """Show a text that was not typed here; it is not emitted."""
+        if text == self.toPlainText():
+            return
+        self.blockSignals(True)
+        self.setPlainText(text)
+        self.blockSignals(False)
+        self._pause.stop()
+        self._color()
+
+    def mark(self, line: int, column: int, sentence: str) -> None:
+        """Draw a wave under a place, counted from 1, and tell it to screen readers; line 0: nothing is wrong."""
+        self._mark = (line, column) if line else None
+        self.setAccessibleDescription(f"Line {line}: {sentence}" if line else "")
+        self._show_mark()
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Indent, or leave."""
+        if event.text() == "\t":
+            self.insertPlainText(INDENT)
+        elif event.text() == "\x1b":
+            self.left.emit()
+        else:
+            super().keyPressEvent(event)
+
+    @Slot()
+    def _begin_pause(self) -> None:
+        if not self._is_coloring:
+            self._pause.start()
+
+    @Slot()
+    def _settle(self) -> None:
+        self._color()
+        self.text_settled.emit(self.toPlainText())
+
+    def _color(self) -> None:
+        self._is_coloring = True
+        color_tokens(self.document())
+        self._is_coloring = False
+
+    def _show_mark(self) -> None:
+        marks = []
+        if self._mark is not None:
+            line, column = self._mark
+            block = self.document().findBlockByNumber(line - 1)
+            cursor = QTextCursor(block)
+            begin = min(column - 1, max(block.length() - 2, 0))
+            cursor.setPosition(block.position() + begin)
+            cursor.movePosition(QTextCursor.MoveOperation.EndOfWord, QTextCursor.MoveMode.KeepAnchor)
+            if not cursor.hasSelection():
+                cursor.setPosition(block.position())
+                cursor.movePosition(QTextCursor.MoveOperation.EndOfBlock, QTextCursor.MoveMode.KeepAnchor)
+            mark = QTextEdit.ExtraSelection()
+            mark.cursor = cursor  # type: ignore[attr-defined]
+            look = QTextCharFormat()
+            look.setUnderlineStyle(QTextCharFormat.UnderlineStyle.WaveUnderline)
+            look.setUnderlineColor(QColor(current_theme().accent))
+            mark.format = look  # type: ignore[attr-defined]
+            marks.append(mark)
+        self.setExtraSelections(marks)
+
+    @Slot()
+    def _follow_theme(self) -> None:
+        font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+        font.setPixelSize(current_theme().code_px)
+        self.setFont(font)
+        self._color()
+        self._show_mark()
