@@ -21,6 +21,7 @@ from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
     from app.files.preferences import Preferences
+    from core.edits import Edit
     from core.scene import AnyScene
     from core.study.accuracy.record import (
         Opening,
@@ -44,6 +45,8 @@ class StepRequest:
     """What B draws, of the same size; ``None``: what A does."""
     other_title: str = ""
     """What B is called, where it is a run that no settings can name."""
+    edits: "tuple[Edit, ...]" = ()
+    """Edited listings that B runs, in A | B; the user can go on editing them."""
     position: int | None = None
     """Steps of the stage that are done; ``None``: those up to the pixel, or none."""
     is_asked: bool | None = None

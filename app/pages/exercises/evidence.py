@@ -6,15 +6,19 @@ from functools import partial
 from PySide6.QtCore import QObject, Slot
 from PySide6.QtWidgets import QMenu
 
+from app.pages.exercises.answer_pictures import Live
 from app.pages.exercises.runs import (
+    drawn_by,
     explaining_run,
     faulty_picture,
     faulty_run,
+    is_drawn,
     is_opened,
     is_pictured,
     is_stepped,
     refuting_step,
     right_run,
+    wanted_picture,
     wrong_run,
 )
 from app.pages.exercises.work import Checked
@@ -24,6 +28,7 @@ from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
 
 BACK, SEVERAL, EXPLAIN, OPEN = "Back to my answer", "Show those runs", "Step it", "Show it in A | B"
+DRAWN = "Show what mine draws"
 
 
 class Evidence(QObject):
@@ -87,8 +92,10 @@ class Evidence(QObject):
                 shown[f"Show that run{words}"] = partial(self._step, partial(faulty_run, question, name))
             elif is_pictured(question, name):
                 shown[f"Show that picture{words}"] = partial(self._show_picture, name)
-        if is_opened(question, judgement.verdict.score):
+        if judgement.verdict.score < 1 and is_opened(question):
             shown[OPEN] = partial(self._step, partial(wrong_run, question, self._checked.response))
+        if judgement.verdict.score < 1 and is_drawn(question):
+            shown[DRAWN] = self._show_drawn
         if judgement.refutation is not None:
             title = question.template.title
             shown["Show the step"] = partial(self._step, partial(refuting_step, judgement.refutation, title))
@@ -124,17 +131,35 @@ class Evidence(QObject):
         """Show the picture that the mistake makes, until the learner goes back to the answer."""
         assert self._question is not None
         live = faulty_picture(self._question, name)
+        self._put(live, "The picture shows what this mistake makes of the scene.")
+
+    def _show_drawn(self) -> None:
+        """Show the picture that a listing draws, until the learner goes back to the answer."""
+        assert self._question is not None
+        assert self._checked is not None
+        try:
+            live = drawn_by(self._question, self._checked.response)
+        except ValueError as problem:
+            self._page.refuse(f"This cannot be drawn: {problem}.")
+            return
+        self._put(
+            live, "The picture shows what your listing draws, with marks where it is not as it must be."
+        )
+
+    def _put(self, live: Live, note: str) -> None:
         self._grid.show_geometry(live.outline)
         self._grid.show_picture(live.picture, live.overlays)
         self._is_pictured = True
-        self._view.show_note("The picture shows what this mistake makes of the scene.")
+        self._view.show_note(note)
         self._show_buttons()
 
     def end_picture(self) -> None:
         """Show the answer again."""
         if self._is_pictured:
             self._is_pictured = False
-            self._grid.show_picture(None)
+            assert self._question is not None
+            wanted = wanted_picture(self._question)
+            self._grid.show_picture(wanted)
             self._view.show_note("")
             self._show_buttons()
 

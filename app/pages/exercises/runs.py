@@ -2,6 +2,8 @@
 
 from dataclasses import replace
 
+import numpy as np
+
 from app.pages.exercises.answer_pictures import Live, picture_of
 from app.pages.exercises.scene_outline import document_of, scene_outline
 from app.pages.page_bar import StepRequest
@@ -15,6 +17,8 @@ from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.question import Question
 from lessons.exercises.refutation import Refutation
 from lessons.mistakes.shelf import SHELF
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.overlay import Mark, MaskOverlay
 
 PICTURED = ("numbers", "table", "choice", "order", "line")
 """Types of answers beside which a picture may stand."""
@@ -80,10 +84,35 @@ def faulty_run(question: Question, mistake: str) -> StepRequest | None:
     )
 
 
-def is_opened(question: Question, score: float) -> bool:
-    """Return whether an answer is a wrong listing that the program can run beside the right one."""
+def is_opened(question: Question) -> bool:
+    """Return whether a wrong answer is a listing that the program can run beside the right one."""
     answer = question.draft.answer
-    return isinstance(answer, CodeAnswer) and score < 1 and answer.is_shown
+    return isinstance(answer, CodeAnswer) and answer.is_stepped
+
+
+def is_drawn(question: Question) -> bool:
+    """Return whether a wrong answer is a listing whose picture can be compared with the wanted one."""
+    answer = question.draft.answer
+    return isinstance(answer, CodeAnswer) and answer.picture is not None
+
+
+def wanted_picture(question: Question) -> GridBuffer | None:
+    """Return the picture that a question shows, which a listing must draw; ``None``: there is none."""
+    answer = question.draft.answer
+    is_wanted = isinstance(answer, CodeAnswer) and answer.picture is not None
+    return picture_of(answer.picture) if is_wanted else None
+
+
+def drawn_by(question: Question, response: Response) -> Live:
+    """Return what a listing draws in place of the wanted picture, with marks where it differs."""
+    answer = question.draft.answer
+    assert isinstance(answer, CodeAnswer)
+    assert answer.picture is not None
+    with bounded(LISTING.seconds):
+        mine = answer.drawn(response)
+    differs = np.asarray((mine.primitive >= 0) != (answer.picture.primitive >= 0))
+    marks = (MaskOverlay("differs", Mark.DIFFERENCE, differs, title="other than wanted"),)
+    return Live(None, picture_of(mine), marks)
 
 
 def wrong_run(question: Question, response: Response) -> StepRequest | None:
@@ -96,9 +125,8 @@ def wrong_run(question: Question, response: Response) -> StepRequest | None:
         return None
     shown, title = opened.shown, question.template.title
     return StepRequest(
-        Opening(shown.scene, opened.right, shown.stage, shown.pixel),
+        Opening(shown.scene, shown.settings, shown.stage, shown.pixel),
         title,
-        opened.typed,
-        other_title="your listing",
+        edits=(opened.edit,),
         is_asked=False,
     )

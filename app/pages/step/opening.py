@@ -1,6 +1,6 @@
 """Opening on the Step page what another page shows: one method's run, at the place that matters."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from PySide6.QtCore import QObject, Signal, Slot
 
@@ -44,6 +44,7 @@ class StepOpening(QObject):
 
         def work() -> _Ready:
             document = document_at(request.opening, request.title, request.triangle)
+            document = replace(document, edits=request.edits)
             return _Ready(request, document, trace_now(document, request.opening.stage))
 
         self.job.call(work)
@@ -64,7 +65,10 @@ class StepOpening(QObject):
         pixel = opening.pixel if opening.pixel and self._session.moment.has_pixel(opening.pixel) else None
         if pixel is not None:
             self._session.set_pin(pixel)
-        if other is None:
+        if ready.request.edits:
+            self._page.show_view("compare")
+            self._page.comparing.begin_at(pixel)
+        elif other is None:
             self._page.show_view("pixels")
             if pixel is not None and not ready.request.is_asked and ready.request.position is None:
                 self._page.stepping.step_into(opening.stage, *pixel)

@@ -10,6 +10,7 @@ from core.edits import Edit, apply_edit
 from core.lanes.problem import Place, Problem
 from core.records.cells import Form
 from core.records.frame import Frame
+from core.scene import ClipScene
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
 from lessons.exercises.coding.task import Shown, Task, Wrong
 from lessons.exercises.draws import Draws
@@ -34,11 +35,16 @@ class CannotRunError(NotCheckedError):
 
 @dataclass(frozen=True, eq=False)
 class Opened:
-    """A hidden input on which a listing is wrong, as the program runs it: A is right, B is what was written."""
+    """A hidden input on which a listing is wrong, as the program runs it."""
 
     shown: Shown
-    right: Settings
-    typed: Settings
+    edit: Edit
+    """What was written."""
+
+    @property
+    def typed(self) -> Settings:
+        """Settings that run what was written; those of ``shown`` run what is right."""
+        return apply_edit(self.shown.settings, self.edit)
 
 
 def _ran(work: Callable[[], Found]) -> Found:
@@ -56,8 +62,8 @@ class CodeAnswer(Answer):
     task: Task
     start: str
     """What stands in the editor at first: with a wrong line, without a line, or the head alone."""
-    picture: Frame | None = None
-    """What must be drawn, where that is shown."""
+    scene: ClipScene | None = None
+    """What must be drawn otherwise, where a picture is shown."""
 
     kind: ClassVar[str] = "code"
 
@@ -187,28 +193,38 @@ class CodeAnswer(Answer):
         return f"{said}: yours {told(first.found)}; right {told(first.wanted)}."
 
     @property
-    def is_shown(self) -> bool:
-        """Whether the program runs it somewhere."""
-        return any(self.task.shown(case) is not None for _, case in self.task.all_cases[:1])
+    def is_stepped(self) -> bool:
+        """Whether the program runs the right listing beside it somewhere."""
+        return not self.task.draws_other and self.task.shown(self.task.all_cases[0][1]) is not None
 
     def opened(self, response: str) -> Opened | None:
         """Return the smallest wrong input whose picture differs, or else the smallest; ``None``: none is drawn."""
         found: list[Opened] = []
-        for one in self.wrong(response)[: 4 * OPENED]:
+        for one in self.wrong(response) if self.is_stepped else []:
             shown = self.task.shown(one.case)
             if shown is None:
                 continue
-            right = self._settings(shown, self.reference) if self.task.draws_other else shown.settings
-            found.append(Opened(shown, right, self._settings(shown, response)))
+            found.append(Opened(shown, self._edit(shown, response)))
             if _differs(found[-1]):
                 return found[-1]
             if len(found) == OPENED:
                 break
         return found[0] if found else None
 
-    def _settings(self, shown: Shown, text: str) -> Settings:
-        whole = f"{self.task.whole}\n{text}" if self.task.whole else text
-        return apply_edit(shown.settings, Edit(shown.part, shown.of, whole))
+    def _edit(self, shown: Shown, text: str) -> Edit:
+        return Edit(shown.part, shown.of, f"{self.task.whole}\n{text}" if self.task.whole else text)
+
+    def drawn(self, response: str) -> Frame:
+        """Return what a listing draws of the scene whose picture is wanted."""
+        shown = self.task.shown(self.task.all_cases[0][1])
+        if shown is None or self.scene is None:
+            raise ValueError(f"{self.task.name} draws no picture")
+        return render(self.scene, apply_edit(shown.settings, self._edit(shown, response)))
+
+    @cached_property
+    def picture(self) -> Frame | None:
+        """What must be drawn, where that is shown."""
+        return None if self.scene is None else self.drawn(self.reference)
 
     def random(self, draws: Draws) -> str:
         """Return something simple."""
@@ -220,7 +236,7 @@ class CodeAnswer(Answer):
 
 
 def _differs(opened: Opened) -> bool:
-    frames = [render(opened.shown.scene, settings) for settings in (opened.right, opened.typed)]
+    frames = [render(opened.shown.scene, settings) for settings in (opened.shown.settings, opened.typed)]
     return any(
         bool((one != other).any())
         for one, other in (

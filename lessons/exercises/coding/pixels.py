@@ -12,7 +12,7 @@ from lessons.small_scenes import triangle_scene
 
 CORNERS = [(0.5, 0.5), (5.5, 0.5), (0.5, 5.5)]
 SIZE = (6, 6)
-DEPTHS = (0.0, 0.25, 0.5, 0.75, 1.0)
+DEPTHS = (0.25, 0.5, 0.75, 0.0, 1.0)
 
 
 def _depth_cases() -> dict[str, tuple[Case, ...]]:

@@ -298,7 +298,7 @@ def _interpolation_task(name: str, title: str, purpose: str, n_faults: tuple[Fau
             Fault(_WEIGHTS, "weights = [n[k] for k in range(3)]"),
             Fault(
                 _VALUE,
-                "value = weights[0] * values[1] + weights[1] * values[2] + weights[2] * values[0]",
+                "value = weights[0] * values[2] + weights[1] * values[0] + weights[2] * values[1]",
                 "weights-permuted",
             ),
             Fault(_VALUE, "value = (values[0] + values[1] + values[2]) / 3"),

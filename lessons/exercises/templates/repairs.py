@@ -2,11 +2,7 @@
 
 from functools import partial
 
-from core import render
-from core.edits import Edit, apply_edit
-from core.records.frame import Frame
 from core.scene import ClipScene
-from core.settings import Settings
 from lessons.exercises.answers.code import MISSING, WRITE, CodeAnswer, head_alone, with_line
 from lessons.exercises.coding.task import SIDE, Task
 from lessons.exercises.coding.tasks import TASKS
@@ -43,9 +39,10 @@ LINES = pixel_segments([((1, 1), (10, 4)), ((2, 10), (10, 7)), ((0, 4), (3, 10))
 TRIANGLE = triangle_scene([[(1.5, 1.0), (10.5, 2.5), (5.0, 11.0)]], (SIDE, SIDE))
 
 
-def code_draft(task: Task, text: str, start: str, picture: Frame | None = None, given: str = "") -> Draft:
+def code_draft(task: Task, text: str, start: str, scene: ClipScene | None = None) -> Draft:
     """Ask for a listing; the mistakes are the task's wrong lines that the shelf names."""
-    answer = CodeAnswer(task, start, picture)
+    answer = CodeAnswer(task, start, scene)
+    given = "" if answer.picture is None else frame_art(answer.picture)
     return Draft(text, given, answer, task.hints, answer.named_mistakes)
 
 
@@ -71,20 +68,9 @@ def draw_function(task: Task, draws: Draws) -> Draft:
 def draw_picture(task: Task, draws: Draws) -> Draft:
     """The listing of a plain method, and the picture that it must draw."""
     is_line = task.stage == "raster" and task.shape == "list"
-    scene = LINES if is_line else TRIANGLE
-    frame = picture_of(task, scene)
     plain = TASKS["bresenham-lecture" if is_line else "inside-test"]
     text = f"{task.purpose} Change this listing so that it draws this picture, and others of its kind."
-    return code_draft(task, text, plain.text, frame, frame_art(frame))
-
-
-def picture_of(task: Task, scene: ClipScene) -> Frame:
-    """Return what the right listing of a task draws of a scene."""
-    shown = task.shown(task.all_cases[0][1])
-    if shown is None:
-        raise ValueError(f"{task.name} draws no picture")
-    settings: Settings = apply_edit(shown.settings, Edit(shown.part, shown.of, task.text))
-    return render(scene, settings)
+    return code_draft(task, text, plain.text, LINES if is_line else TRIANGLE)
 
 
 TEMPLATES = (

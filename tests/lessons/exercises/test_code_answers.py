@@ -58,6 +58,8 @@ def test_a_named_fault_draws_what_the_mistake_draws() -> None:
             opened = answer.opened(text)
             if opened is None or task.name == "bresenham":  # Its smallest input is a diagonal, see above.
                 continue
+            if (task.name, name) == ("depth-test", "farther-wins"):  # It clears the buffer otherwise, too.
+                continue
             shown = opened.shown
             mine, its = render(shown.scene, opened.typed), SHELF[name].draw(shown.scene, shown.settings)
             assert (mine.color == its.color).all(), (task.name, name)
@@ -114,8 +116,8 @@ def test_the_smallest_input_that_shows_it_is_told_and_opened() -> None:
     assert WRITTEN.reason(lost) == "From (2, 2) to (2, 2): yours no pixel; right (2, 2)."
     opened = WRITTEN.opened(lost)
     assert opened is not None
-    assert edits_of(opened.right) == ()
-    (edit,) = edits_of(opened.typed)
+    edit = opened.edit
+    assert edits_of(opened.typed) == (edit,)
     assert (edit.part, edit.of, edit.text) == ("line", "bresenham-lecture", lost)
     question = ask(TEMPLATES["write-bresenham-step"], 0)
     never = question.draft.answer.read("def step(y, D, dx, dy, sy):\n  return y, D + 2 * dy")
@@ -129,10 +131,9 @@ def test_the_picture_to_be_drawn_is_that_of_the_right_listing() -> None:
     answer = ask(TEMPLATES["draw-dashes"], 0).draft.answer
     assert isinstance(answer, CodeAnswer)
     assert answer.picture is not None
-    plain = answer.opened(answer.start)
-    assert plain is not None
-    frames = [render(plain.shown.scene, settings) for settings in (plain.right, plain.typed)]
-    assert (frames[0].primitive >= 0).sum() < (frames[1].primitive >= 0).sum()
+    wanted, plain = answer.picture.primitive >= 0, answer.drawn(answer.start).primitive >= 0
+    assert 0 < wanted.sum() < plain.sum()
+    assert not (wanted & ~plain).any()
 
 
 CANNOT = {

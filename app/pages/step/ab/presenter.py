@@ -167,6 +167,12 @@ class ComparePresenter(QObject):
             partial(self.go_to_divergence, self._session.cursor.stage),
         )
 
+    def begin_at(self, pixel: tuple[int, int] | None) -> None:
+        """Go to a pixel, or to the first step in which both differ, once B is drawn."""
+        stage = self._session.cursor.stage
+        self._goal = partial(self.go_to_divergence, stage) if pixel is None else partial(self.meet_at, pixel)
+        self.refresh(self._session.moment)
+
     def begin_anew(self, moment: Moment) -> None:
         """Forget what has no effect in a scene that was opened."""
         self._goal = None

@@ -1,0 +1,123 @@
+"""A listing repaired in the window, by keys alone: what runs, what cannot, and the input that shows a mistake."""
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAccessible
+from PySide6.QtTest import QTest
+from pytestqt.qtbot import QtBot
+
+from app.files.attempts import attempt_file
+from app.pages.exercises.evidence import OPEN
+from app.pages.step.page import StepPage
+from app.window.main_window import MainWindow
+from lessons.exercises.answers.code import CodeAnswer
+from tests.app.pages.exercises.acting import Page, check
+from widgets.exercises.code_answer import NAME, CodeAnswerView
+
+CONTROL = Qt.KeyboardModifier.ControlModifier
+
+
+def test_a_listing_is_repaired_by_keys(page: Page, window: MainWindow) -> None:
+    shown = page("repair-bresenham-lecture", 7)
+    view, before = shown.question_view, len(attempt_file().attempts())
+    answer, question = view.answer, shown.question
+    assert question is not None
+    right = question.draft.answer
+    assert isinstance(answer, CodeAnswerView)
+    assert isinstance(right, CodeAnswer)
+    editor = answer.editor
+    told = QAccessible.queryAccessibleInterface(editor)
+    assert told is not None
+    assert told.text(QAccessible.Text.Name) == NAME
+    assert answer.given() == right.start
+
+    # Nothing is changed: that is asked about first.
+    QTest.mouseClick(view.check_button, Qt.MouseButton.LeftButton)
+    assert view.note.text().startswith("Nothing is changed yet.")
+
+    # What cannot run is marked, said and read out, and costs nothing.
+    lines = right.start.split("\n")
+    editor.begin(right.start, 2)
+    QTest.keyClicks(editor, " +")
+    QTest.keyClick(editor, Qt.Key.Key_Return, CONTROL)
+    shown.settle()
+    assert view.note.text().startswith("Not checked yet: line 2, column")
+    QTest.qWait(200)  # the pause after the last key
+    assert view.note.text().startswith("Line 2, column")
+    assert editor.extraSelections()
+    assert editor.accessibleDescription().startswith("Line 2, column")
+    assert editor.changed_lines == {2}
+
+    # An endless loop is told with its line.
+    loop = right.reference.replace("x += sx", "x += 0")
+    answer.show_given(loop)
+    answer.answer_changed.emit()
+    QTest.mouseClick(view.check_button, Qt.MouseButton.LeftButton)
+    shown.settle()
+    assert "the loop goes on after" in view.note.text()
+    assert len(attempt_file().attempts()) == before
+
+    # A wrong listing: its classes, the smallest input, and that in A | B.
+    answer.show_given(right.reference.replace("if D > 0:", "if D >= 0:"))
+    answer.answer_changed.emit()
+    said = check(shown)
+    assert "right in 10 of 11 classes of inputs" in said
+    assert "From (7, 6) to (5, 5): yours (5, 5), (6, 6), (7, 6); right (5, 5), (6, 5), (7, 6)." in said
+    assert "The line stepped where D = 0." in said
+    assert len(attempt_file().attempts()) == before + 1
+
+    # Undo takes it back; the right one, typed line by line, is right.
+    window.run_action("undo")
+    assert answer.given() == loop
+    wrong = next(
+        k
+        for k, (one, other) in enumerate(zip(lines, right.reference.split("\n"), strict=True))
+        if one != other
+    )
+    answer.reset_button.click()
+    assert answer.given() == right.start
+    editor.begin(right.start, wrong + 1)
+    QTest.keyClick(editor, Qt.Key.Key_Home, Qt.KeyboardModifier.ShiftModifier)
+    QTest.keyClicks(editor, right.reference.split("\n")[wrong])
+    QTest.keyClick(editor, Qt.Key.Key_Return, CONTROL)
+    shown.settle()
+    assert view.verdict.text().startswith("3 of 3 points"), (answer.given(), view.note.text())
+    assert not view.twin_button.isVisible()
+    QTest.keyClick(editor, Qt.Key.Key_Escape)
+    assert window.focusWidget() is answer.reset_button
+
+    # It is kept, and read again.
+    typed = answer.given()
+    page("shared-edge")
+    shown.questions.open(question.template, None)
+    shown.settle()
+    assert isinstance(view.answer, CodeAnswerView)
+    assert view.answer.given() == typed
+
+
+def test_the_smallest_input_is_opened_in_a_b_and_escape_ends_a_check(
+    page: Page, window: MainWindow, qtbot: QtBot
+) -> None:
+    shown = page("write-inside-test", 0)
+    view = shown.question_view
+    assert shown.question is not None
+    right = shown.question.draft.answer
+    assert isinstance(right, CodeAnswer)
+    answer = view.answer
+    assert isinstance(answer, CodeAnswerView)
+    answer.show_given(right.named_mistakes["all-edges-inclusive"])
+    answer.answer_changed.emit()
+    view.check_requested.emit()
+    shown.questions.stop_check()
+    assert view.note.text() == "Not checked: you have stopped it."
+    shown.settle()
+    assert view.verdict.text() == ""
+    assert "Every centre on an edge was counted" in check(shown)
+    assert view.twin_button.text() == OPEN
+    view.twin_button.click()
+    qtbot.waitUntil(lambda: isinstance(window.pages.current, StepPage))
+    step = window.pages.current
+    assert isinstance(step, StepPage)
+    assert window.session.document.title == "Write: The inside test"
+    step.settle()
+    document = window.session.document
+    assert [edit.part for edit in document.edits] == ["fill"]
