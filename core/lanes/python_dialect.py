@@ -60,7 +60,7 @@ class PythonDialect:
         if is_flag(value):
             return value
         hint = ": compare it, as x != 0" if is_number(value) else ""
-        raise Problem(place, f"a condition must be true or false, this is {kind_of(value)}{hint}")
+        raise Problem(place, f"a condition must be true or false, not {kind_of(value)}{hint}")
 
     def uniform(self, value: Any, place: Place) -> bool:
         """Return a condition that must be the same in all lanes."""
@@ -239,7 +239,7 @@ class PythonDialect:
     def put(self, whole: Any, value: Any, mask: Some, place: Place, run: Run) -> None:
         """Put a value at the end of a list; the mask is (L,)."""
         if not isinstance(whole, Log | Many):
-            raise Problem(place, f".append needs a list, this is {kind_of(whole)}")
+            raise Problem(place, f".append needs a list, not {kind_of(whole)}")
         if isinstance(value, Log):
             raise Problem(place, "a list that is still growing cannot be put into a list")
         self.check_stored(value, mask, place, run)
@@ -263,7 +263,7 @@ class PythonDialect:
     def part(self, whole: Any, index: Any, mask: Some, place: Place, run: Run) -> Any:
         """Return an element; the index may differ by lane, and never counts from the end then; the mask is (L,)."""
         if not is_number(index) or number_kind(index) != "i":
-            raise Problem(place, f"an index must be a whole number, this is {kind_of(index)}")
+            raise Problem(place, f"an index must be a whole number, not {kind_of(index)}")
         if is_number(whole) or isinstance(whole, str) or whole is None:
             raise Problem(place, f"{kind_of(whole)} has no elements [ ]")
         parts = self.elements(whole, mask, place, run)

@@ -112,7 +112,7 @@ class ListFunctions:
             raise Problem(place, f"range takes 1 to 3 values, got {len(values)}")
         for value in values:
             if not is_number(value) or number_kind(value) == "f":
-                raise Problem(place, f"range takes whole numbers, this is {kind_of(value)}")
+                raise Problem(place, f"range takes whole numbers, not {kind_of(value)}")
         whole = [value.astype(np.int64) if np.ndim(value) else int(value) for value in values]
         if len(whole) == 3 and (np.asarray(whole[2]) == 0).any():
             raise Problem(place, "the step of a range cannot be 0")
