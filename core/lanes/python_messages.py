@@ -7,6 +7,7 @@ from core.lanes.problem import Place, Problem
 
 OPEN, CLOSED = "([{", ")]}"
 _STRING = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'")
+_JOINED = re.compile(r"(?<![A-Za-z_])\d[\d.]*(?:and|or|if|else|in|is|not|for)\b")
 _SIGNS = re.compile(r"(?:(?:\bnot\b|[-+~])\s*){33}")
 
 
@@ -22,6 +23,12 @@ def check_text(text: str, limits: Limits) -> None:
             raise Problem(Place(number, column), f"a line has at most {limits.line_length} characters here")
         if _SIGNS.search(line) or line.count(" if ") > limits.brackets:
             raise Problem(Place(number), "too much stands in each other here")
+        if "\\" in line:
+            raise Problem(
+                Place(number, line.index("\\") + 1), "this character is not in the language of listings"
+            )
+        if joined := _JOINED.search(_bare(line)):
+            raise Problem(Place(number, joined.start() + 1), "a blank is missing between a number and a word")
     open_places: list[tuple[Place, str]] = []
     for number, line in enumerate(text.split("\n"), start=1):
         for column, letter in enumerate(_bare(line), start=1):

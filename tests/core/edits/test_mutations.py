@@ -97,7 +97,11 @@ def mutated(text: str, chance: random.Random) -> str:
 def try_out(part: str, of: str, text: str) -> str:
     """Run a text as the program does, and return what is said of it; empty: it draws."""
     try:
-        settings = apply_edit(Settings(fill="bounding-box", blend="over"), Edit(part, of, text))
+        mode = "wireframe" if part == "line_clipping" else "fill"
+        plain = Settings(
+            fill="bounding-box", blend="opaque" if mode == "wireframe" else "over", polygon_mode=mode
+        )
+        settings = apply_edit(plain, Edit(part, of, text))
         if part == "line":
             draw_lines(ENDS, 8, 8, settings.line, last_pixel=True)
         else:

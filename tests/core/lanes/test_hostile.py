@@ -145,6 +145,8 @@ HOSTILE = {
     "frexp": ("a = ldexp(1.0, 10**15)", ""),
     "sorted texts": ("a = sorted(['b', 'a'])", "numbers only"),
     "sum of a million": ("a = sum(range(10**6))", "at most 4,096"),
+    "escape": ("a = 1 \\\n  + 2", "this character is not"),
+    "joined": ("a = 1if flag else 2", "a blank is missing"),
     "long names": ("a" * 280 + " = 1", ""),
 }
 """By name: a body, and what is said of it; nothing: it runs, or says anything."""
@@ -278,3 +280,13 @@ def test_the_functions_of_listings_are_those_of_the_table():
         ),
         *("rint", "round", "sorted", "sqrt", "sum", "tuple", "zip"),
     }
+
+
+def test_the_document_has_the_limits_and_the_functions_of_the_language():
+    document = (Path(core.lanes.__file__).parents[2] / "docs" / "listings.md").read_text(encoding="utf-8")
+    for name in LIMIT_NAMES:
+        assert f"| {getattr(LISTING, name):,g}" in document or f"| {getattr(LISTING, name):,}" in document, (
+            name
+        )
+    named = {"float32", *re.findall(r"[a-z]+", re.search(r"10\. `([^`]*)`", document)[1])}
+    assert named == set(PythonDialect().functions)
