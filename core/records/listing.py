@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from difflib import SequenceMatcher
-from functools import cache
+from functools import cache, lru_cache
 from textwrap import dedent
 from typing import Any
 
@@ -20,6 +20,10 @@ _CHANGING = frozenset({"append", "remove", "sort"})
 """Methods that change the list that they are called on."""
 RETURN = "return"
 """Name of the value of the function, which a line gives that returns what no other line has computed."""
+
+
+KEPT_TEXTS = 64
+"""Texts that were typed last, whose listings are kept."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -140,6 +144,7 @@ class ShaderListing(Listing):
         return frozenset()
 
 
+@lru_cache(KEPT_TEXTS)
 def edited_listing(of: Callable[..., Any], text: str) -> EditedListing:
     """Return the listing of a function with another source, under the same name."""
     original, source = listing(of), "\n".join(text.splitlines())
@@ -171,11 +176,15 @@ def without_labels(text: str) -> str:
     return "\n".join(line.partition("#:")[0].rstrip() for line in text.splitlines())
 
 
-@cache
 def listing(function: Callable[..., Any] | TypedText) -> Listing:
     """Return what is shown of ``function``: its source, or a text that it is printed as or that was typed."""
     if isinstance(function, TypedText):
         return edited_listing(function.of, function.text)
+    return _shown(function)
+
+
+@cache
+def _shown(function: Callable[..., Any]) -> Listing:
     own, text = source_listing(function), _PRINTED.get(function)
     if text is None:
         return own
