@@ -195,7 +195,7 @@ def without_macros(latex: str) -> str:
 @lru_cache(maxsize=4096)
 def plain_text(latex: str) -> str:
     """Readable text for screen readers, tooltips, and formulas that cannot be typeset."""
-    text = _VERTEX_MACRO.sub("", latex)
+    text = _VERTEX_MACRO.sub("", latex).replace(r"\_", "_")
     text = re.sub(r"\\(?:textcolor|color)\{[^{}]*\}", "", text)
     text = re.sub(r"\\(?:mathrm|text)\s*\{([^{}]*)\}", r"\1", text)
     for _ in range(4):

@@ -13,6 +13,7 @@ _PATTERNS = (
     (r"\b([A-Z]) \u00b7 ([A-Z])\b", r"\1 dot \2"),
     (r"\|(\w+)\|", r"length of \1"),
     (r"\^2\b", " squared"),
+    (r"(?<=[a-z]{2})_(?=[a-z]{2})", " "),
     (r" ?; ?", ". "),
 )
 """Patterns of plain text and what is said for them, in this order; brackets around one number are not said."""

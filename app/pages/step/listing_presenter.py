@@ -108,6 +108,11 @@ class ListingPresenter(QObject):
             self._inspector.refresh_step(self._session.moment)
             self._inspector.refresh_history(self._session.moment)
 
+    def begin_anew(self) -> None:
+        """Leave the editor: another scene was opened."""
+        self._place = None
+        self._pane.end_editing()
+
     def refresh(self, moment: Moment) -> None:
         """Follow the document: its edits may have been undone, or another scene has none."""
         document = moment.document

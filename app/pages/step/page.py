@@ -171,6 +171,7 @@ class StepPage(Page):
         self.grid.fit()
         self.compare_view.grids[0].fit()
         self.comparing.begin_anew(moment)
+        self.editing.begin_anew()
 
     # Layout.
 

@@ -1,0 +1,303 @@
+"""Change the line: typed keys redraw B, the inspector steps through B's own lines, and nothing that fails is lost."""
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QTextCursor
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLabel, QMenu
+
+from app.files.open_any import open_any
+from app.files.state_files import EXTENSION, load_state, save_state
+from app.pages.step.listing_presenter import EDITED_STAGES
+from app.session.document import open_document
+from app.window.main_window import MainWindow
+from core import Settings
+from core.edits import EDITABLE, Edit, original
+from core.records.steps import Level
+from core.trace.stage_trace import StageTrace
+from lessons.scenes import make_scene
+from widgets.inspector.listing_editor import ListingEditor
+from widgets.inspector.listing_pane import A, B, ListingPane
+
+pytestmark = pytest.mark.shared_window
+
+
+def pane_of(window: MainWindow) -> ListingPane:
+    return window.page.column.code
+
+
+def wait(holds: Callable[[], object]) -> None:
+    for _ in range(800):
+        if holds():
+            return
+        QTest.qWait(10)
+    raise AssertionError("it has not come to that")
+
+
+def bresenham(window: MainWindow) -> MainWindow:
+    document = open_document(make_scene("segment"), "Segment", settings=Settings(line="bresenham"))
+    window.session.open(document)
+    window.session.set_level(Level.OPERATION)
+    window.session.set_stage("raster", 8)
+    return window
+
+
+def edit(window: MainWindow, before: str) -> ListingEditor:
+    """Open the editor by its key, behind some text."""
+    window.run_action("edit_line")
+    editor = pane_of(window).editor
+    assert editor.isVisible()
+    put_behind(editor, before)
+    return editor
+
+
+def put_behind(editor: ListingEditor, before: str) -> None:
+    cursor = editor.textCursor()
+    cursor.setPosition(editor.text.index(before) + len(before))
+    editor.setTextCursor(cursor)
+
+
+def second_raster(window: MainWindow) -> StageTrace:
+    second = window.page.comparing.second
+    assert second is not None
+    return second.trace.stage("raster")
+
+
+def test_typing_behind_if_d_redraws_b(window: MainWindow) -> None:
+    bresenham(window)
+    editor = edit(window, "if D >")
+    assert window.page.current_view() == "compare"
+    assert editor.textCursor().block().text() == "    if D >= 0:"
+    QTest.keyClick(editor, Qt.Key.Key_Delete)
+    wait(lambda: window.session.document.edits)
+    (made,) = window.session.document.edits
+    assert (made.part, made.of) == ("line", "bresenham")
+    assert made.text == original("line", "bresenham").source.replace("D >= 0", "D > 0")
+    right, mine = window.session.trace.stage("raster"), second_raster(window)
+    assert mine.listings["bresenham"].source == made.text
+    assert right.listings["bresenham"].source != made.text
+    # A tie that no longer steps; a line of slope 2 / 5 has none, so its pixels stay.
+    assert pane_of(window).note.text() == "1 line changed"
+    assert pane_of(window).editor.changed_lines == {12}
+    assert "my version: Bresenham, integers" in window.page.compare_view.titles[1].text()
+
+
+def test_the_first_difference_is_one_click_away(window: MainWindow) -> None:
+    bresenham(window)
+    editor = edit(window, "D = 2 * dy - dx")
+    QTest.keyClicks(editor, " + 9")
+    wait(lambda: window.session.document.edits)
+    said: list[str] = []
+    window.page.message_sent.connect(said.append)
+    pane_of(window).message.linkActivated.emit("first")
+    wait(lambda: said)
+    assert "is the first that differs" in said[-1]
+    mine, other = window.session.moment.pixel, window.page.comparing.second
+    assert other is not None
+    assert mine != other.pixel
+
+
+def test_the_inspector_steps_through_the_lines_of_b(window: MainWindow) -> None:
+    bresenham(window)
+    editor = edit(window, "D = 2 * dy - dx")
+    QTest.keyClicks(editor, " + 9")
+    wait(lambda: window.session.document.edits)
+    QTest.keyClick(editor, Qt.Key.Key_Escape)
+    pane, page = pane_of(window), window.page
+    assert not pane.is_editing
+    assert window.session.document.edits
+    window.session.go_to(5)
+    assert "Line 8: D = " in page.sentence.text()
+    assert pane.listing.line == 8
+    assert 8 in pane.listing.changed_lines
+    page.editing.show_side(A)
+    assert "Line 8" not in page.sentence.text()
+    assert "+ 9" not in pane.listing.toPlainText()
+    assert 8 in pane.listing.changed_lines
+    page.editing.show_side(B)
+    assert "+ 9" in pane.listing.toPlainText()
+
+
+def test_a_text_that_fails_leaves_the_last_picture_greyed(window: MainWindow) -> None:
+    bresenham(window)
+    editor = edit(window, "D = 2 * dy - dx")
+    QTest.keyClicks(editor, " + 9")
+    wait(lambda: window.session.document.edits)
+    edits = window.session.document.edits
+    QTest.keyClicks(editor, "d")
+    pane, view = pane_of(window), window.page.compare_view
+    wait(lambda: editor.has_problem)
+    assert pane.message.text().startswith("✕ line 8, column ")
+    assert editor.accessibleDescription().startswith("✕ line 8")
+    assert window.session.document.edits == edits
+    assert view.grids[1].graphicsEffect() is not None
+    assert "the last version that ran" in view.titles[1].text()
+    QTest.keyClick(editor, Qt.Key.Key_Backspace)
+    wait(lambda: not editor.has_problem)
+    assert view.grids[1].graphicsEffect() is None
+    # An endless loop is one of them.
+    put_behind(editor, "range(dx + last_pixel):")
+    cursor = editor.textCursor()
+    cursor.select(QTextCursor.SelectionType.LineUnderCursor)
+    editor.setTextCursor(cursor)
+    QTest.keyClicks(editor, "  while True:")
+    wait(lambda: editor.has_problem)
+    assert "line 10" in pane.message.text()
+    assert "does it ever end?" in pane.message.text()
+    assert window.session.document.edits == edits
+
+
+def test_each_text_that_ran_is_one_entry_of_undo(window: MainWindow) -> None:
+    bresenham(window)
+    trace = window.session.trace
+    editor = edit(window, "D = 2 * dy - dx")
+    for typed in (" + 9", " - 9"):
+        QTest.keyClicks(editor, typed)
+        wait(lambda typed=typed: any(typed in made.text for made in window.session.document.edits))
+    assert window.session.trace is trace
+    window.session.undo()
+    assert editor.text == window.session.document.edits[0].text
+    assert editor.text.count("- 9") == 0
+    window.session.undo()
+    assert window.session.document.edits == ()
+    assert pane_of(window).is_editing
+    assert editor.text == original("line", "bresenham").source
+    window.session.redo()
+    assert len(window.session.document.edits) == 1
+    assert window.session.trace is trace
+    pane_of(window).reset_button.click()
+    assert window.session.document.edits == ()
+    window.session.undo()
+    assert len(window.session.document.edits) == 1
+    # The editor has an undo of its own, and B follows it.
+    put_behind(editor, "D = 2 * dy - dx")
+    QTest.keyClicks(editor, " * 1")
+    wait(lambda: "* 1" in window.session.document.edits[0].text)
+    QTest.keyClick(editor, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    wait(lambda: "* 1" not in window.session.document.edits[0].text)
+
+
+def test_an_edit_that_is_a_mistake_of_the_shelf_is_named(window: MainWindow) -> None:
+    window.session.open(open_any("shared-edge").document)
+    window.session.set_stage("raster", 4000)
+    editor = edit(window, "value >")
+    QTest.keyClicks(editor, "=")
+    message = pane_of(window).message
+    wait(lambda: "mistake" in message.text())
+    assert "“all edges inclusive”" in message.text()
+    assert 'href="lesson/shared-edges/' in message.text()
+    assert 'href="exercise/' in message.text()
+
+
+def test_one_that_draws_the_same_is_said_to(window: MainWindow) -> None:
+    window.session.open(open_any("shared-edge").document)
+    window.session.set_stage("raster", 4000)
+    editor = edit(window, "value > 0")
+    QTest.keyClicks(editor, ".0")
+    wait(lambda: "same picture" in pane_of(window).message.text())
+
+
+def test_the_pixel_history_of_b_asks_the_edited_decision(window: MainWindow) -> None:
+    window.session.open(open_any("shared-edge").document)
+    window.session.set_stage("raster", 4000)
+    editor = edit(window, "value >")
+    QTest.keyClicks(editor, "=")
+    wait(lambda: window.session.document.edits)
+    QTest.keyClick(editor, Qt.Key.Key_Escape)
+    window.session.set_pin((12, 6))
+    column, page = window.page.column, window.page
+    column.setCurrentWidget(column.history)
+    told = []
+    for side in (B, A):
+        page.editing.show_side(side)
+        column.setCurrentWidget(column.history)
+        page.inspector.refresh_history(window.session.moment)
+        told.append([label.text() for label in column.history.findChildren(QLabel)])
+    assert any("Triangle 0 is visible here" in text for text in told[0])
+    assert not any("is visible here" in text for text in told[1])
+    column.setCurrentWidget(column.step)
+
+
+def test_another_scene_keeps_the_edit_where_it_runs(window: MainWindow) -> None:
+    bresenham(window)
+    editor = edit(window, "D = 2 * dy - dx")
+    QTest.keyClicks(editor, " + 9")
+    wait(lambda: window.session.document.edits)
+    QTest.keyClick(editor, Qt.Key.Key_Escape)
+    said: list[str] = []
+    window.page.message_sent.connect(said.append)
+    window.files.show_opened(open_any("single-triangle"))
+    assert window.page.current_view() != "compare"
+    assert "does not run on this scene" in said[-1]
+    window.files.show_opened(open_any("segment"))
+    assert window.page.current_view() == "compare"
+    assert window.session.document.edits[0].of == "bresenham"
+    assert window.page.comparing.second is not None
+
+
+def test_a_state_opens_with_the_edit_in_b(window: MainWindow, tmp_path: Path) -> None:
+    bresenham(window)
+    editor = edit(window, "D = 2 * dy - dx")
+    QTest.keyClicks(editor, " + 9")
+    wait(lambda: window.session.document.edits)
+    edits = window.session.document.edits
+    path = tmp_path / f"mine{EXTENSION}"
+    save_state(path, window.files.state())
+    _, notes = load_state(path)
+    assert notes == ("This runs a listing that was edited: listing of Bresenham, integers.",)
+    window.session.open(open_any("single-triangle").document)
+    assert window.session.document.edits == ()
+    window.files.show_opened(open_any(str(path)))
+    assert window.session.document.edits == edits
+    assert window.session.document.settings.replacements == {}
+    assert window.page.comparing.second is not None
+
+
+def test_no_listing_is_edited_while_predicting(window: MainWindow) -> None:
+    bresenham(window)
+    window.run_action("predict")
+    said: list[str] = []
+    window.page.message_sent.connect(said.append)
+    window.run_action("edit_line")
+    assert not pane_of(window).is_editing
+    assert not pane_of(window).edit_button.isVisible()
+    assert "no listing can be edited" in said[-1]
+    window.run_action("predict")
+
+
+def test_a_listing_that_cannot_be_edited_says_why_in_its_menu(window: MainWindow) -> None:
+    window.session.open(open_any("shared-edge").document)
+    window.session.set_stage("transform", 4)
+    menu = QMenu()
+    pane_of(window)._add_to_menu(menu, 1)
+    entry = menu.actions()[-1]
+    assert not entry.isEnabled()
+    assert entry.text().startswith("This listing cannot be edited")
+    window.session.set_stage("raster", 4)
+    wait(pane_of(window).edit_button.isVisible)
+    menu = QMenu()
+    pane_of(window)._add_to_menu(menu, 5)
+    assert menu.actions()[-1].text() == "Edit line 5"
+
+
+def test_another_b_takes_the_place_of_the_edit_and_undo_brings_it_back(window: MainWindow) -> None:
+    bresenham(window)
+    edits = (Edit("line", "bresenham", original("line", "bresenham").source.replace(">= 0", "> 0")),)
+    window.session.edit(replace(window.session.document, edits=edits))
+    window.page.show_view("compare")
+    comparing = window.page.comparing
+    assert "line" in comparing.other.replacements
+    comparing._choose("line", "dda")
+    assert window.session.document.edits == ()
+    assert comparing.other.line == "dda"
+    window.session.undo()
+    assert window.session.document.edits == edits
+    assert "my version" in window.page.compare_view.titles[1].text()
+
+
+def test_the_head_has_its_room_in_the_stages_with_editable_listings() -> None:
+    assert {part.stage for part in EDITABLE.values()} == EDITED_STAGES
