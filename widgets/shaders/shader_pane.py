@@ -90,8 +90,8 @@ class ShaderPane(QWidget):
         self._rows.setContentsMargins(0, 0, 0, 0)
         self._shown_uniforms: tuple[ShownUniform, ...] = ()
         layout = column_layout(self, 6, margins=(8, 8, 8, 8))
-        for widget in (self._preset, self._dialect):
-            layout.addWidget(widget)
+        layout.addWidget(self._preset)
+        layout.addWidget(self._dialect)
         layout.addWidget(self._tabs, 1)
         for widget in (self._message, self._uniforms):
             layout.addWidget(widget)
