@@ -108,14 +108,17 @@ class ShaderPane(QWidget):
 
     def show_program(self, program: ShownProgram | None, is_possible: bool) -> None:
         """Show the shaders of the document; ``None``: it has none, and ``is_possible``: it may have some."""
-        self._preset.setEnabled(is_possible)
         self._select(self._preset, BUILT_IN if program is None else program.preset)
         has_program = program is not None
         for widget in (self._dialect, self._tabs, self._uniforms):
             widget.setVisible(has_program)
         if program is None:
             self._from_document = {}
-            self._message.setText(HINT if is_possible else "Only scenes of meshes can have shaders.")
+            self._message.setText(
+                HINT
+                if is_possible
+                else "This scene is given in clip space. Open a scene of meshes, such as the cube, to give it shaders."
+            )
             return
         self._select(self._dialect, program.dialect)
         is_new = False
@@ -132,7 +135,7 @@ class ShaderPane(QWidget):
     def show_problem(self, stage: str, line: int, column: int, sentence: str) -> None:
         """Say what is wrong with what was typed; without a stage it is about no place."""
         title = f"{STAGES[stage]} shader, line {line}: " if stage else ""
-        self._message.setText(f"{title}{sentence[:1].upper()}{sentence[1:]}")
+        self._message.setText(f"{title}{sentence}")
         for name, editor in self._editors.items():
             editor.mark(line if name == stage else 0, column, sentence)
         if stage:

@@ -8,6 +8,8 @@ from PySide6.QtCore import QEvent, QObject, Slot
 from app.pages.page_bar import Page
 from app.session.moment import Moment
 from app.session.session import Session
+from core import render
+from core.lanes.run import bounded
 from core.scene import Scene
 from core.shaders.declared import DIALECTS
 from core.shaders.glsl_types import component_count
@@ -15,6 +17,9 @@ from core.shaders.linking import own_uniforms
 from core.shaders.presets import PRESETS, preset_program, scene_uniforms
 from core.shaders.record import ShaderProblem, ShaderProgram
 from widgets.shaders.shader_pane import OWN, ShaderPane, ShownProgram, ShownUniform
+
+TRIAL_SECONDS = 3.0
+"""Seconds that drawing may take before what was typed is taken over."""
 
 
 def make_shader_pane(page: Page) -> ShaderPane:
@@ -59,8 +64,13 @@ class ShaderPresenter(QObject):
     @Slot(str)
     def _begin(self, preset: str) -> None:
         scene = self._session.latest.scene
-        assert isinstance(scene, Scene)
-        self._edit(preset_program(preset, scene) if preset else None)
+        if not isinstance(scene, Scene):
+            self._show()
+            return
+        try:
+            self._edit(preset_program(preset, scene) if preset else None)
+        except ValueError as problem:
+            self._refuse(problem)
 
     @Slot(str, str)
     def _type(self, stage: str, text: str) -> None:
@@ -82,8 +92,8 @@ class ShaderPresenter(QObject):
             return
         try:
             self._edit(replace(program, dialect=dialect))
-        except ShaderProblem as problem:
-            self._say(problem)
+        except ValueError as problem:
+            self._refuse(problem)
             self._show()
 
     @Slot(str, str)
@@ -100,7 +110,10 @@ class ShaderPresenter(QObject):
             numbers = "1 number" if count == 1 else f"{count} numbers, separated by commas"
             self._pane.show_problem("", 0, 0, f"{name} needs {numbers}, got {text or 'nothing'}.")
             return
-        self._edit(replace(program, uniforms=tuple({**program.values, name: values}.items())))
+        try:
+            self._edit(replace(program, uniforms=tuple({**program.values, name: values}.items())))
+        except ValueError as problem:
+            self._refuse(problem)
 
     def _program(self) -> ShaderProgram | None:
         scene = self._session.latest.scene
@@ -118,18 +131,26 @@ class ShaderPresenter(QObject):
                 if name in given and name not in typed.values
             }
             self._edit(replace(typed, uniforms=tuple({**typed.values, **new}.items())))
-        except ShaderProblem as problem:
-            self._say(problem)
         except ValueError as problem:
+            self._refuse(problem)
+
+    def _refuse(self, problem: ValueError) -> None:
+        """Say what is wrong, at its place where it has one; the document keeps what it had."""
+        if isinstance(problem, ShaderProblem):
+            self._pane.show_problem(problem.stage, problem.line, problem.column, ended(problem.sentence))
+        else:
             self._pane.show_problem("", 0, 0, ended(str(problem)))
 
-    def _say(self, problem: ShaderProblem) -> None:
-        self._pane.show_problem(problem.stage, problem.line, problem.column, ended(problem.sentence))
-
     def _edit(self, program: ShaderProgram | None) -> None:
+        """Take the shaders over, once both pictures of the scene were drawn by them: an endless loop ends there."""
         document = self._session.latest
         assert isinstance(document.scene, Scene)
-        self._session.edit(replace(document, scene=replace(document.scene, program=program)))
+        edited = replace(document, scene=replace(document.scene, program=program))
+        if program is not None:
+            with bounded(TRIAL_SECONDS):
+                for scene in {id(scene): scene for scene in (edited.traced_scene, edited.scene)}.values():
+                    render(scene, edited.settings)
+        self._session.edit(edited)
         if program is not None:
             self._pane.show_accepted(notes_of(program))
 

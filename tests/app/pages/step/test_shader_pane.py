@@ -1,0 +1,133 @@
+"""The pane of shaders: typing, what is wrong, presets, uniforms, undo."""
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QTextCursor
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QLineEdit
+
+from app.files.open_any import open_any
+from app.window.main_window import MainWindow
+from core.records.listing import ShaderListing
+from core.shaders.presets import TASK_FRAGMENT
+
+pytestmark = pytest.mark.shared_window
+
+
+@pytest.fixture
+def lab(window: MainWindow):
+    """Return the window with the tutorial's task open, stepped in Shade, and its pane in sight."""
+    window.session.open(open_any("lmu-shaders").document)
+    window.session.set_stage("shade")
+    window.page.show_panes(("inspector", "details", "shaders"))
+    QTest.qWait(1)
+    return window
+
+
+def _program(window):
+    return window.session.latest.scene.program
+
+
+def _type(window, qtbot, stage, text):
+    """Replace a source as a paste does, and wait until it was read."""
+    editor = window.page.shader_pane.editor(stage)
+    cursor = QTextCursor(editor.document())
+    cursor.select(QTextCursor.SelectionType.Document)
+    with qtbot.waitSignal(window.page.shader_pane.source_settled, timeout=5000):
+        cursor.insertText(text)
+
+
+def _choose(box, name):
+    index = box.findData(name)
+    box.setCurrentIndex(index)
+    box.activated.emit(index)
+
+
+def test_what_is_typed_is_drawn_and_stepped(lab, qtbot):
+    pane, changed = lab.page.shader_pane, TASK_FRAGMENT.replace("vec4(vColor, 1.0)", "vec4(vColor.bgr, 1.0)")
+    assert pane.editor("fragment").toPlainText() == TASK_FRAGMENT
+    before = lab.session.trace.source.surface.color
+    _type(lab, qtbot, "fragment", changed)
+    qtbot.waitUntil(lambda: lab.session.document.scene.program.fragment == changed)
+    np.testing.assert_array_equal(lab.session.trace.source.surface.color[:, :3], before[:, 2::-1])
+    assert pane.message == "Both shaders run."
+    listed = lab.session.stage_trace.listings["statement"]
+    assert isinstance(listed, ShaderListing)
+    assert listed.source == changed.rstrip("\n")
+    assert lab.page.shader_pane._preset.currentData() == "own"
+
+    # One entry of undo, which shows the old text again.
+    lab.session.undo()
+    qtbot.waitUntil(lambda: pane.editor("fragment").toPlainText() == TASK_FRAGMENT)
+    assert lab.page.shader_pane._preset.currentData() == "task"
+
+
+def test_a_mistake_leaves_the_picture_and_is_marked_at_its_place(lab, qtbot):
+    pane, program = lab.page.shader_pane, _program(lab)
+    wrong = TASK_FRAGMENT.replace("vec4(vColor", "vec4(vColr")
+    _type(lab, qtbot, "fragment", wrong)
+    assert _program(lab) == program
+    assert pane.message == "Fragment shader, line 9: vColr is not declared: did you mean vColor?"
+    editor = pane.editor("fragment")
+    assert editor.accessibleDescription() == "Line 9: vColr is not declared: did you mean vColor?"
+    (mark,) = editor.extraSelections()
+    assert mark.cursor.selectedText() == "vColr"
+
+    # Another edit of the document leaves what was typed.
+    lab.session.set_setting("interpolation", "affine")
+    QTest.qWait(1)
+    assert editor.toPlainText() == wrong
+
+    _type(lab, qtbot, "fragment", TASK_FRAGMENT)
+    assert pane.message == "Both shaders run."
+    assert editor.extraSelections() == []
+
+
+def test_an_endless_loop_is_refused_in_a_sentence(lab, qtbot):
+    program = _program(lab)
+    with qtbot.waitSignal(lab.page.shader_pane.source_settled, timeout=5000):
+        lab.page.shader_pane.editor("fragment").setPlainText(
+            TASK_FRAGMENT.replace("void main() {", "void main() { while (true) { }")
+        )
+    said = lab.page.shader_pane.message
+    assert said.startswith("Fragment shader, line 8: the loop goes on after 1,000 rounds"), said
+    assert _program(lab) == program
+
+
+def test_a_preset_and_its_uniforms(lab, qtbot):
+    pane = lab.page.shader_pane
+    _choose(pane._preset, "toon")
+    qtbot.waitUntil(lambda: _program(lab).name == "Toon shading")
+    QTest.qWait(1)
+    fields = {
+        field.accessibleName(): field for field in pane.findChildren(QLineEdit) if field.isVisibleTo(pane)
+    }
+    assert list(fields) == ["Uniform lightDirection, vec3", "Uniform steps, float"]
+    steps = fields["Uniform steps, float"]
+    steps.setFocus()
+    steps.selectAll()
+    QTest.keyClicks(steps, "5")
+    QTest.keyClick(steps, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: _program(lab).values["steps"] == (5.0,))
+    pane.uniform_typed.emit("lightDirection", "1, 2")
+    assert pane.message == "lightDirection needs 3 numbers, separated by commas, got 1, 2."
+    _choose(pane._preset, "")
+    qtbot.waitUntil(lambda: _program(lab) is None)
+
+
+def test_raw_shader_material_declares_nothing(lab):
+    pane = lab.page.shader_pane
+    _choose(pane._dialect, "raw-shader-material")
+    assert "only ShaderMaterial declares it" in pane.message
+    assert _program(lab).dialect == "shader-material"
+    assert pane._dialect.currentData() == "shader-material"
+
+
+def test_scenes_in_clip_space_have_no_shaders(lab):
+    lab.session.open(open_any("fan").document)
+    QTest.qWait(1)
+    pane = lab.page.shader_pane
+    assert pane.message.startswith("This scene is given in clip space.")
+    _choose(pane._preset, "toon")
+    assert pane._preset.currentData() == ""
