@@ -317,8 +317,6 @@ def draw_areas(scene: AnyScene, settings: Settings, raster: Raster, chosen: Inte
     """
     from core.antialiasing.exact_area import draw_pieces, sum_areas
 
-    if has_program(scene):
-        raise ValueError("exact areas run no shaders: choose several samples instead (antialiasing=ssaa-4)")
     frame = draw_centers(scene, settings, raster, chosen)
     counts = {stage: StageCount() for stage in STAGES}
     geometry = process_geometry(scene, settings, counts, chosen)

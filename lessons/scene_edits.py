@@ -46,13 +46,17 @@ def move_corner(
     Raises
     ------
     ValueError
-        If the corner is not in front of the eye: such a corner has no window position.
+        If the corner is not in front of the eye: such a corner has no window position. If a vertex shader places it.
     """
     x, y = position
     if isinstance(scene, ClipScene):
         window = window_of_clip(scene.clip[triangle, corner], size)
         window[:2] = x, y
         return set_clip_corner(scene, triangle, corner, clip_of_window(window, size))
+    if scene.program is not None:
+        raise ValueError(
+            "the vertex shader places this corner: change the shader, or the vertex in the Scene pane"
+        )
     vertices = transform_vertices(replace(scene, size=size))
     vertex = int(vertices.corners[triangle, corner])
     clip = vertices.clip[vertex]

@@ -94,7 +94,12 @@ def check_needs(scene: AnyScene, settings: Settings) -> None:
 
 
 def check_edits(scene: AnyScene, settings: Settings) -> None:
-    """Raise ValueError, with a sentence, for an edited listing that would not run; before settings are `suited`."""
+    """Raise ValueError, with a sentence, for what would be passed over; before settings are `suited`.
+
+    That is an edited listing that would not run, or the shaders of the scene.
+    """
+    if isinstance(scene, Scene) and scene.program is not None and settings.antialiasing == "area":
+        raise ValueError("exact areas run no shaders: choose several samples instead (antialiasing=ssaa-4)")
     for method in settings.replacements.values():
         for edit in method.edits:
             if reason := edit.passed_over(settings, scene):

@@ -14,6 +14,7 @@ from core.scene import Texture
 from core.shaders.presets import MINIMAL_FRAGMENT, MINIMAL_VERTEX, TASK_FRAGMENT, TASK_VERTEX
 from core.shaders.record import ShaderProblem, ShaderProgram
 from core.trace.source import TraceSource
+from lessons.scene_edits import move_corner
 from tests.core.shaders.scenes import POSITIONS, square_scene, tutorial_scene
 
 
@@ -170,6 +171,10 @@ def test_a_discarded_fragment_says_so_in_history_and_depth_test():
 def test_exact_areas_and_endless_loops_are_refused():
     with pytest.raises(ValueError, match="exact areas run no shaders"):
         render(tutorial_scene(size=(64, 48)), Settings(antialiasing="area"))
+    with pytest.raises(ValueError, match="exact areas run no shaders"):
+        trace(tutorial_scene(size=(64, 48)), Settings(antialiasing="area")).stage("raster")
+    with pytest.raises(ValueError, match="the vertex shader places this corner"):
+        move_corner(tutorial_scene(), 0, 1, (3.0, 4.0), (64, 48))
     endless = "void main() {\n   while (true) { }\n}"
     scene = tutorial_scene(fragment=TASK_FRAGMENT.split("void main")[0] + endless, size=(64, 48))
     with pytest.raises(
