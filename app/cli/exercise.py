@@ -13,6 +13,7 @@ from app.cli.exercise_folders import known_templates
 from app.usage import UsageError
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.catalogue import TEMPLATES, template_named
+from lessons.exercises.coding.tasks import TASKS
 from lessons.exercises.draws import SEED_LIMIT
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Question, ask, judge
@@ -64,6 +65,9 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     check.add_argument("answer", metavar="ANSWER.toml", help="a file with answer = ...")
     check.add_argument("--user", metavar="NAME", help="keep the attempt under this name")
+    parsers.add_parser(
+        "tasks", help="list what listings may have to do, with their lines", allow_abbrev=False
+    )
     parsers.add_parser("mistakes", help="list the mistakes that a file may name", allow_abbrev=False)
     validate = parsers.add_parser("validate", help="check an exercise file", allow_abbrev=False)
     validate.add_argument("path", metavar="PATH", help="a .toml file")
@@ -113,7 +117,16 @@ def listed_mistakes() -> list[str]:
     return [f"{twin.name:<23} {twin.sentence}" for twin in SHELF.values()]
 
 
-LISTS = {"list": listed_templates, "mistakes": listed_mistakes, "coverage": coverage_lines}
+def listed_tasks() -> list[str]:
+    """Return every task that a file may name, with the lines of its right listing, numbered."""
+    lines = []
+    for task in TASKS.values():
+        lines += [f"{task.name}: {task.title}. {task.purpose}"]
+        lines += [f"{number:>4}  {line}" for number, line in enumerate(task.text.split("\n"), 1)]
+    return lines
+
+
+LISTS = {"list": listed_templates, "tasks": listed_tasks, "mistakes": listed_mistakes, "coverage": coverage_lines}
 """Actions that only print."""
 
 

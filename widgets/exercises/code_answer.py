@@ -64,9 +64,7 @@ class CodeAnswerView(AnswerView):
     def show_problem(self, problem: tuple[int, int, str] | None) -> None:
         """Mark where the listing cannot run, and say why to those who do not see it."""
         self.editor.show_problem(None if problem is None else problem[:2])
-        self.editor.setAccessibleDescription(
-            HOW if problem is None else f"Line {problem[0]}, column {problem[1]}: {problem[2]}."
-        )
+        self.editor.setAccessibleDescription(HOW if problem is None else problem_text(problem))
 
     def _problem(self) -> tuple[int, int, str] | None:
         assert self._form.problem is not None
@@ -84,8 +82,7 @@ class CodeAnswerView(AnswerView):
         problem = self._problem()
         self._mark_changes()
         self.show_problem(problem)
-        said = "" if problem is None else f"Line {problem[0]}, column {problem[1]}: {problem[2]}."
-        self.note_changed.emit(said)
+        self.note_changed.emit("" if problem is None else problem_text(problem))
         self.answer_changed.emit()
 
     @Slot()
@@ -100,6 +97,12 @@ class CodeAnswerView(AnswerView):
         """Give the keyboard to what comes next, and end a check that runs."""
         self.stop_requested.emit()
         self.reset_button.setFocus(Qt.FocusReason.TabFocusReason)
+
+
+def problem_text(problem: tuple[int, int, str]) -> str:
+    """Return where a listing cannot run, and why, as a sentence."""
+    line, column, said = problem
+    return f"Line {line}, column {column}: {said}{'' if said.endswith('?') else '.'}"
 
 
 class AnswerEditor(ListingEditor):

@@ -18,6 +18,12 @@ EXPLAINED = (
 """What is said of an exercise with a scene, and of one without."""
 
 
+def not_checked_text(problem: Exception) -> str:
+    """Return why an answer is not checked, as a sentence."""
+    said = f"Not checked yet: {problem}"
+    return said if said.endswith("?") else f"{said}."
+
+
 def feedback_of(
     question: Question, checked: Checked, *, is_corrected: bool, is_explained: bool = False
 ) -> Feedback:

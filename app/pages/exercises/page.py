@@ -164,13 +164,11 @@ class ExercisesPage(Page):
         self.questions.after_check(self.exercises.open_next)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
-        """Press a button with Return; elsewhere Return checks the answer, anywhere Ctrl+Return; Esc ends a check."""
+        """Press a button with Return; elsewhere Return checks the answer; Esc ends a check."""
         focused = self.focusWidget()
         is_return = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
         if event.key() == Qt.Key.Key_Escape and self.questions.is_checking:
             self.questions.stop_check()
-        elif is_return and event.modifiers() == Qt.KeyboardModifier.ControlModifier:
-            self.questions.check()
         elif not is_return or event.modifiers():
             super().keyPressEvent(event)
         elif isinstance(focused, QPushButton):

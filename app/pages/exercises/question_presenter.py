@@ -14,14 +14,15 @@ from app.files.unfinished_answers import Unfinished, UnfinishedFile
 from app.pages.exercises.answer_history import AnswerHistory
 from app.pages.exercises.answer_pictures import Live, numbers_of, picture_of, place_of, size_of
 from app.pages.exercises.evidence import Evidence
-from app.pages.exercises.feedback import feedback_of
+from app.pages.exercises.feedback import feedback_of, not_checked_text
+from app.pages.exercises.runs import wanted_picture
 from app.pages.exercises.work import Asked, Checked, asking, asking_apart, checking, drawing, drawn
 from app.pages.page_bar import Page
 from core.records.words import counted
 from lessons.attempts.practice import MISSES_IN_A_ROW, TRY_LIMIT, first_tries, is_correction, misses_in_a_row
 from lessons.attempts.record import Attempt
 from lessons.exercises.answers.answer import NotCheckedError, Response
-from lessons.exercises.answers.code import CannotRunError, CodeAnswer
+from lessons.exercises.answers.code import CannotRunError
 from lessons.exercises.answers.spots import SpotAnswer
 from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.question import Question, Template, ask, hints_after
@@ -204,8 +205,10 @@ class QuestionPresenter(QObject):
         self._grid.setVisible(size is not None)
         if size is not None:
             self._grid.show_raster(size, asked.outline, draft.pixel)
-            if isinstance(draft.answer, SpotAnswer | CodeAnswer) and draft.answer.picture is not None:
+            if isinstance(draft.answer, SpotAnswer):
                 self._grid.show_picture(picture_of(draft.answer.picture))
+            elif (wanted := wanted_picture(question)) is not None:
+                self._grid.show_picture(wanted)
         credit = f"{counted(template.points, 'point')}. {draft.answer.credit}"
         record = QuestionRecord(
             template.title, question.mark, draft.text, numbers_of(draft), credit, draft.sketch
@@ -338,7 +341,7 @@ class QuestionPresenter(QObject):
             return
         if isinstance(problem, CannotRunError) and self._view.answer is not None:
             self._view.answer.show_problem((*problem.place, problem.sentence))
-        self._view.show_not_checked(f"Not checked yet: {problem}.")
+        self._view.show_not_checked(not_checked_text(problem))
 
     @Slot()
     def stop_check(self) -> None:

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from app.pages.exercises.answer_pictures import Live, picture_of
+from app.pages.exercises.answer_pictures import Live, coverage_of, picture_of
 from app.pages.exercises.scene_outline import document_of, scene_outline
 from app.pages.page_bar import StepRequest
 from core.lanes.limits import LISTING
@@ -99,8 +99,8 @@ def is_drawn(question: Question) -> bool:
 def wanted_picture(question: Question) -> GridBuffer | None:
     """Return the picture that a question shows, which a listing must draw; ``None``: there is none."""
     answer = question.draft.answer
-    is_wanted = isinstance(answer, CodeAnswer) and answer.picture is not None
-    return picture_of(answer.picture) if is_wanted else None
+    wanted = answer.picture if isinstance(answer, CodeAnswer) else None
+    return None if wanted is None else coverage_of(wanted, "the picture")
 
 
 def drawn_by(question: Question, response: Response) -> Live:
@@ -112,7 +112,7 @@ def drawn_by(question: Question, response: Response) -> Live:
         mine = answer.drawn(response)
     differs = np.asarray((mine.primitive >= 0) != (answer.picture.primitive >= 0))
     marks = (MaskOverlay("differs", Mark.DIFFERENCE, differs, title="other than wanted"),)
-    return Live(None, picture_of(mine), marks)
+    return Live(None, coverage_of(mine, "your picture"), marks)
 
 
 def wrong_run(question: Question, response: Response) -> StepRequest | None:

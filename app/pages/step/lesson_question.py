@@ -9,6 +9,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job, Progress
 from app.pages.exercises.answer_pictures import Live, is_live, live, marks_of, size_of
+from app.pages.exercises.feedback import not_checked_text
 from app.pages.exercises.scene_outline import outline_of
 from app.pages.exercises.work import SECONDS
 from core.lanes.run import bounded
@@ -116,6 +117,7 @@ class LessonAnswers(QObject):
         """Ask a question, whose form is in the pane already; the picture is empty."""
         self.end()
         self.asked, self.is_open, self._left_out, self._begun = asked, True, None, monotonic()
+        self._form.stop_requested.connect(self.stop_check)
         draft = asked.question.draft
         size = size_of(draft)
         if size is not None:
@@ -173,7 +175,7 @@ class LessonAnswers(QObject):
                 raise NotCheckedError(unread)
             response = answer.read(given)
         except NotCheckedError as problem:
-            self._view.show_note(f"Not checked yet: {problem}.")
+            self._view.show_note(not_checked_text(problem))
             return
         left_out = answer.left_out(response)
         if left_out and given != self._left_out:
@@ -191,12 +193,19 @@ class LessonAnswers(QObject):
 
         self._judging.start(work)
 
+    @Slot()
+    def stop_check(self) -> None:
+        """End a check that runs: nothing is charged."""
+        if self._judging.is_running:
+            self._judging.cancel()
+            self._view.show_note("Not checked: you have stopped it.")
+
     @Slot(object)
     def _show_not_checked(self, error: Exception) -> None:
         """Say why the answer is not judged: its run could not go on."""
         if self.asked is not None and isinstance(error, CannotRunError):
             self._form.show_problem((*error.place, error.sentence))
-        self._view.show_note(f"Not checked yet: {error}.")
+        self._view.show_note(not_checked_text(error))
 
     @Slot(object)
     def _show_judged(self, judged: JudgedAnswer) -> None:

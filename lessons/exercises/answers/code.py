@@ -1,12 +1,13 @@
 """A listing that is repaired or written: run beside the right one on hidden inputs, never as Python."""
 
+import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import ClassVar, TypeVar
 
 from core import Settings, render
-from core.edits import Edit, apply_edit
+from core.edits import Edit, apply_edit, original
 from core.lanes.problem import Place, Problem
 from core.records.cells import Form
 from core.records.frame import Frame
@@ -212,7 +213,11 @@ class CodeAnswer(Answer):
         return found[0] if found else None
 
     def _edit(self, shown: Shown, text: str) -> Edit:
-        return Edit(shown.part, shown.of, f"{self.task.whole}\n{text}" if self.task.whole else text)
+        """Return a listing in place of the program's, under the name that it has there."""
+        if self.task.whole:
+            return Edit(shown.part, shown.of, f"{self.task.whole}\n{text}")
+        name = original(shown.part, shown.of).source.partition("(")[0]
+        return Edit(shown.part, shown.of, re.sub(r"^def \w+", name, text, count=1))
 
     def drawn(self, response: str) -> Frame:
         """Return what a listing draws of the scene whose picture is wanted."""

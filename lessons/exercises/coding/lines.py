@@ -1,7 +1,6 @@
 """Listings of lines: Bresenham, midpoint and DDA, on lines of every octant, with ties, and of one pixel."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from math import gcd
 from typing import Any
 
@@ -188,7 +187,7 @@ BRESENHAM = line_task(
 )
 MIDPOINT = line_task(
     "midpoint",
-    "The line by its height",
+    "the line by its height",
     "line lists the pixels of a line as (x, Y, y): in each column x from the first end to the second, the row Y whose "
     "centre is nearest to the height y = m x + b; in the middle the upper one. Whole coordinates are centres.",
     float_cases(),
@@ -211,7 +210,7 @@ MIDPOINT = line_task(
 )
 DDA = line_task(
     "dda",
-    "The DDA",
+    "the DDA",
     "line lists the pixels of a line as (x, Y, y): in each column x from the first end to the second, the row Y whose "
     "centre is nearest to the height y; in the middle the upper one. From column to column the slope m is added to y. "
     "Whole coordinates are centres.",
@@ -273,7 +272,7 @@ def _step_shown(case: Case) -> Shown:
 STEP = Task(
     "bresenham-step",
     "raster",
-    "One step of Bresenham",
+    "one step of Bresenham",
     "step is given the row y and the sum D of a pixel, the lengths dx and dy, and sy, 1 or -1. It returns y and D of "
     "the next column: where D > 0 the row moves by sy and D loses 2 dx; D always gains 2 dy.",
     "def step(y, D, dx, dy, sy):\n  if D > 0:\n    y += sy\n    D -= 2 * dx\n  D += 2 * dy\n  return y, D",
@@ -296,55 +295,4 @@ STEP = Task(
     shown=_step_shown,
     whole=LECTURE.text.replace(STEP_LINES, STEP_CALL),
 )
-
-
-def drawn_task(
-    name: str, title: str, purpose: str, changes: tuple[tuple[str, str], ...], hints: tuple[str, ...]
-) -> Task:
-    """Return a task that draws something else than a plain line, from Bresenham's listing."""
-    text = LECTURE.text
-    for old, new in changes:
-        assert old in text, old
-        text = text.replace(old, new)
-    return replace(
-        LECTURE, name=name, title=title, purpose=purpose, text=text, faults=(), hints=hints, draws_other=True
-    )
-
-
-DASHES = drawn_task(
-    "dashes",
-    "A dashed line",
-    "line must list every second pixel of the line: the first, the third and so on, in the order in which it is drawn, "
-    "from left to right, a steep line from below upwards. Which pixels the line has stays as it is.",
-    (("while x <= x1:\n", "while x <= x1:\n    if (x - x0) % 2 == 0:\n  "),),
-    (
-        "How does a loop know whether a pixel is the first, the second or the third?",
-        "x - x0 counts the pixels that are done, also of steep lines: there x and y are exchanged.",
-        "A number k is even where k % 2 == 0: then k is 0, 2 and so on.",
-    ),
-)
-THICK = drawn_task(
-    "thick-line",
-    "A line two pixels thick",
-    "line must list two pixels in each column: that of the line, and the one above it. Of a steep line, two in each "
-    "row: that of the line, and the one to its right.",
-    ((DRAW, f"{DRAW}\n    pixels.append((y + 1, x, D) if is_steep else (x, y + 1, D))"),),
-    (
-        "Which pixels does one round of the loop list?",
-        "Of a steep line x and y are exchanged while it is drawn: what is y then?",
-        "The pixel beside is at y + 1, whichever way the line runs: list 2 pixels a round.",
-    ),
-)
-OPEN_ENDS = drawn_task(
-    "open-ends",
-    "A line without its ends",
-    "line must list the pixels of the line but for the first and the last one. Of a line of one or two pixels nothing "
-    "is left.",
-    (("while x <= x1:\n", "while x <= x1:\n    if x0 < x < x1:\n  "),),
-    (
-        "In which round is the first pixel listed, in which the last one?",
-        "D must go on as before: leave pixels out, not rounds.",
-        "The ends have x = x0 and x = x1, also of steep lines: there x and y are exchanged.",
-    ),
-)
-TASKS = (LECTURE, BRESENHAM, MIDPOINT, DDA, STEP, DASHES, THICK, OPEN_ENDS)
+TASKS = (LECTURE, BRESENHAM, MIDPOINT, DDA, STEP)

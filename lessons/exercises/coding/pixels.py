@@ -40,7 +40,7 @@ _DEPTH = original("depth_test", "z-float32")
 DEPTH_TEST = Task(
     "depth-test",
     "depth",
-    "The depth test",
+    "the depth test",
     "depth_test is given the new depth and the old one that is stored, whether the larger of two depths is nearer, and "
     "whether a passing depth is stored. It returns the depth that is stored then, and whether the new one passes: it "
     "must be nearer. Equal depths do not pass.",
@@ -105,7 +105,7 @@ _ALPHA = "result.append(alpha + destination[3] * (1 - alpha))"
 OVER = Task(
     "over",
     "blend",
-    "Blending: over",
+    "blending with over",
     "over_pixel is given a colour and what is there, each as red, green, blue and alpha; the colour's red, green and "
     "blue are straight, those that are there are multiplied by their alpha. It returns the four numbers of the result: "
     "the colour counts alpha, what is there counts 1 - alpha; the new alpha is alpha + (1 - alpha) times the one "
@@ -160,7 +160,7 @@ def _bilinear_cases() -> dict[str, tuple[Case, ...]]:
 BILINEAR = Task(
     "bilinear",
     "shade",
-    "Bilinear filtering",
+    "bilinear filtering",
     "bilinear is given four texels, t00 and t10 of the lower row, t01 and t11 of the upper one, and how far the place "
     "is from t00 to the right, fx, and upwards, fy, from 0 to 1. It returns the mean of the four, each weighed by how "
     "near it is: first along both rows, then between them.",

@@ -82,6 +82,7 @@ class Task:
     """As files name it."""
     stage: str
     title: str
+    """Behind *repair* and *write*, as ``the inside test``."""
     purpose: str
     """What it must do, with the rule that decides."""
     text: str

@@ -1,9 +1,13 @@
 """All tasks by name, as files name them."""
 
-from lessons.exercises.coding import lines, pixels, triangles
+from lessons.exercises.coding import interpolations, lines, pictures, pixels, triangles
 from lessons.exercises.coding.task import Task
 
-TASKS: dict[str, Task] = {task.name: task for module in (lines, triangles, pixels) for task in module.TASKS}
+TASKS: dict[str, Task] = {
+    task.name: task
+    for module in (lines, triangles, interpolations, pixels, pictures)
+    for task in module.TASKS
+}
 
 
 def task_named(name: str) -> Task:

@@ -1,10 +1,7 @@
 """Listings of triangles: edge function, tie rule, inside test, and interpolation, at pixels of every class."""
 
 from collections.abc import Iterator
-from dataclasses import replace
 from typing import Any
-
-import numpy as np
 
 from core import Settings
 from core.edits import original
@@ -40,7 +37,7 @@ def _owns(a: float, b: float) -> bool:
     return a > 0 if a != 0 else b > 0
 
 
-def _pixels() -> Iterator[tuple[Corners, int, int]]:
+def pixels_of_triangles() -> Iterator[tuple[Corners, int, int]]:
     for corners in TRIANGLES:
         for row in range(10):
             for column in range(11):
@@ -55,7 +52,7 @@ def corners_text(corners: Corners) -> str:
 def inside_cases() -> dict[str, tuple[Case, ...]]:
     """Return edges and a centre by where it lies."""
     found: dict[str, list[Case]] = {}
-    for corners, column, row in _pixels():
+    for corners, column, row in pixels_of_triangles():
         a, b, c = edges_of(corners)
         owns = tuple(_owns(*pair) for pair in zip(a, b, strict=True))
         x, y = column + 0.5, row + 0.5
@@ -108,7 +105,7 @@ TEST = "inside.append(bool(value > 0 or (value == 0 and owns_tie[k])))"
 INSIDE = Task(
     "inside-test",
     "raster",
-    "The inside test",
+    "the inside test",
     "covers is given a, b and c of the three edge functions a x + b y + c, whether each edge owns the centres on it, "
     "and a centre (x, y). It returns the three values, and whether the centre is covered: every value is positive, or "
     "0 on an edge that owns it.",
@@ -164,7 +161,7 @@ _OWNS = original("fill_rule", "shared-edge")
 TIE_RULE = Task(
     "tie-rule",
     "edges",
-    "The tie rule",
+    "the tie rule",
     "owns is given a and b of an edge function a x + b y + c of a counter-clockwise triangle, y up. It returns whether "
     "the edge owns the centres on it: a left edge does (a > 0), and a level edge where it is the bottom edge (b > 0).",
     _OWNS.source,
@@ -208,7 +205,7 @@ def _edge_cases() -> dict[str, tuple[Case, ...]]:
 EDGE = Task(
     "edge-function",
     "edges",
-    "The edge function",
+    "the edge function",
     "edge is given two corners and a point (x, y), y up. It returns (x1 - x0) (y - y0) - (y1 - y0) (x - x0): twice the "
     "area of the triangle of the three, positive where the point lies to the left of the way from corner 0 to corner "
     "1.",
@@ -230,146 +227,4 @@ EDGE = Task(
 )
 
 
-def _weighted(is_perspective: bool) -> dict[str, tuple[Case, ...]]:
-    """Return triangles with w and values, and a centre, by what is special."""
-    found: dict[str, list[Case]] = {}
-    equal, unequal = (2.0, 2.0, 2.0), (1.0, 4.0, 2.0)
-    for number, (corners, column, row) in enumerate(_pixels()):
-        rows = edges_of(corners)
-        x, y = column + 0.5, row + 0.5
-        n = [rows[0][k] * x + rows[1][k] * y + rows[2][k] for k in range(3)]
-        if min(n) < 0:
-            continue
-        for w in (equal, unequal):
-            zeros = n.count(0.0)
-            where = "at a corner" if zeros == 2 else "on an edge" if zeros else "inside"
-            name = f"{where}, {'equal' if w is equal else 'unequal'} w"
-            a, b, c = (tuple(part[k] / w[k] for k in range(3)) for part in rows)
-            values = ((3.0, 1.0, 2.0), (0.0, 4.0, 8.0))[number % 2]
-            said = (
-                f"triangle {corners_text(corners)}, w {numbers_text([*w])}, values {numbers_text([*values])}, "
-                f"centre ({x:g}, {y:g})"
-            )
-            given = (a, b, c, x, y, values) if is_perspective else (a, b, c, w, x, y, values)
-            if len(found.setdefault(name, [])) < 12:
-                found[name].append(Case(given, said, (corners, w, values, (column, row))))
-    return {name: tuple(cases) for name, cases in found.items()}
-
-
-def _interpolation_shown(method: str, case: Case) -> Shown:
-    corners, w, values, pixel = case.about
-    scene = triangle_scene([corners], (SIDE, SIDE), w=[w], attributes=np.array(values).reshape(1, 3, 1))
-    settings = Settings(interpolation=method)
-    return Shown(scene, settings, "interpolation", method, "interpolate", pixel)
-
-
-def _interpolation_text(value: Any) -> str:
-    weights, total, made = value
-    return f"weights {numbers_text(weights)}, total {number_text(total)}, value {number_text(made)}"
-
-
-_VALUE = "value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]"
-_TOTAL = "total = n[0] + n[1] + n[2]"
-_WEIGHTS = "weights = [n[k] / total for k in range(3)]"
-INTERPOLATION_HINTS = (
-    "Put in equal values at all corners: what must come out?",
-    "The three weights add up to one. At a corner its own weight is one.",
-    "With n = 1, 1, 2 the weights are in the ratio 1 to 1 to 2, and add up to 1: follow each line.",
-)
-
-
-def _interpolation_task(name: str, title: str, purpose: str, n_faults: tuple[Fault, ...]) -> Task:
-    listing = original("interpolation", name)
-    return Task(
-        name,
-        "interpolate",
-        title,
-        purpose,
-        listing.source,
-        _weighted(name == "perspective"),
-        (("number",) * 3, "number", "number"),
-        "the three weights, their total, and the value",
-        _interpolation_text,
-        (
-            *n_faults,
-            Fault(_TOTAL, "total = n[0] + n[1]"),
-            Fault(_TOTAL, "total = 1"),
-            Fault(_WEIGHTS, "weights = [n[k] / n[0] for k in range(3)]"),
-            Fault(_WEIGHTS, "weights = [n[k] for k in range(3)]"),
-            Fault(
-                _VALUE,
-                "value = weights[0] * values[2] + weights[1] * values[0] + weights[2] * values[1]",
-                "weights-permuted",
-            ),
-            Fault(_VALUE, "value = (values[0] + values[1] + values[2]) / 3"),
-        ),
-        INTERPOLATION_HINTS,
-        ("[0, 0, 0], 1, 0", "[1, 1, 1], 3, 1"),
-        listing.function,
-        shown=lambda case: _interpolation_shown(name, case),
-    )
-
-
-PERSPECTIVE = _interpolation_task(
-    "perspective",
-    "Interpolation with perspective",
-    "interpolate_at is given a, b and c of three edge functions, each divided by the w of the corner opposite to it, a "
-    "centre (x, y), and the values of the corners. n[k] is a x + b y + c. It returns the weights n[k] / total, the "
-    "total of the n, and the value: the values, each times its weight, added up.",
-    (
-        Fault(
-            "n = [a[k] * x + (b[k] * y + c[k]) for k in range(3)]",
-            "n = [a[k] * y + (b[k] * x + c[k]) for k in range(3)]",
-        ),
-    ),
-)
-AFFINE = _interpolation_task(
-    "affine",
-    "Affine interpolation",
-    "interpolate_affine_at is given a, b and c of three edge functions, each divided by the w of the corner opposite "
-    "to it, the three w, a centre (x, y), and the values of the corners. n[k] is a x + b y + c, times w[k] again, so w "
-    "does not count. It returns the weights n[k] / total, the total of the n, and the value: the values, each times "
-    "its weight, added up.",
-    (
-        Fault(
-            "n = [(a[k] * x + (b[k] * y + c[k])) * w[k] for k in range(3)]",
-            "n = [a[k] * x + (b[k] * y + c[k]) for k in range(3)]",
-        ),
-        Fault(
-            "n = [(a[k] * x + (b[k] * y + c[k])) * w[k] for k in range(3)]",
-            "n = [(a[k] * x + (b[k] * y + c[k])) / w[k] for k in range(3)]",
-        ),
-    ),
-)
-STRIPES = replace(
-    INSIDE,
-    name="stripes",
-    title="A striped triangle",
-    purpose="covers must draw only the rows of a triangle that have an even number: 0, 2 and so on. It returns the "
-    "three values as before, and whether the pixel is covered; y is the height of the centre, 1/2 above the row's "
-    "number.",
-    text=_COVERS.source.replace("all(inside)", "all(inside) and floor(y) % 2 == 0"),
-    faults=(),
-    draws_other=True,
-    hints=(
-        "What does y of a centre say about its row?",
-        "Two things must hold: the pixel is covered, and its row is even. Join them by and.",
-        "floor(y) is the number of the row; floor(y) % 2 is 0 in even rows and 1 in odd ones.",
-    ),
-)
-AROUND = replace(
-    INSIDE,
-    name="around",
-    title="All but the triangle",
-    purpose="covers must draw what the box around a triangle has outside of it: a pixel is drawn where the triangle "
-    "does not cover it. It returns the three values as before, and whether the pixel is drawn.",
-    text=_COVERS.source.replace("all(inside)", "not all(inside)"),
-    faults=(),
-    draws_other=True,
-    hints=(
-        "Which pixels of the box does the triangle not cover?",
-        "What does all(inside) say, and what is its opposite?",
-        "A pixel with inside = [1, 1, 0], as true, true and false, must be drawn.",
-    ),
-)
-TASKS = (EDGE, TIE_RULE, INSIDE, PERSPECTIVE, AFFINE, STRIPES, AROUND)
+TASKS = (EDGE, TIE_RULE, INSIDE)

@@ -78,7 +78,7 @@ TEMPLATES = (
         Template(
             f"repair-{name}",
             1,
-            f"Repair: {TASKS[name].title}",
+            f"Repair {TASKS[name].title}",
             TASKS[name].stage,
             3,
             partial(draw_repair, TASKS[name]),
@@ -89,7 +89,7 @@ TEMPLATES = (
         Template(
             f"missing-{name}",
             1,
-            f"The missing line: {TASKS[name].title}",
+            f"The missing line of {TASKS[name].title}",
             TASKS[name].stage,
             3,
             partial(draw_missing, TASKS[name]),
@@ -100,7 +100,7 @@ TEMPLATES = (
         Template(
             f"write-{name}",
             1,
-            f"Write: {TASKS[name].title}",
+            f"Write {TASKS[name].title}",
             TASKS[name].stage,
             4,
             partial(draw_function, TASKS[name]),
@@ -112,7 +112,7 @@ TEMPLATES = (
         Template(
             f"draw-{name}",
             1,
-            f"Make it draw: {TASKS[name].title}",
+            f"Draw {TASKS[name].title}",
             TASKS[name].stage,
             4,
             partial(draw_picture, TASKS[name]),

@@ -117,7 +117,7 @@ def test_the_smallest_input_is_opened_in_a_b_and_escape_ends_a_check(
     qtbot.waitUntil(lambda: isinstance(window.pages.current, StepPage))
     step = window.pages.current
     assert isinstance(step, StepPage)
-    assert window.session.document.title == "Write: The inside test"
+    assert window.session.document.title == "Write the inside test"
     step.settle()
     document = window.session.document
     assert [edit.part for edit in document.edits] == ["fill"]
