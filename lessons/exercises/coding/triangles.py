@@ -38,6 +38,7 @@ def _owns(a: float, b: float) -> bool:
 
 
 def pixels_of_triangles() -> Iterator[tuple[Corners, int, int]]:
+    """Yield every triangle with the column and row of each pixel around it."""
     for corners in TRIANGLES:
         for row in range(10):
             for column in range(11):
