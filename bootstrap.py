@@ -55,7 +55,7 @@ UNIX_SOCKETS: int = getattr(socket, "AF_UNIX", 0)  # Windows has none, and is no
 RUN_PINS = ("requirements/run.txt",)
 TEST_PINS = ("requirements/run.txt", "requirements/gpu.txt", "requirements/test.txt")
 BENCH_PINS = ("requirements/run.txt", "requirements/gpu.txt", "requirements/bench.txt")
-QT_COMMANDS = ("screenshot", "study", "stress", "bench")
+QT_COMMANDS = ("screenshot", "study", "stress", "bench", "lesson")
 HEADLESS_COMMANDS = (
     *("render", "trace", "methods", "scenes", "slides", "opengl-check", "plan", "exercise", "diagnose"),
     *QT_COMMANDS,

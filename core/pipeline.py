@@ -49,7 +49,7 @@ from core.stages.fragment_depth import fragment_depth
 from core.stages.fragments import fragments_at, interpolate, owner_of, shade, shade_once
 from core.stages.hidden_surfaces import Visible, decide_fragments
 from core.stages.needs import check_edits
-from core.stages.vertex_program import has_program, not_discarded
+from core.stages.vertex_program import not_discarded
 from core.stages.vertices import Geometry, process_geometry
 
 SAMPLE_BAND = 1 << 21
@@ -84,9 +84,11 @@ def render(scene: AnyScene, settings: Settings | None = None) -> Frame:
      [ 0  0  0 -1]]
     """
     settings = settings or DEFAULTS
-    check_edits(scene, settings)
-    # A table of depths has no samples and no other place of the pixels.
-    resolved = resolve(suited(settings, scene) if scene.corner_count == 0 else settings)
+    if scene.corner_count == 0:
+        # A table of depths has no samples and no other place of the pixels.
+        check_edits(scene, settings)
+        settings = suited(settings, scene)
+    resolved = resolve(settings)
     # Its settings, which are those it is kept by: looked up again by every stage, they need not be compared.
     return draw(scene, resolved.settings, Raster(*scene.size, resolved.center))
 
@@ -194,7 +196,7 @@ def find_visible(scene: AnyScene, geometry: Geometry, raster: Raster, counts: Co
     for fragments in fragments_of(geometry, raster, counts):
         with counts["depth"] as count:
             _, keeps, stored = fragment_depth(geometry, fragments, raster, depth_format)
-            if has_program(scene):
+            if scene.program is not None:
                 keeps = keeps & not_discarded(scene, geometry, raster, fragments)
             if not keeps.all():
                 fragments, stored = fragments.select(keeps), stored[keeps]

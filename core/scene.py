@@ -260,6 +260,8 @@ class ClipScene:
     whose corners lie on one line encloses nothing and draws nothing.
     """
 
+    program: ClassVar[None] = None
+    """What is given in clip space runs no shaders."""
     clip: Floats
     """(T, 3, 4) float64 clip-space x, y, z, w of every corner; (T, 2, 4) of segments, (T, 1, 4) of points and
     fragments, (T, C, 4) of polygons with C corners each, all w above 0."""

@@ -126,7 +126,12 @@ def listed_tasks() -> list[str]:
     return lines
 
 
-LISTS = {"list": listed_templates, "tasks": listed_tasks, "mistakes": listed_mistakes, "coverage": coverage_lines}
+LISTS = {
+    "list": listed_templates,
+    "tasks": listed_tasks,
+    "mistakes": listed_mistakes,
+    "coverage": coverage_lines,
+}
 """Actions that only print."""
 
 

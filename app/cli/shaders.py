@@ -21,7 +21,7 @@ def add_shaders(parser: argparse.ArgumentParser) -> None:
     """Let the command take shaders."""
     group = parser.add_argument_group("shaders", "GLSL ES 3.00, run without a graphics card")
     group.add_argument(
-        "--vertex", metavar="FILE", help="the vertex shader; default: one that hands on everything"
+        "--vertex", metavar="FILE", help="the vertex shader; default: one that passes everything on"
     )
     group.add_argument("--fragment", metavar="FILE", help="the fragment shader")
     group.add_argument("--shaders", metavar="PRESET", choices=tuple(PRESETS), help=", ".join(PRESETS))

@@ -61,7 +61,7 @@ class GlslDialect:
     def truth(self, value: GlslValue, place: Place) -> Any:
         """Return a condition: one bool, or flags (L,)."""
         if value.of != "bool":
-            raise Problem(place, f"a condition must be bool, this is {value.of}{_compare_hint(value.of)}")
+            raise Problem(place, f"a condition must be bool and not {value.of}{_compare_hint(value.of)}")
         return value.parts[0]
 
     def flag(self, truth: Any) -> GlslValue:
@@ -90,7 +90,7 @@ class GlslDialect:
             if operator == "!":
                 if a.of != "bool":
                     more = ": write not(...) for a vector of bools" if a.of in VECTORS else ""
-                    raise Problem(place, f"! needs bool, this is {a.of}{more}")
+                    raise Problem(place, f"! needs bool and not {a.of}{more}")
                 return GlslValue("bool", (np.logical_not(a.parts[0]),))
             if split_type(a.of)[0] in ("bool", "sampler2D", "void"):
                 raise Problem(place, f"there is no {operator} of {a.of}")
@@ -268,7 +268,7 @@ def _index(whole: GlslValue, index: GlslValue, mask: Some, place: Place) -> int:
     if whole.of not in VECTORS and whole.of not in MATRICES:
         raise Problem(place, f"{whole.of} has no parts: [ ] is for vectors and matrices")
     if index.of != "int":
-        raise Problem(place, f"an index must be int, this is {index.of}")
+        raise Problem(place, f"an index must be int and not {index.of}")
     found = np.asarray(index.parts[0])
     if found.ndim and found.size and mask is not None:
         found = found[mask]

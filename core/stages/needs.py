@@ -6,7 +6,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.methods import table
+from core.methods import ReplacedName, table
 from core.records.clip_region import is_convex, region_in_window
 from core.scene import AnyScene, ClipScene, Scene
 from core.settings import FAMILIES, Settings, no_effect
@@ -98,9 +98,9 @@ def check_edits(scene: AnyScene, settings: Settings) -> None:
 
     That is an edited listing that would not run, or the shaders of the scene.
     """
-    if isinstance(scene, Scene) and scene.program is not None and settings.antialiasing == "area":
+    if scene.program is not None and settings.antialiasing == "area":
         raise ValueError("exact areas run no shaders: choose several samples instead (antialiasing=ssaa-4)")
-    for method in settings.replacements.values():
-        for edit in method.edits:
+    for name in vars(settings).values():
+        for edit in name.method.edits if isinstance(name, ReplacedName) else ():
             if reason := edit.passed_over(settings, scene):
                 raise ValueError(f"{edit.title} would not run: {reason[0].lower()}{reason[1:].rstrip('.')}")

@@ -6,18 +6,18 @@ from core.geometry.vertex_stage import VertexStage, transform_vertices
 from core.raster.coverage import Fragments
 from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags
-from core.scene import AnyScene, Scene
+from core.scene import AnyScene
 from core.stages.geometry import Geometry
 
 
 def has_program(scene: AnyScene) -> bool:
     """Whether a scene has shaders of its own."""
-    return isinstance(scene, Scene) and scene.program is not None
+    return scene.program is not None
 
 
 def vertex_stage(scene: AnyScene) -> VertexStage:
     """Return every vertex in clip space: by the vertex shader of a scene that has one, else by the matrices."""
-    if not isinstance(scene, Scene) or scene.program is None:
+    if scene.program is None:
         return transform_vertices(scene)
     from core.shaders.vertex_stage import shade_vertices
 

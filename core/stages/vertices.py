@@ -13,7 +13,7 @@ from core.geometry.culling import PLANES, CullVerdicts, cull, plane_distances
 from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, outcodes, shared_bits
 from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
 from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
-from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage
+from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
 from core.raster.edges.edge_functions import doubled_areas, orient
 from core.raster.edges.snapping import WindowVertices, place_corners, place_vertices
 from core.raster.pixel_runs import Raster
@@ -63,7 +63,8 @@ def process_geometry(
     raster : Raster, optional
         Leave out what lies beside it: a part of a picture is drawn from the triangles of that part.
     """
-    check_edits(scene, settings)
+    if scene.program is not None or not resolve(settings).draws_any_scene:
+        check_edits(scene, settings)
     if scene.corner_count != 3:
         settings = suited(settings, scene)
     settings = resolve(settings).settings
@@ -89,7 +90,7 @@ def _process(
     if not resolve(settings).draws_any_scene:
         check_needs(scene, settings)
     with counts["transform"]:
-        vertices = vertex_stage(scene)
+        vertices = transform_vertices(scene) if scene.program is None else vertex_stage(scene)
         assembled = assemble(scene, vertices, settings, counts["transform"], chosen)
         triangle_count = len(assembled)
         counts["transform"].incoming = counts["transform"].outgoing = triangle_count
@@ -110,7 +111,8 @@ def _process(
                 doubled_area,
                 resolve(settings).drops_facing,
                 sight,
-                planes_tested(settings),
+                # Not those at the sides of the window where a line beside it reaches in.
+                len(PLANES) if line_reach(settings) == 0 else PLANES.index("left"),
             )
             if vertices.rings is None
             else cull_polygons(vertices, assembled, settings)
@@ -251,11 +253,6 @@ def face(
     if len(lost):
         facing[lost] = orient(place_corners(primitives.clip_of(lost), size, settings.coverage))
     return facing
-
-
-def planes_tested(settings: Settings) -> int:
-    """Return how many planes culling tests: not those at the sides of the window where a line beside it reaches in."""
-    return len(PLANES) if line_reach(settings) == 0 else PLANES.index("left")
 
 
 def cull_polygons(vertices: VertexStage, assembled: IndexedPrimitives, settings: Settings) -> CullVerdicts:

@@ -109,7 +109,7 @@ def record_rows(lane_count: int, lanes: Integers, run: Callable[[Watch], object]
 
 
 def join_rows(parts: list[tuple[Integers, Any]]) -> tuple[Integers, Any]:
-    """Join rows (r,) of a variable, and its components (r, n), in their order."""
+    """Join rows (R,) of a variable, and its components (R, n), in their order."""
     width = min(values.shape[1] for _, values in parts)
     rows = np.concatenate([of for of, _ in parts])
     values = np.concatenate([found[:, :width] for _, found in parts])

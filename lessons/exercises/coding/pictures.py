@@ -24,7 +24,7 @@ DASHES = drawn_task(
     "dashes",
     "a dashed line",
     "line must list every second pixel of the line: the first, the third and so on, in the order in which it is drawn, "
-    "from left to right, a steep line from below upwards. Which pixels the line has stays as it is.",
+    "from left to right, a steep line from below upwards. Which pixels the line has does not change.",
     (("while x <= x1:\n", "while x <= x1:\n    if (x - x0) % 2 == 0:\n  "),),
     (
         "How does a loop know whether a pixel is the first, the second or the third?",

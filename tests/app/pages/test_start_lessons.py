@@ -127,4 +127,5 @@ def test_a_card_opens_its_lesson_on_the_step_page(window: MainWindow, page: Star
     page.lesson_list.cards[0].click()
     qtbot.waitUntil(lambda: window.page.lessons.is_open and not window.page.lessons.is_working)
     assert window.pages.current_name == "step"
-    assert window.page.lessons.last == ("one", 0)
+    lesson, step = window.page.lessons.last
+    assert (lesson.name, step) == ("one", 0)

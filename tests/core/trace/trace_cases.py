@@ -89,6 +89,7 @@ LEFT_OUT = (
     "polygon",
     "polygon-window",
     "z-fighting",
+    "lit-floor",
     "teapot",
     "sphere",
     "torus",
