@@ -105,7 +105,9 @@ def try_out(part: str, of: str, text: str) -> str:
         if part == "line":
             draw_lines(ENDS, 8, 8, settings.line, last_pixel=True)
         else:
-            render(SCENE, settings)
+            # Infinite and undefined values go through the later stages, as the command line reports them.
+            with np.errstate(all="ignore"):
+                render(SCENE, settings)
     except Problem as problem:
         return problem.sentence
     return ""
