@@ -22,7 +22,7 @@ class GuideStep:
 
 @cache
 def guide(name: str = "guide") -> tuple[GuideStep, ...]:
-    """Return the steps of a guide in order: the one of five minutes, or ``own_exercise``."""
+    """Return the steps of a guide in order: the one of five minutes, ``change_line`` or ``own_exercise``."""
     import tomllib  # As the glossary.
 
     def text(file: str) -> str:

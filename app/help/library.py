@@ -15,7 +15,11 @@ from core.settings import FAMILIES
 from lessons.glossary import Term, find_terms, glossary
 from lessons.guide import GuideStep, guide
 
-GUIDES = {"guide": ("guide", "Five-minute guide"), "own_exercise": ("exercise", "Your own exercise")}
+GUIDES = {
+    "guide": ("guide", "Five-minute guide"),
+    "change_line": ("editing", "Change a line"),
+    "own_exercise": ("exercise", "Your own exercise"),
+}
 """Guides to the addresses and titles of their pages."""
 MOST_PLACES = 40
 """Places of a term that its page lists."""
@@ -25,6 +29,7 @@ def home_page() -> HelpPage:
     """Return the first page: what there is, and how to come to a term."""
     rows = (
         f"{link('help:guide', 'Five-minute guide')}: one scene from its vertices to its bytes.",
+        f"{link('help:editing', 'Change a line')}: edit a listing, and step through what your version draws.",
         f"{link('help:exercise', 'Your own exercise')}: a question for a class, in ten minutes.",
         f"{link('help:glossary', 'Glossary')}: {len(glossary())} terms in plain English.",
         f"{link('help:methods', 'Methods')}: source, limits and listing of all {len(tuple(table))}.",
@@ -41,6 +46,11 @@ def home_page() -> HelpPage:
 def guide_page() -> HelpPage:
     """Return the guide, one step after the other."""
     return HelpPage("Five-minute guide", _steps("guide"))
+
+
+def editing_page() -> HelpPage:
+    """Return how a listing is edited."""
+    return HelpPage("Change a line", _steps("change_line"))
 
 
 def own_exercise_page() -> HelpPage:
@@ -161,6 +171,7 @@ def _capital(text: str) -> str:
 PAGES: Mapping[str, Callable[..., HelpPage]] = {
     "home": home_page,
     "guide": guide_page,
+    "editing": editing_page,
     "exercise": own_exercise_page,
     "step": step_page,
     "slide": asked.slide_page,

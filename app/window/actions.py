@@ -468,6 +468,7 @@ ACTIONS: tuple[Action, ...] = (
     *_rows("", HELP, "Help", _window)(
         Row("help", "F1", "Help on what is pointed at", lambda w: w.help.toggle()),
         Row("help_guide", "", "Five-minute guide", lambda w: w.help.show_page("guide")),
+        Row("help_editing", "", "Change a line", lambda w: w.help.show_page("editing")),
         Row("help_exercise", "", "Your own exercise", lambda w: w.help.show_page("exercise")),
         Row("help_glossary", "", "Glossary", lambda w: w.help.show_page("glossary")),
         Row("help_methods", "", "Methods: sources, limits, listings", lambda w: w.help.show_page("methods")),

@@ -116,6 +116,8 @@ class TermLatex:
     def cells(self, term: Term) -> list[Part]:
         """Return a term as parts of an equation: the outermost sum, or conditions with and, or, in several."""
         match term:
+            case Applied("bool", (condition,)):
+                return self.cells(condition)
             case Operation("+" | "-" as operator, left, right):
                 return [*self.cells(left), operator, self._operand(right, TIGHTNESS["+"] + 1)]
             case Joined(is_and, parts):
@@ -165,7 +167,7 @@ class TermLatex:
                 word, tight = (r"\land", TIGHTNESS["and"]) if is_and else (r"\lor", TIGHTNESS["or"])
                 # Brackets that the language does not need: and in or is read wrongly without.
                 inner = [self._inner(part, TIGHTNESS["not"], puts_in) for part in parts]
-                return f" {word} ".join(inner), tight
+                return rf" \; {word} \; ".join(inner), tight
             case Choice(test, yes, no):
                 first, condition, other = (self._inner(part, 1, puts_in) for part in (yes, test, no))
                 return rf"{first} \text{{ if }} {condition} \text{{ else }} {other}", CHOICE

@@ -196,6 +196,8 @@ class ListingPresenter(QObject):
         if not isinstance(listing, EditedListing):
             line = moved_lines(listing.source, text).get(line, line)
         self._page.show_view("compare")
+        if "inspector" not in self._page.shown_panes():
+            self._page.show_panes(["inspector", *self._page.shown_panes()])
         self.show_side(B)
         self._pane.begin_editing(text, line)
 
@@ -303,7 +305,7 @@ class ListingPresenter(QObject):
             links.append(f'<a href="exercise/{exercise}">Exercise</a>')
         if lesson := lesson_about(name):
             links.append(f'<a href="lesson/{lesson[0]}/{lesson[1]}">Lesson</a>')
-        said = f"On this scene this is the mistake “{name.replace('-', ' ')}”: {escape(outcome.mistake.sentence)}"
+        said = f"Here this is the mistake “{name.replace('-', ' ')}”: {escape(outcome.mistake.sentence)}"
         self._pane.show_message(f"{said} {' · '.join(links)}")
 
     @Slot(object)
