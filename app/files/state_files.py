@@ -7,6 +7,7 @@ What the source holds is checked by fingerprints: a mesh file that has changed s
 
 import json
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -35,7 +36,6 @@ from app.files.state_scenes import (
     scene_record,
 )
 from app.session.document import Document, TeachingRaster
-from core.edits import EDITABLE, Edit, apply_edit, edits_of, without_edits
 from core.scene import AnyScene
 from core.settings import Settings, settings_from_texts, settings_record
 from core.stages.needs import check_edits, check_needs
@@ -87,14 +87,14 @@ def save_state(path: str | Path, state: State, keep: Keep = array_record) -> Non
     path = Path(path)
     document = state.document
     with in_field("settings"):
-        settings = settings_record(without_edits(document.settings))
+        settings, edits = _settings_and_edits(document)
     record = StateRecord(
         program="rasterscope",
         version=VERSION,
         title=document.title,
         scene=scene_record(document.scene, document.path, path.resolve().parent, keep),
         settings=settings,
-        edits=[EditRecord(**vars(edit)) for edit in edits_of(document.settings)],
+        edits=edits,
         raster=RasterRecord(
             columns=document.raster.columns, rows=document.raster.rows, origin=document.raster.origin
         ),
@@ -168,10 +168,40 @@ def load_state(
 
 def edit_notes(settings: Settings) -> tuple[str, ...]:
     """Return what is said when a state opens that runs edited listings."""
+    if not settings.replacements:
+        return ()
+    from core.edits import edits_of
+
     return tuple(
         f"This runs a listing that was edited: {edit.title.removeprefix('the edited ')}."
         for edit in edits_of(settings)
     )
+
+
+def _settings_and_edits(document: Document) -> tuple[dict[str, str | int], list[EditRecord]]:
+    """Return what is kept of settings, and of the listings that they or side B run edited, where they run."""
+    if not document.edits and not document.settings.replacements:
+        return settings_record(document.settings), []
+    from app.session.edited_run import settings_of  # Few states need the evaluator.
+    from core.edits import edits_of, without_edits
+
+    other = document.settings
+    with suppress(ValueError):  # Where they run no more, A | B has said why.
+        other = settings_of(document)[1]
+    return settings_record(without_edits(other)), [EditRecord(**vars(edit)) for edit in edits_of(other)]
+
+
+def _edited(settings: Settings, edits: Sequence[EditRecord]) -> Settings:
+    """Return settings that run edited listings, of methods that they choose."""
+    if not edits:
+        return settings
+    from core.edits import EDITABLE, Edit, apply_edit
+
+    for edit in edits:
+        if getattr(settings, EDITABLE[edit.part].family if edit.part in EDITABLE else "line") != edit.of:
+            raise ValueError(f"{edit.part} of {edit.of} is not the method that settings choose")
+        settings = apply_edit(settings, Edit(edit.part, edit.of, edit.text))
+    return settings
 
 
 def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
@@ -180,10 +210,7 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
         settings = settings_from_texts({name: str(value) for name, value in record.settings.items()})
         check_needs(scene, settings)
     with in_field("edits"):
-        for edit in record.edits:
-            if getattr(settings, EDITABLE[edit.part].family if edit.part in EDITABLE else "line") != edit.of:
-                raise ValueError(f"{edit.part} of {edit.of} is not the method that settings choose")
-            settings = apply_edit(settings, Edit(edit.part, edit.of, edit.text))
+        settings = _edited(settings, record.edits)
         check_edits(scene, settings)
     with in_field("look.other"):
         settings_from_texts({name: str(value) for name, value in record.look.other.items()})

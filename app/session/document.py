@@ -267,6 +267,16 @@ def fit_region(document: Document) -> Document:
     return replace(document, raster=TeachingRaster(columns, rows, origin))
 
 
+def edits_beside(document: Document) -> Document:
+    """Return a document whose edited listings run in side B: what is open itself runs the methods as they are."""
+    settings = document.settings
+    if not any(method.edits for method in settings.replacements.values()):
+        return document
+    from core.edits import edits_of, without_edits
+
+    return replace(document, settings=without_edits(settings), edits=(*document.edits, *edits_of(settings)))
+
+
 def is_typed(scene: AnyScene) -> bool:
     """Return whether corners can be typed in window coordinates."""
     return isinstance(scene, ClipScene)
@@ -278,6 +288,7 @@ __all__ = [
     "TeachingRaster",
     "central_triangle",
     "check_drawing",
+    "edits_beside",
     "fit_region",
     "focus_on",
     "is_typed",

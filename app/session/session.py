@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.session.cursor import Cursor, cursor_for, placed, stepped
-from app.session.document import Document
+from app.session.document import Document, edits_beside
 from app.session.held_bytes import held_arrays
 from app.session.history import History
 from app.session.moment import NOTHING, Change, Moment, Pixel, Step
@@ -33,6 +33,7 @@ class Session(QObject):
 
     def __init__(self, document: Document, parent: QObject | None = None) -> None:
         super().__init__(parent)
+        document = edits_beside(document)
         self.tracing = Tracing(self)
         """What traces large documents in the background."""
         self.tracing.traced.connect(self._take_traced)
@@ -127,7 +128,8 @@ class Session(QObject):
         document cannot be traced; nothing changes.
         """
         self.tracing.cancel()
-        if trace is None:
+        run, document = document, edits_beside(document)
+        if trace is None or run is not document:
             trace = trace_now(document, (cursor or self.cursor).stage)
         self._history.put(document)
         also = Change.OPENED | Change.PIN

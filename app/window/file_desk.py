@@ -21,6 +21,7 @@ from app.pages.page_table import page_endings
 from app.pages.step.looks import show_state, state_of
 from app.pages.step.page import StepPage
 from app.session.cursor import cursor_at
+from app.session.document import edits_beside
 from app.session.tracing import trace_now
 from app.window.appearance import Appearance
 from app.window.work_progress import WorkProgress
@@ -121,14 +122,24 @@ class FileActions(QObject):
         page.timeline.show_playing(False)
         if state is None:
             place = opened.place
-            trace = trace or trace_now(opened.document, place.stage)
-            session.open(opened.document, trace, cursor_at(place, trace, session.cursor.level))
+            kept = session.document.edits
+            document = edits_beside(opened.document)
+            trace = (
+                trace_now(document, place.stage)
+                if trace is None or document is not opened.document
+                else trace
+            )
+            # What was edited stays, where it runs on this scene; A | B says where it does not.
+            document = replace(document, edits=document.edits or kept)
+            session.open(document, trace, cursor_at(place, trace, session.cursor.level))
             page.stepping.set_places()
             session.set_pin(place.pixel)
             page.grids.focus_on(max(session.moment.triangle, 0))
             # As at first, also where the same scene was looked at in another view before.
             page.main_area.views_by_hand.clear()
             page.show_own_view()
+            if document.edits and (refusal := page.editing.show_edited()):
+                page.tell(refusal)
             page.views.look_from({})
             page.column.show_step()
             return

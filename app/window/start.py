@@ -157,7 +157,8 @@ def grab_window(
     if opened.state is None and (is_whole or document.settings != opened.document.settings):
         is_whole, opened = True, replace(opened, place=RunPlace(opened.place.stage))
     window = MainWindow(document)
-    window.files.show_opened(replace(opened, document=document))
+    state = None if opened.state is None else replace(opened.state, document=document)
+    window.files.show_opened(replace(opened, document=document, state=state))
     if is_whole or (opened.state is None and opened.place.at == START):
         window.session.set_stage(stage or window.session.cursor.stage, step)
     if view is not None and view not in window.page.view_names():

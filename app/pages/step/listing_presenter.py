@@ -61,8 +61,8 @@ class ListingPresenter(QObject):
         inspector.listing_shown = self._show_head
         inspector.line_beside_clicked.connect(self._run_to_line)
         comparing.second_shown.connect(self._follow_second)
-        comparing.edit_ran.connect(self._take)
-        comparing.edit_failed.connect(self._show_problem)
+        comparing.edited.ran.connect(self._take)
+        comparing.edited.failed.connect(self._show_problem)
         pane = self._pane
         pane.edit_requested.connect(self.begin)
         pane.reset_requested.connect(self.reset)

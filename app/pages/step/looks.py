@@ -59,7 +59,8 @@ def show_look(page: "StepPage", look: Look) -> None:
     """Show the run as it was shown."""
     page.main_area.views_by_hand = dict(look.views)
     page.comparing.set_buffer(look.other_buffer)
-    page.comparing.set_differences(look.other)
+    if not page.session.document.edits:
+        page.comparing.set_differences(look.other)
     if look.printed:
         page.comparing.show_printed(look.printed, seeks=False)
     page.events.choose(look.event)

@@ -59,6 +59,7 @@ def _load() -> None:
     load_tracers()
     load_subjects()
     import_module("numpy.ma")  # np.unique asks for it when it is first called.
+    import_module("app.session.edited_run")  # It says whether a listing can be edited.
 
 
 class StepsAhead(QObject):

@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal, Slot
 from app.background.workers import Job
 from app.pages.page_bar import Page
 from app.pages.step.ab.bounded_run import BoundedRun
+from app.pages.step.ab.edited_b import EditedB
 from app.pages.step.ab.lock_step import LockStep
 from app.pages.step.ab.pictures import divergence_text, nothing, pictured
 from app.pages.step.ab.side_b import SideB, first_difference, settings_difference
@@ -42,10 +43,6 @@ class ComparePresenter(QObject):
 
     second_shown = Signal()
     """B is shown where it is now, or that it cannot be shown."""
-    edit_ran = Signal(object)
-    """A text that was tried runs: the document whose side B runs it."""
-    edit_failed = Signal(object)
-    """Why it does not: the exception."""
     look_changed = Signal()
     """B differs otherwise, or another buffer is compared."""
 
@@ -64,11 +61,6 @@ class ComparePresenter(QObject):
         """The run of B; ``None``: it cannot be drawn, is being drawn, or is not shown."""
         self._steps: LockStep | None = None
         self._refusal = ""
-        self._edited: SideB | None = None
-        """B as it runs the edited listings of the document."""
-        self._tried: tuple[Document, Trace] | None = None
-        """The last document with an edit that was tried, and its run of B."""
-        self._trying: Document | None = None
         self._is_old = False
         """Whether B is the last run that went well, of a text that is another one by now."""
         self._goal: Callable[[], object] | None = None
@@ -77,11 +69,9 @@ class ComparePresenter(QObject):
         self._job, self._search = Job(self), Job(self)
         self._job.succeeded.connect(self._take)
         self._job.failed.connect(self._refuse)
-        self._bounded, self._trial = BoundedRun(self), BoundedRun(self)
+        self.edited, self._bounded = EditedB(self), BoundedRun(self)
         self._bounded.done.connect(self._take)
         self._bounded.failed.connect(self._refuse)
-        self._trial.done.connect(self._take_trial)
-        self._trial.failed.connect(self.edit_failed)
         self._search.succeeded.connect(self._land)
         self._search.failed.connect(self._tell_no_divergence)
         # Only the document's own triangle has handles here.
@@ -108,7 +98,7 @@ class ComparePresenter(QObject):
 
     @property
     def _b(self) -> SideB:
-        return self._edited or self._choice or self._suggested
+        return self.edited.side or self._choice or self._suggested
 
     @property
     def other(self) -> Settings:
@@ -118,7 +108,7 @@ class ComparePresenter(QObject):
     @property
     def differences(self) -> Mapping[str, str | int]:
         """What B does otherwise than A, family and value; empty: it follows the stage, or is a run with a mistake."""
-        choice = self._edited or self._choice
+        choice = self.edited.side or self._choice
         return {} if choice is None or choice.title else choice.differences
 
     @property
@@ -249,7 +239,7 @@ class ComparePresenter(QObject):
         kept, self._is_old = (self._second, self._steps), False
         self._second, self._steps, self._refusal = None, None, PREDICTING
         document, stage = moment.document, moment.cursor.stage
-        refusal = self._find_edited(document)
+        refusal = self.edited.find(document)
         if not self._is_active or moment.is_predicting:
             self._show()
             return
@@ -257,7 +247,7 @@ class ComparePresenter(QObject):
             self._refusal = refusal
             self._show()
             return
-        if self._choice is None and self._edited is None:
+        if self._choice is None and self.edited.side is None:
             self._suggested = SideB(first_difference(document, moment.trace, stage))
         b, other = self._b, self._b.document(document)
         self._view.show_settings(b.shown_settings(document), frozenset(b.differences))
@@ -274,8 +264,8 @@ class ComparePresenter(QObject):
 
         is_long = other.estimated_seconds > QUICK_SECONDS
         if b.edits:
-            if self._tried is not None and self._tried[0] is document:
-                self._take(self._tried[1])
+            if (tried := self.edited.run_of(document)) is not None:
+                self._take(tried)
                 return
             if before.trace is moment.trace and before.cursor.stage == stage:
                 # The last picture stays until the next one is there.
@@ -318,56 +308,23 @@ class ComparePresenter(QObject):
         self._job.shut_down()
         self._search.shut_down()
         self._bounded.stop()
-        self._trial.stop()
+        self.edited.stop()
 
     # Edited listings.
 
-    def _find_edited(self, document: Document) -> str:
-        """Find the B that runs the edited listings of a document; return why it cannot run them, empty: it can."""
-        self._edited = None
-        if not document.edits:
-            return ""
-        from app.session.edited_run import settings_of, title_of  # Wanted by few, long after the start.
-
-        title = title_of(document.edits)
-        try:
-            other = settings_of(document)[1]
-        except ValueError as error:
-            self._edited = SideB({}, title, edits=document.edits)
-            return f"B cannot be drawn: {error}"
-        self._edited = SideB(document.settings.differences(other), title, edits=document.edits)
-        return ""
-
     def try_edit(self, document: Document) -> None:
-        """Run the edited listings of a document as B would; `edit_ran` or `edit_failed` follows."""
-        from app.session.edited_run import settings_of
-
-        try:
-            other = replace(document, settings=settings_of(document)[1])
-        except ValueError as error:
-            self._trial.cancel()
-            self.edit_failed.emit(error)
-            return
-        self._trying = document
-        earlier = self._second or self._moment.trace
-        is_long = other.estimated_seconds > QUICK_SECONDS
-        self._trial.do(partial(trace_now, other, self._moment.cursor.stage, earlier), is_long=is_long)
-
-    @Slot(object)
-    def _take_trial(self, trace: Trace) -> None:
-        assert self._trying is not None
-        self._tried, self._trying = (self._trying, trace), None
-        self.edit_ran.emit(self._tried[0])
+        """Run the edited listings of a document as B would, see `edited`; what B shows stays till then."""
+        self.edited.try_edit(document, self._moment.cursor.stage, self._second or self._moment.trace)
 
     @property
     def is_drawing(self) -> bool:
         """Whether B is being drawn in the background."""
-        return self._job.is_running or self._bounded.is_running or self._trial.is_running
+        return self._job.is_running or self._bounded.is_running or self.edited.is_running
 
     def cancel_drawing(self) -> None:
         """Draw B no further."""
         self._job.cancel()
-        self._trial.cancel()
+        self.edited.cancel()
         if self._bounded.is_running:
             self._bounded.cancel()
             self._refusal = "B was stopped."
@@ -425,7 +382,7 @@ class ComparePresenter(QObject):
             if self._steps is not None:
                 self._steps.follow(moment.cursor)
             self._show()
-        elif self._second is None or self._choice is None or self._edited is not None:
+        elif self._second is None or self._choice is None or self.edited.side is not None:
             self.refresh(moment)
         else:
             self._take(self._second)
@@ -491,7 +448,7 @@ class ComparePresenter(QObject):
         if second is None or (mine is None and theirs is None):
             return
         # B is what was compared, whatever stage it shows in.
-        self._chosen = self._chosen if self._edited is not None else self._b
+        self._chosen = self._chosen if self.edited.side is not None else self._b
         start = replace(self._moment.cursor, stage=stage, position=0)
         steps = LockStep(self._moment.trace.stage(stage), second.stage(stage), start)
         steps.land(mine, theirs)
