@@ -163,6 +163,10 @@ class ListingEditor(CodeView):
     def focusOutEvent(self, event: QFocusEvent) -> None:
         """Take what was typed as typed."""
         super().focusOutEvent(event)
+        self.settle()
+
+    def settle(self) -> None:
+        """Take what was typed as typed, without a pause."""
         if self._pause.isActive():
             self._pause.stop()
             self._type()

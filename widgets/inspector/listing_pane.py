@@ -96,7 +96,6 @@ class ListingPane(QWidget):
         self.reset_button.clicked.connect(self.reset_requested)
         self.sides.tabBarClicked.connect(self.side_chosen)
         self.sides.currentChanged.connect(self._choose_side)
-        self.editor.left.connect(self.end_editing)
         self.message.linkActivated.connect(self.link_clicked)
         self.listing.menu_opened.connect(self._add_to_menu)
         theme_notifier().theme_changed.connect(self._follow_theme)
@@ -162,7 +161,6 @@ class ListingPane(QWidget):
         self.edit_button.setChecked(True)
         self.editor.begin(text, line)
 
-    @Slot()
     def end_editing(self) -> None:
         """Put the listing back in the place of the editor; the edit stays."""
         had_focus = self.editor.hasFocus()
@@ -174,7 +172,8 @@ class ListingPane(QWidget):
     @Slot()
     def _toggle(self) -> None:
         if self.is_editing:
-            self.end_editing()
+            self.edit_button.setChecked(True)
+            self.editor.left.emit()
         else:
             self.edit_button.setChecked(False)
             self.edit_requested.emit(0)

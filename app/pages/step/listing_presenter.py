@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from app.session.named_mistakes import Outcome
 
 HIDDEN = "While you predict, or a question is asked about this scene, no listing can be edited."
+KEPT = "The text that does not run is kept: Edit opens it again. B is the last version that ran."
 LOADING = "The editor is being loaded."
 LATER_MS = 50
 EDITED_FAMILIES = ("line", "fill_rule", "fill", "interpolation", "depth", "blend")
@@ -51,6 +52,8 @@ class ListingPresenter(QObject):
         self._pane: ListingPane = column.code
         self._place: tuple[str, str] | None = None
         """Part and method of what is edited in the editor."""
+        self._drafts: dict[tuple[str, str], str] = {}
+        """Texts that did not run when the editor was left, by part and method."""
         self._naming = Job(self)
         """Looks for the mistake that an edit is."""
         self._naming.succeeded.connect(self._name_mistake)
@@ -84,7 +87,7 @@ class ListingPresenter(QObject):
         if side == B and not self._session.document.edits:
             side = A
         if side == A and self._pane.is_editing:
-            self._pane.end_editing()
+            self._end_editing()
         self._set_side(side)
 
     def _set_side(self, side: int) -> None:
@@ -110,15 +113,14 @@ class ListingPresenter(QObject):
 
     def begin_anew(self) -> None:
         """Leave the editor: another scene was opened."""
-        self._place = None
-        self._pane.end_editing()
+        self._end_editing()
 
     def refresh(self, moment: Moment) -> None:
         """Follow the document: its edits may have been undone, or another scene has none."""
         document = moment.document
         if moment.is_predicting or moment.is_asked_about or not document.edits:
             if moment.is_predicting or moment.is_asked_about:
-                self._pane.end_editing()
+                self._end_editing()
             self._set_side(A)
         if self._pane.is_editing and self._place is not None:
             from app.session.edited_run import edit_of
@@ -180,7 +182,7 @@ class ListingPresenter(QObject):
     def begin(self, line: int = 0) -> None:
         """Edit the listing that is shown, from a line (from 1) on; 0: the line of the step."""
         from app.session.edited_run import edit_of, edited_place, why_not
-        from core.edits import original
+        from core.edits import Edit, original
 
         moment, listing = self._session.moment, self._inspector.shown_listing
         if moment.is_predicting or moment.is_asked_about:
@@ -193,13 +195,17 @@ class ListingPresenter(QObject):
         self._place, edit = place, edit_of(moment.document, place)
         line = line or self._pane.listing.line or 1
         text = original(*place).source if edit is None else edit.text
+        draft = self._drafts.pop(place, None)
         if not isinstance(listing, EditedListing):
             line = moved_lines(listing.source, text).get(line, line)
         self._page.show_view("compare")
         if "inspector" not in self._page.shown_panes():
             self._page.show_panes(["inspector", *self._page.shown_panes()])
+        self._comparing.show_begun(Edit(*place, original(*place).source))
         self.show_side(B)
-        self._pane.begin_editing(text, line)
+        self._pane.begin_editing(draft or text, line)
+        if draft:
+            self._try(draft)
 
     @Slot()
     def leave(self) -> None:
@@ -210,9 +216,20 @@ class ListingPresenter(QObject):
             self._comparing.show_old(True)
             return
         if self._pane.is_editing:
-            self._pane.end_editing()
-            self._pane.editor.show_problem(None)
+            self._pane.editor.settle()
+            self._end_editing()
             self._inspector.refresh_step(self._session.moment)
+
+    def _end_editing(self) -> None:
+        """Put the listing in the place of the editor; what ran stays, and a text that does not run is kept for later."""
+        place, self._place = self._place, None
+        self._pane.end_editing()
+        if self._pane.editor.has_problem:
+            self._show_right()
+            if place is not None:
+                self._drafts[place] = self._pane.editor.text
+                self._pane.show_message(KEPT)
+        self._comparing.show_begun(None)
 
     @Slot()
     def reset(self) -> None:
@@ -223,6 +240,7 @@ class ListingPresenter(QObject):
         place = self._place if self._pane.is_editing else None
         place = place or edited_place(self._inspector.shown_listing, document)
         if place is not None:
+            self._drafts.pop(place, None)
             self._session.edit(without_edit(document, place[0]))
 
     def show_edited(self) -> str:

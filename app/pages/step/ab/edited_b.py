@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import partial
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal, Slot
 
@@ -10,6 +11,9 @@ from app.pages.step.ab.side_b import SideB
 from app.session.document import Document
 from app.session.tracing import QUICK_SECONDS, trace_now
 from core import Trace
+
+if TYPE_CHECKING:
+    from core.edits import Edit  # As in app.session.document.
 
 
 class EditedB(QObject):
@@ -23,7 +27,9 @@ class EditedB(QObject):
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
         self.side: SideB | None = None
-        """What B is; ``None``: the document has no edits."""
+        """What B is; ``None``: the document has no edits, and none is begun."""
+        self.begun: Edit | None = None
+        """The listing that stands in the editor, unchanged: B is a copy of A until it is changed."""
         self._trying: Document | None = None
         self._tried: tuple[Document, Trace] | None = None
         self._trial = BoundedRun(self)
@@ -46,11 +52,15 @@ class EditedB(QObject):
     def find(self, document: Document) -> str:
         """Find what B is beside a document; return why it cannot be drawn, empty: it can."""
         self.side = None
-        if not document.edits:
+        edits = document.edits or (() if self.begun is None else (self.begun,))
+        if not edits:
             return ""
         from app.session.edited_run import settings_of, title_of  # Wanted by few, long after the start.
 
-        title = title_of(document.edits)
+        title = title_of(edits)
+        if not document.edits:
+            self.side = SideB({}, title, edits=edits)
+            return ""
         try:
             other = settings_of(document)[1]
         except ValueError as error:

@@ -29,6 +29,7 @@ from widgets.grid.compare_view import CompareView, Side
 from widgets.grid.geometry import GridGeometry
 
 if TYPE_CHECKING:
+    from core.edits import Edit  # As in app.session.document.
     from core.study.accuracy.divergence import Divergence  # Looked for long after the window is open.
 
 PREDICTING = "Prediction hides the pictures of A and B. P ends it."
@@ -311,6 +312,13 @@ class ComparePresenter(QObject):
         self.edited.stop()
 
     # Edited listings.
+
+    def show_begun(self, edit: "Edit | None") -> None:
+        """Let B be a copy of A whose listing stands in the editor; ``None``: the editor was left."""
+        if edit != self.edited.begun:
+            self.edited.begun = edit
+            if not self._session.document.edits:
+                self.refresh(self._session.moment)
 
     def try_edit(self, document: Document) -> None:
         """Run the edited listings of a document as B would, see `edited`; what B shows stays till then."""

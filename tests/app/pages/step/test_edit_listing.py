@@ -72,6 +72,9 @@ def test_typing_behind_if_d_redraws_b(window: MainWindow) -> None:
     editor = edit(window, "if D >")
     assert window.page.current_view() == "compare"
     assert editor.textCursor().block().text() == "    if D >= 0:"
+    # Until something is changed, B is the copy.
+    assert "my version: Bresenham, integers" in window.page.compare_view.titles[1].text()
+    assert second_raster(window).pixel.tolist() == window.session.trace.stage("raster").pixel.tolist()
     QTest.keyClick(editor, Qt.Key.Key_Delete)
     wait(lambda: window.session.document.edits)
     (made,) = window.session.document.edits
@@ -149,6 +152,12 @@ def test_a_text_that_fails_leaves_the_last_picture_greyed(window: MainWindow) ->
     assert "line 10" in pane.message.text()
     assert "does it ever end?" in pane.message.text()
     assert window.session.document.edits == edits
+    QTest.keyClick(editor, Qt.Key.Key_Escape)
+    assert not pane.is_editing
+    assert "is kept" in pane.message.text()
+    window.run_action("edit_line")
+    assert "while True:" in editor.text
+    wait(lambda: editor.has_problem)
 
 
 def test_each_text_that_ran_is_one_entry_of_undo(window: MainWindow) -> None:
