@@ -82,7 +82,9 @@ class Scopes:
                 f"{name} is not declared: only ShaderMaterial declares it. Switch to it, or write {declaration};",
             )
         if name in functions:
-            raise Problem(place, f"{name} is a function: write {name}(...)")
+            other = proposal(name, self.names()).removeprefix(": did you mean ").removesuffix("?")
+            more = f", or did you mean {other}?" if other else ""
+            raise Problem(place, f"{name} is a function: write {name}(...){more}")
         raise Problem(place, f"{name} is not declared{proposal(name, self.names())}")
 
     def names(self) -> list[str]:

@@ -47,6 +47,8 @@ class ShaderPane(QWidget):
     preset_chosen = Signal(str)
     """The user begins with another pair; empty: without shaders."""
     dialect_chosen = Signal(str)
+    comparison_chosen = Signal(str)
+    """The user wants another pair as B; empty: the built-in shading."""
     uniform_typed = Signal(str, str)
     """Name and text."""
     left = Signal()
@@ -71,6 +73,13 @@ class ShaderPane(QWidget):
             self._preset.addItem(title, name)
         for name, title in dialects:
             self._dialect.addItem(title, name)
+        self._beside = ChoiceBox(self)
+        self._beside.setAccessibleName("Shaders of B")
+        self._beside.setToolTip("Step these shaders beside other ones, or beside the built-in shading.")
+        self._beside.addItem("Compare with (A | B) ...", OWN)
+        for name, title in ((BUILT_IN, "Built-in Phong shading"), *presets):
+            self._beside.addItem(title, name)
+        self._beside.activated.connect(self._choose_beside)
         self._preset.activated.connect(self._choose_preset)
         self._dialect.activated.connect(self._choose_dialect)
         self._tabs = QTabWidget(self)
@@ -93,7 +102,7 @@ class ShaderPane(QWidget):
         layout.addWidget(self._preset)
         layout.addWidget(self._dialect)
         layout.addWidget(self._tabs, 1)
-        for widget in (self._message, self._uniforms):
+        for widget in (self._message, self._uniforms, self._beside):
             layout.addWidget(widget)
         self.show_program(None, is_possible=True)
 
@@ -110,7 +119,7 @@ class ShaderPane(QWidget):
         """Show the shaders of the document; ``None``: it has none, and ``is_possible``: it may have some."""
         self._select(self._preset, BUILT_IN if program is None else program.preset)
         has_program = program is not None
-        for widget in (self._dialect, self._tabs, self._uniforms):
+        for widget in (self._dialect, self._tabs, self._uniforms, self._beside):
             widget.setVisible(has_program)
         if program is None:
             self._from_document = {}
@@ -178,6 +187,13 @@ class ShaderPane(QWidget):
         name = self._preset.itemData(index)
         if name != OWN:
             self.preset_chosen.emit(name)
+
+    @Slot(int)
+    def _choose_beside(self, index: int) -> None:
+        name = self._beside.itemData(index)
+        self._beside.setCurrentIndex(0)
+        if name != OWN:
+            self.comparison_chosen.emit(name)
 
     @Slot(int)
     def _choose_dialect(self, index: int) -> None:

@@ -30,6 +30,7 @@ from app.pages.step.stepping_presenter import SteppingPresenter
 from app.session.moment import Change, Moment
 from app.session.session import Session
 from app.views.stage_views import StageViews
+from core.scene import AnyScene
 from core.stages.declared import stage_of
 from widgets.basics.accessible import announce
 from widgets.basics.controls import column_layout, row_layout
@@ -105,6 +106,7 @@ class StepPage(Page):
         self.main_area.view_chosen.connect(self.look_changed)
         self.grids.look_changed.connect(self.look_changed)
         self.comparing.look_changed.connect(self.look_changed)
+        self.shading.comparison_requested.connect(self._compare_scene)
         self.views.refused.connect(self.edit_refused)
         self.lessons = LessonPresenter(self)
         self._desk_panes: list[str] | None = None
@@ -165,6 +167,12 @@ class StepPage(Page):
             if change & what:
                 # A part may have gone on to another step: the others show that one.
                 show(self.session.moment)
+
+    @Slot(object, object, str)
+    def _compare_scene(self, differences: dict[str, str | int], scene: AnyScene, title: str) -> None:
+        """Step the scene beside another one, at the stage at hand."""
+        self.show_view("compare")
+        self.comparing.show_mistake(differences, scene, title)
 
     def _begin_anew(self, moment: Moment) -> None:
         """Show all pixels of a scene that was opened, and a B that has an effect there."""

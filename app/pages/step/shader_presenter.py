@@ -3,7 +3,7 @@
 from dataclasses import replace
 from math import isfinite
 
-from PySide6.QtCore import QEvent, QObject, Slot
+from PySide6.QtCore import QEvent, QObject, Signal, Slot
 
 from app.pages.page_bar import Page
 from app.session.moment import Moment
@@ -32,6 +32,9 @@ def make_shader_pane(page: Page) -> ShaderPane:
 class ShaderPresenter(QObject):
     """Shows and edits the shaders of the session's scene."""
 
+    comparison_requested = Signal(object, object, str)
+    """The user wants another B: its differences in settings, its scene and its title."""
+
     def __init__(self, session: Session, pane: ShaderPane, page: Page) -> None:
         super().__init__(page)
         self._session, self._pane, self._page = session, pane, page
@@ -40,6 +43,7 @@ class ShaderPresenter(QObject):
         pane.preset_chosen.connect(self._begin)
         pane.dialect_chosen.connect(self._choose_dialect)
         pane.uniform_typed.connect(self._type_uniform)
+        pane.comparison_chosen.connect(self._compare)
         pane.left.connect(page.setFocus)
         self.refresh(session.moment)
 
@@ -114,6 +118,17 @@ class ShaderPresenter(QObject):
             self._edit(replace(program, uniforms=tuple({**program.values, name: values}.items())))
         except ValueError as problem:
             self._refuse(problem)
+
+    @Slot(str)
+    def _compare(self, preset: str) -> None:
+        """Let B draw with other shaders, or with the built-in Phong shading."""
+        scene = self._session.latest.scene
+        assert isinstance(scene, Scene)
+        if preset:
+            other, title, differences = preset_program(preset, scene), PRESETS[preset].title, {}
+        else:
+            other, title, differences = None, "Built-in Phong shading", {"shading": "phong"}
+        self.comparison_requested.emit(differences, replace(scene, program=other), title)
 
     def _program(self) -> ShaderProgram | None:
         scene = self._session.latest.scene

@@ -24,6 +24,7 @@ BODIES: list[tuple[int, str, str]] = [
     (9, "there is no sin(int), only sin(float or vector) (GLSL converts nothing", "c = vec4(sin(1));"),
     (9, "expected a value, got ;", "c = vec4(1.0) +;"),
     (9, "nn is not declared", "c = vec4(nn, 1.0);"),
+    (9, "step is a function: write step(...), or did you mean steps?", "float steps = t; c = vec4(step);"),
     (9, "N is not declared: did you mean n?", "c = vec4(N, 1.0);"),
     (9, "there is no function normalise: did you mean normalize?", "c = vec4(normalise(n), 1.0);"),
     (9, "a ; is missing at the end of this statement", "c = vec4(1.0)\n   c.x = 2.0;"),

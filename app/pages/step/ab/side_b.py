@@ -10,7 +10,7 @@ from app.session.tracing import QUICK_SECONDS
 from core import Settings, Trace
 from core.explain.stage_texts import family_title
 from core.methods import ReplacedName, table
-from core.scene import AnyScene
+from core.scene import AnyScene, Scene
 from core.settings import FAMILIES, no_effect
 from widgets.basics.settings_panel import Setting, SettingChoice
 
@@ -75,6 +75,14 @@ def settings_difference(mine: Settings, other: Settings) -> str:
     return ", ".join([*parts[:NAMED], *([f"and {len(parts) - NAMED} more"] if len(parts) > NAMED else [])])
 
 
+def shaders_of(scenes: tuple[AnyScene, AnyScene]) -> str | None:
+    """Return A's shaders in words where two scenes have others; ``None``: they differ in something else."""
+    mine, other = scenes
+    if not isinstance(mine, Scene) or not isinstance(other, Scene) or mine.program == other.program:
+        return None
+    return "built-in shading" if mine.program is None else mine.program.name or "own shaders"
+
+
 @dataclass(frozen=True, eq=False)
 class SideB:
     """What B does otherwise than A."""
@@ -116,6 +124,8 @@ class SideB:
         """Return A and B in words: the settings in which they differ."""
         mine, other = document.settings, self.document(document).settings
         plain = "without the mistake" if self.title and not self.edits else SAME
+        if self.scenes is not None and (program := shaders_of(self.scenes)) is not None:
+            return program, self.title
         first = settings_difference(other, mine) or plain
         return first, self.title or settings_difference(mine, other) or SAME
 

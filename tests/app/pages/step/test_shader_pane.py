@@ -131,3 +131,25 @@ def test_scenes_in_clip_space_have_no_shaders(lab):
     assert pane.message.startswith("This scene is given in clip space.")
     _choose(pane._preset, "toon")
     assert pane._preset.currentData() == ""
+
+
+def test_shaders_beside_the_built_in_shading_and_beside_others(lab, qtbot):
+    lab.session.open(open_any("cube").document)
+    lab.session.set_setting("cull", "back")  # Behind the cube the built-in light turns the normals.
+    lab.session.set_stage("shade")
+    lab.page.show_panes(("inspector", "shaders"))
+    pane = lab.page.shader_pane
+    _choose(pane._preset, "phong")
+    qtbot.waitUntil(lambda: _program(lab) is not None)
+    _choose(pane._beside, "")
+    comparing = lab.page.comparing
+    qtbot.waitUntil(lambda: comparing.second is not None, timeout=10_000)
+    assert comparing.other.shading == "phong"
+    mine, other = (step.source.surface.color for step in (lab.session.trace, comparing.second.trace))
+    np.testing.assert_allclose(mine, other, atol=1e-6)
+    assert comparing._b.titles(lab.session.document) == ("Phong shading", "Built-in Phong shading")
+    _choose(pane._beside, "toon")
+    qtbot.waitUntil(
+        lambda: comparing._b.title == "Toon shading" and comparing.second is not None, timeout=10_000
+    )
+    assert pane._beside.currentIndex() == 0
