@@ -34,7 +34,7 @@ class CodeAnswerView(AnswerView):
         self.reset_button.clicked.connect(self._reset)
         self.editor.text_typed.connect(self._typed)
         self.editor.left.connect(self._leave)
-        self.editor.blockCountChanged.connect(self.editor.updateGeometry)
+        self.editor.document().documentLayout().documentSizeChanged.connect(self.editor.updateGeometry)
         layout = column_layout(self, 8)
         layout.addWidget(text_label(HOW, self, role="muted", wraps=True))
         layout.addWidget(self.editor)
@@ -110,7 +110,8 @@ class AnswerEditor(ListingEditor):
 
     def sizeHint(self) -> QSize:
         """Return the height of its lines."""
-        count = min(max(self.blockCount() + SPARE, FEWEST), MOST)
+        # Lines that are too long for the editor are wrapped: they count as often.
+        count = min(max(round(self.document().size().height()) + SPARE, FEWEST), MOST)
         return QSize(
             super().sizeHint().width(), count * self.fontMetrics().lineSpacing() + current_theme().text_px
         )
