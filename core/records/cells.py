@@ -136,5 +136,3 @@ class Form:
     """The sentence shown beside a complete answer before it is checked."""
     state: Callable[[Any], StepsState] | None = None
     """From the tries of every step so far; ValueError with a sentence where the last try means nothing."""
-    problem: Callable[[str], tuple[int, int, str] | None] | None = None
-    """Of a listing: line and column, from 1, at which a text cannot run, and why; ``None``: it can."""

@@ -54,7 +54,7 @@ class CodeAnswerView(AnswerView):
             raise TypeError(f"expected a listing as text, got {type(given).__name__}")
         self.editor.show_text(self._form.start[0] if given is None else given)
         self._mark_changes()
-        self.show_problem(None if given is None else self._problem())
+        self.show_problem(None)
 
     def set_open(self, is_open: bool) -> None:
         """Take text, or only show it."""
@@ -66,10 +66,6 @@ class CodeAnswerView(AnswerView):
         self.editor.show_problem(None if problem is None else problem[:2])
         self.editor.setAccessibleDescription(HOW if problem is None else problem_text(problem))
 
-    def _problem(self) -> tuple[int, int, str] | None:
-        assert self._form.problem is not None
-        return self._form.problem(self.editor.text)
-
     def _mark_changes(self) -> None:
         """Mark the lines that are not as they were at first."""
         first = self._form.start[0].split("\n")
@@ -79,10 +75,7 @@ class CodeAnswerView(AnswerView):
 
     @Slot()
     def _typed(self) -> None:
-        problem = self._problem()
         self._mark_changes()
-        self.show_problem(problem)
-        self.note_changed.emit("" if problem is None else problem_text(problem))
         self.answer_changed.emit()
 
     @Slot()

@@ -8,12 +8,10 @@ from PySide6.QtWidgets import QMenu
 
 from app.pages.exercises.answer_pictures import Live
 from app.pages.exercises.runs import (
-    drawn_by,
+    drawn_picture,
     explaining_run,
     faulty_picture,
     faulty_run,
-    is_drawn,
-    is_opened,
     is_pictured,
     is_stepped,
     refuting_step,
@@ -23,6 +21,7 @@ from app.pages.exercises.runs import (
 )
 from app.pages.exercises.work import Checked
 from app.pages.page_bar import Page, StepRequest
+from core.records.frame import Frame
 from lessons.exercises.question import Question
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
@@ -92,10 +91,10 @@ class Evidence(QObject):
                 shown[f"Show that run{words}"] = partial(self._step, partial(faulty_run, question, name))
             elif is_pictured(question, name):
                 shown[f"Show that picture{words}"] = partial(self._show_picture, name)
-        if judgement.verdict.score < 1 and is_opened(question):
-            shown[OPEN] = partial(self._step, partial(wrong_run, question, self._checked.response))
-        if judgement.verdict.score < 1 and is_drawn(question):
-            shown[DRAWN] = self._show_drawn
+        if self._checked.opened is not None:
+            shown[OPEN] = partial(self._step, partial(wrong_run, question, self._checked.opened))
+        if self._checked.drawn is not None:
+            shown[DRAWN] = partial(self._show_drawn, self._checked.drawn)
         if judgement.refutation is not None:
             title = question.template.title
             shown["Show the step"] = partial(self._step, partial(refuting_step, judgement.refutation, title))
@@ -133,18 +132,11 @@ class Evidence(QObject):
         live = faulty_picture(self._question, name)
         self._put(live, "The picture shows what this mistake makes of the scene.")
 
-    def _show_drawn(self) -> None:
+    def _show_drawn(self, drawn: Frame) -> None:
         """Show the picture that a listing draws, until the learner goes back to the answer."""
         assert self._question is not None
-        assert self._checked is not None
-        try:
-            live = drawn_by(self._question, self._checked.response)
-        except ValueError as problem:
-            self._page.refuse(f"This cannot be drawn: {problem}.")
-            return
-        self._put(
-            live, "The picture shows what your listing draws, with marks where it is not as it must be."
-        )
+        note = "The picture shows what your listing draws, with marks where it is not as it must be."
+        self._put(drawn_picture(self._question, drawn), note)
 
     def _put(self, live: Live, note: str) -> None:
         self._grid.show_geometry(live.outline)

@@ -1,10 +1,12 @@
 """What is said of a check: points, counts, the mistake by name, and whether it counts."""
 
 from app.pages.exercises.evidence import EXPLAIN
-from app.pages.exercises.work import Checked
+from app.pages.exercises.work import Checked, Tried
 from core.records.words import counted
 from lessons.attempts.practice import MISSES_IN_A_ROW
 from lessons.exercises.question import Question
+from widgets.exercises.answer_view import AnswerView
+from widgets.exercises.code_answer import problem_text
 from widgets.exercises.records import Feedback
 
 SHOWN = "What is right was shown before, so this earns nothing."
@@ -22,6 +24,13 @@ def not_checked_text(problem: Exception) -> str:
     """Return why an answer is not checked, as a sentence."""
     said = f"Not checked yet: {problem}"
     return said if said.endswith("?") else f"{said}."
+
+
+def show_tried(view: AnswerView, tried: Tried) -> str:
+    """Mark where a listing that is typed cannot run, and return why as a sentence; empty: it can."""
+    problem = tried.problem
+    view.show_problem(None if problem is None else (*problem.place, problem.sentence))
+    return "" if problem is None else problem_text((*problem.place, problem.sentence))
 
 
 def feedback_of(

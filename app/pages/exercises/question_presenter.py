@@ -14,9 +14,19 @@ from app.files.unfinished_answers import Unfinished, UnfinishedFile
 from app.pages.exercises.answer_history import AnswerHistory
 from app.pages.exercises.answer_pictures import Live, numbers_of, picture_of, place_of, size_of
 from app.pages.exercises.evidence import Evidence
-from app.pages.exercises.feedback import feedback_of, not_checked_text
+from app.pages.exercises.feedback import feedback_of, not_checked_text, show_tried
 from app.pages.exercises.runs import wanted_picture
-from app.pages.exercises.work import Asked, Checked, asking, asking_apart, checking, drawing, drawn
+from app.pages.exercises.work import (
+    Asked,
+    Checked,
+    Tried,
+    asking,
+    asking_apart,
+    checking,
+    drawing,
+    drawn,
+    trying,
+)
 from app.pages.page_bar import Page
 from core.records.words import counted
 from lessons.attempts.practice import MISSES_IN_A_ROW, TRY_LIMIT, first_tries, is_correction, misses_in_a_row
@@ -80,7 +90,7 @@ class QuestionPresenter(QObject):
         self._begun = monotonic()
         self.evidence = Evidence(view, grid, page)
         self._jobs = JobGroup(self)
-        self._asking, self._checking, self._drawing = (self._jobs.add_job() for _ in range(3))
+        self._asking, self._checking, self._drawing, self._trying = (self._jobs.add_job() for _ in range(4))
         self._waiting: list[Callable[[], None]] = []
         """What ends this question, and was wanted while its answer was being checked."""
         self._asking.succeeded.connect(self._show)
@@ -91,6 +101,7 @@ class QuestionPresenter(QObject):
         self._checking.failed.connect(self._not_checked)
         self._drawing.succeeded.connect(self._show_live)
         self._drawing.failed.connect(self._refuse)
+        self._trying.succeeded.connect(self._show_tried)
         view.check_requested.connect(self.check)
         view.hint_requested.connect(self.show_hint)
         view.variant_requested.connect(self.ask_variant)
@@ -102,7 +113,7 @@ class QuestionPresenter(QObject):
     def is_working(self) -> bool:
         """Whether a question or an answer is being drawn, or an answer is being checked."""
         return bool(self._waiting) or any(
-            job.is_running for job in (self._asking, self._checking, self._drawing)
+            job.is_running for job in (self._asking, self._checking, self._drawing, self._trying)
         )
 
     @property
@@ -186,7 +197,7 @@ class QuestionPresenter(QObject):
     @Slot(object)
     def _show(self, asked: Asked) -> None:
         """Show a question, with what was answered before."""
-        for job in (self._asking, self._drawing):
+        for job in (self._asking, self._drawing, self._trying):
             job.cancel()  # They are about another one.
         self._asked, self.question = asked, asked.question
         question, template, draft = asked.question, asked.question.template, asked.question.draft
@@ -267,7 +278,20 @@ class QuestionPresenter(QObject):
         self.evidence.end_picture()
         self._show_verdict()
         self._draw_live()
+        self._try()
         self._keep()
+
+    def _try(self) -> None:
+        """Find why a listing that is typed cannot run."""
+        if self.question is not None and self._view.answer is not None:
+            work = trying(self.question.draft, self._view.answer.given())
+            if work is not None:
+                self._trying.start(work)
+
+    @Slot(object)
+    def _show_tried(self, tried: Tried) -> None:
+        if self._view.answer is not None and self._view.answer.given() == tried.given:
+            self._view.show_note(show_tried(self._view.answer, tried))
 
     def _draw_live(self, name: str = "your answer") -> None:
         """Draw what is shown of an answer while it is given; ``name`` stands at a point of the plane."""

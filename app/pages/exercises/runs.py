@@ -7,12 +7,11 @@ import numpy as np
 from app.pages.exercises.answer_pictures import Live, coverage_of, picture_of
 from app.pages.exercises.scene_outline import document_of, scene_outline
 from app.pages.page_bar import StepRequest
-from core.lanes.limits import LISTING
-from core.lanes.run import bounded
+from core.records.frame import Frame
 from core.scene import ClipScene
 from core.study.accuracy.record import Opening
 from lessons.exercises.answers.answer import Response
-from lessons.exercises.answers.code import CodeAnswer
+from lessons.exercises.answers.code import CodeAnswer, Opened
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.question import Question
 from lessons.exercises.refutation import Refutation
@@ -84,18 +83,6 @@ def faulty_run(question: Question, mistake: str) -> StepRequest | None:
     )
 
 
-def is_opened(question: Question) -> bool:
-    """Return whether a wrong answer is a listing that the program can run beside the right one."""
-    answer = question.draft.answer
-    return isinstance(answer, CodeAnswer) and answer.is_stepped
-
-
-def is_drawn(question: Question) -> bool:
-    """Return whether a wrong answer is a listing whose picture can be compared with the wanted one."""
-    answer = question.draft.answer
-    return isinstance(answer, CodeAnswer) and answer.picture is not None
-
-
 def wanted_picture(question: Question) -> GridBuffer | None:
     """Return the picture that a question shows, which a listing must draw; ``None``: there is none."""
     answer = question.draft.answer
@@ -103,30 +90,18 @@ def wanted_picture(question: Question) -> GridBuffer | None:
     return None if wanted is None else coverage_of(wanted, "the picture")
 
 
-def drawn_by(question: Question, response: Response) -> Live:
+def drawn_picture(question: Question, drawn: Frame) -> Live:
     """Return what a listing draws in place of the wanted picture, with marks where it differs."""
     answer = question.draft.answer
     assert isinstance(answer, CodeAnswer)
     assert answer.picture is not None
-    with bounded(LISTING.seconds):
-        mine = answer.drawn(response)
-    differs = np.asarray((mine.primitive >= 0) != (answer.picture.primitive >= 0))
+    differs = np.asarray((drawn.primitive >= 0) != (answer.picture.primitive >= 0))
     marks = (MaskOverlay("differs", Mark.DIFFERENCE, differs, title="other than wanted"),)
-    return Live(None, coverage_of(mine, "your picture"), marks)
+    return Live(None, coverage_of(drawn, "your picture"), marks)
 
 
-def wrong_run(question: Question, response: Response) -> StepRequest | None:
+def wrong_run(question: Question, opened: Opened) -> StepRequest:
     """Return what steps the right listing beside a wrong one, on the smallest input that shows it."""
-    answer = question.draft.answer
-    assert isinstance(answer, CodeAnswer)
-    with bounded(LISTING.seconds):
-        opened = answer.opened(response)
-    if opened is None:
-        return None
-    shown, title = opened.shown, question.template.title
-    return StepRequest(
-        Opening(shown.scene, shown.settings, shown.stage, shown.pixel),
-        title,
-        edits=(opened.edit,),
-        is_asked=False,
-    )
+    shown = opened.shown
+    opening = Opening(shown.scene, shown.settings, shown.stage, shown.pixel)
+    return StepRequest(opening, question.template.title, edits=(opened.edit,), is_asked=False)

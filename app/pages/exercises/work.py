@@ -10,10 +10,12 @@ from app.pages.exercises.answer_pictures import Live, is_live, live, marks_of
 from app.pages.exercises.scene_outline import outline_of
 from core.lanes.run import bounded
 from core.records.cells import Marks
+from core.records.frame import Frame
 from lessons.attempts.practice import telling_apart
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.answers.answer import NotCheckedError, Response
-from lessons.exercises.question import Judgement, Question, Template, ask, judge
+from lessons.exercises.answers.code import CannotRunError, CodeAnswer, Opened
+from lessons.exercises.question import Draft, Judgement, Question, Template, ask, judge
 from widgets.grid.geometry import GridGeometry
 
 SECONDS = 10.0
@@ -44,6 +46,10 @@ class Checked:
     """The attempt to keep; ``None``: the model answer was shown before."""
     trouble: str
     """What to tell of keeping it, in sentences; empty: all is well."""
+    opened: Opened | None = None
+    """Of a wrong listing, the smallest input that shows it, for A | B; ``None``: there is none."""
+    drawn: Frame | None = None
+    """Of a wrong listing, its picture where one is wanted."""
 
 
 def asking(template: Template, seed: int, *, is_afresh: bool) -> Work:
@@ -83,6 +89,26 @@ def drawing(question: Question, given: object) -> Callable[[Progress, Callable[[
     return work if is_live(draft) else None
 
 
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """A listing that is being typed, and why it cannot run."""
+
+    given: object
+    problem: CannotRunError | None
+
+
+def trying(draft: Draft, given: object) -> Callable[[Progress, Callable[[], bool]], Tried] | None:
+    """Return the work that finds why a listing cannot run while it is typed; ``None``: the answer is no listing."""
+    answer = draft.answer
+
+    def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Tried:
+        assert isinstance(answer, CodeAnswer)
+        with bounded(SECONDS, is_cancelled):
+            return Tried(given, answer.problem(str(given)))
+
+    return work if isinstance(answer, CodeAnswer) else None
+
+
 def checking(
     question: Question, given: object, response: Response, user: str, seconds: float, *, is_kept: bool
 ) -> Callable[[Progress, Callable[[], bool]], Checked]:
@@ -91,14 +117,27 @@ def checking(
     def work(progress: Progress, is_cancelled: Callable[[], bool]) -> Checked:
         with bounded(SECONDS, is_cancelled):  # A listing may not end by itself.
             judgement = judge(question, response)
+            opened, drawn = _seen(question, response, judgement)
         marks = marks_of(question, judgement.verdict)
         if not is_kept:
-            return Checked(given, response, judgement, marks, None, "")
+            return Checked(given, response, judgement, marks, None, "", opened, drawn)
         attempt = attempt_of(user, question, response, judgement, seconds, datetime.now(UTC))
         try:
             trouble = attempt_file().add(attempt)
         except OSError as problem:
             trouble = f"The attempt is not saved: {problem}."
-        return Checked(given, response, judgement, marks, attempt, trouble)
+        return Checked(given, response, judgement, marks, attempt, trouble, opened, drawn)
 
     return work
+
+
+def _seen(question: Question, response: Response, judgement: Judgement) -> tuple[Opened | None, Frame | None]:
+    """Return what can be shown of a wrong listing: the smallest input in A | B, and its picture."""
+    answer = question.draft.answer
+    if not isinstance(answer, CodeAnswer) or judgement.verdict.score == 1:
+        return None, None
+    try:
+        drawn = None if answer.picture is None else answer.drawn(response)
+        return answer.opened(response), drawn
+    except ValueError:  # On a whole picture its run does not end: what is wrong with it is said all the same.
+        return None, None

@@ -9,9 +9,9 @@ from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job, Progress
 from app.pages.exercises.answer_pictures import Live, is_live, live, marks_of, size_of
-from app.pages.exercises.feedback import not_checked_text
+from app.pages.exercises.feedback import not_checked_text, show_tried
 from app.pages.exercises.scene_outline import outline_of
-from app.pages.exercises.work import SECONDS
+from app.pages.exercises.work import SECONDS, Tried, trying
 from core.lanes.run import bounded
 from core.records.cells import Marks
 from lessons.course.lesson_file import Lesson
@@ -89,29 +89,30 @@ class LessonAnswers(QObject):
         self.wrong_count = 0
         self._left_out: object = None
         self._begun = monotonic()
-        self._judging, self._drawing = Job(self), Job(self)
+        self._judging, self._drawing, self._trying = Job(self), Job(self), Job(self)
         self._judging.succeeded.connect(self._show_judged)
         self._judging.failed.connect(self._show_not_checked)
         self._drawing.succeeded.connect(self._show_live)
+        self._trying.succeeded.connect(self._show_tried)
         view.check_requested.connect(self.check)
         view.answer_changed.connect(self._follow_answer)
 
     @property
     def is_working(self) -> bool:
         """Whether an answer is being judged or drawn."""
-        return self._judging.is_running or self._drawing.is_running
+        return any(job.is_running for job in (self._judging, self._drawing, self._trying))
 
     def stop(self) -> None:
         """End all work."""
         self.end()
-        self._judging.shut_down()
-        self._drawing.shut_down()
+        for job in (self._judging, self._drawing, self._trying):
+            job.shut_down()
 
     def end(self) -> None:
         """Ask nothing any more."""
         self.asked, self.is_open, self.last, self.wrong_count = None, False, None, 0
-        self._judging.cancel()
-        self._drawing.cancel()
+        for job in (self._judging, self._drawing, self._trying):
+            job.cancel()
 
     def begin(self, asked: LessonQuestion) -> None:
         """Ask a question, whose form is in the pane already; the picture is empty."""
@@ -136,6 +137,18 @@ class LessonAnswers(QObject):
             self._form.show_marks(None)
             self._view.show_feedback(None)
             self._draw_live()
+            self._try()
+
+    def _try(self) -> None:
+        """Find why a listing that is typed cannot run."""
+        work = None if self.asked is None else trying(self.asked.question.draft, self._form.given())
+        if work is not None:
+            self._trying.start(work)
+
+    @Slot(object)
+    def _show_tried(self, tried: Tried) -> None:
+        if self.is_open and self._form.given() == tried.given:
+            self._view.show_note(show_tried(self._form, tried))
 
     def _draw_live(self) -> None:
         """Draw what is shown of an answer while it is given."""

@@ -112,14 +112,19 @@ class CodeAnswer(Answer):
     @property
     def form(self) -> Form:
         """The listing in an editor."""
-        return Form(self.kind, start=(self.start,), problem=self.problem)
+        return Form(self.kind, start=(self.start,))
 
-    def problem(self, text: str) -> tuple[int, int, str] | None:
-        """Return line and column, from 1, at which a text cannot run, and why; ``None``: it can."""
+    def problem(self, text: str) -> CannotRunError | None:
+        """Return why a text cannot run, as far as that shows without inputs; ``None``: it can.
+
+        Notes
+        -----
+        A long text may take seconds: not for the thread of a window.
+        """
         try:
             self.task.check_text(text)
         except Problem as problem:
-            return problem.line, problem.column, problem.sentence
+            return CannotRunError(problem)
         return None
 
     def given(self, response: str) -> str:
@@ -127,7 +132,7 @@ class CodeAnswer(Answer):
         return response
 
     def read(self, given: object) -> str:
-        """Read a listing; CannotRunError for one that cannot run."""
+        """Read a listing, which is not run yet; CannotRunError for a text that is none."""
         if given is None or given == []:
             raise NotCheckedError("the answer is empty")
         if not isinstance(given, str):
@@ -135,7 +140,7 @@ class CodeAnswer(Answer):
         text = given.replace("\r\n", "\n").replace("\r", "\n").strip("\n").rstrip()
         if not text.strip():
             raise NotCheckedError("the answer is empty")
-        _ran(lambda: self.task.check_text(text))
+        _ran(lambda: self.task.read(text))
         return text
 
     def left_out(self, response: str) -> str:

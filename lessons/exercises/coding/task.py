@@ -133,10 +133,17 @@ class Task:
         """Return a text, compiled; `Problem` where it cannot be read."""
         return compile_listing(text, *(surroundings(self.of) if self.of is not None else ()))
 
-    def check_text(self, text: str) -> None:
-        """Raise `Problem` for a text that cannot run: it runs on no lanes, through all branches."""
+    def read(self, text: str) -> Program:
+        """Return a text, compiled, that takes what the task gives; nothing runs. `Problem` where it cannot."""
         program = self.program(text)
         self._check_head(program)
+        return program
+
+    def check_text(self, text: str) -> None:
+        """Raise `Problem` for a text that cannot run: it runs on no lanes, through all branches."""
+        self._check_run(self.read(text))
+
+    def _check_run(self, program: Program) -> None:
         program.check(
             _columns([case.values for _, case in self.all_cases[:1]], 0),
             limits=LIMITS,
@@ -191,8 +198,8 @@ def _parameters(task: Task) -> tuple[str, ...]:
 
 @lru_cache(maxsize=512)
 def _results(task: Task, text: str) -> tuple[Any, ...]:
-    program = task.program(text)
-    task._check_head(program)
+    program = task.read(text)
+    task._check_run(program)
     cases = task.all_cases
     value = program.run(
         _columns([case.values for _, case in cases], len(cases)),

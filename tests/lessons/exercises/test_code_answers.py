@@ -8,7 +8,7 @@ import pytest
 from core import render
 from core.edits import edits_of, original
 from lessons.attempts.imports import judged_again
-from lessons.attempts.record import attempt_of
+from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.answers.code import CannotRunError, CodeAnswer, head_alone
 from lessons.exercises.catalogue import TEMPLATES
@@ -154,7 +154,7 @@ CANNOT = {
 def test_what_cannot_run_is_no_wrong_answer(line: str) -> None:
     answer = CodeAnswer(INSIDE, head_alone(INSIDE, "# write the rest"))
     with pytest.raises(CannotRunError, match=CANNOT[line].replace("(", ".")) as caught:
-        answer.read(f"{INSIDE.head}\n  {line}")
+        answer.check(answer.read(f"{INSIDE.head}\n  {line}"))
     assert caught.value.place.line == 2
     assert answer.problem(f"{INSIDE.head}\n  {line}") is not None
 
@@ -187,7 +187,7 @@ def test_attempts_are_judged_again() -> None:
     assert not judged.is_checked
 
 
-def _attempt(question: Question, text: str) -> object:
+def _attempt(question: Question, text: str) -> Attempt:
     response = question.draft.answer.read(text)
     return attempt_of("Ada", question, response, judge(question, response), 1.0, datetime.now(UTC))
 

@@ -16,7 +16,7 @@ from widgets.exercises.code_answer import NAME, CodeAnswerView
 CONTROL = Qt.KeyboardModifier.ControlModifier
 
 
-def test_a_listing_is_repaired_by_keys(page: Page, window: MainWindow) -> None:
+def test_a_listing_is_repaired_by_keys(page: Page, window: MainWindow, qtbot: QtBot) -> None:
     shown = page("repair-bresenham-lecture", 7)
     view, before = shown.question_view, len(attempt_file().attempts())
     answer, question = view.answer, shown.question
@@ -41,8 +41,9 @@ def test_a_listing_is_repaired_by_keys(page: Page, window: MainWindow) -> None:
     QTest.keyClick(editor, Qt.Key.Key_Return, CONTROL)
     shown.settle()
     assert view.note.text().startswith("Not checked yet: line 2, column")
-    QTest.qWait(200)  # the pause after the last key
-    assert view.note.text().startswith("Line 2, column")
+    qtbot.waitUntil(
+        lambda: view.note.text().startswith("Line 2, column")
+    )  # after the pause behind the last key
     assert editor.extraSelections()
     assert editor.accessibleDescription().startswith("Line 2, column")
     assert editor.changed_lines == {2}
