@@ -9,6 +9,7 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QApplication, QSplitter, QStackedWidget, QTabBar, QWidget
 
 from app.background.workers import Job
+from app.pages.cover import Cover
 from app.session.moment import Change
 from app.session.session import Session
 from core.explain.records import Formula
@@ -16,7 +17,6 @@ from core.settings import Settings
 from widgets.basics.controls import column_layout, row_layout
 from widgets.basics.focus_order import tab_stops
 from widgets.basics.key_claim import GIVEN_BACK
-from widgets.basics.labels import text_label
 from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
@@ -26,9 +26,6 @@ if TYPE_CHECKING:
     from core.study.accuracy.record import (
         Opening,
     )  # At run time all studies would come along: not before they are wanted.
-
-COVERED = "Hidden while an exercise or a lesson asks about this scene. P on the Step page ends the question."
-"""What stands for a page that would show what is asked about."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -267,10 +264,8 @@ class Pages(QWidget):
             Qt.FocusPolicy.NoFocus
         )  # Its keys are actions; the arrows belong to the page.
         self._stack = QStackedWidget(self)
-        self._cover = text_label(COVERED, self, role="muted", wraps=True)
-        self._cover.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self._cover.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
-        self._stack.addWidget(self._cover)
+        self.cover = Cover(self)
+        self._stack.addWidget(self.cover)
         session.changed.connect(self._follow)
         for kind in kinds:
             index = self.bar.addTab(kind.title)
@@ -379,7 +374,7 @@ class Pages(QWidget):
     def _show_index(self, index: int) -> None:
         self._place()
         if self.isVisible() and self.is_covered:
-            self._cover.setFocus()
+            self.cover.setFocus()
         elif self.isVisible():
             self.current.take_focus()
         self.page_changed.emit(self._kinds[index].name)
@@ -392,7 +387,9 @@ class Pages(QWidget):
     def _place(self) -> None:
         """Show the page of the bar, or its cover."""
         before, page = self._stack.currentWidget(), self.page(self.current_name)
-        shown = self._cover if self.is_covered else page
+        shown = self.cover if self.is_covered else page
+        if self.is_covered:
+            self.cover.show_asker(self._session.asker)
         if isinstance(before, Page) and before is not shown:
             before.leave()
         self._stack.setCurrentWidget(shown)

@@ -46,7 +46,9 @@ def _make_exercises(session: Session, parent: QWidget) -> Page:
 
 
 PAGE_KINDS = (
-    PageKind("start", "Start", "What this is, recent files and scenes (Alt+0)", _make_start),
+    PageKind(
+        "start", "Start", "What this is, recent files and scenes (Alt+0)", _make_start, hides_itself=True
+    ),
     PageKind(
         "step", "Step", "Step through the pipeline, pixel by pixel (Alt+1)", _make_step, hides_itself=True
     ),

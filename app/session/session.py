@@ -430,6 +430,11 @@ class Session(QObject):
         return self._moment.is_asked_about
 
     @property
+    def asker(self) -> str:
+        """Who asks about the open scene: ``exercise`` or ``lesson``; empty: nobody."""
+        return next((by for by, (_, is_open) in self._asked.items() if is_open), "")
+
+    @property
     def asked_scenes(self) -> frozenset[str]:
         """Digests of the scenes that exercises and lessons ask about, open or not."""
         return frozenset(scene for scene, _ in self._asked.values() if scene)

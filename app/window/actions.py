@@ -420,7 +420,7 @@ ACTIONS: tuple[Action, ...] = (
             "predict",
             "P",
             "Predict, then reveal",
-            lambda w: w.page.set_predicting(not w.session.is_predicting),
+            lambda w: w.page.toggle_predicting(),
             is_on=lambda w: w.session.is_predicting,
         ),
         Row("ask_step", "Q", "Ask this step as a question", lambda w: w.page.asking.ask_step()),

@@ -10,7 +10,8 @@ from app.background.workers import ending_within
 from app.files.lesson_folders import is_lesson_file
 from app.files.preferences import Preferences
 from app.help.pane import HelpPane
-from app.pages.page_bar import COVERED, Page, Pages
+from app.pages.cover import COVERED
+from app.pages.page_bar import Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
 from app.pages.step.opening import StepOpening
 from app.pages.step.page import StepPage
@@ -104,6 +105,8 @@ class MainWindow(ActionWindow):
         session.changed.connect(self._follow)
         self.pages.page_made.connect(self._take_page)
         self.pages.page_changed.connect(self._show_page)
+        self.pages.cover.back_requested.connect(self._show_asker)
+        self.pages.cover.leave_requested.connect(page.lessons.close)
         page.timeline.speed_changed.connect(self.memory.remember_speed)
         page.stepping.message_ended.connect(notices.end_hint)
         page.stepping.bookmarks.bookmarks_changed.connect(self._show_bookmarks)
@@ -153,7 +156,7 @@ class MainWindow(ActionWindow):
         action = ACTIONS_BY_NAME[name]
         is_of_page = action.page == self.pages.current_name or name in OF_VIEW
         if self.pages.is_covered and is_of_page:
-            self.notices.tell(COVERED)
+            self.notices.tell(COVERED[self.session.asker])
         else:
             action.do(self)
         if action.is_checkable:
@@ -215,6 +218,10 @@ class MainWindow(ActionWindow):
     @Slot()
     def _show_step(self) -> None:
         self.pages.show_page("step")
+
+    @Slot()
+    def _show_asker(self) -> None:
+        self.pages.show_page("step" if self.session.asker == "lesson" else "exercises")
 
     @Slot(str, int)
     def _open_lesson(self, name: str, step: int) -> None:

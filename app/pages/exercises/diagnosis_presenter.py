@@ -10,7 +10,8 @@ from app.background.workers import Job, Progress
 from app.files.drawn_pictures import read_drawn
 from app.files.file_dialogs import ask_file
 from app.files.file_names import DRAWN_ENDINGS
-from app.pages.page_bar import COVERED, Page, StepRequest
+from app.pages.cover import COVERED
+from app.pages.page_bar import Page, StepRequest
 from app.session.document import Document
 from app.session.moment import Change
 from app.session.session import Session
@@ -86,7 +87,7 @@ class DiagnosisPresenter(QObject):
     def open(self, path: str) -> None:
         """Compare a picture with what every mistake and method makes of the open scene."""
         if self._session.is_asked_about:
-            self._page.refuse(COVERED)
+            self._page.refuse(COVERED[self._session.asker])
             return
         document = self._session.document
 

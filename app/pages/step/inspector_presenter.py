@@ -22,7 +22,7 @@ from widgets.inspector.formula_layout import FormulaNumber
 from widgets.inspector.history_view import HINT as NO_HISTORY
 from widgets.inspector.listing import HINT, ListingText
 
-HIDDEN_HISTORY = "Turn prediction off (P) to see the pixel's history."
+HIDDEN_HISTORY = "The pixel's history is hidden until the answer is shown."
 NO_FORMULA, NO_LISTING = "This step has no formula.", "This step has no listing."
 
 

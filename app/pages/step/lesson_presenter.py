@@ -75,6 +75,11 @@ class LessonPresenter(QObject):
         return self.walk is not None
 
     @property
+    def is_asking(self) -> bool:
+        """Whether a lesson has a question open."""
+        return self.walk is not None and self.walk.answers.is_open
+
+    @property
     def is_working(self) -> bool:
         """Whether a lesson is being read, or something in it is being worked on."""
         if self._walk is None:

@@ -44,6 +44,7 @@ from widgets.tables.depth_table_editor import DepthTableEditor
 from widgets.timeline.transport import Timeline
 
 PANES_AT_FIRST = ("inspector", "details", "navigator", "run")
+ANSWER_FIRST = "Answer first, or choose Reveal: that shows the answer."
 NESTED_LAYOUTS = 5
 """Layouts around a part of the inspector, up to the window's."""
 MARGINS, PRESENTED_MARGINS = (4, 0, 8, 4), (8, 8, 16, 8)
@@ -334,6 +335,13 @@ class StepPage(Page):
     def toggle_compare(self) -> None:
         """Show A | B | difference, or the pixels again."""
         self.show_view("pixels" if self.current_view() == "compare" else "compare")
+
+    def toggle_predicting(self) -> None:
+        """Hide what comes next, or show it again; a lesson's question is not ended by a key that asks nothing."""
+        if self.lessons.is_asking:
+            self.tell(ANSWER_FIRST)
+        else:
+            self.set_predicting(not self.session.is_predicting)
 
     def set_predicting(self, is_on: bool) -> None:
         """Hide what comes next until it has been predicted, or show everything."""

@@ -289,7 +289,8 @@ class SteppingPresenter(QObject):
         """Say, while the user predicts, that a search ahead would tell what comes; return whether it would."""
         would_tell = direction > 0 and self._session.is_predicting
         if would_tell:
-            self.tell("A search ahead would tell what comes. P ends predicting.")
+            way = "Answer first." if self._session.is_asked_about else "P ends predicting."
+            self.tell(f"A search ahead would tell what comes. {way}")
         return would_tell
 
     def _go_on(self, reached: int | None, direction: int, what: str) -> None:

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from core.edits import Edit  # As in app.session.document.
     from core.study.accuracy.divergence import Divergence  # Looked for long after the window is open.
 
-PREDICTING = "Prediction hides the pictures of A and B. P ends it."
+PREDICTING = "Hidden until the answer is shown."
 FAULTY = "B is a run with a mistake: the page cannot take it over."
 EDITED = "B runs an edited listing: the page keeps the method itself, so that both can be compared."
 

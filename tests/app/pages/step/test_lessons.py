@@ -190,6 +190,10 @@ def test_a_question_hides_its_scene_until_it_is_answered(
     assert asked in session.asked_scenes
     window.pages.show_page("compare")
     assert window.pages.is_covered
+    window.pages.cover.back_button.click()
+    assert window.pages.current is window.page
+    window.pages.show_page("start")
+    assert not window.pages.is_covered
     window.pages.show_page("step")
     assert answered(walk, qtbot, 16).startswith("Right.")
     settled(window, qtbot)
@@ -246,18 +250,22 @@ def test_revealing_counts_as_seen(window: MainWindow, qtbot: QtBot, walk: Lesson
     assert kept(walk, window, qtbot)[-1].score == 0
 
 
-def test_p_reveals_and_stepping_on_leaves_a_seen_step(
+def test_p_ends_no_question_and_stepping_on_leaves_a_seen_step(
     window: MainWindow, qtbot: QtBot, walk: LessonWalk
 ) -> None:
+    window.run_action("predict")
+    assert window.session.is_predicting
+    assert "Answer first" in window.statusBar().currentMessage()
     window.session.step(1)
     assert answered(walk, qtbot, 16).startswith("Right.")
     assert walk.standings[1] is SEEN
-    walk.return_here()
-    settled(window, qtbot)
-    assert walk.answers.is_open
-    window.run_action("predict")
-    settled(window, qtbot)
-    assert walk.view.feedback.text().startswith("This is the answer.")
+
+
+def test_a_hidden_page_offers_to_leave_the_lesson(window: MainWindow, walk: LessonWalk) -> None:
+    window.pages.show_page("compare")
+    window.pages.cover.leave_button.click()
+    assert walk.lesson is None
+    assert not window.pages.is_covered
 
 
 def test_pixels_are_marked_on_the_page_s_picture(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
