@@ -56,6 +56,8 @@ class Side:
     overlays: tuple[Overlay, ...] = ()
     geometry: GridGeometry | None = None
     """Its triangles."""
+    pixel_center: str = "half"
+    """Where its centres lie, as ``PixelGrid.set_pixel_center``."""
     step: StepMark = field(default_factory=StepMark)
     """What its last step was about."""
     listing: ListingText | None = None
@@ -233,6 +235,7 @@ class CompareView(QWidget):
             above, below = FOLDED_LINES
         for side, grid, title, note in zip(sides, self.grids, self.titles, self.notes, strict=True):
             grid.empty_text = side.reason
+            grid.set_pixel_center(side.pixel_center)
             grid.show_buffer(side.buffer)
             grid.show_overlays(side.overlays)
             grid.show_geometry(side.geometry)

@@ -93,11 +93,6 @@ class LinkedGrids(QWidget):
             grid.show_overlays(())
             label.setText(name)
 
-    def set_pixel_center(self, pixel_center: str) -> None:
-        """Say where the centres of pixels lie, as ``PixelGrid.set_pixel_center``."""
-        for grid in self.grids:
-            grid.set_pixel_center(pixel_center)
-
     def show_pointing(self, pin: tuple[int, int] | None, hover: tuple[int, int] | None) -> None:
         """Mark pin and hover in all grids."""
         for grid in self.grids:

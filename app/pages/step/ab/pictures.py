@@ -83,6 +83,7 @@ def _side_of(
         buffer=buffer,
         overlays=tuple(overlay for overlay in mask_overlays(step) if overlay.key in SHOWN_MARKS),
         geometry=outlines(step.trace, step.cursor if step.cursor.stage in OUTLINING else Cursor(STAGES[-1])),
+        pixel_center=step.trace.source.settings.pixel_center,
         step=step_mark(step),
         listing=None if listing is None else ListingText(listing.name, listing.source, listing.purpose),
         line=0 if done is None else done.line,
@@ -148,6 +149,7 @@ def compare(first: Side, second: Side) -> tuple[Side, Side, Side]:
         # The colours show what both have reached.
         overlays=() if is_choice else (MaskOverlay("difference", Mark.DIFFERENCE, one),),
         geometry=first.geometry,
+        pixel_center=first.pixel_center,
     )
     return first, second, difference
 

@@ -254,7 +254,6 @@ class ComparePresenter(QObject):
         self._view.show_settings(b.shown_settings(document), frozenset(b.differences))
         if (self._choice is None or b.edits) and b.differences:
             self._view.show_family(next(iter(b.differences)))
-        self._view.linked.set_pixel_center(document.settings.pixel_center)
 
         def work() -> Trace:
             """Trace B up to the stage that is shown."""

@@ -168,6 +168,14 @@ def test_the_first_divergence_is_reached_in_both(window: MainWindow, qtbot: QtBo
     assert row_of_b(window) == found.rows[1]
 
 
+def test_each_side_has_its_own_pixel_centres(window: MainWindow) -> None:
+    window.page.comparing.set_differences({"pixel_center": "integer"})
+    window.page.show_view("compare")
+    places = [grid.placement() for grid in window.page.compare_view.grids]
+    centres = [place.to_window(place.cells_rect(2, 1).center()) for place in places]
+    assert centres == [(2.5, 1.5), (2, 1), (2.5, 1.5)]
+
+
 def test_the_pictures_are_exported_without_the_choices(window: MainWindow, tmp_path: Path) -> None:
     window.page.show_view("compare")
     window.exports.export_to(str(tmp_path / "both.svg"))
@@ -229,7 +237,7 @@ def test_prediction_hides_both_pictures(window: MainWindow) -> None:
     window.run_action("predict")
     window.page.show_view("compare")
     assert [grid.buffer() for grid in window.page.compare_view.grids] == [None] * 3
-    assert "P ends it" in window.page.compare_view.summary.text()
+    assert "Hidden until" in window.page.compare_view.summary.text()
     window.run_action("predict")
     window.page.show_view("compare")
     assert "pixels differ" in window.page.compare_view.summary.text()
