@@ -46,10 +46,9 @@ from core.settings import DEFAULTS, Settings
 from core.stages.bin_and_raster import Counts, fragments_of
 from core.stages.declared import STAGES
 from core.stages.fragment_depth import fragment_depth
-from core.stages.fragments import fragments_at, interpolate, owner_of, shade, shade_once
+from core.stages.fragments import fragments_at, interpolate, not_discarded, owner_of, shade, shade_once
 from core.stages.hidden_surfaces import Visible, decide_fragments
 from core.stages.needs import check_edits
-from core.stages.vertex_program import not_discarded
 from core.stages.vertices import Geometry, process_geometry
 
 SAMPLE_BAND = 1 << 21

@@ -23,7 +23,6 @@ from core.resolved import resolve
 from core.scene import AnyScene
 from core.settings import DEFAULTS, Settings
 from core.stages.declared import STAGES
-from core.stages.vertex_program import has_program
 from core.stages.vertices import process_geometry
 
 ENCODINGS = ("srgb", "linear")
@@ -106,7 +105,7 @@ def draw_picture(
         pixels = (np.empty(shape, np.uint8) if out is None else out).reshape(-1).view(np.uint32)
 
     keeps_depth = with_depth or depth_at is not None
-    if has_program(scene):
+    if scene.program is not None:
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth, depth_at)
     if not keeps_depth and _is_supersampled(settings):
         from core.fast_path.supersampled import draw_supersampled

@@ -13,9 +13,9 @@ from core.raster.lines.intensities import weigh_alpha, writes_depth
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.resolved import resolve
 from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
-from core.stages.fragments import fragment_values, surface_of
+from core.stages.fragments import fragment_values, not_discarded, surface_of
 from core.stages.hidden_surfaces import cleared_buffers, run_visibility_tests
-from core.stages.vertex_program import has_program, not_discarded
+from core.stages.vertex_program import has_program
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,11 +14,11 @@ from core.raster.coverage import Fragments
 from core.raster.lines.slopes import line_slopes
 from core.raster.lines.wireframe import LineFragments, interpolate_outlines
 from core.raster.pixel_runs import Raster
-from core.records.arrays import Floats, Integers
+from core.records.arrays import Flags, Floats, Integers
 from core.records.frame import StageCount
 from core.records.primitives import interpolation_form
 from core.resolved import resolve
-from core.scene import AnyScene, Scene
+from core.scene import AnyScene
 from core.stages.fragment_color import Surface, shade_fragments
 from core.stages.geometry import Geometry
 
@@ -79,17 +79,35 @@ def shade(
         return surface_of(scene, geometry, raster, fragments, values).color
 
 
+def not_discarded(scene: AnyScene, geometry: Geometry, raster: Raster, fragments: Fragments) -> Flags:
+    """Return (F,) bool, which fragments go on to the depth test: all but those that a fragment shader discards."""
+    if scene.program is None:
+        return np.ones(len(fragments), bool)
+    from core.shaders.fragment_stage import discarded_fragments
+
+    discarded = discarded_fragments(scene, geometry, raster, fragments)
+    return np.ones(len(fragments), bool) if discarded is None else ~discarded
+
+
 def surface_of(
-    scene: AnyScene, geometry: Geometry, raster: Raster, fragments: Fragments, values: Floats
+    scene: AnyScene,
+    geometry: Geometry,
+    raster: Raster,
+    fragments: Fragments,
+    values: Floats,
+    slopes: Floats | None = None,
 ) -> Surface:
-    """Return the shaded fragments (F) with interpolated ``values`` (F, K): by the scene's shader, where it has one."""
-    if isinstance(scene, Scene) and scene.program is not None:
+    """Return the shaded fragments (F) with interpolated ``values`` (F, K): by the scene's shader, where it has one.
+
+    ``slopes`` of the texture's coordinates, where they are those of other places than the fragments' own.
+    """
+    if scene.program is not None:
         from core.shaders.fragment_stage import run_fragments
 
         color = run_fragments(scene, geometry, raster, fragments, values).color.astype(np.float64)
         return Surface(color, None, None, color)
     mesh = geometry.primitives.mesh[fragments.primitive]
-    slopes = texture_slopes(geometry, raster, fragments, values)
+    slopes = texture_slopes(geometry, raster, fragments, values) if slopes is None else slopes
     return shade_fragments(scene, geometry.settings, geometry.primitives.layout, mesh, values, slopes)
 
 

@@ -26,10 +26,10 @@ from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
 from core.stages.fragment_color import Surface
 from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
-from core.stages.fragments import fragment_values, surface_of, texture_slopes
+from core.stages.fragments import fragment_values, not_discarded, surface_of, texture_slopes
 from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
 from core.stages.needs import check_edits
-from core.stages.vertex_program import not_discarded, vertex_stage
+from core.stages.vertex_program import vertex_stage
 from core.stages.vertices import Geometry, drawing_order, process_geometry
 from core.trace.stage_rows import StageRows
 from core.visibility.ray_casting import RayTests
@@ -158,7 +158,8 @@ class TraceSource:
     @cached_property
     def surface(self) -> Surface:
         """The fragments' colours."""
-        return surface_of(self.scene, self.geometry, self.raster, self.fragments, self.interpolated[1])
+        values = self.interpolated[1]
+        return surface_of(self.scene, self.geometry, self.raster, self.fragments, values, self.uv_slopes)
 
     @cached_property
     def depth_format(self) -> DepthFormat:

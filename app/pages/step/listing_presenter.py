@@ -221,7 +221,7 @@ class ListingPresenter(QObject):
             self._inspector.refresh_step(self._session.moment)
 
     def _end_editing(self) -> None:
-        """Put the listing in the place of the editor; what ran stays, and a text that does not run is kept for later."""
+        """Show the listing instead of the editor; what ran stays, and a text that does not run is kept for later."""
         place, self._place = self._place, None
         self._pane.end_editing()
         if self._pane.editor.has_problem:
