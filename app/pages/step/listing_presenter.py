@@ -112,8 +112,9 @@ class ListingPresenter(QObject):
             self._inspector.refresh_history(self._session.moment)
 
     def begin_anew(self) -> None:
-        """Leave the editor: another scene was opened."""
+        """Leave the editor, and forget what did not run: another scene was opened."""
         self._end_editing()
+        self._drafts.clear()
 
     def refresh(self, moment: Moment) -> None:
         """Follow the document: its edits may have been undone, or another scene has none."""
@@ -221,7 +222,7 @@ class ListingPresenter(QObject):
             self._inspector.refresh_step(self._session.moment)
 
     def _end_editing(self) -> None:
-        """Show the listing instead of the editor; what ran stays, and a text that does not run is kept for later."""
+        """Put the listing in the place of the editor; what ran stays, and what does not run is kept for later."""
         place, self._place = self._place, None
         self._pane.end_editing()
         if self._pane.editor.has_problem:
