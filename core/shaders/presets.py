@@ -206,6 +206,14 @@ PRESETS = {
 """By name."""
 
 
+def is_preset(program: ShaderProgram) -> bool:
+    """Whether the texts are still those of the preset that they began with."""
+    return any(
+        (each.title, each.vertex, each.fragment) == (program.name, program.vertex, program.fragment)
+        for each in PRESETS.values()
+    )
+
+
 def preset_program(name: str, scene: Scene) -> ShaderProgram:
     """Return a preset for a scene, with the light and the material of its first mesh.
 

@@ -16,10 +16,15 @@ from core.shaders.glsl_types import component_count
 from core.shaders.linking import own_uniforms
 from core.shaders.presets import PRESETS, preset_program, scene_uniforms
 from core.shaders.record import ShaderProblem, ShaderProgram
+from lessons.shader_mistakes import recognised
 from widgets.shaders.shader_pane import OWN, ShaderPane, ShownProgram, ShownUniform
 
 TRIAL_SECONDS = 3.0
 """Seconds that drawing may take before what was typed is taken over."""
+
+
+MOST_RECOGNISED = 96 * 72
+"""Pixels of a picture that is compared with those of the mistakes."""
 
 
 def make_shader_pane(page: Page) -> ShaderPane:
@@ -85,7 +90,7 @@ class ShaderPresenter(QObject):
             stage: text
         }
         if (sources["vertex"], sources["fragment"]) == (program.vertex, program.fragment):
-            self._pane.show_accepted(notes_of(program))
+            self._pane.show_accepted(self._accepted(program))
             return
         self._try(program, sources)
 
@@ -138,7 +143,8 @@ class ShaderPresenter(QObject):
         scene = self._session.latest.scene
         assert isinstance(scene, Scene)
         try:
-            typed = ShaderProgram(sources["vertex"], sources["fragment"], program.uniforms, program.dialect)
+            texts = sources["vertex"], sources["fragment"]
+            typed = ShaderProgram(*texts, program.uniforms, program.dialect, program.name)
             given = scene_uniforms(scene)
             new = {
                 name: given[name]
@@ -167,7 +173,18 @@ class ShaderPresenter(QObject):
                     render(scene, edited.settings)
         self._session.edit(edited)
         if program is not None:
-            self._pane.show_accepted(notes_of(program))
+            self._pane.show_accepted(self._accepted(program))
+
+    def _accepted(self, program: ShaderProgram) -> str:
+        """Return what is said of shaders that run: a mistake of the shelf that makes their picture, and notes."""
+        document = self._session.latest
+        scene = document.traced_scene
+        assert isinstance(scene, Scene)
+        mistake = None
+        if scene.size[0] * scene.size[1] <= MOST_RECOGNISED:
+            mistake = recognised(program, replace(scene, program=None), document.settings)
+        said = f"Both shaders run. {mistake.says}" if mistake is not None else ""
+        return f"{said} {notes_of(program)}".strip()
 
 
 def ended(sentence: str) -> str:

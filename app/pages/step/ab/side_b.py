@@ -12,6 +12,7 @@ from core.explain.stage_texts import family_title
 from core.methods import ReplacedName, table
 from core.scene import AnyScene, Scene
 from core.settings import FAMILIES, no_effect
+from core.shaders.presets import is_preset
 from widgets.basics.settings_panel import Setting, SettingChoice
 
 if TYPE_CHECKING:
@@ -80,7 +81,9 @@ def shaders_of(scenes: tuple[AnyScene, AnyScene]) -> str | None:
     mine, other = scenes
     if not isinstance(mine, Scene) or not isinstance(other, Scene) or mine.program == other.program:
         return None
-    return "built-in shading" if mine.program is None else mine.program.name or "own shaders"
+    if mine.program is None:
+        return "built-in shading"
+    return mine.program.name if is_preset(mine.program) else "own shaders"
 
 
 @dataclass(frozen=True, eq=False)

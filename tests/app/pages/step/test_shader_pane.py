@@ -153,3 +153,13 @@ def test_shaders_beside_the_built_in_shading_and_beside_others(lab, qtbot):
         lambda: comparing._b.title == "Toon shading" and comparing.second is not None, timeout=10_000
     )
     assert pane._beside.currentIndex() == 0
+
+
+def test_a_mistake_of_the_shelf_is_named(lab, qtbot):
+    swapped = (
+        lab.page.shader_pane.editor("vertex")
+        .toPlainText()
+        .replace("vColor = color;", "vColor = color * 0.0;")
+    )
+    _type(lab, qtbot, "vertex", swapped)
+    assert lab.page.shader_pane.message.startswith("Both shaders run. vColor never gets the vertex's colour.")
