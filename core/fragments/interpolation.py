@@ -66,6 +66,17 @@ class Planes:
             return (corners[..., :2] / corners[..., 2:]).transpose(1, 2, 0)
 
 
+def window_weights(weights: Floats, w: Floats) -> Floats:
+    """Return (3,) the weights in the window, of the weights with perspective and the w of the corners.
+
+    Not finite where they have no sum.
+    """
+    parts = np.multiply(weights, w)
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        shares: Floats = parts / parts.sum()
+    return shares
+
+
 def set_up_planes(homogeneous: Floats) -> Planes:
     """Return the adjugate of every (x, y, w) matrix, (P, 3, 3) float64.
 

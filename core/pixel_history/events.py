@@ -1,7 +1,10 @@
 """The events of a pixel in drawing order: initial value, clear, and every candidate triangle."""
 
+from typing import Any
+
 import numpy as np
 
+from core.fragments.interpolation import window_weights
 from core.framebuffer.blending import blend_traits
 from core.framebuffer.depth import DepthFormat
 from core.geometry.culling import REASONS
@@ -71,6 +74,18 @@ class _Rank:
         return (int(place[0]) if len(place) else -1), event.primitive
 
 
+def _weights(candidates: PixelCandidates, fragments: PixelFragments, k: int) -> dict[str, Any]:
+    """Return the weights of a fragment, and those in the window where the division by w makes others of them."""
+    values: dict[str, Any] = {"weights": fragments.weights[k], "inverse_w": float(fragments.inverse_w[k])}
+    geometry = candidates.geometry
+    is_area = geometry.outlines is None and candidates.scene.corner_count == 3
+    if is_area and candidates.settings.interpolation == "perspective":
+        w = geometry.planes.w[fragments.primitive[k]]
+        if w.min() != w.max():
+            values["in_window"] = window_weights(fragments.weights[k], w)
+    return values
+
+
 def _fragment_events(
     candidates: PixelCandidates, fragments: PixelFragments, passages: list[Passage]
 ) -> list[PixelEvent]:
@@ -87,8 +102,7 @@ def _fragment_events(
             raster = [outline_link(candidates, k)]
         chain = [*_upper_chain(candidates, which), *raster]
         if corner_count in (2, 3):
-            weights = {"weights": fragments.weights[k], "inverse_w": float(fragments.inverse_w[k])}
-            chain.append(Link("interpolate", "weights", weights))
+            chain.append(Link("interpolate", "weights", _weights(candidates, fragments, k)))
         chain.append(Link("shade", "color", {"color": fragments.color[k]}))
         chain.append(passage.depth_link)
         if passage.passes:

@@ -117,6 +117,14 @@ def _outside(values: Values) -> str:
     return ", ".join(parts)
 
 
+def _weights(values: Values) -> str:
+    """Return the weights, and where they are divided by w, those in the window."""
+    text = f"weights {joined([exact_text(w) for w in values['weights']])}"
+    if "in_window" not in values:
+        return text
+    return f"{text} (divided by w; in the window {joined([exact_text(w) for w in values['in_window']])})"
+
+
 def _missed(values: Values) -> str:
     """Return by how much which edge was missed."""
     if not isfinite(values["distance"]):
@@ -350,7 +358,7 @@ SENTENCES: dict[tuple[str, str], Sentence] = {
         f"not on its outline: the pixel centre is {_pixels(v['distance'])} from edge {v['edge']}, the nearest"
     ),
     ("raster", "no-outline"): "none of its edges is drawn near the window",
-    ("interpolate", "weights"): lambda v: f"weights {joined([exact_text(w) for w in v['weights']])}",
+    ("interpolate", "weights"): _weights,
     ("shade", "color"): lambda v: "colour " + ", ".join(exact_text(c) for c in v["color"]),
     ("depth", "passed"): lambda v: f"passed the depth test: {_compared(v, 'against')}",
     ("depth", "failed"): lambda v: f"failed the depth test: {_compared(v, 'is not nearer than')}",

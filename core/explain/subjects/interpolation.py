@@ -2,6 +2,8 @@
 
 import math
 
+import numpy as np
+
 from core.explain.digits import is_remainder, number_latex, remainder_note, signed_latex, spoken, vector_text
 from core.explain.equation import (
     Part,
@@ -17,6 +19,7 @@ from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import ATTRIBUTES, StepValues, component_names
 from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given, hides, shows
+from core.fragments.interpolation import window_weights
 from core.records.words import joined, noun_of
 
 ATTRIBUTE_NAMES = {
@@ -100,6 +103,10 @@ def weights(step: StepValues) -> Said:
     """The weights of the corners, parts of the sum."""
     values, whole = step.vector("weights"), step.number("total")
     text = f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(values)}, their parts of the sum"
+    w = step.vector("corner_w")
+    if step.kind == "perspective" and min(w) != max(w):
+        in_window = window_weights(np.array(values), np.array(w)).tolist()
+        text += f" (divided by w; in the window {_listed(in_window)})"
     text += below_zero(values)
     if any(map(math.isnan, values)):
         text += "; NaN means that the sum is 0"

@@ -21,7 +21,7 @@ from core.methods import table
 from core.pixel_history import Link, PixelHistory, why
 from core.settings import families
 from core.trace.source import TraceSource
-from lessons.scenes import make_scene
+from lessons.scenes import make_scene, window_triangle
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 
 SIZE = (16, 12)
@@ -206,3 +206,11 @@ def test_a_pixel_of_a_line_says_what_chose_it(line: str, said: str) -> None:
     text = " ".join(map(event_reason, history.events))
     assert said in text
     assert bool(said) == ("step to it" in text)
+
+
+def test_weights_divided_by_w_stand_beside_those_of_the_window():
+    """Corners (0, 0), (8, 0), (0, 8): in the window the centre of pixel (1, 3) has weights 3/8, 3/16 and 7/16."""
+    clip = window_triangle([0, 8, 0], [0, 0, 8], [0.5] * 3, [1, 1, 2], (8, 8))
+    scene = ClipScene(np.array([clip]), np.zeros((1, 3, 4)), (8, 8))
+    reason = event_reason(ask(scene, 1, 3).fragments[0])
+    assert "Weights 0.48, 0.24 and 0.28 (divided by w; in the window 0.375, 0.1875 and 0.4375)." in reason
