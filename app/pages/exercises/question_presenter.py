@@ -286,12 +286,14 @@ class QuestionPresenter(QObject):
         if self.question is not None and self._view.answer is not None:
             work = trying(self.question.draft, self._view.answer.given())
             if work is not None:
+                self._view.show_note("")  # It was about another text.
                 self._trying.start(work)
 
     @Slot(object)
     def _show_tried(self, tried: Tried) -> None:
-        if self._view.answer is not None and self._view.answer.given() == tried.given:
-            self._view.show_note(show_tried(self._view.answer, tried))
+        view = self._view.answer
+        if view is not None and view.given() == tried.given and (said := show_tried(view, tried)):
+            self._view.show_note(said)
 
     def _draw_live(self, name: str = "your answer") -> None:
         """Draw what is shown of an answer while it is given; ``name`` stands at a point of the plane."""

@@ -17,7 +17,7 @@ from core.records.cells import Marks
 from lessons.course.lesson_file import Lesson
 from lessons.course.questions import Outcome, outcome_of
 from lessons.exercises.answers.answer import NotCheckedError, Response
-from lessons.exercises.answers.code import CannotRunError
+from lessons.exercises.answers.code import CannotRunError, CodeAnswer
 from lessons.exercises.question import Question, judge
 from lessons.mistakes.shelf import MISTAKES
 from widgets.exercises.answer_view import AnswerView
@@ -143,12 +143,13 @@ class LessonAnswers(QObject):
         """Find why a listing that is typed cannot run."""
         work = None if self.asked is None else trying(self.asked.question.draft, self._form.given())
         if work is not None:
+            self._view.show_note("")  # It was about another text.
             self._trying.start(work)
 
     @Slot(object)
     def _show_tried(self, tried: Tried) -> None:
-        if self.is_open and self._form.given() == tried.given:
-            self._view.show_note(show_tried(self._form, tried))
+        if self.is_open and self._form.given() == tried.given and (said := show_tried(self._form, tried)):
+            self._view.show_note(said)
 
     def _draw_live(self) -> None:
         """Draw what is shown of an answer while it is given."""
@@ -261,6 +262,8 @@ def wrong_sentences(judged: JudgedAnswer) -> tuple[str, ...]:
     if judged.outcome.wrong is not None:
         return (" ".join(judgement.reason.split()),)
     named = tuple(MISTAKES[name].sentence for name in judgement.mistakes)
+    if draft.answer.kind == CodeAnswer.kind:
+        named = tuple(judgement.sentences)  # Beside the mistake, the input that shows it.
     said = (
         named
         or tuple(judgement.sentences)
