@@ -18,7 +18,7 @@ from lessons.exercises.draws import Draws
 
 NAMES_SHOWN = 3
 """Most classes of inputs that are named."""
-OPENED = 12
+OPENED = 40
 """Most inputs that are drawn to find one whose pictures differ."""
 MISSING, WRITE = "# this line is missing", "# write the rest"
 """What stands where a line, or a whole function, is to be written."""

@@ -30,10 +30,12 @@ def _depth_cases() -> dict[str, tuple[Case, ...]]:
 
 def _depth_shown(case: Case) -> Shown | None:
     new, old, is_larger, writes = case.values
-    if not writes or is_larger:
+    if not writes:  # Only pale pixels of lines are not stored.
         return None
-    scene = triangle_scene([CORNERS, CORNERS], SIZE, depth=[[old] * 3, [new] * 3])
-    return Shown(scene, Settings(depth="z-float32"), "depth_test", "z-float32", "depth", (1, 1))
+    method = "reversed-z" if is_larger else "z-float32"
+    depths = [1 - depth if is_larger else depth for depth in (old, new)]
+    scene = triangle_scene([CORNERS, CORNERS], SIZE, depth=[[depth] * 3 for depth in depths])
+    return Shown(scene, Settings(depth=method), "depth_test", method, "depth", (1, 1))
 
 
 _DEPTH = original("depth_test", "z-float32")

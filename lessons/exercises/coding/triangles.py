@@ -70,7 +70,14 @@ def inside_cases() -> dict[str, tuple[Case, ...]]:
             name = "on an edge that owns its centres" if owns[on[0]] else "on an edge that does not own them"
         if len(found.setdefault(name, [])) < 24:
             said = f"triangle {corners_text(corners)}, centre ({x:g}, {y:g})"
-            found[name].append(Case((a, b, c, owns, x, y), said, (corners, (column, row))))
+            is_beside = not all(
+                min(side) <= place <= max(side)
+                for side, place in zip(zip(*corners, strict=True), (x, y), strict=True)
+            )
+            # Outside of its box a triangle is not tested.
+            found[name].append(
+                Case((a, b, c, owns, x, y), said, (corners, (column, row)), size=float(is_beside))
+            )
     return {name: tuple(cases) for name, cases in found.items()}
 
 
