@@ -35,7 +35,7 @@ def _depth_shown(case: Case) -> Shown | None:
     method = "reversed-z" if is_larger else "z-float32"
     depths = [1 - depth if is_larger else depth for depth in (old, new)]
     scene = triangle_scene([CORNERS, CORNERS], SIZE, depth=[[depth] * 3 for depth in depths])
-    return Shown(scene, Settings(depth=method), "depth_test", method, "depth", (1, 1))
+    return Shown(scene, Settings(depth=method), "depth_test", method, "depth")
 
 
 _DEPTH = original("depth_test", "z-float32")
@@ -98,7 +98,7 @@ def _blend_shown(case: Case) -> Shown:
     source, destination = case.values
     scene = triangle_scene([CORNERS], SIZE, attributes=np.array([[source] * 3]))
     scene = replace(scene, background=np.array(destination))
-    return Shown(scene, Settings(blend="over"), "blend", "over", "blend", (1, 1))
+    return Shown(scene, Settings(blend="over"), "blend", "over", "blend")
 
 
 _OVER = original("blend", "over")
