@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from app.session.named_mistakes import Outcome
 
 HIDDEN = "While you predict, or a question is asked about this scene, no listing can be edited."
-KEPT = "The text that does not run is kept: Edit opens it again. B is the last version that ran."
+KEPT = "The text that does not run is kept: Edit opens it again."
 LOADING = "The editor is being loaded."
 LATER_MS = 50
 EDITED_FAMILIES = ("line", "fill_rule", "fill", "interpolation", "depth", "blend")
