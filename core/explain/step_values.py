@@ -103,7 +103,8 @@ class StepValues:
     def fill_rule(self, edge: int) -> str:
         """Return the name of the fill rule; without a name, the rule that agrees with the answers."""
         if self.has("fill_rule"):
-            return self.text("fill_rule")
+            rule = self.explanation.values["fill_rule"]
+            return rule if isinstance(rule, str) else str(rule)  # A changed rule stays one.
         a, b, owns = self.vector("a"), self.vector("b"), self.flags("owns_tie")
         by_side = [owns_by_side(x, y) for x, y in zip(a, b, strict=True)]
         if by_side == owns:

@@ -105,6 +105,7 @@ def edge_values(edges: EdgeFunctions, tests: EdgeTests, k: int) -> dict[str, Any
     -----
     ``distance`` is signed, positive inside, in pixels; ``subpixels`` the same in 1/256 pixel; ``ulps`` the
     value in units in the last place of its largest term. The value of an edge with a snapped end is exact.
+    ``is_edited``: an edited inside test decides, whatever the sides of the edges are.
     """
     distance, inside = tests.distance[k], tests.inside[k]
     failing = ~inside if not inside.all() else np.ones(3, bool)
@@ -125,6 +126,7 @@ def edge_values(edges: EdgeFunctions, tests: EdgeTests, k: int) -> dict[str, Any
         "ulps": float(tests.ulps[k, edge]),
         "is_exact": bool(is_anchored) or edges.numbers.is_whole,
         "doubled_area": float(edges.doubled_area[k]),
+        "is_edited": edges.rule is not None,
     }
 
 

@@ -93,6 +93,10 @@ def _corners(numbers: tuple[int, ...]) -> str:
     return "vertices " + " and ".join(map(str, numbers)) + " are"
 
 
+EDITED_COVERED, EDITED_OUTSIDE = (
+    "covered: the edited inside test returns true",
+    "the edited inside test returns false",
+)
 DIVISIONS = {
     "mirrored": "the division by w has mirrored the part behind the eye",
     "undefined": "a vertex cannot be divided by its w",
@@ -127,6 +131,8 @@ def _weights(values: Values) -> str:
 
 def _missed(values: Values) -> str:
     """Return by how much which edge was missed."""
+    if values.get("is_edited"):
+        return EDITED_OUTSIDE
     if not isfinite(values["distance"]):
         return f"the pixel centre is outside edge {values['edge']}"
     text = f"the pixel centre is {_pixels(values['distance'])} beyond edge {values['edge']}"
@@ -136,6 +142,8 @@ def _missed(values: Values) -> str:
 
 
 def _tie(values: Values) -> str:
+    if values.get("is_edited"):
+        return EDITED_OUTSIDE
     return f"the pixel centre is exactly on {_owned(values, owns=False)}"
 
 
@@ -154,7 +162,11 @@ def _not_here(values: Values) -> str:
     if values["doubled_area"] == 0:
         return "it has no area"
     if values["inside"].all():
-        return "the pixel centre is inside all three edges"
+        return (
+            EDITED_COVERED.partition(": ")[2]
+            if values.get("is_edited")
+            else "the pixel centre is inside all three edges"
+        )
     return _tie(values) if values["value"] == 0 else _missed(values)
 
 
@@ -199,6 +211,8 @@ def _accepted(values: Values) -> str:
 
 def _on_own_edges(values: Values) -> str:
     """Return what must be said of a covered centre that lies on an edge."""
+    if values.get("is_edited"):
+        return ""
     return f"; the pixel centre is exactly on {_owned(values, owns=True)}" if values["ties"].any() else ""
 
 
@@ -209,10 +223,14 @@ def _crossed(values: Values) -> str:
 
 
 def _edge_margin(values: Values) -> str:
+    if values.get("is_edited"):
+        return EDITED_COVERED
     return f"covered: inside all three edges, {_pixels(values['distance'])} from edge {values['edge']}"
 
 
 def _on_edge(values: Values) -> str:
+    if values.get("is_edited"):
+        return EDITED_COVERED
     return f"covered: the pixel centre is exactly on {_owned(values, owns=True)}"
 
 

@@ -20,6 +20,7 @@ from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.number_formats import DETERMINANT, equals
 from core.explain.variable_text import VariableText, given, hides, shows
+from core.methods import ReplacedName
 from core.raster.edges.snapping import SNAP_LIMIT, SUBPIXELS
 
 ROUNDING = 1e-9
@@ -232,6 +233,8 @@ EVEN_HANDED_RULES = {
 
 def tie_reason(a: float, b: float, owns: bool, rule: str) -> str:
     """Say why a triangle owns the pixel centres on an edge, or does not."""
+    if isinstance(rule, ReplacedName):
+        return "the changed fill rule decides so"
     if rule != "shared-edge":
         return EVEN_HANDED_RULES[rule][0]
     if a != 0:

@@ -8,10 +8,12 @@ import pytest
 from core import Settings, trace
 from core.edits import Edit, apply_edit, original
 from core.explain import formula, sentence, variables
+from core.explain.history.sentences import event_reason, verdict_sentence
 from core.explain.latex import plain_text, split_cells
 from core.explain.steps import load_subjects
+from core.pixel_history import why
 from core.records.listing import EditedListing
-from core.trace import StageTrace
+from core.trace import StageTrace, TraceSource
 from lessons.scenes import make_scene
 
 SHARED = "shared-edge"
@@ -137,3 +139,21 @@ def test_inputs_of_a_row_give_the_row():
         held = {variable.name: variable.now for variable in variables(made)}
         row = found.steps.row_at(start + 3)[0]
         assert [held[f"weights[{k}]"] for k in range(3)] == found.columns["weights"][row].tolist()
+
+
+def test_the_pixel_history_gives_no_reason_of_the_right_test():
+    def source(limit: str) -> TraceSource:
+        text = original("fill", "bounding-box").source.replace("value > 0", f"value {limit}")
+        settings = apply_edit(Settings(fill="bounding-box"), Edit("fill", "bounding-box", text))
+        return trace(make_scene(SHARED), settings).source
+
+    more, fewer = why(source(">= 0"), 12, 6), why(source("> 300"), 18, 28)
+    assert "the edited inside test returns true" in event_reason(more.events[-1])
+    assert "the edited inside test returns false" in verdict_sentence(fewer)
+
+
+def test_a_changed_fill_rule_is_given_as_the_reason():
+    found = edited(SHARED, "fill_rule", "shared-edge", "a > 0", "a < 0", "raster", fill="bounding-box")
+    tied = int(np.flatnonzero(found.marks["tie"] & (found.columns["values"] >= 0).all(axis=1))[0])
+    text = sentence(found.explain(int(found.steps.starts[tied + 1])), 0, None)
+    assert "because the changed fill rule decides so" in text

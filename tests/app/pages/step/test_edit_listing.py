@@ -190,6 +190,20 @@ def test_each_text_that_ran_is_one_entry_of_undo(window: MainWindow) -> None:
     wait(lambda: "* 1" not in window.session.document.edits[0].text)
 
 
+def test_a_long_run_leaves_the_window_free_and_escape_ends_it(window: MainWindow) -> None:
+    window.session.open(open_any("shared-edge").document)
+    window.session.set_stage("interpolate", 40)
+    editor = edit(window, "value =")
+    loops = "".join(f"{'  ' * depth}for i{depth} in range(900):\n" for depth in (1, 2, 3))
+    put_behind(editor, editor.text.splitlines()[0])
+    editor.insertPlainText(f"\n{loops}        j = 0")
+    wait(lambda: window.page.comparing.is_drawing)
+    QTest.keyClick(editor, Qt.Key.Key_Escape)
+    assert not window.page.comparing.is_drawing
+    assert pane_of(window).is_editing
+    assert pane_of(window).message.text().startswith("Stopped")
+
+
 def test_an_edit_that_is_a_mistake_of_the_shelf_is_named(window: MainWindow) -> None:
     window.session.open(open_any("shared-edge").document)
     window.session.set_stage("raster", 4000)
