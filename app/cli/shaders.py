@@ -8,10 +8,9 @@ from app.files.input_files import read_input
 from app.usage import UsageError
 from core.lanes.limits import SHADER
 from core.scene import AnyScene, Scene
-from core.shaders.declared import DIALECTS
 from core.shaders.linking import own_uniforms
 from core.shaders.presets import PRESETS, VERTEX, preset_program, scene_uniforms
-from core.shaders.record import ShaderProgram
+from core.shaders.record import DIALECTS, ShaderProgram
 
 PLAIN_FRAGMENT = PRESETS["normals"].fragment
 """Draws normals as colours where only a vertex shader is given that hands on what it needs."""

@@ -3,8 +3,6 @@
 from core.lanes.problem import Place
 from core.shaders.parser import GlobalVariable
 
-DIALECTS = {"shader-material": "ShaderMaterial", "raw-shader-material": "RawShaderMaterial"}
-"""three.js declares its attributes and matrices for a ShaderMaterial; for a RawShaderMaterial the shader does."""
 ATTRIBUTES = {"position": "vec3", "normal": "vec3", "uv": "vec2", "color": "vec3"}
 """What a mesh gives its vertices; ``color`` may be declared vec4, too."""
 UNIFORMS = {

@@ -3,9 +3,9 @@
 from typing import TYPE_CHECKING
 
 from core.lanes.problem import Problem
-from core.shaders.declared import ATTRIBUTES, DIALECTS, UNIFORMS
+from core.shaders.declared import ATTRIBUTES, UNIFORMS
 from core.shaders.glsl_types import component_count
-from core.shaders.record import ShaderProblem
+from core.shaders.record import DIALECTS, ShaderProblem
 from core.shaders.scopes import proposal
 from core.shaders.shader import Shader, compile_shader
 

@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from core.shaders.shader import Shader
 
 
+DIALECTS = {"shader-material": "ShaderMaterial", "raw-shader-material": "RawShaderMaterial"}
+"""three.js declares its attributes and matrices for a ShaderMaterial; for a RawShaderMaterial the shader does."""
+
+
 class ShaderProblem(Problem):
     """A shader that cannot be read or run, or two that do not fit; ``stage`` says which it is about."""
 
@@ -43,7 +47,7 @@ class ShaderProgram:
     uniforms: tuple[tuple[str, tuple[float, ...]], ...] = ()
     """Name of a uniform and its numbers, of a matrix column by column; those that are missing are 0."""
     dialect: str = "shader-material"
-    """Who declares three.js's names, see `core.shaders.declared.DIALECTS`."""
+    """Who declares three.js's names, a key of `DIALECTS`."""
     name: str = field(default="", compare=False)
     """Title of the preset that it began with."""
 

@@ -16,11 +16,12 @@ from core.lanes.program import NOT_COMPUTED, Program
 from core.lanes.run import UNSET, Frame, Run, Stop, Watch
 from core.lanes.statements import Statements, Step
 from core.records.arrays import Flags
-from core.shaders.declared import DIALECTS, declared_elsewhere, declared_for
+from core.shaders.declared import declared_elsewhere, declared_for
 from core.shaders.dialect import GlslDialect
 from core.shaders.function_names import DERIVATIVES
 from core.shaders.glsl_types import GlslValue, component_count, zero_of
 from core.shaders.parser import GlobalVariable, Parser, Syntax
+from core.shaders.record import DIALECTS
 
 STAGES = ("vertex", "fragment")
 BLOCK = 16_384
@@ -344,7 +345,7 @@ def compile_shader(source: str, stage: str, dialect: str = "shader-material") ->
     stage : str
         ``vertex`` or ``fragment``.
     dialect : str
-        A key of `core.shaders.declared.DIALECTS`.
+        A key of `core.shaders.record.DIALECTS`.
 
     Raises
     ------

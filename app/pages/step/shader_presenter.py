@@ -1,4 +1,7 @@
-"""The shaders of the scene in their pane: each text that runs is one edit, which undo takes back."""
+"""The shaders of the scene in their pane: each text that runs is one edit, which undo takes back.
+
+What reads and runs shaders is imported when it is first needed: most windows open without any.
+"""
 
 from dataclasses import replace
 from math import isfinite
@@ -8,15 +11,9 @@ from PySide6.QtCore import QEvent, QObject, Signal, Slot
 from app.pages.page_bar import Page
 from app.session.moment import Moment
 from app.session.session import Session
-from core import render
-from core.lanes.run import bounded
 from core.scene import Scene
-from core.shaders.declared import DIALECTS
-from core.shaders.glsl_types import component_count
-from core.shaders.linking import own_uniforms
 from core.shaders.presets import PRESETS, preset_program, scene_uniforms
-from core.shaders.record import ShaderProblem, ShaderProgram
-from lessons.shader_mistakes import recognised
+from core.shaders.record import DIALECTS, ShaderProblem, ShaderProgram
 from widgets.shaders.shader_pane import OWN, ShaderPane, ShownProgram, ShownUniform
 
 TRIAL_SECONDS = 3.0
@@ -110,7 +107,7 @@ class ShaderPresenter(QObject):
         program = self._program()
         if program is None:
             return
-        count = component_count(own_uniforms(program)[name])
+        count = component_count(uniforms_of(program)[name])
         try:
             values = tuple(float(number) for number in text.replace(";", ",").split(","))
         except ValueError:
@@ -147,9 +144,7 @@ class ShaderPresenter(QObject):
             typed = ShaderProgram(*texts, program.uniforms, program.dialect, program.name)
             given = scene_uniforms(scene)
             new = {
-                name: given[name]
-                for name in own_uniforms(typed)
-                if name in given and name not in typed.values
+                name: given[name] for name in uniforms_of(typed) if name in given and name not in typed.values
             }
             self._edit(replace(typed, uniforms=tuple({**typed.values, **new}.items())))
         except ValueError as problem:
@@ -168,6 +163,9 @@ class ShaderPresenter(QObject):
         assert isinstance(document.scene, Scene)
         edited = replace(document, scene=replace(document.scene, program=program))
         if program is not None:
+            from core import render
+            from core.lanes.run import bounded
+
             with bounded(TRIAL_SECONDS):
                 for scene in {id(scene): scene for scene in (edited.traced_scene, edited.scene)}.values():
                     render(scene, edited.settings)
@@ -182,9 +180,25 @@ class ShaderPresenter(QObject):
         assert isinstance(scene, Scene)
         mistake = None
         if scene.size[0] * scene.size[1] <= MOST_RECOGNISED:
+            from lessons.shader_mistakes import recognised
+
             mistake = recognised(program, replace(scene, program=None), document.settings)
         said = f"Both shaders run. {mistake.says}" if mistake is not None else ""
         return f"{said} {notes_of(program)}".strip()
+
+
+def uniforms_of(program: ShaderProgram) -> dict[str, str]:
+    """Return the uniforms that the user sets, with their types."""
+    from core.shaders.linking import own_uniforms
+
+    return own_uniforms(program)
+
+
+def component_count(of: str) -> int:
+    """Return how many numbers a value of a type has."""
+    from core.shaders import glsl_types
+
+    return glsl_types.component_count(of)
 
 
 def ended(sentence: str) -> str:
@@ -206,7 +220,7 @@ def shown_program(program: ShaderProgram) -> ShownProgram:
         ShownUniform(
             name, of, ", ".join(f"{value:g}" for value in values.get(name, (0.0,) * component_count(of)))
         )
-        for name, of in own_uniforms(program).items()
+        for name, of in uniforms_of(program).items()
     )
     sources = {"vertex": program.vertex, "fragment": program.fragment}
     return ShownProgram(sources, preset, program.dialect, uniforms, notes_of(program))
