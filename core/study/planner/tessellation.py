@@ -19,8 +19,8 @@ WANTED = 0.25
 
 
 def tessellations(scene: AnyScene) -> tuple[Tessellation, ...]:
-    """Return advice for every mesh of a scene; it is not applied."""
-    if not isinstance(scene, Scene):
+    """Return advice for every mesh of a scene; it is not applied. A vertex shader may bend a mesh: then there is none."""
+    if not isinstance(scene, Scene) or scene.program is not None:
         return ()
     vertices = vertex_stage(scene)
     assert vertices.normals is not None

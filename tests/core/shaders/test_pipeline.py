@@ -13,6 +13,7 @@ from core.pixel_history import why
 from core.scene import Texture
 from core.shaders.presets import MINIMAL_FRAGMENT, MINIMAL_VERTEX, TASK_FRAGMENT, TASK_VERTEX
 from core.shaders.record import ShaderProblem, ShaderProgram
+from core.study.planner.tessellation import tessellations
 from core.trace.source import TraceSource
 from lessons.scene_edits import move_corner
 from tests.core.shaders.scenes import POSITIONS, square_scene, tutorial_scene
@@ -187,3 +188,7 @@ def test_programs_are_equal_by_their_text():
     first, second = (ShaderProgram(TASK_VERTEX, TASK_FRAGMENT, (("t", (1,)),)) for _ in range(2))
     assert first == second
     assert hash(first) == hash(second)
+
+
+def test_the_planner_gives_no_advice_on_a_mesh_that_a_shader_may_bend():
+    assert tessellations(tutorial_scene(size=(64, 48))) == ()
