@@ -19,7 +19,7 @@ WANTED = 0.25
 
 
 def tessellations(scene: AnyScene) -> tuple[Tessellation, ...]:
-    """Return advice for every mesh of a scene; it is not applied. A vertex shader may bend a mesh: then there is none."""
+    """Return advice for every mesh of a scene, which is not applied; none where a vertex shader may bend them."""
     if not isinstance(scene, Scene) or scene.program is not None:
         return ()
     vertices = vertex_stage(scene)
