@@ -22,7 +22,7 @@ SUBJECTS = (
     *("transform", "culling", "normal_view", "clipping", "number_formats", "edges", "binning", "spans"),
     *("fills", "printed_fills", "polygon_fills", "polygon_clipping"),
     *("line_clipping", "line_names", "line_setup", "lines", "smooth_lines", "line_interpolation"),
-    *("interpolation", "barycentric", "textures", "shading"),
+    *("interpolation", "barycentric", "textures", "shading", "shaders"),
     *("depth", "packed_keys", "rays", "blending", "areas", "resolve", "clip_tables"),
     "polygon_tables",
 )
@@ -79,8 +79,6 @@ def _said(step: StepValues) -> tuple[str, Formula | None]:
 
         place = f"{step.pixel_name}: " if step.has("column", "row") else ""
         return edited_account(step.explanation, place)
-    if isinstance(step.explanation.listing, ShaderListing):
-        return str(step.explanation.values["said"]), None
     row = row_of(step.explanation.key)
     said = row.say(step) if row is not None else _plain_account(step)
     return (said, None) if isinstance(said, str) else said

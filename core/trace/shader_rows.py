@@ -1,5 +1,6 @@
 """Traces of the stages that a scene's shaders run: one row for each statement of each vertex or fragment."""
 
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -22,6 +23,10 @@ from core.trace.stage_trace import Explanation, StageTrace, Value
 
 LANE_STEP_LIMIT = 4_000_000
 """Statements times lanes of a stage that is traced: each is a row, or waits in one."""
+
+
+_VECTOR = re.compile(r"(?<![\w)\]])\[([^\[\]]*)\]")
+"""The numbers of a vector in brackets, which are no index."""
 
 
 def _line_labels(columns: Columns, rows: Any) -> Any:
@@ -169,8 +174,10 @@ class ShaderStageTrace(StageTrace):
 
 def _sentence(step: LaneStep, live: int, lanes: int) -> str:
     words = words_of(step)
-    together = "" if lanes <= 1 or live == lanes else f" {live:,} of {lanes:,} lanes run this line."
-    return f"Line {step.line}: {words}.{together}"
+    while (changed := _VECTOR.sub(r"(\1)", words)) != words:
+        words = changed
+    together = "" if lanes <= 1 or live == lanes else f"; {live:,} of {lanes:,} lanes run this line"
+    return f"Line {step.line}: {words}{together}."
 
 
 def _shown_variables(names: Mapping[str, Any], occurring: frozenset[str]) -> dict[str, Any]:

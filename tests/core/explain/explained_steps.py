@@ -14,6 +14,7 @@ from core.scene import AnyScene
 from core.settings import families
 from core.trace import Explanation, StageTrace
 from lessons.scenes import make_scene, scene_names
+from tests.core.shaders.scenes import square_scene
 from tests.core.strategies import clip_of_window
 from tests.core.trace.trace_cases import LEFT_OUT
 from tests.covering import is_everything
@@ -155,6 +156,10 @@ def traces() -> dict[str, list[Trace]]:
     with_edge_on = ClipScene(np.array([RARE_CLIP["grid-ties"], edge_on], float), size=(8, 8))
     rare = [trace(together, settings) for settings in choices]
     rare.append(trace(with_edge_on, Settings(visibility="ray-casting", cull="none")))
+    # A shader that discards half of a square, and calls a function.
+    rare.append(
+        trace(square_scene("if (vUv.x > 0.5) discard; c = vec4(length(vUv));", (4, 4)), Settings(), 0)
+    )
     return {"scenes": windows, "rare": rare}
 
 

@@ -110,6 +110,7 @@ def test_every_kind_of_row_that_decides_can_be_asked_about() -> None:
 
 
 UNMARKED = {
+    "depth.discarded.discard",
     *("edges.homogeneous.keep", "edges.orientation.area", "edges.snapped.window"),
     *("clip.untouched.keep", "bin.whole-image.keep"),
     *("shade.lit.albedo", "shade.lit.interpolated", "shade.textured-lit.interpolated"),

@@ -65,19 +65,19 @@ def test_a_step_says_its_line_its_numbers_and_what_came_out():
     rows = stage.rows_at_pixel(3, 0)
     said = _sentences(stage, rows)
     assert said[:3] == [
-        "Line 8: p = vUv − 0.5 = [−0.0625, −0.4375].",
+        "Line 8: p = vUv − 0.5 = (−0.0625, −0.4375).",
         "Line 9: r = length(p) · 2 = 0.8839.",
         "Line 10: r > 0.9: 0.8839 > 0.9 is false.",
     ]
-    assert said[5].startswith("Line 12: i < 2: 0 < 2 is true: one more round. ")
-    assert said[6].startswith("Line 13: p.x > 0.2: −0.0625 > 0.2 is false.")
+    assert said[5].startswith("Line 12: i < 2: 0 < 2 is true: one more round; ")
+    assert said[6].startswith("Line 13: p.x > 0.2: −0.0625 > 0.2 is false; ")
     assert (
         "k[i] = k[i] + (r if p.x > 0 else 1 − r) = 0 + (0.8839 if −0.0625 > 0 else 1 − 0.8839) = 0.1161"
         in said[7]
     )
     assert "27 of 40 lanes run this line." in said[5]
     corner = _sentences(stage, stage.rows_at_pixel(0, 0))
-    assert corner[-1].startswith("Line 10: discard: the fragment ends here, and nothing of it is written.")
+    assert corner[-1].startswith("Line 10: discard: the fragment ends here, and nothing of it is written; ")
 
 
 def test_the_variables_are_those_of_the_shader():
@@ -110,7 +110,7 @@ def test_the_vertex_shader_is_stepped_before_the_division():
         "Line 8: gl_Position = projectionMatrix · modelViewMatrix · vec4(position.x · 1.5, "
     )
     assert "vec4(−5 · 1.5, −3 · 0.5, −10 · 2, 1)" in said[0]
-    assert said[1] == "Line 16: vColor = color = [0.2, 0.6, 1]."
+    assert said[1] == "Line 16: vColor = color = (0.2, 0.6, 1)."
     assert said[2].startswith("Vertex 0 of triangle 0: its NDC x is −0.679")
 
 
