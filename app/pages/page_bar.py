@@ -15,7 +15,7 @@ from app.session.session import Session
 from core.explain.records import Formula
 from core.settings import Settings
 from widgets.basics.controls import column_layout, row_layout
-from widgets.basics.focus_order import tab_stops
+from widgets.basics.focus_order import first_stop
 from widgets.basics.key_claim import GIVEN_BACK
 from widgets.basics.message_bar import Progress
 
@@ -166,7 +166,7 @@ class Page(QWidget):
 
     def take_focus(self) -> None:
         """Give the keyboard to what the page begins with."""
-        first = self.focusProxy() or next(iter(tab_stops([self.main_view(), self])), self)
+        first = self.focusProxy() or first_stop([self.main_view(), self]) or self
         by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
         first.setFocus(Qt.FocusReason.MouseFocusReason if by_mouse else GIVEN_BACK)
 

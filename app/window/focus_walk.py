@@ -6,7 +6,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.help.pane import HelpPane
 from app.window.appearance import the_application
 from app.window.parts import WindowParts
-from widgets.basics.focus_order import give_focus, next_stop, tab_stops
+from widgets.basics.focus_order import first_stop, give_focus, next_stop, tab_stops
 from widgets.basics.key_claim import GIVEN_BACK, KeyClaim
 
 
@@ -43,8 +43,15 @@ class FocusWalk(QObject):
         return panes if self._help.dock is None else [*panes, self._help.dock]
 
     def go(self, *, is_forward: bool) -> bool:
-        """Go to the next stop, or back to the one before; return whether there is one."""
-        stop = next_stop(tab_stops(self.panes()), self.window.focusWidget(), is_forward=is_forward)
+        """Go to the next stop, or back to the one before; return whether there is one.
+
+        Qt asks for this also when what has the keyboard is being hidden: then it goes to the first stop.
+        """
+        now, panes = self.window.focusWidget(), self.panes()
+        if now is not None and not now.isVisible():
+            stop = first_stop(panes)
+        else:
+            stop = next_stop(tab_stops(panes), now, is_forward=is_forward)
         if stop is not None:
             give_focus(stop)
         return stop is not None

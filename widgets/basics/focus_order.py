@@ -57,6 +57,11 @@ def tab_stops(panes: Sequence[QWidget]) -> list[QWidget]:
     return list(dict.fromkeys(stop for pane in panes for stop in _stops(pane)))
 
 
+def first_stop(panes: Sequence[QWidget]) -> QWidget | None:
+    """Return the first that Tab reaches in panes, without looking for the others."""
+    return next((stop for pane in panes for stop in _stops(pane)), None)
+
+
 def next_stop(stops: Sequence[QWidget], now: QWidget | None, *, is_forward: bool) -> QWidget | None:
     """Return the stop after the one that has the focus, or before it, round and round."""
     if not stops:

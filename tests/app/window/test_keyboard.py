@@ -2,11 +2,13 @@
 
 from itertools import pairwise
 
+import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QSplitterHandle, QTabBar, QWidget
 from pytestqt.qtbot import QtBot
 
+from app.window import focus_walk
 from app.window.main_window import MainWindow
 from widgets.basics.focus_order import ArrowGroup, tab_stops
 from widgets.space.scene_view import SceneView
@@ -200,3 +202,21 @@ def test_f6_walks_the_panes_and_escape_comes_back(window: MainWindow) -> None:
     """F6 and Shift+F6 are mirror images; Escape gives the keyboard to the main view and only then does more."""
     for page in PAGES:
         check_f6(window, page)
+
+
+def test_what_hides_gives_the_keyboard_to_the_first_stop_without_looking_further(
+    window: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    page = window.page
+    focused = page.variables
+    focused.setFocus()
+    assert window.focusWidget() is focused
+    first = tab_stops(window.focus_walk.panes())[0]
+
+    def refuse(panes: object) -> list[QWidget]:
+        raise AssertionError("all stops were looked for")
+
+    monkeypatch.setattr(focus_walk, "tab_stops", refuse)
+    page.toggle_pane("inspector")
+    assert window.focusWidget() is first
+    page.toggle_pane("inspector")
