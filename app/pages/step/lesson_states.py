@@ -12,6 +12,7 @@ from app.background.workers import Job
 from app.pages.step.lesson_question import LessonQuestion
 from app.session.cursor import Cursor, cursor_at
 from app.session.document import Document, TeachingRaster
+from app.session.moment import Step
 from app.session.printed_run import settings_of
 from app.session.tracing import trace_now
 from core import Settings, Trace
@@ -59,6 +60,7 @@ class LessonStates(QObject):
         self._wanting, self._preparing = Job(self), Job(self)
         self._wanting.succeeded.connect(self._take)
         self._wanting.failed.connect(self.refused)
+        self._preparing.succeeded.connect(self._look_at)
         self._preparing.failed.connect(self._leave_out)
 
     @property
@@ -103,6 +105,13 @@ class LessonStates(QObject):
             self._show(made)
 
     @Slot(object)
+    def _look_at(self, made: OpenState | None) -> None:
+        if made is not None:
+            page = self._page
+            fill = partial(page.scene.prepare, made.document) if made.state.panes else lambda: None
+            page.inspector.ahead.look_at(Step(made.trace, made.cursor), fill)
+
+    @Slot(object)
     def _leave_out(self, error: Exception) -> None:
         """Say nothing: who goes to that step is told."""
 
@@ -112,18 +121,23 @@ class LessonStates(QObject):
         page.timeline.show_playing(False)
         page.grids.look_only_at(shown.cursor.stage, state.buffer)
         before = session.moment
-        if session.document is shown.document:
-            session.jump(shown.cursor, state.pixel, is_hidden)
-        else:
-            session.open(shown.document, shown.trace, shown.cursor, pin=state.pixel, is_predicting=is_hidden)
-            page.stepping.set_places()
-            page.grid.fit()
-            page.views.look_from({})
-        page.grids.focus_on(max(session.moment.triangle, 0))
-        if session.moment is before:
-            page.grids.show_again()
-        page.main_area.views_by_hand.clear()
-        self._show_view(state)
+        with page.comparing.held():
+            if session.document is shown.document:
+                session.jump(shown.cursor, state.pixel, is_hidden)
+            else:
+                session.open(
+                    shown.document, shown.trace, shown.cursor, pin=state.pixel, is_predicting=is_hidden
+                )
+                page.stepping.set_places()
+                page.grid.fit()
+                page.views.look_from({})
+            page.grids.focus_on(max(session.moment.triangle, 0))
+            if session.moment is before:
+                page.grids.show_again()
+            page.main_area.views_by_hand.clear()
+            self._show_view(state)
+        if state.pixel is not None and state.other is not None:
+            page.comparing.meet_at(state.pixel)
         page.column.show_step()
 
     def _show_view(self, state: State) -> None:
@@ -135,8 +149,6 @@ class LessonStates(QObject):
             page.comparing.set_differences(state.settings.differences(state.other))
         if state.printed or state.other is not None:
             page.show_view(state.view or "compare")
-            if state.pixel is not None and state.other is not None:
-                page.comparing.meet_at(state.pixel)
         elif state.view:
             page.show_view(state.view)
         else:

@@ -95,8 +95,12 @@ class LessonTask(QObject):
         if page.predicting.is_active:
             page.set_predicting(False)
         page.tell("")  # What was said of the step before no longer holds.
+        panes = (*PANES, *shown.state.panes)
+        kept = [name for name in page.desk_panes() if name in panes]
+        if kept != page.desk_panes():
+            page.show_desk_panes(kept)  # What goes need not show the new state first.
         self._show(shown, is_hidden=is_hidden)
-        page.show_desk_panes((*PANES, *shown.state.panes))
+        page.show_desk_panes(panes)
         page.column.fold_listing("listing" not in shown.state.panes)
         self.scroll.keep_in_sight(None)
         self.view.show_step(record, None if asked is None else asked.question.draft.answer.form)
@@ -110,6 +114,7 @@ class LessonTask(QObject):
         elif part is not None and asked is None and not part.show:
             self.standing_changed.emit(Standing.DONE)
         self._give_keyboard()
+        page.settle_layouts()
 
     def end(self) -> None:
         """Ask nothing and hide nothing any more; what is open stays."""

@@ -102,7 +102,7 @@ class StepPage(Page):
         self.main_area.view_changed.connect(self._follow_view)
         self.main_area.thumbnails_toggled.connect(self._toggle_thumbnails)
         self.stepping.stepped_alone = self.comparing.steps_alone
-        self.inspector.ahead.is_drawing = self._is_drawing
+        self.inspector.ahead.is_drawing = lambda: self._is_drawing() or self.lessons.is_working
         self.views.message_sent.connect(self.message_sent)
         self.main_area.view_chosen.connect(self.look_changed)
         self.grids.look_changed.connect(self.look_changed)
@@ -156,7 +156,7 @@ class StepPage(Page):
             (step | run | pointing, self.narrator.owe),
             (run, self.navigation.refresh),
             (cursor, self.navigation.follow_step),
-            (step, self._settle_layouts),
+            (step, self.settle_layouts),
         )
 
     @Slot(Change)
@@ -210,7 +210,7 @@ class StepPage(Page):
         parts = (stage_of(moment.cursor.stage).short_title, f"step {position:,} of {total}")
         self.place.setText(" · ".join((*parts, *filter(None, [moment.document.title]))))
 
-    def _settle_layouts(self, moment: Moment) -> None:
+    def settle_layouts(self, moment: Moment | None = None) -> None:
         """Lay out now what has another size: each layout asks the one around it, and in between all is painted."""
         for _ in range(NESTED_LAYOUTS):
             QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
@@ -366,7 +366,7 @@ class StepPage(Page):
             if self.formula.is_complete():
                 break
             QThread.msleep(10)
-        self._settle_layouts(self.session.moment)
+        self.settle_layouts()
         parts = (self.lessons, self.editing)
         while self._is_drawing() or self.comparing.is_drawing or any(part.is_working for part in parts):
             QCoreApplication.processEvents()

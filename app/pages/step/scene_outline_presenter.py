@@ -50,20 +50,25 @@ class SceneOutlinePresenter(QObject):
 
     def refresh(self, moment: Moment) -> None:
         """Show the document in the panes that are in sight, also where it is the same and something else was typed."""
-        self._shown.clear()
         for pane in (self._outline, self._panel):
             if pane.isVisible():
-                self._fill(pane)
+                self._shown.pop(pane, None)
+                self._fill(pane, moment.document)
+
+    def prepare(self, document: Document) -> None:
+        """Fill the panes that are folded away with a document that may be shown in them next."""
+        for pane in (self._outline, self._panel):
+            if not pane.isVisible():
+                self._fill(pane, document)
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:
         """Bring a pane up to date when it is unfolded."""
         if event.type() == QEvent.Type.Show and watched in (self._outline, self._panel):
             assert isinstance(watched, QWidget)
-            self._fill(watched)
+            self._fill(watched, self._session.document)
         return False
 
-    def _fill(self, pane: QWidget) -> None:
-        document = self._session.document
+    def _fill(self, pane: QWidget, document: Document) -> None:
         if self._shown.get(pane) is document:
             return
         self._shown[pane] = document

@@ -70,9 +70,13 @@ class StepsAhead(QObject):
         self._moment, self._view = moment, view
         self._positions = [1]
         """What is still to be prepared, the nearest first: when the window opens, the first step."""
+        self._elsewhere: Step | None = None
+        """The step of another run that may be shown next; it comes after those."""
+        self._also: Callable[[], object] | None = None
+        """What is prepared beside it, after all."""
         self._formula: Formula | None = None
         self.is_drawing: Callable[[], bool] = lambda: False
-        """Returns whether a picture of the step is still being drawn in the background."""
+        """Returns whether a picture of the step, or another step of a lesson, is still being made in the background."""
         self._is_resting = True
         """Whether the step is painted with its pictures and its whole formula, a pause ago."""
         self._timer = QTimer(self)
@@ -96,6 +100,12 @@ class StepsAhead(QObject):
         self._is_resting = False
         self._timer.start(0)  # It waits for what there is to paint, however long that takes.
 
+    def look_at(self, step: Step, also: Callable[[], object]) -> None:
+        """Prepare a step of another run, too, which may be shown next, and ``also`` what else it shows."""
+        self._elsewhere, self._also = step, also
+        if not self._timer.isActive():
+            self._timer.start(QUIET_MS)
+
     @Slot()
     def _prepare(self) -> None:
         """Explain one step, or typeset one cell of its formula."""
@@ -105,10 +115,16 @@ class StepsAhead(QObject):
             self._timer.start(QUIET_MS)
             return
         if self._formula is None:
-            if not self._positions:
+            moment, step = self._moment, self._elsewhere
+            if self._positions:
+                step = Step(moment.trace, replace(moment.cursor, position=self._positions.pop(0)))
+            else:
+                self._elsewhere = None
+            if step is None:
+                also, self._also = self._also, None
+                if also is not None:
+                    also()
                 return
-            moment = self._moment
-            step = Step(moment.trace, replace(moment.cursor, position=self._positions.pop(0)))
             sentence_at(step)
             explanation = step.explanation
             if explanation is not None:

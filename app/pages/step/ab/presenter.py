@@ -1,6 +1,7 @@
 """A | B | difference: the page's run and another one, stepped together."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache, partial
 from typing import TYPE_CHECKING
@@ -57,7 +58,7 @@ class ComparePresenter(QObject):
         """B as it follows the stage."""
         self._buffers: dict[str, str] = {}
         """Name of the buffer in which both are compared, by stage, where it was chosen."""
-        self._is_active = False
+        self._is_active = self._is_held = False
         self._second: Trace | None = None
         """The run of B; ``None``: it cannot be drawn, is being drawn, or is not shown."""
         self._steps: LockStep | None = None
@@ -231,8 +232,23 @@ class ComparePresenter(QObject):
         elif self._b.differences:
             self._view.show_family(next(iter(self._b.differences)))
 
+    @contextmanager
+    def held(self) -> Iterator[None]:
+        """Do nothing while another scene, another B and another view are chosen, then show both runs once."""
+        was_active, self._is_held = self._is_active, True
+        try:
+            yield
+        finally:
+            self._is_held = False
+            if self._is_active is was_active:
+                self.refresh(self._session.moment)
+            else:
+                self.set_active(self._is_active)
+
     def refresh(self, moment: Moment) -> None:
         """Trace B anew, and show both runs."""
+        if self._is_held:
+            return
         earlier, before, self._moment = self._second or moment.trace, self._moment, moment
         self._job.cancel()
         self._bounded.cancel()
@@ -382,6 +398,8 @@ class ComparePresenter(QObject):
 
     def follow_step(self, moment: Moment) -> None:
         """Take B along to where A has gone."""
+        if self._is_held:
+            return
         stage, self._moment = self._moment.cursor.stage, moment
         if not self._is_active:
             return

@@ -6,7 +6,9 @@ from PySide6.QtCore import QCoreApplication
 from pytestqt.qtbot import QtBot
 
 from app.pages.step.steps_ahead import QUIET_MS, STEPS_AHEAD, StepsAhead, load_stages
+from app.session.cursor import Cursor
 from app.session.document import open_document
+from app.session.moment import Step
 from app.session.session import Session
 from core.explain import formula
 from core.records.steps import Level
@@ -49,3 +51,21 @@ def test_it_begins_only_when_the_window_has_come_to_rest(qtbot: QtBot) -> None:
     assert ahead._positions == owed
     ahead.is_drawing = lambda: False
     qtbot.waitUntil(lambda: not ahead._positions)
+
+
+def test_a_step_of_another_run_is_prepared_after_those_of_this_one(qtbot: QtBot) -> None:
+    session = Session(open_document(built_in_scene("shared-edge").make(), ""))
+    view = FormulaView(typesetter=Typesetter())
+    qtbot.addWidget(view)
+    ahead = StepsAhead(session.moment, view)
+    ahead.begin(session.moment)
+    other = open_document(built_in_scene("single-triangle").make(), "").make_trace()
+    step = Step(other, Cursor("raster", 7))
+    filled: list[bool] = []
+    ahead.look_at(step, lambda: filled.append(view.is_complete()))
+    qtbot.waitUntil(lambda: bool(filled), timeout=10000)
+    explanation = step.explanation
+    assert explanation is not None
+    view.show_formula(formula(explanation))
+    assert view.is_complete()
+    assert filled == [True]

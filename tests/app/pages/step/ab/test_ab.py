@@ -306,3 +306,24 @@ def test_titles_and_notes_have_room_for_larger_type(window: MainWindow) -> None:
     for labels, lines in ((view.titles, 4), (view.notes, 5)):
         for label in labels:
             assert label.height() >= lines * label.fontMetrics().lineSpacing()
+
+
+def test_several_choices_are_shown_once(window: MainWindow, monkeypatch: pytest.MonkeyPatch) -> None:
+    page = window.page
+    shown: list[int] = []
+    show = page.compare_view.show_sides
+
+    def count(*sides: Side) -> None:
+        shown.append(1)
+        show(*sides)
+
+    monkeypatch.setattr(page.compare_view, "show_sides", count)
+    with page.comparing.held():
+        window.session.set_stage("raster", 5)
+        page.comparing.set_differences({"fill": "brute-force"})
+        page.show_view("compare")
+        page.comparing.set_differences({"fill_rule": "inclusive"})
+    assert len(shown) == 1
+    assert dict(page.comparing.differences) == {"fill_rule": "inclusive"}
+    assert page.comparing.second is not None
+    page.show_view("pixels")
