@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
-from PySide6.QtCore import Qt, Slot
+from PySide6.QtCore import Qt, QTimer, Slot
 from PySide6.QtGui import QKeyEvent, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import QAbstractButton, QAbstractSlider, QCheckBox, QPushButton, QScrollArea, QWidget
 
@@ -37,6 +37,8 @@ WHAT = (
     "Why does a pixel have its colour? Rasterscope steps from triangles to pixels, "
     "through every stage of the pipeline, forwards and backwards."
 )
+PAINTED_MS = 20
+"""Milliseconds from showing the page until it is painted, and nothing else has to be done first."""
 MOST_RECENT = 6
 HIDDEN = "Hidden while an exercise or a lesson asks about this scene"
 """What stands for the picture of a scene."""
@@ -63,6 +65,11 @@ class StartPage(Page):
         self._session = session
         self._job = Job(self, expected=())
         self._job.part_done.connect(self._show_picture)
+        self._painted = QTimer(self)
+        """Runs until the page that is shown is painted."""
+        self._painted.setSingleShot(True)
+        self._painted.setInterval(PAINTED_MS)
+        self._painted.timeout.connect(self._fill)
         self.cards = SceneCards(self)
         groups = {"Scenes": CATALOGUE, **{LECTURES[name]: scenes for name, scenes in LECTURE_SCENES.items()}}
         self.cards.show_scenes(
@@ -182,7 +189,7 @@ class StartPage(Page):
     @property
     def is_drawing(self) -> bool:
         """Whether pictures are still being drawn, or lessons read."""
-        return self._job.is_running or self.lessons.job.is_running
+        return self._painted.isActive() or self._job.is_running or self.lessons.job.is_running
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Give the left column the width that its text needs, if the scenes keep most of the page."""
@@ -195,8 +202,13 @@ class StartPage(Page):
         self._panes[0].setFixedWidth(max(wanted, self._side_pane.minimumSizeHint().width()))
 
     def showEvent(self, event: QShowEvent) -> None:
-        """Draw the pictures when they are first seen; list the lessons as they are now."""
+        """Begin to draw and to read in the background, once the page is painted."""
         super().showEvent(event)
+        self._painted.start()
+
+    @Slot()
+    def _fill(self) -> None:
+        """Draw the pictures when they are first seen; list the lessons as they are now."""
         self.lessons.refresh()
         if not self._job.is_running and not all(card.has_picture() for card in self.cards.cards):
             self._job.start_in_parts(draw_pictures)
@@ -260,10 +272,12 @@ class StartPage(Page):
 
     def leave(self) -> None:
         """Draw no further: what is missing is drawn when the page is shown again."""
+        self._painted.stop()
         self._job.cancel()
 
     def stop(self) -> None:
         """End drawing and reading."""
+        self._painted.stop()
         self._job.shut_down()
         self.lessons.job.shut_down()
 

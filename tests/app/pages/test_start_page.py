@@ -180,3 +180,13 @@ def test_the_left_column_is_not_cut_while_presenting(window: MainWindow, page: S
     assert page.begin_button.width() >= page.begin_button.sizeHint().width()
     column = page.begin_button.parentWidget()
     assert column.width() <= column.parentWidget().width()
+
+
+@pytest.mark.own_window
+def test_reading_and_drawing_wait_until_the_page_is_painted(window: MainWindow, qtbot: QtBot) -> None:
+    window.pages.show_page("start")
+    page = window.pages.current
+    assert isinstance(page, StartPage)
+    assert page.is_drawing
+    assert not page.lessons.job.is_running
+    qtbot.waitUntil(lambda: page.lessons.place is not None and not page.is_drawing, timeout=20000)
