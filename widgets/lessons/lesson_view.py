@@ -69,7 +69,7 @@ class LessonView(QWidget):
         )
         self.lead = text_label("", self, role="muted", wraps=True)
         self.text = text_label("", self, wraps=True, is_selectable=True, name="What this step is about")
-        self._task_icon = QLabel(self)
+        self.task_icon = QLabel(self)
         self.task = text_label("", self, role="strong", wraps=True, name="What is to be done")
         self.note = text_label("", self, role="muted", wraps=True)
         self.check_button = self._button("Check", "Check the answer (Return)", self.check_requested)
@@ -104,7 +104,7 @@ class LessonView(QWidget):
         head.addWidget(self.title, 1)
         head.addWidget(self.place, 0, Qt.AlignmentFlag.AlignTop)
         head.addWidget(self.close_button, 0, Qt.AlignmentFlag.AlignTop)
-        task.addWidget(self._task_icon, 0, Qt.AlignmentFlag.AlignTop)
+        task.addWidget(self.task_icon, 0, Qt.AlignmentFlag.AlignTop)
         task.addWidget(self.task, 1)
         result.addWidget(self._icon, 0, Qt.AlignmentFlag.AlignTop)
         result.addWidget(self.feedback, 1)
@@ -230,10 +230,11 @@ class LessonView(QWidget):
     def _follow_theme(self) -> None:
         theme, ratio = current_theme(), self.devicePixelRatioF()
         record = self._record
-        self._task_icon.setVisible(record is not None and bool(record.task))
+        self.task_icon.setVisible(record is not None and bool(record.task))
         if record is not None and record.task:
-            self._task_icon.setPixmap(task_pixmap(record.is_done, theme.text_px + 3, ratio))
-            self._task_icon.setAccessibleName("done" if record.is_done else "to do")
+            is_done = record.is_done or (self._feedback is not None and self._feedback.is_right is True)
+            self.task_icon.setPixmap(task_pixmap(is_done, theme.text_px + 3, ratio))
+            self.task_icon.setAccessibleName("done" if is_done else "to do")
         mark = None if self._feedback is None else _MARKS.get(self._feedback.is_right)  # type: ignore[arg-type]
         self._icon.setVisible(mark is not None)
         if mark is not None:

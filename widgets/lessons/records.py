@@ -34,22 +34,25 @@ class LessonStepRecord:
     """Address and title of what can be opened from here: exercises, pages."""
     next_title: str = ""
     """What Next opens, where it is not the next step."""
+    was_done: bool = False
+    """Whether the task had been done before the step was opened."""
     has_previous: bool = True
     has_next: bool = True
     """Whether anything comes before, and whether anything follows."""
 
     @property
     def is_done(self) -> bool:
-        """Whether the task is done."""
+        """Whether the task has been done since the step was opened."""
         is_step = 0 <= self.number < len(self.standings)
-        return is_step and self.standings[self.number] is Standing.DONE
+        return is_step and self.standings[self.number] is Standing.DONE and not self.was_done
 
     @property
     def place(self) -> str:
         """Where the step is in the lesson."""
         if not 0 <= self.number < len(self.standings):
             return "end" if self.number > 0 else "before"
-        return f"{self.number + 1} of {len(self.standings)}"
+        before = ", done before" if self.was_done else ""
+        return f"{self.number + 1} of {len(self.standings)}{before}"
 
 
 @dataclass(frozen=True)

@@ -34,8 +34,10 @@ def paragraphs(text: str | None) -> str:
     return _TOGETHER.sub("\N{NO-BREAK SPACE}", "\n".join(parts))
 
 
-def step_record(lesson: Lesson, number: int, standings: Sequence[Standing]) -> LessonStepRecord:
-    """Return a step."""
+def step_record(
+    lesson: Lesson, number: int, standings: Sequence[Standing], *, was_done: bool
+) -> LessonStepRecord:
+    """Return a step; ``was_done``: when it was opened, its task had been done already."""
     step = lesson.steps[number]
     return LessonStepRecord(
         title=lesson.title,
@@ -46,6 +48,7 @@ def step_record(lesson: Lesson, number: int, standings: Sequence[Standing]) -> L
         task=paragraphs(step.task) or TASKS[step.kind],
         links=((step.show, OPENS[step.show.partition("/")[0]]),) if step.show else (),
         has_previous=number > 0 or lesson.part.recall is not None,
+        was_done=was_done and bool(TASKS[step.kind]),
     )
 
 

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from app.pages.step.page import StepPage
 
 DONE = "Done."
+DONE_BEFORE = "You had done it. What is open now no longer does it."
 PEEKED = "You have stepped on. An answer counts as seen now."
 SHOW_ME, REVEAL = "Show me", "Reveal"
 
@@ -63,6 +64,7 @@ class LessonTask(QObject):
         self.view.feedback_shown.connect(self._show_feedback, Qt.ConnectionType.QueuedConnection)
         self.answers.judged.connect(self._take_judged)
         self._watch.done.connect(self._take_done)
+        self._watch.undone.connect(self._take_undone)
         page.grid.view_changed.connect(self.grid.set_view)
         self._session.changed.connect(self._follow)
 
@@ -204,6 +206,11 @@ class LessonTask(QObject):
     def _take_done(self) -> None:
         """Say at once that a task is done."""
         self._conclude_task(DONE, is_right=True)
+
+    @Slot()
+    def _take_undone(self) -> None:
+        """Say at once that it is done no longer; the step stays done."""
+        self.view.show_feedback(LessonFeedback((DONE_BEFORE,)))
 
     @Slot()
     def _take_measured(self) -> None:

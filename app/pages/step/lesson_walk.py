@@ -56,6 +56,8 @@ class LessonWalk(QObject):
         self._made: States | None = None
         self._home: OpenState | None = None
         """Where the step began."""
+        self._was_done = False
+        """Whether the step had been done when it was opened."""
         self._seed = 0
         """Of the exercise that comes first."""
         self.view.back_requested.connect(self.back)
@@ -188,6 +190,7 @@ class LessonWalk(QObject):
         if lesson is not self.lesson or made is None:
             return
         self.number, self._home = number, shown
+        self._was_done = self.step is not None and self.standings[number] is Standing.DONE
         is_hidden = shown.asked is not None or (number == len(lesson.steps) and self._begins_hidden())
         self.task.begin(self.step, number, made, shown, self._record(), is_hidden=is_hidden)
         self._prepare()
@@ -205,7 +208,7 @@ class LessonWalk(QObject):
             return recall_record(lesson, home.asked.question, self.standings)
         if self.step is None:
             return end_record(lesson, self.following, self.standings)
-        return step_record(lesson, self.number, self.standings)
+        return step_record(lesson, self.number, self.standings, was_done=self._was_done)
 
     @Slot(object)
     def _stand(self, standing: Standing) -> None:

@@ -28,13 +28,16 @@ class LessonWatch(QObject):
     """Watches one task at a time; of changes that come while one is looked at, only the last is looked at next."""
 
     done = Signal()
-    """The task is done."""
+    """The task is done now."""
+    undone = Signal()
+    """It was, and what is open now no longer does it."""
 
     def __init__(self, session: Session, parent: QObject) -> None:
         super().__init__(parent)
         self._session = session
         self._until: UntilPart | None = None
         self._start: Situation | None = None
+        self._is_done = False
         self._is_stale = False
         """Whether something has changed since the look that is being taken."""
         self._job = Job(self)
@@ -54,7 +57,7 @@ class LessonWatch(QObject):
     def begin(self, until: "UntilPart") -> None:
         """Watch for a task that begins with what is open now."""
         self._until, self._start = until, situation_of(self._session.moment)
-        self._is_stale = False
+        self._is_done = self._is_stale = False
         self._job.cancel()
 
     def end(self) -> None:
@@ -82,10 +85,10 @@ class LessonWatch(QObject):
     def _take(self, answer: _Answer) -> None:
         if answer.until is not self._until:
             return
-        if answer.is_done:
-            self.end()
-            self.done.emit()
-        elif self._is_stale:
+        if answer.is_done != self._is_done:
+            self._is_done = answer.is_done
+            (self.done if answer.is_done else self.undone).emit()
+        if self._is_stale:
             self._look()
 
 

@@ -326,7 +326,17 @@ def test_a_task_is_noticed_when_it_is_done(window: MainWindow, qtbot: QtBot, tmp
     assert task.view.feedback.text() == "Done."
     session.undo()
     settled(window, qtbot)
+    assert task.view.feedback.text().endswith("no longer does it.")
     assert task.standings[3] is DONE
+    task.return_here()
+    settled(window, qtbot)
+    assert task.view.place.text() == "4 of 4, done before"
+    assert task.view.task_icon.accessibleName() == "to do"
+    session.go_to(2)
+    settled(window, qtbot)
+    assert task.view.feedback.isHidden()
+    session.edit(replace(document, scene=scene))
+    qtbot.waitUntil(lambda: task.view.feedback.text() == "Done.")
     assert [attempt.score for attempt in kept(task, window, qtbot)[-1:]] == [1]
 
 
