@@ -127,6 +127,11 @@ def marks_of(question: Question, verdict: Verdict) -> Marks:
     return {**marks, "extra": frozenset(marks["extra"]) - double, "double": frozenset(double)}
 
 
+def are_marks_shown(draft: Draft, *, is_right: bool, is_first: bool) -> bool:
+    """Return whether marks are shown: those of a first answer in pixels would tell the whole solution."""
+    return is_right or not (is_first and isinstance(draft.answer, PixelAnswer))
+
+
 def coverage_of(frame: Frame, title: str) -> GridBuffer:
     """Return what a frame covers: its primitives where it has several, else where anything is."""
     primitive = frame.primitive

@@ -1,5 +1,6 @@
 """What is said of a check: points, counts, the mistake by name, and whether it counts."""
 
+from app.pages.exercises.answer_pictures import are_marks_shown
 from app.pages.exercises.evidence import EXPLAIN
 from app.pages.exercises.work import Checked, Tried
 from core.records.words import counted
@@ -33,6 +34,13 @@ def show_tried(view: AnswerView, tried: Tried) -> str:
     return "" if problem is None else problem_text((*problem.place, problem.sentence))
 
 
+def marks_are_shown(question: Question, checked: Checked, *, is_corrected: bool) -> bool:
+    """Return whether the answer is marked: where the first one is in pixels, and wrong, words say less."""
+    is_first = checked.attempt is not None and not is_corrected
+    is_right = checked.judgement.verdict.score == 1
+    return are_marks_shown(question.draft, is_right=is_right, is_first=is_first)
+
+
 def feedback_of(
     question: Question, checked: Checked, *, is_corrected: bool, is_explained: bool = False
 ) -> Feedback:
@@ -44,6 +52,8 @@ def feedback_of(
     if double:
         counts += f", {len(double)} of these double"
     reveal = (question.draft.reveal,) if is_right and question.draft.reveal else ()
+    is_marked = marks_are_shown(question, checked, is_corrected=is_corrected)
+    where = () if is_marked else (question.draft.answer.first_wrong(checked.response),)
     before = (SHOWN,) if checked.attempt is None else (CORRECTED,) if is_corrected else ()
     offer = (EXPLAINED[question.draft.scene is None],) if is_explained else ()
-    return Feedback(heading, counts, (*judgement.sentences, *reveal, *before, *offer), is_right)
+    return Feedback(heading, counts, (*judgement.sentences, *where, *reveal, *before, *offer), is_right)

@@ -14,7 +14,7 @@ from app.files.unfinished_answers import Unfinished, UnfinishedFile
 from app.pages.exercises.answer_history import AnswerHistory
 from app.pages.exercises.answer_pictures import Live, numbers_of, picture_of, place_of, size_of
 from app.pages.exercises.evidence import Evidence
-from app.pages.exercises.feedback import feedback_of, not_checked_text, show_tried
+from app.pages.exercises.feedback import feedback_of, marks_are_shown, not_checked_text, show_tried
 from app.pages.exercises.runs import wanted_picture
 from app.pages.exercises.work import (
     Asked,
@@ -402,7 +402,8 @@ class QuestionPresenter(QObject):
         if self._checked is None or self.question is None or self._view.answer is None:
             return
         is_stale = self._view.answer.given() != self._checked.given
-        self._view.answer.show_marks(None if is_stale else self._checked.marks)
+        are_shown = marks_are_shown(self.question, self._checked, is_corrected=self._is_corrected)
+        self._view.answer.show_marks(self._checked.marks if are_shown and not is_stale else None)
         feedback = feedback_of(
             self.question, self._checked, is_corrected=self._is_corrected, is_explained=self._is_explained
         )

@@ -8,7 +8,7 @@ from typing import Any
 from PySide6.QtCore import QObject, Signal, Slot
 
 from app.background.workers import Job, Progress
-from app.pages.exercises.answer_pictures import Live, is_live, live, marks_of, size_of
+from app.pages.exercises.answer_pictures import Live, are_marks_shown, is_live, live, marks_of, size_of
 from app.pages.exercises.feedback import not_checked_text, show_tried
 from app.pages.exercises.scene_outline import outline_of
 from app.pages.exercises.work import SECONDS, Tried, trying
@@ -18,6 +18,7 @@ from lessons.course.lesson_file import Lesson
 from lessons.course.questions import Outcome, outcome_of
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.answers.code import CannotRunError, CodeAnswer
+from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.question import Question, judge
 from lessons.mistakes.shelf import MISTAKES
 from widgets.exercises.answer_view import AnswerView
@@ -226,7 +227,10 @@ class LessonAnswers(QObject):
         if judged.asked is not self.asked:
             return
         self.last = judged
-        if self._form.given() == judged.given:
+        are_shown = are_marks_shown(
+            judged.asked.question.draft, is_right=judged.outcome.is_right, is_first=self.wrong_count == 0
+        )
+        if are_shown and self._form.given() == judged.given:
             self._form.show_marks(judged.marks)
         if judged.outcome.is_right:
             self.close()
@@ -270,4 +274,6 @@ def wrong_sentences(judged: JudgedAnswer) -> tuple[str, ...]:
         or tuple(filter(None, [draft.answer.first_wrong(judged.response)]))
     )
     counts = judgement.verdict.counts
+    if named and isinstance(draft.answer, PixelAnswer):
+        counts = f"{counts}. {draft.answer.first_wrong(judged.response).rstrip('.')}"
     return ("Not yet." if counts.startswith("0 of 1 ") else f"Not yet: {counts}.", *(said or (UNKNOWN,)))

@@ -18,6 +18,7 @@ from app.window.main_window import MainWindow
 from lessons.attempts.record import Attempt
 from lessons.exercises.scene_digest import scene_digest
 from tests.lessons.course.lesson_texts import GOOD
+from widgets.grid.overlay import MaskOverlay
 from widgets.lessons.records import Standing
 
 pytestmark = pytest.mark.shared_window
@@ -275,7 +276,11 @@ def test_pixels_are_marked_on_the_page_s_picture(window: MainWindow, qtbot: QtBo
     extra = [(column, row) for row in range(5) for column in range(row, 5)]
     said = answered(walk, qtbot, [list(pixel) for pixel in extra])
     assert "5 extra" in said
+    assert "row with a wrong one: row 0" in said
     assert len(said.splitlines()) == 2  # the mistake by its name
+    assert not any(isinstance(each, MaskOverlay) and each.mask.any() for each in walk.task.grid.overlays())
+    answered(walk, qtbot, [list(pixel) for pixel in extra])
+    assert any(isinstance(each, MaskOverlay) and each.mask.any() for each in walk.task.grid.overlays())
     assert window.page.main_view() is walk.task.grid
     walk.next()
     settled(window, qtbot)
