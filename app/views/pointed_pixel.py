@@ -26,7 +26,12 @@ class PointedPixel:
 
 
 def pointed_pixels(moment: Moment) -> tuple[PointedPixel, ...]:
-    """Return the pinned and the hovered pixel; where there is neither, the one of the step just done."""
+    """Return the pinned and the hovered pixel; where there is neither, the one of the step just done.
+
+    While the user predicts there are none: what a view tells of a pixel may be the answer.
+    """
+    if moment.is_predicting:
+        return ()
     found: list[PointedPixel] = []
     seen: set[Pixel] = set()
     for role, pixel in (("pin", moment.pin), ("hover", moment.hover)):
@@ -41,14 +46,15 @@ def pointed_pixels(moment: Moment) -> tuple[PointedPixel, ...]:
 def shown_triangle(moment: Moment) -> int:
     """Return the triangle that a view of one triangle shows.
 
-    That is the one in focus, else that of the step just done, else the one seen at the pinned pixel, else 0.
+    That is the one in focus, else that of the step just done, else the one seen at the pinned pixel, unless
+    that is to be predicted, else 0.
     """
     document = moment.document
     if document.triangle is not None:
         return document.triangle
     if moment.triangle >= 0:
         return moment.triangle
-    if moment.pin is not None:
+    if moment.pin is not None and not moment.is_predicting:
         column, line = moment.place_of(moment.pin)
         seen = int(moment.trace.source.picture.primitive[line, column])
         return max(seen, 0)

@@ -13,6 +13,7 @@ from core import ClipScene, Settings
 from core.explain import question
 from core.records.steps import Level
 from core.trace import StageTrace
+from lessons.scenes import make_scene
 from widgets.grid.overlay import Mark, MaskOverlay
 
 pytestmark = pytest.mark.shared_window
@@ -92,6 +93,27 @@ def test_two_answers_look_alike(
             shown.append(seen(window))
         for first, second in zip(*shown, strict=True):
             assert first == second
+
+
+def test_no_view_tells_anything_of_a_pixel(window: MainWindow) -> None:
+    """Weights, rays, texels: views look the same whatever pixel is pinned, in every stage from the raster on."""
+    page, session = window.page, window.session
+    session.open(open_document(make_scene("shared-edge"), "Shared edge"))
+    page.set_predicting(True)
+    views = [name for name in page.view_names() if name != "pixels"]
+    for stage in ("raster", "interpolate", "depth"):
+        session.set_stage(stage, 0)
+        for view in views:
+            page.show_view(view)
+            page.settle()
+            looks = []
+            for pixel in ((20, 20), (40, 30)):
+                session.set_pin(pixel)
+                page.settle()
+                shown = page.main_view()
+                # Below the time that drawing has taken.
+                looks.append(shown.grab(shown.rect().adjusted(0, 30, 0, 0)).toImage())
+            assert looks[0] == looks[1], (stage, view)
 
 
 def test_right_extra_and_missing_pixels_have_their_own_shapes(window: MainWindow) -> None:
