@@ -4,6 +4,7 @@ import re
 from collections.abc import Sequence
 
 from app.pages.exercises.answer_pictures import numbers_of
+from lessons.course.catalogue import Course
 from lessons.course.lesson_file import Lesson
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import Question
@@ -23,7 +24,6 @@ OPENS = {
     "plan": "Open the Plan page",
 }
 """What a link of a step to be measured says, by the page that it leads to."""
-ONCE_MORE = "Before you begin, once more:"
 _TOGETHER = re.compile(r"(?<=[\d,]) (?=-?[\d./]+\))| (?=[=<>≥≤≠])|(?<=[=<>≥≤≠]) ")
 """Spaces at which no line ends: in ``(2, 1)`` and in ``E0 = 0``."""
 
@@ -52,15 +52,20 @@ def step_record(
     )
 
 
-def recall_record(lesson: Lesson, question: Question, standings: Sequence[Standing]) -> LessonStepRecord:
+def recall_record(
+    lesson: Lesson, course: Course, question: Question, standings: Sequence[Standing]
+) -> LessonStepRecord:
     """Return the exercise of an earlier lesson that is asked before the first step."""
-    draft = question.draft
+    draft, template = question.draft, question.template
+    others = (each for each in course.lessons.values() if each is not lesson)
+    closed = next((each.title for each in others if template.name in each.part.exercises), "")
+    whence = f"From the lesson “{closed}”" if closed else f"From an earlier lesson: “{template.title}”"
     return LessonStepRecord(
         title=lesson.title,
         text="\n".join(filter(None, (draft.text, numbers_of(draft)))),
         number=-1,
         standings=tuple(standings),
-        lead=ONCE_MORE,
+        lead=f"{whence}. You may skip it: choose Begin.",
         next_title="Begin",
         has_previous=False,
     )

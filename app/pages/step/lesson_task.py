@@ -18,6 +18,7 @@ from lessons.course.state import States
 from lessons.exercises.scene_digest import scene_digest
 from widgets.basics.focus_order import give_focus, tab_stops
 from widgets.exercises.mark_grid import MarkGrid
+from widgets.grid.pixel_grid import PixelGrid
 from widgets.lessons.lesson_scroll import LessonScroll
 from widgets.lessons.lesson_view import LessonView
 from widgets.lessons.records import LessonFeedback, LessonStepRecord, Standing
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 DONE = "Done."
 DONE_BEFORE = "You had done it. What is open now no longer does it."
 PEEKED = "You have stepped on. An answer counts as seen now."
+NO_PICTURE = "This question needs no picture."
 SHOW_ME, REVEAL = "Show me", "Reveal"
 
 
@@ -46,6 +48,10 @@ class LessonTask(QObject):
         self._page, self._session = page, page.session
         self.grid = MarkGrid(page)
         self.grid.hide()
+        self._blank = PixelGrid(page)
+        """Stands for the picture of an exercise that has none: that of the first step would contradict it."""
+        self._blank.empty_text = NO_PICTURE
+        self._blank.hide()
         self.view = LessonView(self.grid, page)
         self.scroll = LessonScroll(self.view, page)
         self.states = LessonStates(page)
@@ -110,7 +116,8 @@ class LessonTask(QObject):
         page.side.let_inspector_give_way(asked is not None and shown.cursor.position == 0)
         if asked is not None:
             self.answers.begin(asked)
-        page.main_area.show_asked(self.grid if asked is not None and asked.is_on_picture else None)
+        picture = None if asked is None or asked.number >= 0 else self._blank
+        page.main_area.show_asked(self.grid if asked is not None and asked.is_on_picture else picture)
         if part is not None and part.until is not None:
             self._watch.begin(part.until)
         elif part is not None and asked is None and not part.show:

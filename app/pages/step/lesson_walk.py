@@ -205,7 +205,7 @@ class LessonWalk(QObject):
         lesson, home = self.lesson, self._home
         assert lesson is not None
         if self.number < 0 and home is not None and home.asked is not None:
-            return recall_record(lesson, home.asked.question, self.standings)
+            return recall_record(lesson, self.course, home.asked.question, self.standings)
         if self.step is None:
             return end_record(lesson, self.following, self.standings)
         return step_record(lesson, self.number, self.standings, was_done=self._was_done)

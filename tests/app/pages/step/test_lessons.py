@@ -19,6 +19,7 @@ from lessons.attempts.record import Attempt
 from lessons.exercises.scene_digest import scene_digest
 from tests.lessons.course.lesson_texts import GOOD
 from widgets.grid.overlay import MaskOverlay
+from widgets.grid.pixel_grid import PixelGrid
 from widgets.lessons.records import Standing
 
 pytestmark = pytest.mark.shared_window
@@ -379,6 +380,23 @@ def test_an_exercise_of_an_earlier_lesson_comes_first(
     walk.next()
     assert settled(window, qtbot).number == 0
     assert not window.session.is_predicting
+
+
+def test_an_exercise_without_a_picture_has_none_and_names_its_lesson(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    text = GOOD.replace("minutes = 5", 'minutes = 5\nrecall = "edge-values"')
+    walk = opened(window, qtbot, tmp_path / "with-picture", 0, text)
+    assert walk.view.lead.text() == "From the lesson “Inside or outside?”. You may skip it: choose Begin."
+    assert window.page.main_view() is walk.task.grid
+    text = text.replace("edge-values", "divide-by-w")
+    walk = opened(window, qtbot, tmp_path / "without-picture", 0, text)
+    shown = window.page.main_view()
+    assert isinstance(shown, PixelGrid)
+    assert shown.buffer() is None
+    walk.next()
+    settled(window, qtbot)
+    assert window.page.main_view() is window.page.grid
 
 
 # In front of a class, and what is refused.
