@@ -214,6 +214,7 @@ class MainWindow(ActionWindow):
         self.overlays.show_page(name)
         self.pages.current.show_preferences(self.memory.preferences)
         self._show_pointed()
+        self.pages.current.show_way_back(self.page.lessons.is_open)
 
     @Slot()
     def _show_step(self) -> None:

@@ -80,6 +80,9 @@ class QuestionView(QWidget):
         self.step_button = self._button(
             "Step it, hidden", "Step the scene on the Step page, which hides what comes next (Ctrl+G)"
         )
+        self.lesson_button = self._button("Back to the lesson", "Go on in the lesson that is open")
+        self.lesson_button.setObjectName("back to the lesson")
+        self.lesson_button.hide()
         self._icon = QLabel(self)
         self.verdict = text_label("", self, wraps=True, name="Verdict")
         self._arrange()
@@ -142,6 +145,7 @@ class QuestionView(QWidget):
             self.variant_button,
             self.again_button,
             self.step_button,
+            self.lesson_button,
         ):
             buttons.addWidget(button)
         self._foot = QWidget(self)

@@ -75,6 +75,7 @@ class ExercisesPage(Page):
         self._wants_catalogue: bool | None = None
         """Whether the user has unfolded the catalogue or folded it away; ``None``: it follows the room."""
         self.question_view.list_requested.connect(self._toggle_catalogue)
+        self.question_view.lesson_button.clicked.connect(self._go_back)
         theme_notifier().theme_changed.connect(self._make_room)
         self.exercises.question_chosen.connect(self._open)
         self.questions.asked.connect(self.exercises.show_question)
@@ -157,6 +158,14 @@ class ExercisesPage(Page):
     def open_named(self, name: str) -> None:
         """Ask a question of the exercise with a name."""
         self._open(self.exercises.templates[name], None)
+
+    def show_way_back(self, is_shown: bool) -> None:
+        """Offer to go back to the lesson that is open on the Step page."""
+        self.question_view.lesson_button.setVisible(is_shown)
+
+    @Slot()
+    def _go_back(self) -> None:
+        self.action_requested.emit("page_step")
 
     @Slot()
     def open_next(self) -> None:

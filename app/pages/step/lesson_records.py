@@ -24,6 +24,14 @@ OPENS = {
     "plan": "Open the Plan page",
 }
 """What a link of a step to be measured says, by the page that it leads to."""
+COURSES = {
+    "Zwicker": "Zwicker’s course",
+    "Jubair": "Jubair’s course",
+    "Pellacini": "Pellacini’s course",
+    "LMU": "the course at the LMU",
+}
+"""Courses whose questions lessons answer, by how a lesson's file names them."""
+_COURSE = re.compile(rf"\b({'|'.join(COURSES)})(?:, ([^:?]*))?: ")
 _TOGETHER = re.compile(r"(?<=[\d,]) (?=-?[\d./]+\))| (?=[=<>≥≤≠])|(?<=[=<>≥≤≠]) ")
 """Spaces at which no line ends: in ``(2, 1)`` and in ``E0 = 0``."""
 
@@ -71,10 +79,23 @@ def recall_record(
     )
 
 
+def answered(text: str) -> str:
+    """Return the questions that one can answer at the end, each with the course that asks it, as ``Zwicker:`` says."""
+    before, *parts = _COURSE.split(text)
+    if not parts or before:
+        return text
+    said = []
+    for name, place, question in zip(parts[::3], parts[1::3], parts[2::3], strict=True):
+        where = f", {place.rstrip(')')}" if place else ""
+        question = question.strip()
+        said.append(f"{question[:1].upper()}{question[1:]} (from {COURSES[name]}{where})")
+    return "\n".join(said)
+
+
 def end_record(lesson: Lesson, following: Lesson | None, standings: Sequence[Standing]) -> LessonStepRecord:
     """Return the end: what one can answer now, exercises, and the question of the next lesson."""
     part = lesson.part
-    said = [f"You can now answer: {paragraphs(part.answers)}" if part.answers else ""]
+    said = [f"You can now answer: {answered(paragraphs(part.answers))}" if part.answers else ""]
     if following is not None:
         said.append(f"Next lesson: {following.title}")
         said.append(paragraphs(following.question if part.next is None else part.next.text))

@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
 from app.files.attempts import attempt_file
@@ -397,6 +397,23 @@ def test_an_exercise_without_a_picture_has_none_and_names_its_lesson(
     walk.next()
     settled(window, qtbot)
     assert window.page.main_view() is window.page.grid
+
+
+def test_the_exercise_that_closes_a_lesson_leads_back_to_it(
+    window: MainWindow, qtbot: QtBot, walk: LessonWalk
+) -> None:
+    walk.go(4)
+    settled(window, qtbot)
+    walk.view.link_chosen.emit("exercise/shared-edge")
+    assert window.pages.current_name == "exercises"
+    back = window.pages.current.findChild(QPushButton, "back to the lesson")
+    assert back is not None
+    back.click()
+    assert window.pages.current is window.page
+    assert settled(window, qtbot).number == 4
+    window.page.lessons.close()
+    window.pages.show_page("exercises")
+    assert back.isHidden()
 
 
 # In front of a class, and what is refused.
