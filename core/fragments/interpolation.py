@@ -66,15 +66,11 @@ class Planes:
             return (corners[..., :2] / corners[..., 2:]).transpose(1, 2, 0)
 
 
+@np.errstate(divide="ignore", invalid="ignore", over="ignore")
 def window_weights(weights: Floats, w: Floats) -> Floats:
-    """Return (3,) the weights in the window, of the weights with perspective and the w of the corners.
-
-    Not finite where they have no sum.
-    """
+    """Return (3,) weights in the window, of those with perspective and the corners' w; not finite: they have no sum."""
     parts = np.multiply(weights, w)
-    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        shares: Floats = parts / parts.sum()
-    return shares
+    return np.asarray(parts / parts.sum())
 
 
 def set_up_planes(homogeneous: Floats) -> Planes:

@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.files.attempts import attempt_file
+from app.pages.cover import COVERED
 from app.pages.exercises.page import ExercisesPage
-from app.pages.page_bar import COVERED
 from app.window.main_window import MainWindow
 from core import Settings
 from core.records.steps import Level
@@ -125,7 +125,7 @@ def test_no_other_page_shows_what_is_asked(window: MainWindow) -> None:
     QApplication.clipboard().setText("nothing")
     window.run_action("copy_view")
     assert QApplication.clipboard().text() == "nothing"
-    assert window.statusBar().currentMessage() == COVERED
+    assert window.statusBar().currentMessage() == COVERED["exercise"]
     window.run_action("page_exercises")
     page.questions.show_model()
     page.questions.show_model()

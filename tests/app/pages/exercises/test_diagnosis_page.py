@@ -9,8 +9,8 @@ from PIL import Image
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
+from app.pages.cover import COVERED
 from app.pages.exercises.page import ExercisesPage
-from app.pages.page_bar import COVERED
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import render
@@ -107,7 +107,7 @@ def test_what_is_no_such_picture_is_one_sentence(small: MainWindow, tmp_path: Pa
     small.session.set_asked("digest", is_open=True)
     said.clear()
     dropped(small, tmp_path / "small.png")
-    assert said == [COVERED]
+    assert said == [COVERED["exercise"]]
     small.session.set_asked("", is_open=False)
 
 
