@@ -357,12 +357,30 @@ def ruler_labels(placement: GridPlacement, area: QRect, theme: Theme) -> list[tu
             labels.append(
                 (_below(placement, area, x, widest + 4), placement.ruler_text(column + first_column))
             )
+    column_count = len(labels)
     for row in _ruler_numbers(row0, row1, first_row, every_row):
         y = placement.cells_rect(0, row).center().y()
         if viewport.top() <= y <= viewport.bottom():
             labels.append(
                 (_beside(placement, area, y, metrics.height()), placement.ruler_text(row + first_row))
             )
+    if placement.has_centers:
+        return labels
+    # Before the first number stands what is counted, where there is room: the number keeps its place.
+    for place, is_column in ((0, True), (column_count, False)):
+        if place < (column_count if is_column else len(labels)):
+            box, number = labels[place]
+            if is_column:
+                title = f"column {number}"
+                box = box.adjusted(-metrics.horizontalAdvance("column "), 0, 0, 0)
+                # Farther to the left stands the label of a corner there.
+                has_room = box.left() >= max(area.left(), placement.left - 8)
+            else:
+                title, box = f"row\n{number}", box.adjusted(0, -metrics.height(), 0, 0)
+                has_room = every_row * placement.cell >= 2 * metrics.height() + 2
+                has_room &= metrics.horizontalAdvance("row") <= box.width()
+            if has_room:
+                labels[place] = box, title
     return labels
 
 

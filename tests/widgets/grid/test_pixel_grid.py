@@ -50,6 +50,16 @@ def test_no_line_crosses_the_numbers_of_the_rulers(qtbot) -> None:
             assert after.copy(area) == before.copy(area)
 
 
+def test_the_rulers_say_what_they_count_where_there_is_room(qtbot) -> None:
+    widget = PixelGrid()
+    qtbot.addWidget(widget)
+    widget.resize(700, 500)
+    for size, wanted in (((3, 4), {"column 0", "row\n0", "1"}), ((48, 64), {"0", "10"})):
+        widget.show_buffer(GridBuffer("z", np.zeros(size, np.float32)))
+        labels = ruler_labels(widget.placement(), widget.rect(), current_theme())
+        assert wanted <= {text for _, text in labels}
+
+
 class Painted(QObject):
     count = 0
 
