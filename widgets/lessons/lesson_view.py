@@ -122,10 +122,11 @@ class LessonView(QWidget):
         column.addLayout(task)
         self._answer_place = column_layout(spacing=4)
         column.addLayout(self._answer_place)
+        # What came of the task stands below: no message moves the buttons.
         column.addLayout(checks)
+        column.addLayout(ways)
         column.addLayout(result)
         column.addLayout(self._links)
-        column.addLayout(ways)
 
     # What is shown.
 
@@ -191,6 +192,10 @@ class LessonView(QWidget):
             self.answer.answer_changed.connect(self.answer_changed)
             self._answer_place.addWidget(self.answer)
             self.answer.show()
+        # The room of Check stays when the question is answered: Next keeps its place.
+        policy = self.check_button.sizePolicy()
+        policy.setRetainSizeWhenHidden(form is not None)
+        self.check_button.setSizePolicy(policy)
         self.set_asking(form is not None)
 
     def is_of_answer(self, widget: QWidget) -> bool:

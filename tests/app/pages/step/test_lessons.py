@@ -242,6 +242,16 @@ def test_without_a_refuting_step_the_run_with_the_mistake_stands_beside(
     assert "all edges inclusive" in window.page.compare_view.linked.titles[1].text()
 
 
+def test_check_and_next_keep_their_place(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
+    view, places = walk.view, []
+    for given in (None, 25, 3, 16):
+        if given is not None:
+            answered(walk, qtbot, given)
+            settled(window, qtbot)
+        places.append((view.check_button.y(), view.next_button.y()))
+    assert places == places[:1] * 4
+
+
 def test_revealing_counts_as_seen(window: MainWindow, qtbot: QtBot, walk: LessonWalk) -> None:
     QTest.keyClick(window, Qt.Key.Key_M, Qt.KeyboardModifier.ControlModifier)
     settled(window, qtbot)
