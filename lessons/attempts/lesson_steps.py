@@ -9,6 +9,8 @@ from lessons.attempts.record import ANSWER_LIMIT, Attempt
 from lessons.course.catalogue import Course
 from lessons.course.lesson_file import STEP_PREFIX, Lesson
 
+SHOWN = "shown"
+"""Verdict of a step whose answer was shown."""
 ANEW = "begun anew"
 """Verdict of step 0, with which a lesson begins once more: what was before it counts no longer."""
 
@@ -58,7 +60,7 @@ def lesson_attempt(
         stage=lesson.steps[max(step, 0)].state.stage or lesson.stage,
         asked=tuple(asked),
         answer=answer[:ANSWER_LIMIT],
-        verdict=verdict or ("right" if score == 1 else "shown"),
+        verdict=verdict or ("right" if score == 1 else SHOWN),
         score=score,
         points=0,
         most=0,
@@ -91,12 +93,16 @@ def standings(attempts: Sequence[Attempt], lesson: Lesson) -> tuple[Standing, ..
 def place_in(attempts: Sequence[Attempt], lesson: Lesson) -> int:
     """Return the step at which a user goes on: the one after the last that was tried, or that one where it is not done.
 
-    It is the number of steps where the lesson is finished.
+    It is the number of steps where the lesson is finished: no step is open, and of the last one the answer is known.
     """
     tries = _tries(attempts, lesson)
     if not tries:
         return 0
-    found, (_, last) = standings(attempts, lesson), tries[-1]
+    found, (attempt, last) = standings(attempts, lesson), tries[-1]
+    asked = [k for k, part in enumerate(lesson.steps) if part.answer is not None or part.until is not None]
+    is_behind = found[last] is Standing.DONE or attempt.verdict == SHOWN
+    if is_behind and all(found[k] is not Standing.OPEN for k in asked):
+        return len(lesson.steps)
     step = last + (found[last] is Standing.DONE)
     is_left = any(part.answer is not None or part.until is not None for part in lesson.steps[step:])
     return step if is_left else len(lesson.steps)

@@ -35,20 +35,28 @@ class LessonEntry:
     minutes: int
     done: tuple[bool, ...]
     """Of each step, whether it is done; empty: a single step."""
+    seen: tuple[bool, ...] = ()
+    """Of each step, whether its answer was shown; empty: none."""
     is_next: bool = False
     """Whether this is where one goes on."""
 
     @property
     def is_begun(self) -> bool:
-        """Whether a step is done."""
-        return any(self.done)
+        """Whether a step is done, or its answer was shown."""
+        return any((*self.done, *self.seen))
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether all steps are done, or their answers were shown."""
+        return bool(self.done) and sum(self.done) + sum(self.seen) == len(self.done)
 
     @property
     def progress(self) -> str:
         """How long it takes and how far one is, in words."""
         if not self.done:
             return f"{self.minutes} minutes"
-        return f"{self.minutes} minutes, {sum(self.done)} of {counted(len(self.done), 'step')} done"
+        seen = f", {sum(self.seen)} seen" if any(self.seen) else ""
+        return f"{self.minutes} minutes, {sum(self.done)} of {counted(len(self.done), 'step')} done{seen}"
 
 
 @dataclass(frozen=True)
@@ -64,7 +72,7 @@ class LessonPart:
         if not any(lesson.done for lesson in self.lessons):
             return counted(len(self.lessons), "surprise")
         minutes = sum(lesson.minutes for lesson in self.lessons)
-        done = sum(all(lesson.done) for lesson in self.lessons)
+        done = sum(lesson.is_finished for lesson in self.lessons)
         return f"{counted(len(self.lessons), 'lesson')}, {minutes} minutes{f', {done} done' if done else ''}"
 
 
@@ -115,10 +123,16 @@ class LessonCard(QAbstractButton):
             painter.drawText(text, int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom), said)
             radius = 0.3 * theme.text_px
             painter.setPen(QPen(QColor(theme.muted_text), 1.4))
-            for place, is_done in enumerate(reversed(entry.done)):
+            seen = entry.seen or (False,) * len(entry.done)
+            for place, (is_done, is_seen) in enumerate(
+                zip(reversed(entry.done), reversed(seen), strict=True)
+            ):
                 painter.setBrush(QColor(theme.muted_text) if is_done else Qt.BrushStyle.NoBrush)
                 middle = QPointF(text.right() - radius * (1 + 3 * place), text.bottom() - 0.6 * theme.text_px)
                 painter.drawEllipse(middle, radius, radius)
+                if is_seen:  # A point, as in the lesson.
+                    painter.setBrush(QColor(theme.muted_text))
+                    painter.drawEllipse(middle, 0.3 * radius, 0.3 * radius)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:
         """Open the lesson with Return too."""

@@ -148,10 +148,12 @@ def shown_lessons(course: "Course", attempts: "tuple[Attempt, ...]") -> LessonsS
     entries: dict[str, LessonEntry] = {}
     opens: dict[str, tuple[str, int]] = {}
     for name, lesson in lessons.items():
-        done = tuple(each is Standing.DONE for each in standings(attempts, lesson))
+        found = standings(attempts, lesson)
+        done, seen = (tuple(each is of for each in found) for of in (Standing.DONE, Standing.SEEN))
         is_next = place is not None and place.lesson is lesson
-        entries[name] = LessonEntry(name, lesson.title, lesson.question, lesson.minutes, done, is_next)
-        opens[name] = name, done.index(False) if any(done) and not all(done) else 0
+        entries[name] = LessonEntry(name, lesson.title, lesson.question, lesson.minutes, done, seen, is_next)
+        is_between = Standing.OPEN in found and entries[name].is_begun
+        opens[name] = name, found.index(Standing.OPEN) if is_between else 0
     tried = []
     for each in explorations():
         if each.lesson in lessons:
@@ -173,8 +175,8 @@ def shown_lessons(course: "Course", attempts: "tuple[Attempt, ...]") -> LessonsS
         )
         for parts in (titles, stages)
     )
-    found = None
+    goes_on = None
     if place is not None:
         is_new = not any(map(is_of_lesson, attempts))
-        found = LessonPlace(place.lesson.name, place.lesson.title, place.step, is_new)
-    return LessonsShown(by_learning, by_stage, found, opens, course.problems)
+        goes_on = LessonPlace(place.lesson.name, place.lesson.title, place.step, is_new)
+    return LessonsShown(by_learning, by_stage, goes_on, opens, course.problems)

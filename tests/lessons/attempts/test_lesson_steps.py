@@ -63,6 +63,14 @@ def test_steps_are_open_seen_or_done_until_a_lesson_begins_anew(course: Course) 
     assert (anew.lesson, anew.step) == (one, 0)
 
 
+def test_a_lesson_is_finished_when_no_step_is_open(course: Course) -> None:
+    one = course.named("one")
+    seen = [tried(one, 3, 1, 0), tried(one, 2, 0, 1), tried(one, 1, 0, 2)]
+    assert standings(seen, one) == (DONE, SEEN, SEEN, DONE)
+    assert place_in(seen, one) == 4
+    assert place_in(seen[:2], one) == 2
+
+
 def test_who_is_new_begins_at_the_first_and_who_has_all_is_finished(course: Course) -> None:
     one, two = course.lessons.values()
     first = next_place([], course)
