@@ -115,13 +115,13 @@ def test_no_other_page_shows_what_is_asked(window: MainWindow) -> None:
     """Pages that would show the open scene are covered, and hand out nothing, until the question has ended."""
     window.session.set_stage("raster", 4000)
     window.session.set_pin((30, 20))
-    window.run_action("page_start")
-    start = window.pages.current
+    window.run_action("page_compare")
+    compare = window.pages.current
     window.run_action("page_step")
     window.run_action("ask_value")
     page = exercises(window)
-    window.run_action("page_start")
-    assert start.isHidden()
+    window.run_action("page_compare")
+    assert compare.isHidden()
     QApplication.clipboard().setText("nothing")
     window.run_action("copy_view")
     assert QApplication.clipboard().text() == "nothing"
@@ -129,8 +129,8 @@ def test_no_other_page_shows_what_is_asked(window: MainWindow) -> None:
     window.run_action("page_exercises")
     page.questions.show_model()
     page.questions.show_model()
-    window.run_action("page_start")
-    assert not start.isHidden()
+    window.run_action("page_compare")
+    assert not compare.isHidden()
 
 
 def test_what_has_no_line_is_refused(window: MainWindow, qtbot: QtBot) -> None:
