@@ -137,11 +137,11 @@ def run_all(seed: int, count: int, measures_memory: bool) -> tuple[int, float]:
 def test_a_few_random_changes():
     drawn, longest = run_all(7, 150, measures_memory=False)
     assert 0 < drawn < 150
-    assert longest < LISTING.seconds + 2
+    assert longest < 10 * LISTING.seconds
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("seed", range(10))
 def test_many_random_changes(seed):
     _, longest = run_all(seed, 2_000, measures_memory=True)
-    assert longest < LISTING.seconds + 6
+    assert longest < 10 * LISTING.seconds

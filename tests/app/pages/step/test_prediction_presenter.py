@@ -24,7 +24,7 @@ def test_results_are_hidden_while_asking(asking: MainWindow) -> None:
     assert all(len(places) == 0 for places in page.timeline.bar.run().marks.values())
     asking.session.set_pin((30, 20))
     page.column.setCurrentWidget(page.history)
-    assert "Turn prediction off" in page.history.verdict.text()
+    assert "hidden until the answer is shown" in page.history.verdict.text()
     assert page.pointed_text((30, 20)) == ""
 
 
@@ -107,6 +107,6 @@ def test_a_history_that_is_hidden_says_so(window: MainWindow) -> None:
     assert window.page.history.place.isVisible()
     window.run_action("predict")
     window.page.column.setCurrentWidget(window.page.history)
-    assert "Turn prediction off" in window.page.history.verdict.text()
+    assert "hidden until the answer is shown" in window.page.history.verdict.text()
     window.run_action("predict")
     assert window.page.history.place.text() == "Pixel column 20, row 20"
