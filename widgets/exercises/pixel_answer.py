@@ -20,9 +20,8 @@ HOW = (
     "gives the next pixel the same mark."
 )
 
-LEGEND = (
-    "Tick: right. Square: missing. Cross: extra. Two bars: double, another triangle or line has the pixel."
-)
+LEGEND = "Tick: right. Square: missing. Cross: extra."
+DOUBLE = " Two bars: double, another triangle or line has the pixel."
 
 _RUN = re.compile(r"\s*(\d{1,3})(?:\s*[-–]\s*(\d{1,3}))?\s*", re.ASCII)
 
@@ -45,7 +44,7 @@ class PixelAnswerView(AnswerView):
         self.rows_button.setCheckable(True)
         self.rows_button.toggled.connect(self._show_rows)
         labels = tuple(str(row) for row in reversed(range(form.size[1])))
-        self.rows = EntryGrid(("marked columns", "found"), labels, self, read_only=(1,))
+        self.rows = EntryGrid(("marked columns, as 3-7, 9", "found"), labels, self, read_only=(1,))
         self.rows.setAccessibleName(f"Marked {form.noun}, row by row")
         self.rows.hide()
         self.rows.field_edited.connect(self._type)
@@ -79,7 +78,8 @@ class PixelAnswerView(AnswerView):
         """Mark what is right on the picture and in the rows."""
         self._marks = marks
         self._grid.show_marks(marks)
-        self.how.setText(HOW if marks is None else LEGEND)
+        double = DOUBLE if marks is not None and marks.get("double") else ""
+        self.how.setText(HOW if marks is None else LEGEND + double)
         self._show()
 
     def set_open(self, is_open: bool) -> None:

@@ -125,6 +125,12 @@ def details(plan: Plan, report: PlanReport) -> str:
     if report.fallen_back:
         names = joined([family_title(name) for name in report.fallen_back])
         parts.append(f"The first plan was beyond the tolerance when measured. Restored: {names}.")
+    changed = [
+        f"{family_title(each.setting)}: {table.get(each.setting, each.chosen).title}"
+        for each in plan.decisions
+        if each.chosen != each.dearest and each.setting not in report.fallen_back
+    ]
+    parts.append(f"Changed: {'; '.join(changed)}." if changed else "Nothing is changed.")
     needed = [family_title(each.setting) for each in plan.decisions if each.is_needed]
     kept = f"Kept because cheaper methods are too inaccurate: {joined(needed)}."
     parts.append(kept if needed else "Nothing expensive is needed.")

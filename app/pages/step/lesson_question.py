@@ -276,4 +276,7 @@ def wrong_sentences(judged: JudgedAnswer) -> tuple[str, ...]:
     counts = judgement.verdict.counts
     if named and isinstance(draft.answer, PixelAnswer):
         counts = f"{counts}. {draft.answer.first_wrong(judged.response).rstrip('.')}"
-    return ("Not yet." if counts.startswith("0 of 1 ") else f"Not yet: {counts}.", *(said or (UNKNOWN,)))
+    return (
+        "Not yet." if counts == "wrong" or counts.startswith("0 of 1 ") else f"Not yet: {counts}.",
+        *(said or (UNKNOWN,)),
+    )

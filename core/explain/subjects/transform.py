@@ -24,7 +24,7 @@ BEYOND = {("x", -1): "left", ("x", 1): "right", ("y", -1): "bottom", ("y", 1): "
 def _vertex(step: StepValues) -> str:
     """Return the number of a vertex in its triangle, as the views label it, and that in the scene where it differs."""
     corner, number = step.whole("corner"), step.whole("vertex")
-    of_scene = f" (number {number} in the scene)" if number != corner else ""
+    of_scene = f" (vertex {number} of the scene)" if number != corner else ""
     return f"Vertex {corner} of triangle {step.triangle}{of_scene}"
 
 

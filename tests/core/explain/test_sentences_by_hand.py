@@ -410,7 +410,7 @@ def test_a_shared_vertex_has_its_number_in_the_triangle_and_that_in_the_scene() 
     explanation, triangle = traced.explain(int(traced.steps.starts[row]) + 1), int(traced.triangle[row])
     assert explanation is not None
     said = sentence(explanation, triangle, None)
-    assert said.startswith(f"Vertex {corner} of triangle {triangle} (number {vertex} in the scene): ")
+    assert said.startswith(f"Vertex {corner} of triangle {triangle} (vertex {vertex} of the scene): ")
 
 
 def test_the_matrix_of_corners_times_a_column_of_its_inverse() -> None:

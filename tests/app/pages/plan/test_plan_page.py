@@ -252,6 +252,9 @@ def test_a_wrong_prediction_is_said_plainly() -> None:
     assert rows[0].verdict is Verdict.WRONG
     assert {row.verdict for row in rows[1:]} == {Verdict.HELD, Verdict.OPEN}
     text = details(report.plan, report)
+    changed = [row for row in rows if row.instead.startswith("instead of") and row.name != "depth"]
+    assert changed
+    assert all(f"{row.stage}: {row.chosen}" in text.partition("Changed: ")[2] for row in changed)
     assert "A prediction was wrong: Cull, predicted 0/255, measured 7/255." in text
     assert "beyond the tolerance when measured. Restored: Depth" in text
     slow = replace(report, seconds_everything=np.array([1.0]), seconds_chosen=np.array([2.0]))
