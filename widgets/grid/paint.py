@@ -366,21 +366,21 @@ def ruler_labels(placement: GridPlacement, area: QRect, theme: Theme) -> list[tu
             )
     if placement.has_centers:
         return labels
-    # Before the first number stands what is counted, where there is room: the number keeps its place.
-    for place, is_column in ((0, True), (column_count, False)):
-        if place < (column_count if is_column else len(labels)):
-            box, number = labels[place]
-            if is_column:
-                title = f"column {number}"
-                box = box.adjusted(-metrics.horizontalAdvance("column "), 0, 0, 0)
-                # Farther to the left stands the label of a corner there.
-                has_room = box.left() >= max(area.left(), placement.left - 8)
-            else:
-                title, box = f"row\n{number}", box.adjusted(0, -metrics.height(), 0, 0)
-                has_room = every_row * placement.cell >= 2 * metrics.height() + 2
-                has_room &= metrics.horizontalAdvance("row") <= box.width()
-            if has_room:
-                labels[place] = box, title
+    # Before a number stands what is counted, where there is room: the number keeps its place.
+    room = placement.left + metrics.height()  # Farther to the left may stand the label of a vertex.
+    for place, (box, number) in enumerate(labels[: min(column_count, 2)]):
+        titled = box.adjusted(-metrics.horizontalAdvance("column "), 0, 0, 0)
+        if titled.left() >= room:
+            labels[place] = titled, f"column {number}"
+            break
+        room = max(room, box.right() + metrics.height())
+    else:
+        return labels
+    if len(labels) > column_count:
+        box, number = labels[column_count]
+        is_high = every_row * placement.cell >= 2 * metrics.height() + 2
+        if is_high and metrics.horizontalAdvance("row") <= box.width():
+            labels[column_count] = box.adjusted(0, -metrics.height(), 0, 0), f"row\n{number}"
     return labels
 
 

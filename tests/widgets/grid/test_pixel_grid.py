@@ -54,7 +54,11 @@ def test_the_rulers_say_what_they_count_where_there_is_room(qtbot) -> None:
     widget = PixelGrid()
     qtbot.addWidget(widget)
     widget.resize(700, 500)
-    for size, wanted in (((3, 4), {"column 0", "row\n0", "1"}), ((48, 64), {"0", "10"})):
+    for size, wanted in (
+        ((3, 4), {"column 0", "row\n0", "1"}),
+        ((6, 8), {"0", "column 1", "row\n0"}),
+        ((48, 64), {"0", "10"}),
+    ):
         widget.show_buffer(GridBuffer("z", np.zeros(size, np.float32)))
         labels = ruler_labels(widget.placement(), widget.rect(), current_theme())
         assert wanted <= {text for _, text in labels}
