@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
 from app.help.pane import HelpPane
 from app.pages.step.bookmarks import BOOKMARKS
 from app.pages.step.copy_state import copy_state
+from app.pages.step.lesson_presenter import WAY_BACK
 from app.pages.step.page import PANES, Pane, SidePane, StepPage
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.pages.step.view_keys import ZOOM, choose_vertex, move_view, nudge_vertex, zoom
@@ -257,10 +258,12 @@ def _end_message(w: ActionWindow) -> bool:
 
 
 def _choose_scene(w: ActionWindow) -> None:
-    """Offer the lessons while one is open, states, recent files and built-in scenes; the next one is at hand."""
+    """Offer the way back to a lesson, lessons, states, recent files and scenes; the next one is at hand."""
     lessons = w.page.lessons
     groups = scene_groups(w.files.states(), w.memory.preferences.recent_files, lessons.listed())
-    w.overlays.choose_scene(groups, next_entry(groups, lessons.path or w.files.shown))
+    begins_at_lesson = lessons.last is not None and not lessons.is_open
+    first = WAY_BACK if begins_at_lesson else next_entry(groups, lessons.path or w.files.shown)
+    w.overlays.choose_scene(groups, first)
 
 
 def _fit_to_triangle(w: ActionWindow) -> None:

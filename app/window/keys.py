@@ -76,7 +76,7 @@ LOCAL_KEYS = (
         KeyAction(
             "clicker_start",
             ("F5",),
-            "Presenting: start of the run or of the lesson; at the start, open a scene or state",
+            "Presenting: start of the run; at the start, or in a lesson, open a lesson, scene or state",
             PRESENTING,
         ),
     ),

@@ -13,6 +13,7 @@ from app.help.pane import HelpPane
 from app.pages.cover import COVERED
 from app.pages.page_bar import Page, Pages
 from app.pages.page_table import PAGE_KINDS, page_of_file
+from app.pages.step.lesson_presenter import BEGINNING, WAY_BACK
 from app.pages.step.opening import StepOpening
 from app.pages.step.page import StepPage
 from app.session.document import Document
@@ -389,7 +390,7 @@ class MainWindow(ActionWindow):
         ``allows_outside``: files that it names may be read from outside its folder.
         """
         name = page_of_file(path)
-        if is_lesson_file(path):
+        if path in (WAY_BACK, BEGINNING) or is_lesson_file(path):
             self.pages.show_page("step")
             self.page.lessons.open_path(path)
         elif name:

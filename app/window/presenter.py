@@ -15,15 +15,17 @@ from widgets.basics.theme import current_theme
 CLICKER = {
     Qt.Key.Key_PageDown: "step_forward",
     Qt.Key.Key_PageUp: "step_back",
-    Qt.Key.Key_F5: "start",  # At the start: open something else.
+    Qt.Key.Key_F5: "start",  # At the start, and in a lesson: open something else.
     Qt.Key.Key_B: "black",
     Qt.Key.Key_Period: "black",
 }
 """What the keys that clickers send do while presenting."""
-IN_LESSONS = {"step_forward": "advance", "step_back": "back", "start": "start_over"}
+IN_LESSONS = {"step_forward": "advance", "step_back": "back"}
 """What the same keys do while a lesson is open, by the names of `LessonPresenter`."""
 PAGES_TO_STEP = ("start", "step")
 """Pages on which F5 is the clicker's: on the others it measures, runs, analyses or checks."""
+TYPED = (Qt.Key.Key_B, Qt.Key.Key_Period)
+"""Keys of a clicker that fields take."""
 ARROWS = (Qt.Key.Key_Left, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Down)
 HINT_ROOM = 32
 """Width of a hint around its text, in logical pixels."""
@@ -94,6 +96,7 @@ class Presenter(QObject):
         self._is_whole_width = page.current_view() in WHOLE_WIDTH
         page.show_panes(() if self._is_whole_width else PRESENTED_PANES)
         window.appearance.set_theme("presenter-dark" if current_theme().is_dark else "presenter")
+        page.lessons.read()
         the_application().installEventFilter(self)
         self.presenting_changed.emit(True)
 
@@ -160,14 +163,18 @@ class Presenter(QObject):
     def _takes(self, event: QKeyEvent) -> bool:
         """Return whether a key is a clicker's."""
         is_of_page = event.key() == Qt.Key.Key_F5 and self._window.pages.current_name not in PAGES_TO_STEP
-        return event.key() in CLICKER and not is_of_page and _is_for_all(event)
+        # Where an answer is typed, letters are typed and Page Down is still the clicker's.
+        is_answering = self._window.page.lessons.is_answering(QApplication.focusWidget())
+        heeds_fields = event.key() in TYPED or not is_answering
+        is_elsewhere = is_of_page or self._window.overlays.scenes.isVisible()
+        return event.key() in CLICKER and not is_elsewhere and _is_for_all(event, heeds_fields)
 
     def _steps(self, event: QKeyEvent) -> bool:
         """Return whether it is asked who wants an arrow that is pressed on the Step page: the window does."""
         if event.type() != QEvent.Type.ShortcutOverride or event.key() not in ARROWS:
             return False
         focus = QApplication.focusWidget()
-        return focus is not None and self._window.page.isAncestorOf(focus) and _is_for_all(event)
+        return focus is not None and self._window.page.isAncestorOf(focus) and _is_for_all(event, True)
 
     def _click(self, action: str) -> None:
         """Do what a clicker means; what is black is shown first."""
@@ -179,7 +186,7 @@ class Presenter(QObject):
         elif not is_black:
             self._window.pages.show_page("step")
             lessons = self._window.page.lessons
-            if action == "start" and (lessons.is_at_start if lessons.is_open else self._is_at_start()):
+            if action == "start" and (lessons.is_open or self._is_at_start()):
                 self._window.run_action("choose_scene")
             elif lessons.is_open:
                 getattr(lessons, IN_LESSONS[action])()
@@ -212,8 +219,8 @@ class Presenter(QObject):
             self.hint.raise_()
 
 
-def _is_for_all(event: QKeyEvent) -> bool:
-    """Return whether a key is pressed alone, and neither for a menu or a dialog nor for what is being typed."""
-    is_typing = isinstance(QApplication.focusWidget(), QLineEdit | QAbstractSpinBox)
+def _is_for_all(event: QKeyEvent, heeds_fields: bool) -> bool:
+    """Return whether a key is pressed alone, and not for a menu, a dialog or, with ``heeds_fields``, a field."""
+    is_typing = heeds_fields and isinstance(QApplication.focusWidget(), QLineEdit | QAbstractSpinBox)
     is_elsewhere = QApplication.activeModalWidget() or QApplication.activePopupWidget()
     return not (event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier or is_typing or is_elsewhere)

@@ -17,7 +17,7 @@ def scene_groups(
 ) -> dict[str, list[Entry]]:
     """Return what can be opened by headings: ``states`` of one folder, recent files that are still there, scenes.
 
-    ``lessons`` come first, where one is open.
+    ``lessons`` come first.
     """
     others = [path for path in recent if path not in states and os.path.isfile(path)]
     groups = {"Recent files": _files(others), "Scenes": _scenes(CATALOGUE)}

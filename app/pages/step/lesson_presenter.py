@@ -14,6 +14,8 @@ from core import Trace
 
 if TYPE_CHECKING:
     # Lessons are imported when the first one is opened.
+    from PySide6.QtWidgets import QWidget
+
     from app.pages.step.lesson_attempts import LessonAttempts, Progress
     from app.pages.step.lesson_question import JudgedAnswer
     from app.pages.step.lesson_walk import LessonWalk
@@ -21,6 +23,8 @@ if TYPE_CHECKING:
     from lessons.course.catalogue import Course
     from lessons.course.lesson_file import Lesson
 
+WAY_BACK, BEGINNING = "lesson/return", "lesson/start"
+"""Names of the entries that lead back to the lesson that was open last, and to the start of the one that is open."""
 NONE_OPEN = "No lesson is open. The Start page (Alt+0) lists them."
 
 
@@ -59,6 +63,10 @@ class LessonPresenter(QObject):
         """Whether what is done is kept for the user."""
         self.last: tuple[Lesson | str, int] | None = None
         """The lesson that was shown last, and its step."""
+        self._course: Course | None = None
+        """The lessons that can be opened; ``None``: they were not read yet."""
+        self._reading = Job(self, expected=(ValueError, OSError))
+        self._reading.succeeded.connect(self._list)
         self._job = Job(self, expected=(ValueError, OSError, MemoryError))
         self._job.succeeded.connect(self._begin)
         self._job.failed.connect(self._refuse)
@@ -78,6 +86,10 @@ class LessonPresenter(QObject):
     def is_asking(self) -> bool:
         """Whether a lesson has a question open."""
         return self.walk is not None and self.walk.answers.is_open
+
+    def is_answering(self, widget: "QWidget | None") -> bool:
+        """Return whether a widget belongs to the form of an answer in the lesson."""
+        return widget is not None and self.walk is not None and self.walk.view.is_of_answer(widget)
 
     @property
     def is_working(self) -> bool:
@@ -103,14 +115,10 @@ class LessonPresenter(QObject):
     def stop(self) -> None:
         """End all work."""
         self._job.shut_down()
+        self._reading.shut_down()
         if self._walk is not None:
             self._walk.stop()
             self.attempts.stop()
-
-    @property
-    def is_at_start(self) -> bool:
-        """Whether the beginning of a lesson is shown."""
-        return self.walk is not None and self.walk.number == self.walk.first
 
     @property
     def path(self) -> str:
@@ -119,9 +127,35 @@ class LessonPresenter(QObject):
         return "" if walk is None or walk.lesson is None else str(walk.lesson.path)
 
     def listed(self) -> list[tuple[str, str]]:
-        """Return file and title of each lesson among those that is open; empty: none is."""
-        lessons = () if self.walk is None else self.walk.course.lessons.values()
-        return [(str(lesson.path), lesson.title) for lesson in lessons]
+        """Return name and title of what can be opened of lessons: the way back, then each of them.
+
+        Without the lessons where they were not read yet (`read`).
+        """
+        lessons = () if self._course is None else self._course.lessons.values()
+        listed = [(str(lesson.path), lesson.title) for lesson in lessons]
+        if self.is_open:
+            return [(BEGINNING, "Start of this lesson"), *listed]
+        return listed if self.last is None else [(WAY_BACK, self._back_title(*self.last)), *listed]
+
+    def _back_title(self, lesson: "Lesson | str", number: int) -> str:
+        """Return what leads back to a lesson's step is called."""
+        if isinstance(lesson, str):
+            found = None if self._course is None else self._course.lessons.get(lesson)
+            if found is None:
+                return "Back to the lesson"
+            lesson = found
+        count = len(lesson.steps)
+        place = f", step {number + 1} of {count}" if 0 <= number < count else ""
+        return f"Back to: {lesson.title}{place}"
+
+    def read(self) -> None:
+        """Read the lessons, to be listed, unless they are known."""
+        if self._course is None:
+            self._reading.call(_whole_course)
+
+    @Slot(object)
+    def _list(self, course: "Course") -> None:
+        self._course = course
 
     # Opening and closing.
 
@@ -134,14 +168,20 @@ class LessonPresenter(QObject):
         self._job.call(lambda: _found(lesson, step))
 
     def open_path(self, path: str) -> None:
-        """Open the lesson of a file."""
-        self._job.call(lambda: _found(Path(path), None))
+        """Open the lesson of a file, or go to one of the places that are `listed`."""
+        if path == WAY_BACK:
+            self.return_here()
+        elif path == BEGINNING:
+            self.start_over()
+        else:
+            self._job.call(lambda: _found(Path(path), None))
 
     @Slot(object)
     def _begin(self, found: _Found) -> None:
         page, walk = self._page, self._walk or self._make()
         if not self.is_open:
             self._desk = _Desk(state_of(page, 100), page.session.trace)
+        self._course = found.course
         self.attempts.user = found.progress.user
         if found.progress.trouble:
             page.refuse(found.progress.trouble)
@@ -264,6 +304,13 @@ class LessonPresenter(QObject):
     def start_over(self) -> None:
         """Go to the first step."""
         self._do(lambda walk: walk.go(walk.first))
+
+
+def _whole_course() -> "Course":
+    """Read the lessons: off the GUI thread."""
+    from app.files.lesson_folders import whole_course
+
+    return whole_course()
 
 
 def _found(wanted: "Lesson | str | Path", step: int | None) -> _Found:

@@ -445,15 +445,34 @@ def test_a_clicker_shows_the_answer_first_and_keeps_nothing(
     assert settled(window, qtbot).number == 2
     QTest.keyClick(window, Qt.Key.Key_PageUp)
     assert settled(window, qtbot).number == 1
+    chooser = window.overlays.scenes
     QTest.keyClick(window, Qt.Key.Key_F5)
+    assert chooser.isVisible()
+    assert [chooser.list.item(row).text() for row in (0, 1)] == ["Lessons", "Start of this lesson"]
+    QTest.keyClicks(chooser.field, "start of this")
+    QTest.keyClick(chooser.field, Qt.Key.Key_F5)
     assert settled(window, qtbot).number == 0
-    QTest.keyClick(window, Qt.Key.Key_F5)
-    assert window.overlays.scenes.isVisible()
-    assert window.overlays.scenes.list.item(0).text() == "Lessons"
-    window.overlays.close_top()
     assert kept(walk, window, qtbot) == before
     window.presenter.leave()
     assert walk.view.isVisible()
+
+
+def test_a_clicker_leads_back_from_a_scene_to_the_lesson(
+    window: MainWindow, qtbot: QtBot, walk: LessonWalk
+) -> None:
+    walk.go(2)
+    settled(window, qtbot)
+    window.presenter.arrange()
+    window.open_path("cube")
+    qtbot.waitUntil(lambda: not window.page.lessons.is_open)
+    for _ in ("start of the run", "the list"):
+        QTest.keyClick(window, Qt.Key.Key_F5)
+    chooser = window.overlays.scenes
+    assert chooser.list.currentItem().text() == "Back to: Whose pixel?, step 3 of 4"
+    assert chooser.list.count() > 20
+    QTest.keyClick(chooser.field, Qt.Key.Key_F5)
+    qtbot.waitUntil(lambda: window.page.lessons.is_open)
+    assert settled(window, qtbot).number == 2
 
 
 def test_a_broken_lesson_is_refused_with_its_line(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
