@@ -16,7 +16,7 @@ from lessons.course.catalogue import Course
 from lessons.course.lesson_file import Lesson
 from lessons.course.questions import question_of
 from lessons.course.record import StepPart
-from lessons.course.state import States
+from lessons.course.state import States, solved
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask
 from lessons.run_place import RunPlace
@@ -152,7 +152,7 @@ class LessonWalk(QObject):
         self.go(self.number)
 
     def _wanted(self, lesson: Lesson, number: int) -> Wanted:
-        """Return the state of a step, and what it asks; of the end, where the next lesson begins."""
+        """Return the state of a step, and what it asks; the end keeps the last step's, or what it revealed."""
         states = self._states_of(lesson)
         if number < 0 and lesson.part.recall is not None:
             question = ask(TEMPLATES[lesson.part.recall], self._seed)
@@ -166,10 +166,15 @@ class LessonWalk(QObject):
             if lesson.steps[number].answer is None:
                 return state, None
             return state, question_with_outline(lesson, number, question_of(lesson, number, states))
-        following = self.course.after(lesson)
-        if following is None:
-            return states.of_step(number - 1), None
-        return States(following).of_step(0), None
+        last, state = lesson.steps[-1], states.of_step(number - 1)
+        if not self._is_last_open() and last.solution is not None:
+            return solved(state, last.solution), None
+        revealed = None if self._is_last_open() else states.of_reveal(number - 1)
+        return revealed or state, None
+
+    def _is_last_open(self) -> bool:
+        """Return whether the last step is neither done nor seen: the end does not give its answer away."""
+        return self.standings[-1] is Standing.OPEN
 
     def _states_of(self, lesson: Lesson) -> States:
         made = self._made
@@ -191,15 +196,12 @@ class LessonWalk(QObject):
             return
         self.number, self._home = number, shown
         self._was_done = self.step is not None and self.standings[number] is Standing.DONE
-        is_hidden = shown.asked is not None or (number == len(lesson.steps) and self._begins_hidden())
+        is_end = number == len(lesson.steps)
+        is_open = is_end and lesson.steps[-1].answer is not None and self._is_last_open()
+        is_hidden = shown.asked is not None or is_open
         self.task.begin(self.step, number, made, shown, self._record(), is_hidden=is_hidden)
         self._prepare()
         self.place_changed.emit()
-
-    def _begins_hidden(self) -> bool:
-        """Return whether the next lesson begins with a question."""
-        following = self.following
-        return following is not None and following.steps[0].answer is not None
 
     def _record(self) -> LessonStepRecord:
         lesson, home = self.lesson, self._home

@@ -475,6 +475,26 @@ def test_a_clicker_leads_back_from_a_scene_to_the_lesson(
     assert settled(window, qtbot).number == 2
 
 
+def test_the_end_keeps_the_last_picture_and_gives_no_answer_away(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    head, *steps = GOOD.split("[[step]]\n")
+    last_asks = "[[step]]\n".join([head, *(f"{steps[k]}\n" for k in (0, 2, 3, 1))])
+    walk = opened(window, qtbot, tmp_path, 3, last_asks)
+    scene = window.session.document.scene
+    walk.next()
+    settled(window, qtbot)
+    assert (walk.number, window.session.document.scene, window.session.is_predicting) == (4, scene, True)
+    walk.back()
+    settled(window, qtbot)
+    walk.task.reveal()
+    settled(window, qtbot)
+    place = window.session.cursor
+    walk.next()
+    settled(window, qtbot)
+    assert (walk.number, window.session.cursor, window.session.is_predicting) == (4, place, False)
+
+
 def test_a_broken_lesson_is_refused_with_its_line(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     document, path = window.session.document, tmp_path / "broken.toml"
     path.write_text(GOOD.replace('"drawn == 16"', '"drawn == 17"'), encoding="utf-8")
