@@ -44,6 +44,8 @@ class Draft:
     """By wrong answers behind which a belief stands, what refutes it."""
     sketch: Sketch | None = None
     """The plane or space that the question is about, with what is given in it; ``None``: it is about none."""
+    outlined: AnyScene | None = None
+    """What the outline shows in place of the scene: more than is drawn; ``None``: the scene itself."""
 
 
 @dataclass(frozen=True, eq=False)

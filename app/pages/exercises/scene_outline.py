@@ -34,7 +34,7 @@ def outline_of(draft: Draft, stage: str) -> GridGeometry | None:
     """Return the outlines of the scene; ``None``: it shows fragments, has none, or they are what is asked for."""
     if draft.scene is None or stage in HIDDEN:
         return None
-    outline = scene_outline(draft.scene)
+    outline = scene_outline(draft.outlined or draft.scene)
     if _is_fragments(outline):
         return None
     names = NAMES[: len(outline.triangles)]

@@ -1,5 +1,6 @@
 """Which pixels a triangle covers, and which way it faces."""
 
+from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -88,10 +89,13 @@ def draw_shared_edge(draws: Draws) -> Draft | None:
     # The level edge of the lower triangle is its bottom edge, which owns its centres.
     level = "level-edges-always" if is_upper else "level-edges-never"
     names = ("all-edges-inclusive", "all-edges-exclusive", level)
-    text = (
-        f"Triangle A shares an edge with triangle B: {corner_text(other)}. Which pixels belong to triangle A?"
+    draft = _covered(
+        mine, "Triangles A and B share an edge. Which pixels belong to triangle A?", hints, names
     )
-    return _covered(mine, text, hints, names)
+    if draft is None:
+        return None
+    both = triangle_scene(np.array([mine, other], float), SIZE)
+    return replace(draft, given=f"{draft.given}\nTriangle B: {corner_text(other)}", outlined=both)
 
 
 FACES = tuple("ABCD")

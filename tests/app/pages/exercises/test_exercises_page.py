@@ -296,6 +296,12 @@ def test_only_a_pixel_that_another_triangle_covers_is_double(tmp_path: Path) -> 
     assert not marks.get("double")
 
 
+def test_the_triangle_across_a_shared_edge_is_drawn_too() -> None:
+    outline = outline_of(ask(TEMPLATES["shared-edge"], 0).draft, "raster")
+    assert outline is not None
+    assert (outline.names, len(outline.triangles)) == (("A", "B"), 2)
+
+
 def test_a_long_title_of_the_catalogue_is_read_whole(qtbot: QtBot) -> None:
     """It takes a second line where it is wider than its column."""
     view = Catalogue()
