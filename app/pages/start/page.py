@@ -173,9 +173,13 @@ class StartPage(Page):
             self._show_document()
         if Change.ASKED in what:
             self._hide_asked()
+            self._show_document()
 
     def _show_document(self) -> None:
         title = self._session.document.title or "a scene"
+        if self._session.is_asked_about:
+            self.now_label.setText(f"Open now: a question about {title}. Press Right to go back to it.")
+            return
         self.now_label.setText(f"Open now: {title}. Press Right for its next step, Left to go back.")
 
     @Slot()
@@ -227,9 +231,10 @@ class StartPage(Page):
     # What is done.
 
     def step_on(self) -> None:
-        """Go to the Step page, one step on."""
+        """Go to the Step page, one step on; a question there stays as it is."""
         self.action_requested.emit("page_step")
-        self.action_requested.emit("step_forward")
+        if not self._session.is_asked_about:
+            self.action_requested.emit("step_forward")
 
     def dismiss(self) -> bool:
         """Go back to the Step page."""

@@ -196,7 +196,9 @@ def test_a_question_hides_its_scene_until_it_is_answered(
     assert window.pages.current is window.page
     window.pages.show_page("start")
     assert not window.pages.is_covered
-    window.pages.show_page("step")
+    assert "a question about" in window.pages.current.now_label.text()  # type: ignore[attr-defined]
+    QTest.keyClick(window, Qt.Key.Key_Right)
+    assert (window.pages.current, session.cursor.position) == (window.page, 0)
     assert answered(walk, qtbot, 16).startswith("Right.")
     settled(window, qtbot)
     assert not session.is_predicting
