@@ -126,7 +126,9 @@ def _state_and_reason(
     if skipped:
         return state if place == present else ChapterState.SKIPPED, False, skipped
     if count.note == "not-chosen":
-        reason = "Nothing is clipped: homogeneous rasterization needs no clipping."
+        is_behind = bool((source.geometry.vertices.clip[:, 3] <= 0).any())
+        what = "Nothing is clipped, though a part lies behind the eye" if is_behind else "Nothing is clipped"
+        reason = f"{what}: homogeneous rasterization needs no clipping."
         if source.geometry.vertices.rings is not None:
             reason = "Nothing is clipped: choose a method of polygon clipping."
         return state if place == present else ChapterState.SKIPPED, False, reason

@@ -30,6 +30,11 @@ def test_what_comes_out_of_a_stage_goes_into_the_next(fill: str) -> None:
     assert "seen in the end" in chapters["shade"].reason
 
 
+@pytest.mark.parametrize(("name", "is_behind"), [("near-plane", True), ("single-triangle", False)])
+def test_a_part_behind_the_eye_is_named_where_nothing_is_clipped(name: str, is_behind: bool) -> None:
+    assert ("behind the eye" in chapters_by_stage(name)["clip"].reason) == is_behind
+
+
 @pytest.mark.parametrize("antialiasing", ["none", "msaa-4", "ssaa-4", "area"])
 @pytest.mark.parametrize("more", [{}, {"polygon_mode": "wireframe"}, {"visibility": "painters"}], ids=str)
 def test_the_rail_counts_the_rows(antialiasing: str, more: dict[str, str]) -> None:
