@@ -68,7 +68,7 @@ LOCAL_KEYS = (
     KeyAction(
         "clicker_next",
         ("PgDown", "PgUp"),
-        "Presenting: step forward, back; in a lesson: answer and next step, previous step",
+        "Presenting: step forward, back; in a lesson: show the answer, then the next step; back likewise",
         PRESENTING,
     ),
     *on_page(

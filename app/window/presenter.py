@@ -20,7 +20,7 @@ CLICKER = {
     Qt.Key.Key_Period: "black",
 }
 """What the keys that clickers send do while presenting."""
-IN_LESSONS = {"step_forward": "advance", "step_back": "back"}
+IN_LESSONS = {"step_forward": "advance", "step_back": "retreat"}
 """What the same keys do while a lesson is open, by the names of `LessonPresenter`."""
 PAGES_TO_STEP = ("start", "step")
 """Pages on which F5 is the clicker's: on the others it measures, runs, analyses or checks."""

@@ -104,6 +104,11 @@ class States:
             return None
         return self._opened(merged(self._merged(number), reveal), ("step", number, "reveal"))
 
+    def of_solution(self, number: int) -> State:
+        """Return what the recorded solution of a step leaves; without one, where the step begins."""
+        solution, state = self._lesson.steps[number].solution, self.of_step(number)
+        return state if solution is None else solved(state, solution)
+
     def of_wrong(self, number: int, wrong: int) -> State | None:
         """Return the step that refutes a wrong answer; ``None``: the file names none."""
         part = self._lesson.steps[number].wrong[wrong]

@@ -60,6 +60,7 @@ class LessonView(QWidget):
         self.setAccessibleName("Lesson")
         self._grid = grid
         self._feedback: LessonFeedback | None = None
+        self._is_presenting = self._is_asking = self._has_solution = False
         self._record: LessonStepRecord | None = None
         self.answer: AnswerView | None = None
         self.title = text_label("", self, role="strong", wraps=True)
@@ -78,7 +79,6 @@ class LessonView(QWidget):
         )
         self.back_button = self._button("Back", "Previous step of the lesson (Page Up)", self.back_requested)
         self.next_button = self._button("Next", "Next step of the lesson (Page Down)", self.next_requested)
-        self.next_button.setProperty("role", "primary")
         self.return_button = self._button(
             "Return here",
             "Open this step of the lesson as it was at first (Ctrl+Home)",
@@ -204,11 +204,30 @@ class LessonView(QWidget):
 
     def set_asking(self, is_asking: bool) -> None:
         """Take an answer, or only show what was given."""
+        self._is_asking = is_asking
         self.check_button.setVisible(is_asking)
-        self.reveal_button.setVisible(is_asking)
+        self._show_next_press()
         self.note.setVisible(is_asking)
         if self.answer is not None:
             self.answer.set_open(is_asking)
+
+    def offer_solution(self, is_offered: bool) -> None:
+        """Offer to reveal how the task is done, in front of a class."""
+        self._has_solution = is_offered
+        self._show_next_press()
+
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Fill the button that a clicker presses next, or Next."""
+        self._is_presenting = is_presenting
+        self._show_next_press()
+
+    def _show_next_press(self) -> None:
+        """Show Reveal where there is something to reveal; a clicker presses it before Next."""
+        can_reveal = self._is_asking or (self._has_solution and self._is_presenting)
+        is_next = can_reveal and self._is_presenting
+        self.reveal_button.setVisible(can_reveal)
+        set_role(self.reveal_button, "primary" if is_next else "")
+        set_role(self.next_button, "" if is_next else "primary")
 
     @Slot(str)
     def show_note(self, text: str) -> None:

@@ -196,6 +196,7 @@ class LessonPresenter(QObject):
         from app.pages.step.lesson_walk import LessonWalk
 
         self._walk, self.attempts = walk, attempts = LessonWalk(self._page), LessonAttempts(self)
+        self.set_presenting(self._page.is_presenting)
         attempts.failed.connect(self._page.edit_refused)
         walk.task.left.connect(self._leave)
         walk.begun_in_vain.connect(self._put_away)
@@ -288,8 +289,17 @@ class LessonPresenter(QObject):
         self._do(lambda walk: walk.task.reveal())
 
     def advance(self) -> None:
-        """Go on in front of a class: show the answer of an open question first."""
-        self._do(lambda walk: walk.task.reveal() if walk.answers.is_open else walk.next())
+        """Go on in front of a class: show an answer or a solution first."""
+        self._do(lambda walk: walk.task.reveal() if walk.task.is_unsolved else walk.next())
+
+    def retreat(self) -> None:
+        """Go back in front of a class: hide an answer or a solution first."""
+        self._do(lambda walk: walk.return_here() if walk.task.shows_solution else walk.back())
+
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Show which button a clicker presses, or the desk's own."""
+        if self._walk is not None:
+            self._walk.view.set_presenting(is_presenting)
 
     def begin_anew(self) -> None:
         """Begin the lesson once more: what was done of it counts no longer."""

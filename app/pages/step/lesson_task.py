@@ -30,6 +30,7 @@ DONE = "Done."
 DONE_BEFORE = "You had done it. What is open now no longer does it."
 PEEKED = "You have stepped on. An answer counts as seen now."
 NO_PICTURE = "This question needs no picture."
+ONE_WAY = "This is one way to do it."
 SHOW_ME, REVEAL = "Show me", "Reveal"
 
 
@@ -63,7 +64,7 @@ class LessonTask(QObject):
         self._made: States | None = None
         self._home: OpenState | None = None
         """Where the step began; ``None``: no lesson is open."""
-        self._is_showing = self._has_peeked = self._is_revealed = False
+        self._is_showing = self._has_peeked = self._is_revealed = self._is_done = False
         self.view.reveal_requested.connect(self.reveal)
         self.view.link_chosen.connect(self._take_measured)
         # Queued: it has its place then.
@@ -99,7 +100,7 @@ class LessonTask(QObject):
         self._part, self._number, self._made, self._home = part, number, made, shown
         self.answers.end()
         self._watch.end()
-        self._has_peeked = self._is_revealed = False
+        self._has_peeked = self._is_revealed = self._is_done = False
         if page.predicting.is_active:
             page.set_predicting(False)
         page.tell("")  # What was said of the step before no longer holds.
@@ -113,6 +114,7 @@ class LessonTask(QObject):
         self.scroll.keep_in_sight(None)
         self.view.show_step(record, None if asked is None else asked.question.draft.answer.form)
         self.view.reveal_button.setText(REVEAL)
+        self.view.offer_solution(self._has_solution())
         page.side.let_inspector_give_way(asked is not None and shown.cursor.position == 0)
         if asked is not None:
             self.answers.begin(asked)
@@ -212,6 +214,8 @@ class LessonTask(QObject):
     @Slot()
     def _take_done(self) -> None:
         """Say at once that a task is done."""
+        self._is_done = True
+        self.view.offer_solution(False)
         self._conclude_task(DONE, is_right=True)
 
     @Slot()
@@ -238,9 +242,24 @@ class LessonTask(QObject):
             return False
         return has_refuting_step(judged, step) or bool(mistake_of(judged))
 
+    def _has_solution(self) -> bool:
+        """Return whether there is a task whose recorded solution can be shown."""
+        is_open = not (self._is_done or self._is_revealed)
+        return is_open and self._part is not None and self._part.solution is not None
+
+    @property
+    def is_unsolved(self) -> bool:
+        """Whether an answer is wanted, or a task is still to be done: that can be revealed."""
+        return self.answers.is_open or self._has_solution()
+
+    @property
+    def shows_solution(self) -> bool:
+        """Whether the answer, or the task as it is done, is in sight."""
+        return not self.is_unsolved and (self._is_done or self._is_revealed or self.answers.asked is not None)
+
     @Slot()
     def reveal(self) -> None:
-        """Show what refutes the last answer, where that is offered, or else what is right."""
+        """Show what refutes the last answer, where that is offered, or else what is right, or the solution."""
         if self._has_evidence():
             self._is_revealed = True
             self.standing_changed.emit(Standing.SEEN)
@@ -248,6 +267,20 @@ class LessonTask(QObject):
             self._refute()
         elif self.answers.is_open:
             self._show_right()
+        elif self._has_solution() and self._made is not None:
+            self._is_revealed = True
+            self._watch.end()
+            self.view.offer_solution(False)
+            self.states.want(partial(_solved, self._made, self._number), self._show_solved)
+
+    def _show_solved(self, shown: OpenState) -> None:
+        """Show a task as the recorded solution does it: the step is seen, not done."""
+        assert self._part is not None
+        self._show(shown, is_hidden=False)
+        self.standing_changed.emit(Standing.SEEN)
+        said = filter(None, (ONE_WAY, paragraphs(self._part.after)))
+        self.view.show_feedback(LessonFeedback(tuple(said)))
+        self.ended.emit(0.0, None)
 
     def _refute(self) -> None:
         judged, step, states, home = self.answers.last, self._part, self._made, self._home
@@ -296,6 +329,10 @@ def _revealed(states: States, number: int) -> Wanted:
     state = states.of_reveal(number)
     assert state is not None
     return state, None
+
+
+def _solved(states: States, number: int) -> Wanted:
+    return states.of_solution(number), None
 
 
 def _refuting(states: States, number: int, wrong: int | None) -> Wanted:

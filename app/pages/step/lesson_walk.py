@@ -16,7 +16,7 @@ from lessons.course.catalogue import Course
 from lessons.course.lesson_file import Lesson
 from lessons.course.questions import question_of
 from lessons.course.record import StepPart
-from lessons.course.state import States, solved
+from lessons.course.state import States
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask
 from lessons.run_place import RunPlace
@@ -166,11 +166,9 @@ class LessonWalk(QObject):
             if lesson.steps[number].answer is None:
                 return state, None
             return state, question_with_outline(lesson, number, question_of(lesson, number, states))
-        last, state = lesson.steps[-1], states.of_step(number - 1)
-        if not self._is_last_open() and last.solution is not None:
-            return solved(state, last.solution), None
-        revealed = None if self._is_last_open() else states.of_reveal(number - 1)
-        return revealed or state, None
+        if self._is_last_open():
+            return states.of_step(number - 1), None
+        return states.of_reveal(number - 1) or states.of_solution(number - 1), None
 
     def _is_last_open(self) -> bool:
         """Return whether the last step is neither done nor seen: the end does not give its answer away."""

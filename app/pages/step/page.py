@@ -292,6 +292,7 @@ class StepPage(Page):
         self.column.set_presenting(is_presenting)
         self.side.set_presenting(is_presenting)
         self.columns.set_presenting(is_presenting)
+        self.lessons.set_presenting(is_presenting)
         if not is_presenting:
             self.show_panes(panes)
 

@@ -440,11 +440,18 @@ def test_a_clicker_shows_the_answer_first_and_keeps_nothing(
     settled(window, qtbot)
     assert window.page.main_view().width() >= 640
     assert walk.view.isVisible()
+    buttons = walk.view.reveal_button, walk.view.next_button
+    assert [button.property("role") for button in buttons] == ["primary", ""]
     QTest.keyClick(window, Qt.Key.Key_PageDown)
     settled(window, qtbot)
     assert (walk.number, walk.view.feedback.isVisible()) == (1, True)
-    QTest.keyClick(window, Qt.Key.Key_PageDown)
-    assert settled(window, qtbot).number == 2
+    assert [button.property("role") for button in buttons] == ["", "primary"]
+    QTest.keyClick(window, Qt.Key.Key_PageUp)
+    assert (settled(window, qtbot).number, walk.answers.is_open) == (1, True)
+    for _ in ("the answer", "the next step"):
+        QTest.keyClick(window, Qt.Key.Key_PageDown)
+        settled(window, qtbot)
+    assert walk.number == 2
     QTest.keyClick(window, Qt.Key.Key_PageUp)
     assert settled(window, qtbot).number == 1
     chooser = window.overlays.scenes
@@ -475,6 +482,26 @@ def test_a_clicker_leads_back_from_a_scene_to_the_lesson(
     QTest.keyClick(chooser.field, Qt.Key.Key_F5)
     qtbot.waitUntil(lambda: window.page.lessons.is_open)
     assert settled(window, qtbot).number == 2
+
+
+def test_a_clicker_shows_how_a_task_is_done(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    walk = opened(window, qtbot, tmp_path, 3)
+    scene = window.session.document.scene
+    window.presenter.arrange()
+    assert walk.view.reveal_button.isVisible()
+    QTest.keyClick(window, Qt.Key.Key_PageDown)
+    settled(window, qtbot)
+    shown = window.session.document.scene.clip[0][2]  # type: ignore[union-attr]
+    assert (shown[:2] == 2 * 4.25 / 6 - 1).all()
+    assert (walk.number, walk.standings[3]) == (3, SEEN)
+    assert walk.view.feedback.text() == "This is one way to do it."
+    QTest.keyClick(window, Qt.Key.Key_PageUp)
+    settled(window, qtbot)
+    assert (walk.number, window.session.document.scene) == (3, scene)
+    for _ in ("the solution", "the end"):
+        QTest.keyClick(window, Qt.Key.Key_PageDown)
+        settled(window, qtbot)
+    assert walk.number == 4
 
 
 def test_the_end_keeps_the_last_picture_and_gives_no_answer_away(
