@@ -217,8 +217,10 @@ class LessonView(QWidget):
         self._show_next_press()
 
     def set_presenting(self, is_presenting: bool) -> None:
-        """Fill the button that a clicker presses next, or Next."""
+        """Fill the button that a clicker presses next, or Next; title and place are shown over the picture."""
         self._is_presenting = is_presenting
+        for widget in (self.title, self.place, self.close_button):
+            widget.setVisible(not is_presenting)
         self._show_next_press()
 
     def _show_next_press(self) -> None:

@@ -1,6 +1,6 @@
 """Lessons on the Step page: opening and closing them, what was open before, and what is kept of them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from app.pages.step.page import StepPage
     from lessons.course.catalogue import Course
     from lessons.course.lesson_file import Lesson
+    from widgets.lessons.records import Standing
 
 WAY_BACK, BEGINNING = "lesson/return", "lesson/start"
 """Names of the entries that lead back to the lesson that was open last, and to the start of the one that is open."""
@@ -63,6 +64,8 @@ class LessonPresenter(QObject):
         """Whether what is done is kept for the user."""
         self.last: tuple[Lesson | str, int] | None = None
         """The lesson that was shown last, and its step."""
+        self._shown_before: dict[tuple[str, str], Sequence[Standing]] = {}
+        """How far each lesson is, by its name and the user, since the program was started."""
         self._course: Course | None = None
         """The lessons that can be opened; ``None``: they were not read yet."""
         self._reading = Job(self, expected=(ValueError, OSError))
@@ -137,6 +140,12 @@ class LessonPresenter(QObject):
             return [(BEGINNING, "Start of this lesson"), *listed]
         return listed if self.last is None else [(WAY_BACK, self._back_title(*self.last)), *listed]
 
+    @property
+    def place(self) -> str:
+        """Name of the lesson that is open and which of its steps is shown; empty: none is."""
+        walk = self.walk
+        return "" if walk is None or walk.lesson is None else _place(walk.lesson, walk.number)
+
     def _back_title(self, lesson: "Lesson | str", number: int) -> str:
         """Return what leads back to a lesson's step is called."""
         if isinstance(lesson, str):
@@ -144,9 +153,7 @@ class LessonPresenter(QObject):
             if found is None:
                 return "Back to the lesson"
             lesson = found
-        count = len(lesson.steps)
-        place = f", step {number + 1} of {count}" if 0 <= number < count else ""
-        return f"Back to: {lesson.title}{place}"
+        return f"Back to: {_place(lesson, number)}"
 
     def read(self) -> None:
         """Read the lessons, to be listed, unless they are known."""
@@ -188,7 +195,14 @@ class LessonPresenter(QObject):
         page.side.show_lesson(walk.task.scroll)
         page.column.show_card(False)
         page.timeline.takes_leaps = False
-        walk.begin(found.course, found.lesson, found.step, found.progress.standings)
+        walk.begin(found.course, found.lesson, found.step, self._standings(found))
+
+    def _standings(self, found: _Found) -> "Sequence[Standing]":
+        """Return how far one is with a lesson: in front of a class nothing is kept but what was shown since."""
+        key = found.lesson.name, found.progress.user
+        if self._page.is_presenting and key in self._shown_before:
+            return self._shown_before[key]
+        return found.progress.standings
 
     def _make(self) -> "LessonWalk":
         """Make what shows lessons."""
@@ -222,6 +236,7 @@ class LessonPresenter(QObject):
         walk = self.walk
         if walk is not None and walk.lesson is not None:
             self.last = walk.lesson, walk.number
+            self._shown_before[walk.lesson.name, self.attempts.user] = walk.standings
             self.place_changed.emit()
 
     @Slot()
@@ -314,6 +329,12 @@ class LessonPresenter(QObject):
     def start_over(self) -> None:
         """Go to the first step."""
         self._do(lambda walk: walk.go(walk.first))
+
+
+def _place(lesson: "Lesson", number: int) -> str:
+    """Return a lesson's title and which of its steps a number is; of what comes before or after, the title."""
+    count = len(lesson.steps)
+    return f"{lesson.title}, step {number + 1} of {count}" if 0 <= number < count else lesson.title
 
 
 def _whole_course() -> "Course":

@@ -110,6 +110,7 @@ class StepPage(Page):
         self.shading.comparison_requested.connect(self._compare_scene)
         self.views.refused.connect(self.edit_refused)
         self.lessons = LessonPresenter(self)
+        self.lessons.place_changed.connect(self._follow_lesson)
         self._desk_panes: list[str] | None = None
         """While presenting, the panes that come back after it."""
         self._lay_out()
@@ -203,8 +204,16 @@ class StepPage(Page):
         page.addLayout(row, 1)
         page.addWidget(self.timeline)
 
+    @Slot()
+    def _follow_lesson(self) -> None:
+        """Name the step of the lesson that is shown, or what is open without one."""
+        self._show_place(self.session.moment)
+
     def _show_place(self, moment: Moment) -> None:
-        """Name stage, step and scene; while the user predicts, not how many steps are left."""
+        """Name stage, step and scene, or lesson and step; while predicting, not how many steps are left."""
+        if self.lessons.place:
+            self.place.setText(self.lessons.place)
+            return
         position, count = moment.cursor.position, moment.steps.count
         total = "?" if moment.is_predicting and not moment.is_stage_done else f"{count:,}"
         parts = (stage_of(moment.cursor.stage).short_title, f"step {position:,} of {total}")

@@ -440,6 +440,8 @@ def test_a_clicker_shows_the_answer_first_and_keeps_nothing(
     settled(window, qtbot)
     assert window.page.main_view().width() >= 640
     assert walk.view.isVisible()
+    assert window.page.place.text() == "Whose pixel?, step 2 of 4"
+    assert walk.view.title.isHidden()
     buttons = walk.view.reveal_button, walk.view.next_button
     assert [button.property("role") for button in buttons] == ["primary", ""]
     QTest.keyClick(window, Qt.Key.Key_PageDown)
@@ -469,9 +471,10 @@ def test_a_clicker_shows_the_answer_first_and_keeps_nothing(
 def test_a_clicker_leads_back_from_a_scene_to_the_lesson(
     window: MainWindow, qtbot: QtBot, walk: LessonWalk
 ) -> None:
-    walk.go(2)
-    settled(window, qtbot)
     window.presenter.arrange()
+    for _ in ("the answer", "the next step"):
+        QTest.keyClick(window, Qt.Key.Key_PageDown)
+        settled(window, qtbot)
     window.open_path("cube")
     qtbot.waitUntil(lambda: not window.page.lessons.is_open)
     for _ in ("start of the run", "the list"):
@@ -481,7 +484,7 @@ def test_a_clicker_leads_back_from_a_scene_to_the_lesson(
     assert chooser.list.count() > 20
     QTest.keyClick(chooser.field, Qt.Key.Key_F5)
     qtbot.waitUntil(lambda: window.page.lessons.is_open)
-    assert settled(window, qtbot).number == 2
+    assert (settled(window, qtbot).number, walk.standings[1]) == (2, SEEN)
 
 
 def test_a_clicker_shows_how_a_task_is_done(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
