@@ -1,7 +1,7 @@
 """The pane of a lesson beside the picture: text, task, the form of an answer, what came of it, and where to go next."""
 
-from PySide6.QtCore import QRectF, Qt, Signal, SignalInstance, Slot
-from PySide6.QtGui import QColor, QKeyEvent, QPainter, QPen, QPixmap
+from PySide6.QtCore import Qt, Signal, SignalInstance, Slot
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from core.records.cells import Form
@@ -9,7 +9,7 @@ from widgets.basics.accessible import announce
 from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
 from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import set_role, text_label
-from widgets.basics.marks import Mark, draw_mark, mark_pixmap
+from widgets.basics.marks import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.exercises.answer_forms import make_view
 from widgets.exercises.answer_view import AnswerView
@@ -18,20 +18,6 @@ from widgets.lessons.records import LessonFeedback, LessonStepRecord
 from widgets.lessons.step_dots import StepDots
 
 _MARKS = {True: Mark.RIGHT, False: Mark.WRONG}
-
-
-def task_pixmap(is_done: bool, side: int, ratio: float) -> QPixmap:
-    """Return the box of a task, ticked when it is done."""
-    pixmap = QPixmap(round(side * ratio), round(side * ratio))
-    pixmap.setDevicePixelRatio(ratio)
-    pixmap.fill(Qt.GlobalColor.transparent)
-    with QPainter(pixmap) as painter:
-        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.setPen(QPen(QColor(current_theme().text), 1.4))
-        painter.drawRoundedRect(QRectF(1, 1, side - 2, side - 2), 2, 2)
-        if is_done:
-            draw_mark(painter, Mark.RIGHT, QRectF(2, 2, side - 4, side - 4))
-    return pixmap
 
 
 class LessonView(QWidget):
@@ -256,11 +242,12 @@ class LessonView(QWidget):
     def _follow_theme(self) -> None:
         theme, ratio = current_theme(), self.devicePixelRatioF()
         record = self._record
-        self.task_icon.setVisible(record is not None and bool(record.task))
-        if record is not None and record.task:
-            is_done = record.is_done or (self._feedback is not None and self._feedback.is_right is True)
-            self.task_icon.setPixmap(task_pixmap(is_done, theme.text_px + 3, ratio))
-            self.task_icon.setAccessibleName("done" if is_done else "to do")
+        is_right = self._feedback is not None and self._feedback.is_right is True
+        is_done = record is not None and bool(record.task) and (record.is_done or is_right)
+        self.task_icon.setVisible(is_done)
+        if is_done:
+            self.task_icon.setPixmap(mark_pixmap(Mark.RIGHT, theme.text_px + 4, ratio))
+            self.task_icon.setAccessibleName("done")
         mark = None if self._feedback is None else _MARKS.get(self._feedback.is_right)  # type: ignore[arg-type]
         self._icon.setVisible(mark is not None)
         if mark is not None:
