@@ -15,7 +15,7 @@ from core.explain.steps import load_subjects
 from core.explain.variable_text import VARIABLES
 from core.fragments.barycentric import WAYS
 from core.records.depth_table import DEPTH_TESTS, DepthTable
-from core.records.listing import Listing
+from core.records.listing import Listing, ShaderListing
 from core.records.operation import Operation, Variables
 from core.trace import StageTrace
 from lessons.scenes import make_scene
@@ -101,7 +101,7 @@ def rare_traces() -> Iterator[Trace]:
 
 @cache
 def all_marks() -> tuple[Mark, ...]:
-    """Return what any row of any trace marks."""
+    """Return what any row of any trace marks, but in the source of a shader: there a step names what it sets itself."""
     load_subjects()
     found = {}
     usual = (each for group in traces().values() for each in group)
@@ -110,6 +110,8 @@ def all_marks() -> tuple[Mark, ...]:
             for number, kind in enumerate(stage.steps.kinds):
                 rows = np.flatnonzero(stage.steps.kind == number)
                 for mark in marks_of(stage, kind, rows) if rows.size else ():
+                    if isinstance(mark.listing, ShaderListing):
+                        continue
                     found.setdefault((mark.key, mark.listing.function, mark.line, mark.changed), mark)
     return tuple(found.values())
 
