@@ -34,6 +34,7 @@ class PixelAnswerView(AnswerView):
     def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
         super().__init__(form, grid, parent)
         self._marks: Marks | None = None
+        self._is_open = True
         self._unread: dict[int, str] = {}
         """Why the text of a row means nothing, by the field's number."""
         self.how = text_label(HOW, self, role="muted", wraps=True)
@@ -84,8 +85,10 @@ class PixelAnswerView(AnswerView):
 
     def set_open(self, is_open: bool) -> None:
         """Take marks, or only show them."""
+        self._is_open = is_open
         self._grid.set_paintable(is_open)
         self.clear_button.setEnabled(is_open)
+        self._show()
         self.rows.set_open(is_open)
 
     def release(self) -> None:
@@ -145,7 +148,8 @@ class PixelAnswerView(AnswerView):
     def _show(self, typed: int = -1) -> None:
         """Show the count and the rows; the one that is being ``typed`` and those that mean nothing are left alone."""
         marked, noun = self._grid.marked(), self._form.noun
-        self.count.setText(f"{len(marked)} {noun[:-1] if len(marked) == 1 else noun} marked")
+        said = f"{len(marked)} {noun[:-1] if len(marked) == 1 else noun}"
+        self.count.setText(f"{said} marked" if self._is_open else said)
         if self.rows.isHidden():
             return
         for number in range(self._form.size[1]):
