@@ -174,6 +174,10 @@ def _common_range(a: GridBuffer, b: GridBuffer) -> tuple[float, float] | None:
     return min(a.range[0], b.range[0]), max(a.range[1], b.range[1])
 
 
+DIFFERING = {"covered": "coverage", "passes": "the outcome of the depth test", "z": "depth"}
+"""Words for variables in which two runs can differ first."""
+
+
 def divergence_text(found: "Divergence | None", first: Trace, second: Trace) -> str:
     """Return in words where two runs differ first."""
     from core.study.accuracy.divergence import is_same_schedule
@@ -187,5 +191,8 @@ def divergence_text(found: "Divergence | None", first: Trace, second: Trace) -> 
     if None in found.rows:
         said = f"{'AB'[found.rows.index(None)]} has no step there"
     else:
-        said = f"they differ in {', '.join(name.replace('color', 'colour') for name in found.names)}"
+        words = [
+            DIFFERING.get(name, name.replace("color", "colour").replace("_", " ")) for name in found.names
+        ]
+        said = f"A and B differ in {', '.join(words)}"
     return f"First divergence, at {where}: {said}. Ctrl+[ goes back."

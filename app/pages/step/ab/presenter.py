@@ -39,6 +39,9 @@ EDITED = "B runs an edited listing: the page keeps the method itself, so that bo
 
 OLD = "B is the last version that ran."
 
+CLIPS = ", clips the near plane"
+"""What a run does that needs w > 0, after its name."""
+
 
 class ComparePresenter(QObject):
     """Keeps what B is and its run, and shows both runs while the view is open."""
@@ -167,7 +170,7 @@ class ComparePresenter(QObject):
 
     def begin_anew(self, moment: Moment) -> None:
         """Forget what has no effect in a scene that was opened."""
-        self._goal = None
+        self._goal, self._suggested = None, SideB()
         self._chosen = None if self._chosen is None else self._chosen.opened_beside(moment.document)
 
     def _become(self, b: SideB | None, goal: Callable[[], object] | None = None) -> None:
@@ -265,7 +268,8 @@ class ComparePresenter(QObject):
             self._show()
             return
         if self._choice is None and self.edited.side is None:
-            self._suggested = SideB(first_difference(document, moment.trace, stage))
+            shown = self._suggested.differences
+            self._suggested = SideB(first_difference(document, moment.trace, stage, shown))
         b, other = self._b, self._b.document(document)
         self._view.show_settings(b.shown_settings(document), frozenset(b.differences))
         if (self._choice is None or b.edits) and b.differences:
@@ -413,15 +417,19 @@ class ComparePresenter(QObject):
             self._take(self._second)
 
     @Slot()
-    def go_to_divergence(self, since: str = STAGES[0]) -> None:
-        """Search for the first step that differs, at last in the stages before ``since``, and put both runs there."""
+    def go_to_divergence(self, since: str = "") -> None:
+        """Search for the first step that differs, at last in the stages before ``since``, and put both runs there.
+
+        Empty: since the first stage of the settings that differ. What differs before it only follows from them.
+        """
         from core.study.accuracy.divergence import diverge
 
         if self._second is None:
             self._page.tell(self._refusal if self._is_active else "Show A | B first (Ctrl+D).")
         else:
             first, second = self._moment.trace, self._second
-            self._search.call(partial(diverge, first, second, by_outcome=True, since=since))
+            begin = since or self._b.first_stage
+            self._search.call(partial(diverge, first, second, by_outcome=True, since=begin))
 
     @Slot(object)
     def _land(self, found: "Divergence | None") -> None:
@@ -483,6 +491,15 @@ class ComparePresenter(QObject):
 
     # Showing.
 
+    def _titles(self, moment: Moment) -> tuple[str, str]:
+        """Return A and B in words, with the clipping that only one of them needs."""
+        mine, other = self._b.titles(moment.document)
+        if self._second is None:
+            return mine, other
+        needs = [bool(run.source.geometry.clipping_inserted) for run in (moment.trace, self._second)]
+        clips = [CLIPS if need and needs[0] != needs[1] else "" for need in needs]
+        return mine + clips[0], other + clips[1]
+
     def _show(self) -> None:
         """Show both runs where they are, and their difference."""
         if not self._is_active:
@@ -495,7 +512,7 @@ class ComparePresenter(QObject):
         texts = ("", "") if self._steps is None else (self._steps.text(0), self._steps.text(1))
         sides = [
             Side(name, f"{name}: {title}", text, reason=self._refusal)
-            for name, title, text in zip("AB", self._b.titles(moment.document), texts, strict=True)
+            for name, title, text in zip("AB", self._titles(moment), texts, strict=True)
         ]
         steps: list[Step] = [moment] if second is None else [moment, second]
         wanted = self._buffers.get(moment.cursor.stage, "")

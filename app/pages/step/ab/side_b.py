@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from app.pages.step.scene_outline_presenter import settings_records
 from app.session.document import Document
 from app.session.tracing import QUICK_SECONDS
-from core import Settings, Trace
+from core import STAGES, Settings, Trace
 from core.explain.stage_texts import family_title
 from core.methods import ReplacedName, table
 from core.scene import AnyScene, Scene
@@ -38,8 +38,10 @@ ANYWHERE = (("interpolation", "affine"), ("depth", "z-16"), ("fill", "scanline")
 """What is tried where no method of the stage makes a difference."""
 
 
-def first_difference(document: Document, trace: Trace, stage: str) -> dict[str, str | int]:
-    """Return family and method in which B differs from a document at first.
+def first_difference(
+    document: Document, trace: Trace, stage: str, shown: Mapping[str, str | int]
+) -> dict[str, str | int]:
+    """Return family and method in which B differs from a document at first: what is ``shown``, where that differs.
 
     B can draw the scene, and does something else than the ``trace`` in the stage that is shown, if any method does.
     """
@@ -48,7 +50,7 @@ def first_difference(document: Document, trace: Trace, stage: str) -> dict[str, 
 
     drawn: dict[str, str | int] = {}
     own = [(name, method) for name, of in FAMILIES.items() if of.stage == stage for method in of.classical]
-    for family, method in (*FIRST_CHOICES.get(stage, ()), *own, *ANYWHERE):
+    for family, method in (*shown.items(), *FIRST_CHOICES.get(stage, ()), *own, *ANYWHERE):
         settings = replace(document.settings, **{family: method})  # type: ignore[arg-type]
         other = replace(document, settings=settings)
         if settings == document.settings or no_effect(settings, family, document.scene):
@@ -100,6 +102,13 @@ class SideB:
     """Edited listings that B runs."""
     scenes: tuple[AnyScene, AnyScene] | None = None
     """Where a mistake is in the scene: that of A, beside which B draws the other one."""
+
+    @property
+    def first_stage(self) -> str:
+        """The first stage of the settings that differ; the first of all where something else differs."""
+        stages = [FAMILIES[name].stage for name in self.differences if name in FAMILIES]
+        is_known = stages and len(stages) == len(self.differences) and self.scenes is None
+        return min(stages, key=STAGES.index) if is_known else STAGES[0]
 
     def is_beside(self, document: Document) -> bool:
         """Return whether this is a B for what is open."""

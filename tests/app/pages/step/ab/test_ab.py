@@ -79,7 +79,7 @@ def test_b_hides_other_pixels_where_any_method_of_the_depth_stage_does(
     name: str, expected: dict[str, str]
 ) -> None:
     document = open_document(make_scene(name), name)
-    assert first_difference(document, document.make_trace(document.settings), "depth") == expected
+    assert first_difference(document, document.make_trace(document.settings), "depth", {}) == expected
 
 
 def test_two_depth_formats_are_compared_in_what_both_hold(window: MainWindow) -> None:

@@ -48,6 +48,27 @@ def test_b_is_forgotten_where_it_has_no_effect(window: MainWindow) -> None:
     assert comparing.other.line != window.session.document.settings.line, "it follows the stage"
 
 
+def test_what_b_shows_stays_in_later_stages_where_it_differs(window: MainWindow) -> None:
+    comparing = compared(window, "textured-floor", "interpolate").page.comparing
+    assert comparing.other.interpolation == "affine"
+    window.session.set_stage("resolve", 0)
+    assert (comparing.other.interpolation, comparing.other.antialiasing) == ("affine", "none")
+
+
+def test_a_clipping_that_only_follows_is_named_and_is_no_first_divergence(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    compared(window, "textured-floor", "raster", interpolation="affine")
+    assert (
+        window.page.compare_view.titles[1]
+        .text()
+        .startswith("B: interpolation: Affine (screen-linear), clips the near plane")
+    )
+    with qtbot.waitSignal(window.session.changed):
+        window.run_action("divergence")
+    qtbot.waitUntil(lambda: window.session.cursor.stage == "interpolate")
+
+
 def test_b_is_kept_where_it_has_an_effect(window: MainWindow) -> None:
     comparing = compared(window, "shared-edge", fill="hierarchy", interpolation="affine").page.comparing
     window.session.open(opened("cube"))
