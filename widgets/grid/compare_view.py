@@ -6,7 +6,7 @@ from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QGraphicsOpacityEffect, QLabel, QWidget
+from PySide6.QtWidgets import QBoxLayout, QGraphicsOpacityEffect, QLabel, QSizePolicy, QWidget
 
 from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
@@ -30,6 +30,8 @@ FOLDED_LINES = (3, 3)
 """The same where the difference stands below A and B, with all notes beside it: there they are wider."""
 FOLDED_GAIN = 1.15
 """How many times larger the pictures become at least where the difference is put below A and B."""
+UNLIMITED = (1 << 24) - 1
+"""Height of a label without a limit, as Qt has it."""
 OLD_OPACITY = 0.4
 """Of a picture that is no longer that of what stands there."""
 CODE_LINES = 10
@@ -156,6 +158,7 @@ class CompareView(QWidget):
         for note in self.notes:
             note.setAlignment(Qt.AlignmentFlag.AlignTop)
             self._notes_layout.addWidget(note, 1)
+        self._notes_layout.addStretch(0)
         figure.addWidget(self._notes)
         self._code = QWidget(self.figure)
         code = row_layout(self._code, 8)
@@ -182,6 +185,12 @@ class CompareView(QWidget):
             self._figure_layout.insertWidget(1, self._notes)
         direction = QBoxLayout.Direction.TopToBottom if is_folded else QBoxLayout.Direction.LeftToRight
         self._notes_layout.setDirection(direction)
+        # Beside the difference, notes of any length leave the pictures their size.
+        vertical = QSizePolicy.Policy.Ignored if is_folded else QSizePolicy.Policy.Preferred
+        self._notes.setSizePolicy(QSizePolicy.Policy.Preferred, vertical)
+        for note in self.notes:
+            self._notes_layout.setStretchFactor(note, 0 if is_folded else 1)
+        self._notes_layout.setStretch(len(self.notes), 1 if is_folded else 0)
         self._show_again()
 
     def _gain(self) -> float:
@@ -245,7 +254,7 @@ class CompareView(QWidget):
             _grey(grid, side.is_old)
             # Away from its picture a note names it.
             name = f"{side.name}: " if self.linked.is_folded and side.sentence else ""
-            self._write(note, name + side.sentence, below)
+            self._write(note, name + side.sentence, 0 if self.linked.is_folded else below)
         self._code.setVisible(has_code)
         self._code.setMinimumHeight(CODE_LINES * self.fontMetrics().lineSpacing())
         for view, side in zip(self.listings, sides, strict=False):
@@ -282,10 +291,15 @@ class CompareView(QWidget):
 
     @staticmethod
     def _write(label: QLabel, text: str, lines: int) -> None:
-        """Show a text in the place of some lines: longer and shorter ones do not move the pictures."""
+        """Show a text in the place of some lines: longer and shorter ones do not move the pictures.
+
+        0: of as many as it has, where it stands beside all pictures.
+        """
         label.setText(text)
         label.setToolTip(text)
-        label.setFixedHeight(lines * label.fontMetrics().lineSpacing() + 4)
+        height = lines * label.fontMetrics().lineSpacing() + 4
+        label.setMinimumHeight(height if lines else 0)
+        label.setMaximumHeight(height if lines else UNLIMITED)
 
     @Slot()
     def _show_values(self) -> None:

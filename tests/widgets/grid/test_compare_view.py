@@ -37,3 +37,16 @@ def test_the_difference_stands_below_where_that_makes_the_pictures_larger(
     view.resize(1200, 500)
     qtbot.waitUntil(lambda: len({grid.mapTo(view, grid.rect().topLeft()).y() for grid in view.grids}) == 1)
     assert [note.text() for note in view.notes] == ["of A", "of B", "of D"]
+
+
+def test_long_sentences_are_whole_beside_the_difference_and_leave_the_pictures_their_size(
+    view: CompareView, qtbot: QtBot
+) -> None:
+    view.resize(760, 900)
+    qtbot.waitUntil(lambda: min(sizes(view))[0] > 300)
+    before = sizes(view)
+    long = "Pixel (8, 3) is drawn, since its centre lies at the second end of the segment. " * 3
+    buffer = GridBuffer("depth", np.zeros((48, 64)))
+    view.show_sides(*(Side(name, name, sentence=long, buffer=buffer) for name in ("A", "B", "D")))
+    qtbot.waitUntil(lambda: all(note.height() >= note.heightForWidth(note.width()) for note in view.notes))
+    assert sizes(view) == before
