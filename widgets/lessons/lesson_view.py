@@ -96,7 +96,7 @@ class LessonView(QWidget):
         result.addWidget(self.feedback, 1)
         checks, ways = row_layout(spacing=8), FlowLayout(spacing=8)
         for button in (self.check_button, self.reveal_button):
-            checks.addWidget(button, 0, Qt.AlignmentFlag.AlignTop)
+            checks.addWidget(button, 0, Qt.AlignmentFlag.AlignTop | Qt.AlignmentFlag.AlignLeft)
         # Beside the buttons: what is typed must not move them.
         checks.addWidget(self.note, 1)
         for widget in (self.back_button, self.next_button, self.return_button, self.dots):
@@ -207,6 +207,7 @@ class LessonView(QWidget):
         self._is_presenting = is_presenting
         for widget in (self.title, self.place, self.close_button):
             widget.setVisible(not is_presenting)
+        self._show_return()
         self._show_next_press()
 
     def _show_next_press(self) -> None:
@@ -237,6 +238,11 @@ class LessonView(QWidget):
     def show_away(self, is_away: bool) -> None:
         """Offer to return where the learner has left the state of the step."""
         self.return_button.setEnabled(is_away)
+        self._show_return()
+
+    def _show_return(self) -> None:
+        """Leave out a button that does nothing where there is little room: Page Up returns, too."""
+        self.return_button.setVisible(self.return_button.isEnabled() or not self._is_presenting)
 
     @Slot()
     def _follow_theme(self) -> None:
