@@ -5,7 +5,7 @@ import os
 import sys
 from pathlib import Path
 
-from app.cli.screenshot import window_size_from_text
+from app.cli.screenshot import add_window_look
 from app.cli.window import load_qt
 from app.files.file_writing import make_folder
 from lessons.course.lesson_file import Lesson
@@ -20,19 +20,7 @@ def add_parser(parsers: "argparse._SubParsersAction[argparse.ArgumentParser]") -
     parser.add_argument(
         "-o", "--output", metavar="DIR", help="folder of the pictures; left out: none are made"
     )
-    parser.add_argument(
-        "--size",
-        metavar="WxH",
-        type=window_size_from_text,
-        default=(1280, 800),
-        help="of the window (1280x800)",
-    )
-    parser.add_argument(
-        "--theme",
-        choices=("light", "dark", "presenter", "presenter-dark"),
-        default="light",
-        help="theme of the window (light)",
-    )
+    add_window_look(parser)
     parser.add_argument("--wrong", action="store_true", help="give the wrong answers, too")
 
 

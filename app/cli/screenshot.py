@@ -59,10 +59,8 @@ def window_size_from_text(text: str) -> tuple[int, int]:
     return size
 
 
-def add_arguments(parser: argparse.ArgumentParser) -> None:
-    """Say what the command takes."""
-    add_file(parser)
-    parser.add_argument("-o", "--output", metavar="out.png", required=True, help="PNG, SVG or PDF file")
+def add_window_look(parser: argparse.ArgumentParser) -> None:
+    """Let a command that draws the window take its size and theme."""
     parser.add_argument(
         "--size",
         metavar="WxH",
@@ -76,6 +74,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         default="light",
         help="theme of the window (light); those of the presenter fill it with the picture and the step",
     )
+
+
+def add_arguments(parser: argparse.ArgumentParser) -> None:
+    """Say what the command takes."""
+    add_file(parser)
+    parser.add_argument("-o", "--output", metavar="out.png", required=True, help="PNG, SVG or PDF file")
+    add_window_look(parser)
     parser.add_argument("--stage", choices=STAGES, metavar="NAME", help=f"stage to show: {', '.join(STAGES)}")
     parser.add_argument(
         "--step",

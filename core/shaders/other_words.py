@@ -1,30 +1,20 @@
 """Words that GLSL reserves, and those of other languages and versions: what is said of them."""
 
+from core.shaders.function_names import OTHER_FUNCTIONS
 from core.shaders.glsl_types import TYPES
 
 OTHER_WORDS = {
+    **OTHER_FUNCTIONS,
     "gl_FragColor": "GLSL ES 3.00 has no gl_FragColor: declare out vec4 outColor; and write to it",
     "gl_FragDepth": "gl_FragDepth is not supported here: the depth is the triangle's",
     "gl_PointSize": "gl_PointSize is not supported here: points are drawn by the method of the family line",
     "varying": "GLSL ES 3.00 has no varying: write out in the vertex shader and in in the fragment shader",
     "attribute": "GLSL ES 3.00 has no attribute: write in",
-    "texture2D": "GLSL ES 3.00 has no texture2D: write texture",
-    "texture2DLod": "GLSL ES 3.00 has no texture2DLod: write texture",
     "float2": "a vector of GLSL is vec2",
     "float3": "a vector of GLSL is vec3",
     "float4": "a vector of GLSL is vec4",
     "double": "GLSL ES has no double: write float",
     "string": "GLSL has no texts",
-    "saturate": "GLSL has no saturate: write clamp(x, 0.0, 1.0)",
-    "lerp": "GLSL calls it mix",
-    "frac": "GLSL calls it fract",
-    "fmod": "GLSL calls it mod",
-    "rsqrt": "GLSL calls it inversesqrt",
-    "ddx": "GLSL calls it dFdx",
-    "ddy": "GLSL calls it dFdy",
-    "tex2D": "GLSL calls it texture",
-    "mul": "write a * b for matrices and vectors",
-    "printf": "a shader cannot print: click a variable to see it as a buffer",
 }
 """Of names that other versions and languages have."""
 OTHER_TYPES = {
