@@ -252,7 +252,8 @@ class LessonView(QWidget):
         is_done = record is not None and bool(record.task) and (record.is_done or is_right)
         self.task_icon.setVisible(is_done)
         if is_done:
-            self.task_icon.setPixmap(mark_pixmap(Mark.RIGHT, theme.text_px + 4, ratio))
+            # No higher than the line beside it, or the buttons below would move.
+            self.task_icon.setPixmap(mark_pixmap(Mark.RIGHT, theme.text_px, ratio))
             self.task_icon.setAccessibleName("done")
         mark = None if self._feedback is None else _MARKS.get(self._feedback.is_right)  # type: ignore[arg-type]
         self._icon.setVisible(mark is not None)
