@@ -133,6 +133,7 @@ class LessonTask(QObject):
         self.states.forget()
         self.answers.end()
         self._watch.end()
+        self._page.main_area.gives_room = False
         self._page.main_area.show_asked(None)
         self._page.column.fold_listing(False)
         self._session.set_asked("", is_open=False, by="lesson")
@@ -145,6 +146,7 @@ class LessonTask(QObject):
         self._is_showing = True
         digest = scene_digest(shown.document.scene) if is_hidden else ""
         self._session.set_asked(digest, is_open=is_hidden, by="lesson")
+        self._page.main_area.gives_room = is_hidden
         self.states.show(shown, is_hidden=is_hidden)
         self._is_showing = False
         self._show_away()

@@ -71,6 +71,8 @@ class MainArea(QWidget):
         self.beside = QStackedWidget(self)
         for companion in self.companions.values():
             self.beside.addWidget(companion.widget)
+        self.gives_room = False
+        """Whether the main view takes the place of the other side while that is hidden."""
         self._veil = text_label("Hidden while you predict.", self.beside, role="muted")
         self._veil.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.beside.addWidget(self._veil)
@@ -214,7 +216,7 @@ class MainArea(QWidget):
 
     @Slot()
     def _show_beside(self) -> None:
-        if not self._has_two_sides():
+        if not self._has_two_sides() or (self._moment.is_predicting and self.gives_room):
             self.beside.hide()
             self._main_title.hide()
             return

@@ -507,6 +507,17 @@ def test_a_clicker_shows_how_a_task_is_done(window: MainWindow, qtbot: QtBot, tm
     assert walk.number == 4
 
 
+def test_the_picture_has_the_place_of_what_a_question_hides(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.lessons.open("two-walls", 1)
+    walk = settled(window, qtbot)
+    before = window.page.grid.height()
+    assert window.page.main_area.beside.isHidden()
+    walk.task.reveal()
+    settled(window, qtbot)
+    assert not window.page.main_area.beside.isHidden()
+    assert window.page.grid.height() < before
+
+
 def test_the_end_keeps_the_last_picture_and_gives_no_answer_away(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
