@@ -173,8 +173,10 @@ class LessonTask(QObject):
             page.take_focus()
 
     def _show_away(self) -> None:
-        """Say whether the learner has left where the step began."""
+        """Say whether the learner has left where the step began, and show a step where there is one."""
         home, session = self._home, self._session
+        shows_listing = home is not None and "listing" in home.state.panes
+        self._page.side.set_idle(session.cursor.position == 0 and not shows_listing)
         is_there = home is not None and session.document is home.document and session.cursor == home.cursor
         self.view.show_away(not is_there)
 

@@ -20,7 +20,7 @@ class SideColumn(QWidget):
         super().__init__(parent)
         self._inspector = inspector
         self._lesson: LessonScroll | None = None
-        self._gives_way = self._is_presenting = False
+        self._gives_way = self._is_idle = self._is_presenting = False
         self._layout = column_layout(self, 4)
         self._below = QWidget(self)
         column_layout(self._below).addWidget(inspector)
@@ -44,6 +44,12 @@ class SideColumn(QWidget):
         """Leave the inspector out where the lesson needs the room: nothing has been stepped that it could show."""
         self._gives_way = gives_way
         self._divide()
+
+    def set_idle(self, is_idle: bool) -> None:
+        """Leave the inspector out of a lesson: no step has been done that it could show."""
+        if is_idle != self._is_idle:
+            self._is_idle = is_idle
+            self._divide()
 
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave the inspector out wherever the lesson needs the room: a class does not scroll."""
@@ -73,7 +79,8 @@ class SideColumn(QWidget):
             whole, formula = self._inspector.step_heights()
             is_alone, has_room = room < whole, room >= formula
         gives_way = self._gives_way or self._is_presenting
-        is_inspected = not self._inspector.isHidden() and (has_room or not gives_way)
+        is_wanted = not (self._inspector.isHidden() or self._is_idle)
+        is_inspected = is_wanted and (has_room or not gives_way)
         self._inspector.show_formula_alone(is_alone and has_room)
         self._below.setVisible(is_inspected)
         most = (

@@ -518,6 +518,16 @@ def test_the_picture_has_the_place_of_what_a_question_hides(window: MainWindow, 
     assert window.page.grid.height() < before
 
 
+def test_a_lesson_shows_the_inspector_from_the_first_step_on(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    opened(window, qtbot, tmp_path, 2)
+    window.session.go_to(0)
+    assert not window.page.column.isVisible()
+    window.session.go_to(1)
+    assert window.page.column.isVisible()
+
+
 def test_the_end_keeps_the_last_picture_and_gives_no_answer_away(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
