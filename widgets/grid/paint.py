@@ -1,5 +1,6 @@
 """How the cells of a pixel grid are painted: colour, then lines, centres, numbers as zoom grows."""
 
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -336,8 +337,13 @@ def rulers_of(placement: GridPlacement, area: QRect, theme: Theme) -> Rulers:
     """Return the column numbers below and the row numbers left of the raster, as many as have room."""
     labels = ruler_labels(placement, area, theme)
     beside = QRegion(placement.viewport)
-    for box, _ in labels:
-        beside -= QRegion(box.toAlignedRect())
+    picture = placement.cells_rect(0, 0, placement.columns, placement.rows)
+    for is_below in (True, False):
+        boxes = [box for box, _ in labels if (box.top() >= picture.bottom()) is is_below]
+        # One gap for a whole ruler: a line is not broken at each of its numbers.
+        strip = reduce(QRectF.united, boxes, QRectF())
+        for box in boxes if strip.intersects(picture) else [strip]:
+            beside -= QRegion(box.toAlignedRect())
     return Rulers(labels, beside)
 
 
