@@ -9,7 +9,7 @@ from app.help.markup import HelpPage, bullets, link, linked
 from app.help.places import occurrences
 from app.help.reference import family_page, method_page, methods_page
 from app.window.actions import ACTIONS
-from app.window.keys import key_text
+from app.window.keys import LOCAL_KEYS, key_text
 from core.methods import table
 from core.settings import FAMILIES
 from lessons.glossary import Term, find_terms, glossary
@@ -160,8 +160,11 @@ def _found(words: list[str]) -> Iterator[tuple[int, str]]:
                 row = f"{link(f'help:step/{name}/{number}', step.title)}: {guide_title}, step {number}"
                 yield (2 if holds(step.title) else 4), row
     for action in ACTIONS:
-        if action.keys and holds(action.title):
+        if action.keys and holds(f"{action.title} {key_text(action)}"):
             yield 2, f"{link(f'do:action/{action.name}', action.title)}: {escape(key_text(action))}"
+    for key in LOCAL_KEYS:
+        if holds(f"{key.title} {key.group} {key.name.replace('_', ' ')} {key_text(key)}"):
+            yield 2, f"{escape(key.title)}: {escape(key_text(key))}"
 
 
 def _capital(text: str) -> str:

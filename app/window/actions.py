@@ -35,7 +35,7 @@ from app.window.keys import (
 from app.window.parts import WindowParts
 from app.window.presenter import Presenter
 from app.window.remembering import Remembering
-from app.window.scene_groups import next_entry, scene_groups
+from app.window.scene_groups import next_entry, scene_groups, scenes_about
 from core.scene import ClipScene
 from core.stages.declared import STAGES, stage_of
 
@@ -263,7 +263,7 @@ def _choose_scene(w: ActionWindow) -> None:
     groups = scene_groups(w.files.states(), w.memory.preferences.recent_files, lessons.listed())
     begins_at_lesson = lessons.last is not None and not lessons.is_open
     first = WAY_BACK if begins_at_lesson else next_entry(groups, lessons.path or w.files.shown)
-    w.overlays.choose_scene(groups, first)
+    w.overlays.choose_scene(groups, first, {**scenes_about(), **lessons.about()})
 
 
 def _fit_to_triangle(w: ActionWindow) -> None:

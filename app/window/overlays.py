@@ -80,9 +80,11 @@ class Overlays(QObject):
         self.place()
         self.keys.editor.raise_()
 
-    def choose_scene(self, groups: Mapping[str, Sequence[Entry]], first: str) -> None:
-        """Offer what can be opened, beginning at the entry ``first``."""
-        self.scenes.ask(groups, first)
+    def choose_scene(
+        self, groups: Mapping[str, Sequence[Entry]], first: str, about: Mapping[str, str]
+    ) -> None:
+        """Offer what can be opened, beginning at the entry ``first``; ``about``: more to find entries by."""
+        self.scenes.ask(groups, first, about)
         self.place()
 
     def ask_pixel(self) -> None:

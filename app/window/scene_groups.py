@@ -28,6 +28,12 @@ def scene_groups(
     return {"Lessons": [*lessons], **groups} if lessons else groups
 
 
+def scenes_about() -> dict[str, str]:
+    """Return what each built-in scene is about, by its name."""
+    scenes = [*CATALOGUE, *(scene for of in LECTURE_SCENES.values() for scene in of)]
+    return {scene.name: scene.description for scene in scenes}
+
+
 def _files(paths: Iterable[str]) -> list[Entry]:
     return [(path, shown_name(Path(path).name)) for path in paths]
 

@@ -34,6 +34,7 @@ class QuickChooser(QWidget):
         self.setProperty("role", "panel")
         self.setAccessibleName(title)
         self._groups: Mapping[str, Sequence[Entry]] = {}
+        self._about: Mapping[str, str] = {}
         self.field = QLineEdit(self)
         self.field.setPlaceholderText("Type a part of the name")
         self.field.setAccessibleName(title)
@@ -60,9 +61,12 @@ class QuickChooser(QWidget):
         theme_notifier().theme_changed.connect(self._narrow)
         self.hide()
 
-    def ask(self, groups: Mapping[str, Sequence[Entry]], first: str) -> None:
-        """Show entries by their headings, take the keyboard, and begin at the entry named ``first``."""
-        self._groups = groups
+    def ask(self, groups: Mapping[str, Sequence[Entry]], first: str, about: Mapping[str, str]) -> None:
+        """Show entries by their headings, take the keyboard, and begin at the entry named ``first``.
+
+        ``about``: what an entry is about, by its name; typed words find it there, too.
+        """
+        self._groups, self._about = groups, about
         self.field.clear()
         self._fill()
         self.show()
@@ -122,7 +126,7 @@ class QuickChooser(QWidget):
 
     @Slot()
     def _narrow(self) -> None:
-        """Leave the entries that have all typed words in their title, name or heading."""
+        """Leave the entries that have all typed words in their title, name, heading or what they are about."""
         if self.isVisible():
             self._fill()
             self._go_to(self._next_row(-1, 1))
@@ -131,11 +135,18 @@ class QuickChooser(QWidget):
         words = self.field.text().casefold().split()
         self.list.clear()
         for heading, entries in self._groups.items():
-            left = [e for e in entries if all(w in f"{heading} {e[0]} {e[1]}".casefold() for w in words)]
+            left = [e for e in entries if all(word in self._said(heading, *e) for word in words)]
             if left:
                 self._add(heading, "")
             for name, title in left:
                 self._add(title, name)
+        if not self.list.count():
+            self._add(f"Nothing here is about “{self.field.text()}”.", "")
+            announce(self.list, self.list.item(0).text())
+
+    def _said(self, heading: str, name: str, title: str) -> str:
+        """Return what typed words are sought in."""
+        return f"{heading} {name} {title} {self._about.get(name, '')}".casefold()
 
     def _add(self, text: str, name: str) -> None:
         item = QListWidgetItem(text, self.list)

@@ -140,6 +140,14 @@ class LessonPresenter(QObject):
             return [(BEGINNING, "Start of this lesson"), *listed]
         return listed if self.last is None else [(WAY_BACK, self._back_title(*self.last)), *listed]
 
+    def about(self) -> dict[str, str]:
+        """Return the texts of the lessons that were read, by the names of their entries."""
+        lessons = () if self._course is None else self._course.lessons.values()
+        return {
+            str(lesson.path): " ".join([lesson.question, *(step.text for step in lesson.steps)])
+            for lesson in lessons
+        }
+
     @property
     def place(self) -> str:
         """Name of the lesson that is open and which of its steps is shown; empty: none is."""

@@ -131,6 +131,8 @@ def test_a_method_links_its_exercises_its_slides_and_scenes() -> None:
 
 def test_a_search_for_nothing_known_says_so() -> None:
     assert "Nothing was found" in find_page("zzz").html
+    for query in ("clicker", "Page Down", "black screen"):
+        assert "Presenting: " in find_page(query).html
 
 
 def test_the_guide_names_keys_not_actions() -> None:

@@ -106,6 +106,16 @@ def test_states_of_a_folder_follow_each_other(window: MainWindow, qtbot: QtBot, 
     assert window.presenter.hint.text() == f"There is no next state in {tmp_path.name}."
 
 
+def test_what_an_entry_is_about_finds_it_and_nothing_is_said(window: MainWindow) -> None:
+    window.run_action("choose_scene")
+    chooser = window.overlays.scenes
+    QTest.keyClicks(chooser.field, "affine")
+    assert chooser.current()
+    QTest.keyClicks(chooser.field, "zzz")
+    assert (chooser.current(), chooser.list.item(0).text()) == ("", "Nothing here is about “affinezzz”.")
+    window.overlays.close_top()
+
+
 def test_f5_measures_on_compare(window: MainWindow) -> None:
     window.pages.show_page("compare")
     present(window, (1280, 720))
