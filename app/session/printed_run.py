@@ -19,6 +19,19 @@ def runnable() -> tuple[PrintedListing, ...]:
     return tuple(printed for printed in PRINTED if printed.method is not None or printed.registered)
 
 
+def runnable_on(document: Document) -> tuple[PrintedListing, ...]:
+    """Return those of them that run on the scene of a document."""
+
+    def runs(printed: PrintedListing) -> bool:
+        try:
+            settings_of(printed.name, document)
+        except ValueError:
+            return False
+        return True
+
+    return tuple(filter(runs, runnable()))
+
+
 def title_of(name: str) -> str:
     """Return what B is called while it runs a listing."""
     printed = printed_listing(name)

@@ -35,7 +35,7 @@ from app.window.keys import (
 from app.window.parts import WindowParts
 from app.window.presenter import Presenter
 from app.window.remembering import Remembering
-from app.window.scene_groups import next_entry, scene_groups, scenes_about
+from app.window.scene_groups import next_entry, printed_group, scene_groups, scenes_about
 from core.scene import ClipScene
 from core.stages.declared import STAGES, stage_of
 
@@ -258,9 +258,10 @@ def _end_message(w: ActionWindow) -> bool:
 
 
 def _choose_scene(w: ActionWindow) -> None:
-    """Offer the way back to a lesson, lessons, states, recent files and scenes; the next one is at hand."""
+    """Offer the way back to a lesson, lessons, states, files, scenes and printed listings; the next one is at hand."""
     lessons = w.page.lessons
     groups = scene_groups(w.files.states(), w.memory.preferences.recent_files, lessons.listed())
+    groups |= printed_group(w.session.document)
     begins_at_lesson = lessons.last is not None and not lessons.is_open
     first = WAY_BACK if begins_at_lesson else next_entry(groups, lessons.path or w.files.shown)
     w.overlays.choose_scene(groups, first, {**scenes_about(), **lessons.about()})

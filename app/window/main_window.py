@@ -32,6 +32,7 @@ from app.window.notices import Notices
 from app.window.overlays import Overlays
 from app.window.presenter import Presenter
 from app.window.remembering import Remembering
+from app.window.scene_groups import AS_PRINTED
 from core.records.sentences import sentences
 from widgets.basics.accessible import install_roles
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
@@ -136,7 +137,7 @@ class MainWindow(ActionWindow):
         self.overlays.triangle_requested.connect(self.edits.focus_triangle)
         self.edits.edit_pointless.connect(self._tell_pointless)
         self.files.path_chosen.connect(self.open_path)
-        self.overlays.scenes.chosen.connect(self.open_path)
+        self.overlays.scenes.chosen.connect(self._open_listed)
         self.overlays.scenes.other_wanted.connect(self.files.ask_file)
         self.files.message_sent.connect(notices.show_message)
         self.exports.message_sent.connect(notices.show_message)
@@ -390,7 +391,7 @@ class MainWindow(ActionWindow):
         ``allows_outside``: files that it names may be read from outside its folder.
         """
         name = page_of_file(path)
-        if path in (WAY_BACK, BEGINNING) or is_lesson_file(path):
+        if is_lesson_file(path):
             self.pages.show_page("step")
             self.page.lessons.open_path(path)
         elif name:
@@ -398,6 +399,17 @@ class MainWindow(ActionWindow):
             self.pages.current.open_path(path)
         else:
             self.files.open_path(path, allows_outside)
+
+    @Slot(str)
+    def _open_listed(self, name: str) -> None:
+        """Open an entry of the list: a place in a lesson, a printed listing, or what else has a path or a name."""
+        if name in (WAY_BACK, BEGINNING):
+            self.pages.show_page("step")
+            self.page.lessons.open_path(name)
+        elif name.startswith(AS_PRINTED):
+            self.show_printed(name.removeprefix(AS_PRINTED))
+        else:
+            self.open_path(name)
 
     def open_first(self, path: str, allows_outside: bool, shows_start: bool) -> None:
         """Open what the program was started with; ``shows_start``: the start page where that cannot be opened."""

@@ -5,9 +5,12 @@ from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from app.files.file_names import shown_name
+from app.session.document import Document
 from lessons.scenes import CATALOGUE, BuiltInScene
 from lessons.slides.scenes import LECTURE_SCENES, LECTURES
 
+AS_PRINTED = "printed/"
+"""What the names of entries begin with that show a listing as a slide prints it."""
 Entry = tuple[str, str]
 """What is opened, and its title."""
 
@@ -26,6 +29,14 @@ def scene_groups(
         titled = [(path, shown_name(Path(path).stem)) for path in states]
         groups = {f"States in {shown_name(Path(states[0]).parent.name)}": titled, **groups}
     return {"Lessons": [*lessons], **groups} if lessons else groups
+
+
+def printed_group(document: Document) -> dict[str, list[Entry]]:
+    """Return the listings as slides print them that run on the open scene, under one heading; empty: none does."""
+    from app.session.printed_run import runnable_on  # Wanted by few, long after the start.
+
+    entries = [(f"{AS_PRINTED}{it.name}", f"{it.lecture}: {it.title}") for it in runnable_on(document)]
+    return {"As printed, beside the right method": entries} if entries else {}
 
 
 def scenes_about() -> dict[str, str]:

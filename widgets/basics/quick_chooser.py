@@ -128,10 +128,11 @@ class QuickChooser(QWidget):
     def _narrow(self) -> None:
         """Leave the entries that have all typed words in their title, name, heading or what they are about."""
         if self.isVisible():
-            self._fill()
-            self._go_to(self._next_row(-1, 1))
+            self._go_to(max(self._fill(), self._next_row(-1, 1)))
 
-    def _fill(self) -> None:
+    def _fill(self) -> int:
+        """Show the entries that are left; return the row of the first that is named by the words, or -1."""
+        named = -1
         words = self.field.text().casefold().split()
         self.list.clear()
         for heading, entries in self._groups.items():
@@ -140,9 +141,13 @@ class QuickChooser(QWidget):
                 self._add(heading, "")
             for name, title in left:
                 self._add(title, name)
+                is_named = all(word in f"{heading} {name} {title}".casefold() for word in words)
+                if named < 0 and is_named:
+                    named = self.list.count() - 1
         if not self.list.count():
             self._add(f"Nothing here is about “{self.field.text()}”.", "")
             announce(self.list, self.list.item(0).text())
+        return named
 
     def _said(self, heading: str, name: str, title: str) -> str:
         """Return what typed words are sought in."""

@@ -116,6 +116,18 @@ def test_what_an_entry_is_about_finds_it_and_nothing_is_said(window: MainWindow)
     window.overlays.close_top()
 
 
+def test_a_printed_listing_is_shown_without_the_menu(window: MainWindow, qtbot: QtBot) -> None:
+    window.open_path("pellacini-line")
+    qtbot.waitUntil(lambda: window.session.document.scene.corner_count == 2)
+    present(window, (1280, 720))
+    window.run_action("choose_scene")
+    chooser = window.overlays.scenes
+    QTest.keyClicks(chooser.field, "printed bresenham")
+    QTest.keyClick(chooser.field, Qt.Key.Key_Return)
+    assert window.page.current_view() == "compare"
+    assert window.page.comparing.printed
+
+
 def test_f5_measures_on_compare(window: MainWindow) -> None:
     window.pages.show_page("compare")
     present(window, (1280, 720))
