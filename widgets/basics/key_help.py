@@ -120,10 +120,16 @@ class KeyHelp(QWidget):
 
     def _key_width(self, entries: Sequence[KeyEntry]) -> int:
         """Return one width for the keys of a column, so that what they do lines up."""
-        metrics = self.fontMetrics()
-        rows = [entry.keys.split(", ") for entry in entries]
-        widths = [sum(metrics.horizontalAdvance(key) + 16 for key in row) for row in rows]
-        return min(max(widths, default=0), round(_MOST_KEYS * current_theme().text_px / 13))
+        cap = text_label("", self, role="key")
+        cap.ensurePolished()
+        metrics, border, spacing = cap.fontMetrics(), cap.sizeHint().width() + 2, 4
+        cap.deleteLater()
+        rows = [
+            [metrics.horizontalAdvance(key) + border for key in entry.keys.split(", ")] for entry in entries
+        ]
+        whole = max((sum(row) + spacing * (len(row) - 1) for row in rows), default=0)
+        widest = max((width for row in rows for width in row), default=0)
+        return max(widest, min(whole, round(_MOST_KEYS * current_theme().text_px / 13)))
 
     @Slot()
     def _narrow(self) -> None:

@@ -87,3 +87,15 @@ def test_many_keys_of_one_entry_leave_room_for_what_they_do(page) -> None:
     assert right < text.mapTo(page, text.rect().topLeft()).x()
     assert text.width() > 140
     assert cap.parentWidget().height() >= cap.geometry().bottom()
+
+
+def test_keys_are_shown_whole(qtbot) -> None:
+    page = KeyHelp()
+    qtbot.addWidget(page)
+    page.setStyleSheet('QLabel[role="key"] { padding: 1px 12px; }')
+    page.show_keys([KeyEntry("View", "Ctrl+Shift+P", "Presenter")])
+    page.resize(900, 300)
+    page.show()
+    cap = next(label for label in page.findChildren(QLabel) if label.text() == "Ctrl+Shift+P")
+    qtbot.waitUntil(cap.isVisible)
+    assert cap.x() + cap.sizeHint().width() <= cap.parentWidget().width()
