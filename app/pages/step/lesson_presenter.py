@@ -265,7 +265,12 @@ class LessonPresenter(QObject):
             self._page.grids.show_look(desk.state.look.grid)
             if desk.state.look.panes is not None:
                 self._page.show_desk_panes(desk.state.look.panes)
-            self._page.tell("The lesson is closed. Ctrl+Home opens it again at this step.")
+            key = (
+                "F5 lists it at the top."
+                if self._page.is_presenting
+                else "Ctrl+Home opens it again at this step."
+            )
+            self._page.tell(f"The lesson is closed. {key}")
             self.place_changed.emit()
 
     @Slot()
