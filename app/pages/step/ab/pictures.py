@@ -174,7 +174,14 @@ def _common_range(a: GridBuffer, b: GridBuffer) -> tuple[float, float] | None:
     return min(a.range[0], b.range[0]), max(a.range[1], b.range[1])
 
 
-DIFFERING = {"covered": "coverage", "passes": "the outcome of the depth test", "z": "depth"}
+DIFFERING = {
+    "covered": "coverage",
+    "values": "the interpolated values",
+    "passes": "the result of the depth test",
+    "stored": "the stored depth",
+    "after": "the colour after blending",
+    "bytes": "the displayed bytes",
+}
 """Words for variables in which two runs can differ first."""
 
 

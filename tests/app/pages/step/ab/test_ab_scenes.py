@@ -67,6 +67,7 @@ def test_a_clipping_that_only_follows_is_named_and_is_no_first_divergence(
     with qtbot.waitSignal(window.session.changed):
         window.run_action("divergence")
     qtbot.waitUntil(lambda: window.session.cursor.stage == "interpolate")
+    assert "A and B differ in the interpolated values." in window.statusBar().currentMessage()
 
 
 def test_b_is_kept_where_it_has_an_effect(window: MainWindow) -> None:
