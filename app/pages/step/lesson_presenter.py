@@ -70,6 +70,7 @@ class LessonPresenter(QObject):
         """The lessons that can be opened; ``None``: they were not read yet."""
         self._reading = Job(self, expected=(ValueError, OSError))
         self._reading.succeeded.connect(self._list)
+        self._reading.failed.connect(self._refuse_list)
         self._job = Job(self, expected=(ValueError, OSError, MemoryError))
         self._job.succeeded.connect(self._begin)
         self._job.failed.connect(self._refuse)
@@ -167,6 +168,10 @@ class LessonPresenter(QObject):
         """Read the lessons, to be listed, unless they are known."""
         if self._course is None:
             self._reading.call(_whole_course)
+
+    @Slot(object)
+    def _refuse_list(self, error: Exception) -> None:
+        self._page.refuse(f"The lessons cannot be listed: {error}.")
 
     @Slot(object)
     def _list(self, course: "Course") -> None:
