@@ -41,7 +41,7 @@ class ListingEditor(CodeView):
         """Whether the text is being set by the program."""
         self._is_new = True
         """Whether a pause came before what is typed next."""
-        self._highlighter = _Highlighter(self.document())
+        self._highlighter = TokenHighlighter(self.document())
         self._pause = QTimer(self)
         self._pause.setSingleShot(True)
         self._pause.setInterval(PAUSE_MS)
@@ -232,7 +232,7 @@ class ListingEditor(CodeView):
         self._highlighter.rehighlight()
 
 
-class _Highlighter(QSyntaxHighlighter):
+class TokenHighlighter(QSyntaxHighlighter):
     """Colours the tokens of what is typed; the editor's undo knows nothing of it."""
 
     def __init__(self, document: QTextDocument) -> None:

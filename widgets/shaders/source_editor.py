@@ -5,7 +5,7 @@ from PySide6.QtGui import QColor, QFontDatabase, QKeyEvent, QTextCharFormat, QTe
 from PySide6.QtWidgets import QFrame, QPlainTextEdit, QTextEdit, QWidget
 
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.inspector.listing_looks import color_tokens
+from widgets.inspector.listing_editor import TokenHighlighter
 
 PAUSE_MS = 150
 """After this long without a key what was typed is read."""
@@ -23,14 +23,14 @@ class SourceEditor(QPlainTextEdit):
     def __init__(self, name: str, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._name = name
-        self._is_coloring = False
         self._mark: tuple[int, int] | None = None
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.setAccessibleName(name)
         self._pause = QTimer(self, interval=PAUSE_MS, singleShot=True)
         self._pause.timeout.connect(self._settle)
-        self.textChanged.connect(self._begin_pause)
+        self._highlighter = TokenHighlighter(self.document())
+        self.document().contentsChange.connect(self._begin_pause)
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._follow_theme()
 
@@ -42,7 +42,6 @@ class SourceEditor(QPlainTextEdit):
         self.setPlainText(text)
         self.blockSignals(False)
         self._pause.stop()
-        self._color()
 
     def mark(self, line: int, column: int, sentence: str) -> None:
         """Draw a wave under a place, counted from 1, and tell it to screen readers; line 0: nothing is wrong."""
@@ -59,20 +58,14 @@ class SourceEditor(QPlainTextEdit):
         else:
             super().keyPressEvent(event)
 
-    @Slot()
-    def _begin_pause(self) -> None:
-        if not self._is_coloring:
+    @Slot(int, int, int)
+    def _begin_pause(self, place: int, removed: int, added: int) -> None:
+        if not self.signalsBlocked():
             self._pause.start()
 
     @Slot()
     def _settle(self) -> None:
-        self._color()
         self.text_settled.emit(self.toPlainText())
-
-    def _color(self) -> None:
-        self._is_coloring = True
-        color_tokens(self.document())
-        self._is_coloring = False
 
     def _show_mark(self) -> None:
         marks = []
@@ -100,5 +93,5 @@ class SourceEditor(QPlainTextEdit):
         font = QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
         font.setPixelSize(current_theme().code_px)
         self.setFont(font)
-        self._color()
+        self._highlighter.rehighlight()
         self._show_mark()

@@ -324,7 +324,7 @@ class ListingPresenter(QObject):
             links.append(f'<a href="exercise/{exercise}">Exercise</a>')
         if lesson := lesson_about(name):
             links.append(f'<a href="lesson/{lesson[0]}/{lesson[1]}">Lesson</a>')
-        said = f"Here this is the mistake “{name.replace('-', ' ')}”: {escape(outcome.mistake.sentence)}"
+        said = f"On this scene it draws the same as “{name.replace('-', ' ')}”: {escape(outcome.mistake.sentence)}"
         self._pane.show_message(f"{said} {' · '.join(links)}")
 
     @Slot(object)

@@ -257,7 +257,7 @@ class ComparePresenter(QObject):
         self._bounded.cancel()
         self._search.cancel()
         kept, self._is_old = (self._second, self._steps), False
-        self._second, self._steps, self._refusal = None, None, PREDICTING
+        self._second, self._steps, self._refusal = None, None, ""
         document, stage = moment.document, moment.cursor.stage
         refusal = self.edited.find(document)
         if not self._is_active or moment.is_predicting:

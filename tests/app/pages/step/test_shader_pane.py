@@ -163,3 +163,14 @@ def test_a_mistake_of_the_shelf_is_named(lab, qtbot):
     )
     _type(lab, qtbot, "vertex", swapped)
     assert lab.page.shader_pane.message.startswith("Both shaders run. vColor never gets the vertex's colour.")
+
+
+def test_typing_has_an_undo_of_its_own(lab, qtbot):
+    editor = lab.page.shader_pane.editor("fragment")
+    editor.setFocus()
+    with qtbot.waitSignal(lab.page.shader_pane.source_settled, timeout=5000):
+        QTest.keyClicks(editor, "xx")
+    assert editor.toPlainText() == f"xx{TASK_FRAGMENT}"
+    with qtbot.waitSignal(lab.page.shader_pane.source_settled, timeout=5000):
+        QTest.keyClick(editor, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+    assert editor.toPlainText() == TASK_FRAGMENT
