@@ -27,10 +27,13 @@ def title_of(edits: tuple[Edit, ...]) -> str:
 def settings_of(document: Document) -> tuple[Settings, Settings]:
     """Return the settings with the methods as they are, and with all edited listings of a document in their place.
 
-    Raises ValueError (`core.lanes.problem.Problem` with a place in the text) where a text cannot run, or not here.
+    An edit that the scene would pass over sleeps where another one was made since. Raises ValueError
+    (`core.lanes.problem.Problem` with a place in the text) where a text cannot run, or the last one not here.
     """
     mine = other = document.settings
     for edit in document.edits:
+        if edit is not document.edits[-1] and edit.passed_over(document.settings, document.scene):
+            continue
         family = EDITABLE[edit.part].family
         mine = with_method(mine, family, edit.of)
         other = apply_edit(other, edit)

@@ -119,7 +119,9 @@ class ListingPresenter(QObject):
     def refresh(self, moment: Moment) -> None:
         """Follow the document: its edits may have been undone, or another scene has none."""
         document = moment.document
-        if moment.is_predicting or moment.is_asked_about or not document.edits:
+        # Nothing of B is shown where no edit runs on the scene.
+        sleeps = bool(document.edits) and not self._pane.is_editing and self._comparing.edits_sleep(document)
+        if moment.is_predicting or moment.is_asked_about or not document.edits or sleeps:
             if moment.is_predicting or moment.is_asked_about:
                 self._end_editing()
             self._set_side(A)
@@ -134,7 +136,7 @@ class ListingPresenter(QObject):
         self._pane.show_message("")
         self._comparing.show_old(False)
         self._show_head(self._inspector.shown_listing)
-        if document.edits and not (moment.is_predicting or moment.is_asked_about):
+        if document.edits and not (sleeps or moment.is_predicting or moment.is_asked_about):
             self._tell_outcome()
 
     def _show_head(self, listing: Listing | None) -> None:
@@ -324,7 +326,8 @@ class ListingPresenter(QObject):
             links.append(f'<a href="exercise/{exercise}">Exercise</a>')
         if lesson := lesson_about(name):
             links.append(f'<a href="lesson/{lesson[0]}/{lesson[1]}">Lesson</a>')
-        said = f"On this scene it draws the same as “{name.replace('-', ' ')}”: {escape(outcome.mistake.sentence)}"
+        alike = f"On this scene it draws the same as the mistake “{name.replace('-', ' ')}”"
+        said = f"{alike}: {escape(outcome.mistake.sentence)}"
         self._pane.show_message(f"{said} {' · '.join(links)}")
 
     @Slot(object)

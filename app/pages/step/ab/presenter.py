@@ -385,6 +385,10 @@ class ComparePresenter(QObject):
         """Why B has no picture."""
         return self._refusal
 
+    def edits_sleep(self, document: Document) -> bool:
+        """Return whether the scene would pass over all edited listings of a document."""
+        return all(edit.passed_over(document.settings, document.scene) for edit in document.edits)
+
     def show_old(self, is_old: bool) -> None:
         """Say that B is the last run that went well, of a text that is another one by now; or take that back."""
         if is_old != self._is_old:

@@ -262,6 +262,21 @@ def test_another_scene_keeps_the_edit_where_it_runs(window: MainWindow) -> None:
     assert window.page.comparing.second is not None
 
 
+def test_an_edit_that_does_not_fit_the_scene_sleeps(window: MainWindow) -> None:
+    window.session.open(open_any("shared-edge").document)
+    window.session.set_stage("raster", 4000)
+    QTest.keyClicks(edit(window, "value >"), "=")
+    wait(lambda: window.session.document.edits)
+    QTest.keyClick(pane_of(window).editor, Qt.Key.Key_Escape)
+    window.files.show_opened(open_any("segment"))
+    assert window.page.editing.side == A
+    assert "D" in pane_of(window).listing.toPlainText()
+    assert pane_of(window).message.text() == ""
+    QTest.keyClicks(edit(window, "if D >= 0"), ".5")
+    wait(lambda: len(window.session.document.edits) == 2)
+    assert window.page.comparing.second is not None
+
+
 def test_a_state_opens_with_the_edit_in_b(window: MainWindow, tmp_path: Path) -> None:
     bresenham(window)
     editor = edit(window, "D = 2 * dy - dx")
