@@ -100,7 +100,7 @@ def ask_numbers(user: NewUser) -> None:
     )
     user.does("go to its step", lambda: press("J"), lambda: "(27, 20)" in user.page.sentence.text())
     user.does(
-        "see the variables", lambda: user.click_tab("Variables"), lambda: user.page.variables.isVisible()
+        "see the variables", lambda: user.click_tab("This step"), lambda: user.page.variables.isVisible()
     )
     user.does("ask for the pinned value", lambda: press("Y"), lambda: user.message)
     user.does("unpin", lambda: press("Escape"), lambda: user.session.pin is None)
