@@ -55,9 +55,10 @@ def test_every_action_is_made_in_a_window_and_leaves_the_scene_unchanged(
     with opened_window(opened, (1280, 800)) as window:
         script = Script(window, "cube", Amount((0.4,), 2, 4))
         script.run()
-        assert window.session.document is opened.document
+        now = window.session.document
+        assert (now.scene, now.settings) == (opened.document.scene, opened.document.settings)
     actions = {made.action for made in script.samples}
-    assert actions == {"enter", "step", "scrub", "hover", "drag", "drop", "orbit"}
+    assert actions == {"enter", "step", "scrub", "hover", "drag", "drop", "orbit", "lesson"}
     assert {made.stage for made in script.samples if made.action == "enter"} == set(STAGES)
     assert all(made.answer.wall >= 0 and made.answer.fixed > 0 for made in script.samples)
     assert list(tmp_path.iterdir()) == []
