@@ -1,7 +1,7 @@
 """Blending: how a fragment's colour enters the colour buffer. Formulas have the channel that changes most."""
 
 from core.explain.digits import is_remainder, remainder_note, signed_latex, spoken, vector_text
-from core.explain.equation import channel_symbol, equation, outstanding
+from core.explain.equation import Part, channel_symbol, equation, outstanding
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -49,25 +49,27 @@ def _channel(step: StepValues) -> int:
     return outstanding([after[k] - before[k] for k in range(3)])
 
 
+def _sum(step: StepValues) -> tuple[Part, ...]:
+    """Return the new colour as the fragment's times its alpha, plus the buffer's."""
+    source, channel = step.vector("source"), _channel(step)
+    return (
+        (channel_symbol("new", channel), step.vector("after")[channel]),
+        "=",
+        (channel_symbol("source", channel), source[channel]),
+        r"\cdot",
+        (_ALPHA, source[3]),
+        "+",
+        (channel_symbol("buffer", channel), step.vector("before")[channel]),
+    )
+
+
 @explains("blend.over|line-over.color")
 def over_color(step: StepValues) -> Said:
     """Fragment over buffer."""
-    source, before, after = (step.vector(name) for name in ("source", "before", "after"))
-    channel = _channel(step)
-    return (
-        f"{step.pixel_name}: fragment over buffer gives {vector_text(after)}{remainder_note(after)}.",
-        equation(
-            (channel_symbol("new", channel), after[channel]),
-            "=",
-            (channel_symbol("source", channel), source[channel]),
-            r"\cdot",
-            (_ALPHA, source[3]),
-            "+",
-            (channel_symbol("buffer", channel), before[channel]),
-            r"\cdot",
-            (rf"(1 - {_ALPHA})", f"(1 - {signed_latex(source[3])})"),
-        ),
-    )
+    after, alpha = step.vector("after"), step.vector("source")[3]
+    text = f"{step.pixel_name}: fragment over buffer gives {vector_text(after)}{remainder_note(after)}."
+    left = (rf"(1 - {_ALPHA})", f"(1 - {signed_latex(alpha)})")
+    return text, equation(*_sum(step), r"\cdot", left)
 
 
 @explains("blend.additive|line-additive.source")
@@ -86,21 +88,12 @@ def additive_source(step: StepValues) -> Said:
 @explains("blend.additive|line-additive.color")
 def additive_color(step: StepValues) -> Said:
     """Fragment plus buffer."""
-    source, before, after = (step.vector(name) for name in ("source", "before", "after"))
-    channel = _channel(step)
+    after = step.vector("after")
     above = ", more than the display can show" if max(after[:3]) > 1 else ""
-    return (
-        f"{step.pixel_name}: fragment plus buffer gives {vector_text(after)}{above}{remainder_note(after)}.",
-        equation(
-            (channel_symbol("new", channel), after[channel]),
-            "=",
-            (channel_symbol("source", channel), source[channel]),
-            r"\cdot",
-            (_ALPHA, source[3]),
-            "+",
-            (channel_symbol("buffer", channel), before[channel]),
-        ),
+    text = (
+        f"{step.pixel_name}: fragment plus buffer gives {vector_text(after)}{above}{remainder_note(after)}."
     )
+    return text, equation(*_sum(step))
 
 
 @explains("blend.*.write", asks=red)
