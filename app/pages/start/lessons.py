@@ -1,4 +1,4 @@
-"""Fills the list of lessons: what there is, how far the learner is, and where to begin or to go on."""
+"""Fills the list of lessons: their titles, how far the learner is, and where to begin or to go on."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass

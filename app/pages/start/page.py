@@ -231,7 +231,7 @@ class StartPage(Page):
     # What is done.
 
     def step_on(self) -> None:
-        """Go to the Step page, one step on; a question there stays as it is."""
+        """Go to the Step page, one step on; a question there is unchanged."""
         self.action_requested.emit("page_step")
         if not self._session.is_asked_about:
             self.action_requested.emit("step_forward")

@@ -46,7 +46,7 @@ class InspectorPresenter(QObject):
         self._shown: Listing | None = None
         self._stage = ""
         self.beside: Callable[[], Step | None] | None = None
-        """Returns the step that is shown in the place of that of the session: where B of A | B is."""
+        """Returns the step that is shown instead of that of the session: where B of A | B is."""
         self.listing_shown: Callable[[Listing | None], object] = lambda _: None
         """Is told which listing is shown."""
         self.hint_beside = ""

@@ -258,7 +258,7 @@ class LessonTask(QObject):
 
     @property
     def shows_solution(self) -> bool:
-        """Whether the answer, or the task as it is done, is in sight."""
+        """Whether the answer, or the finished task, is in sight."""
         return not self.is_unsolved and (self._is_done or self._is_revealed or self.answers.asked is not None)
 
     @Slot()
