@@ -28,13 +28,20 @@ def compare_page(window: MainWindow) -> ComparePage:
 
 
 def measured(page: ComparePage, qtbot: QtBot) -> Study:
-    """Measure by the key and wait."""
+    """Measure by the key and wait; then give each method twice the time of the one before, so that no marks meet."""
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     assert page.results.is_running
     qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
     result = page.results.result
     assert result is not None
-    return result.study
+    points = tuple(
+        replace(point, seconds=0.001 * 2.0**number * np.ones_like(point.seconds))
+        for number, point in enumerate(result.study.points)
+    )
+    study = replace(result.study, points=points)
+    page.results.choice.result = replace(result, study=study)
+    page.results.refresh()
+    return study
 
 
 def click(
