@@ -157,7 +157,8 @@ def load_state(
             record.scene, path.resolve(), progress, is_cancelled, allows_outside
         )
         state = _state(record, scene, mesh_path)
-        return without_stray_pin(state, (*warnings, *edit_notes(state.document.settings)))
+        notes = (*edit_notes(state.document.settings), *draft_notes(state.look, state.document.settings))
+        return without_stray_pin(state, (*warnings, *notes))
     except OutsideSourceError as problem:
         raise OutsideSourceError(f"{path.name} cannot be opened: {problem}") from problem
     except (SavedRecordError, StateFileError) as problem:
@@ -173,9 +174,37 @@ def edit_notes(settings: Settings) -> tuple[str, ...]:
     from core.edits import edits_of
 
     return tuple(
-        f"This runs a listing that was edited: {edit.title.removeprefix('the edited ')}."
+        f"This runs a listing that was edited{f', “{edit.name}”' if edit.name else ''}: "
+        f"{edit.title.removeprefix('the edited ')}."
         for edit in edits_of(settings)
     )
+
+
+def draft_notes(look: Look, settings: Settings) -> tuple[str, ...]:
+    """Return what is said when a state opens that keeps texts that do not run."""
+    if not look.drafts:
+        return ()
+    from core.edits import Edit, apply_edit
+
+    notes = []
+    for draft in look.drafts:
+        edit, reason = Edit(**dict(draft)), "it has not been run yet"
+        try:
+            apply_edit(settings, edit)
+        except ValueError as error:
+            reason = str(error)
+        kept = f"A text that does not run is kept for the {edit.title.removeprefix('the edited ')}"
+        notes.append(f"{kept}: {reason}. Edit opens it.")
+    return tuple(notes)
+
+
+def check_drafts(look: Look) -> None:
+    """Raise ValueError for a text of a listing that cannot be edited."""
+    if look.drafts:
+        from core.edits import Edit
+
+        for draft in look.drafts:
+            Edit(**dict(draft))
 
 
 def _settings_and_edits(document: Document) -> tuple[dict[str, str | int], list[EditRecord]]:
@@ -200,7 +229,7 @@ def _edited(settings: Settings, edits: Sequence[EditRecord]) -> Settings:
     for edit in edits:
         if getattr(settings, EDITABLE[edit.part].family if edit.part in EDITABLE else "line") != edit.of:
             raise ValueError(f"{edit.part} of {edit.of} is not the method that settings choose")
-        settings = apply_edit(settings, Edit(edit.part, edit.of, edit.text))
+        settings = apply_edit(settings, Edit(**dict(edit)))
     return settings
 
 
@@ -212,6 +241,8 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
     with in_field("edits"):
         settings = _edited(settings, record.edits)
         check_edits(scene, settings)
+    with in_field("look.drafts"):
+        check_drafts(record.look)
     with in_field("look.other"):
         settings_from_texts({name: str(value) for name, value in record.look.other.items()})
     if record.breakpoints.condition:

@@ -8,6 +8,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 from app.session.document import VIEWS
 from core import STAGES
 from core.lanes.limits import LISTING
+from widgets.inspector.listing_pane import NAME_LENGTH
 from widgets.space.orbit import EXTENT_LIMITS
 
 VERSION: Literal[3] = 3
@@ -16,6 +17,8 @@ VERSION: Literal[3] = 3
 
 NOTE_LIMIT = 500
 """Longest note of a bookmark in characters."""
+DRAFT_LIMIT = 10 * LISTING.characters
+"""Longest text that is kept though it does not run, in characters."""
 
 
 class Record(BaseModel):
@@ -250,6 +253,14 @@ class OrbitRecord(Record):
     extent: Annotated[float, Field(ge=EXTENT_LIMITS[0], le=EXTENT_LIMITS[1])]
 
 
+class DraftRecord(Record):
+    """A text that does not run, in place of the listing of a method."""
+
+    part: str
+    of: str
+    text: Annotated[str, Field(max_length=DRAFT_LIMIT)]
+
+
 class Look(Record):
     """How the Step page shows the run, where it is not how it is first shown."""
 
@@ -264,6 +275,8 @@ class Look(Record):
     """Family to method: what B does otherwise than A."""
     printed: str = ""
     """Name of the listing as printed that B runs; empty: none."""
+    drafts: list[DraftRecord] = []
+    """Edited listings that do not run: *Edit* opens them again."""
     other_buffer: str = "color"
     """Buffer in which A and B are compared."""
     panes: list[str] | None = None
@@ -282,6 +295,7 @@ class EditRecord(Record):
     part: str
     of: str
     text: Annotated[str, Field(max_length=LISTING.characters)]
+    name: Annotated[str, Field(max_length=NAME_LENGTH)] = ""
 
 
 class StateRecord(Record):

@@ -8,7 +8,7 @@ from core import Settings
 from core.edits import EDITABLE, Edit, apply_edit, original, place_of, refusal
 from core.methods import ReplacedName, table
 from core.records.listing import EditedListing, Listing
-from core.records.words import counted
+from core.records.words import counted, joined
 from core.settings import with_method
 
 NOT_EDITABLE = "This listing cannot be edited: it is a fixed part of the pipeline."
@@ -21,7 +21,8 @@ def method_of(edit: Edit) -> str:
 
 def title_of(edits: tuple[Edit, ...]) -> str:
     """Return what B is called while it runs edited listings."""
-    return f"my version: {', '.join(dict.fromkeys(map(method_of, edits)))}"
+    names = joined([f"“{edit.name}”" for edit in edits if edit.name])
+    return f"my version{' ' * bool(names)}{names}: {', '.join(dict.fromkeys(map(method_of, edits)))}"
 
 
 def settings_of(document: Document) -> tuple[Settings, Settings]:
@@ -50,6 +51,12 @@ def with_edit(document: Document, edit: Edit) -> Document:
 def without_edit(document: Document, part: str) -> Document:
     """Return a document whose side B runs a listing as it is."""
     return replace(document, edits=tuple(known for known in document.edits if known.part != part))
+
+
+def named(document: Document, place: tuple[str, str], name: str) -> Document:
+    """Return a document in which the edit of a part and method has a name."""
+    edits = (replace(edit, name=name) if (edit.part, edit.of) == place else edit for edit in document.edits)
+    return replace(document, edits=tuple(edits))
 
 
 def edit_of(document: Document, place: tuple[str, str] | None) -> Edit | None:

@@ -29,7 +29,7 @@ class Remembering(QObject):
         self.preferences = preferences
         page = window.page
         places = page.stepping.places_changed, page.lessons.place_changed
-        edits = page.look_changed, page.panes_changed, *places
+        edits = page.look_changed, page.panes_changed, page.editing.drafts_changed, *places
         self.autosave = Autosave(window.session, window.files.kept_state, edits, self)
         self._keeps_results = False
 

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 from core.edits.editable import EDITABLE, Part, refusal
@@ -21,6 +22,8 @@ class Edit:
     of: str
     """Name of the method whose listing is edited."""
     text: str
+    name: str = ""
+    """What the user calls it; empty: it has no name."""
 
     def __post_init__(self) -> None:
         if reason := refusal(self.part, self.of):
@@ -66,7 +69,7 @@ def apply_edit(settings: Settings, edit: Edit) -> Settings:
     """
     part, family = EDITABLE[edit.part], EDITABLE[edit.part].family
     typed = Typed(_function(edit.part, edit.of), edit.text)
-    part.check(typed)
+    _check(part, typed)
     others = [known for known in edits_of(settings) if known.part != edit.part]
     kept = [known for known in others if EDITABLE[known.part].family == family and known.of == edit.of]
     plain = with_method(settings, family, edit.of)
@@ -77,6 +80,12 @@ def apply_edit(settings: Settings, edit: Edit) -> Settings:
     if reason := edit.passed_over(changed, None):
         raise ValueError(f"{edit.title} would not run: {reason[0].lower()}{reason[1:].rstrip('.')}")
     return changed
+
+
+@lru_cache(64)
+def _check(part: Part, typed: Typed) -> None:
+    """Raise `Problem` for a text that cannot run; one that can is checked once, as its loops may take long."""
+    part.check(typed)
 
 
 def _edited(method: Method, edit: Edit, part: Part) -> Method:

@@ -23,7 +23,7 @@ from core.lanes.terms import equalities, in_symbols, shown
 from core.records.listing import EditedListing, moved_lines
 from core.records.words import counted, joined
 from core.trace import Explanation
-from core.trace.stage_trace import KEPT_EXPLANATIONS
+from core.trace.stage_trace import KEPT_EXPLANATIONS, StageTrace
 
 GIVEN = {
     "interpolate": {"w": "corner_w", "corners": "corner_window"},
@@ -42,6 +42,8 @@ EQUATIONS = 3
 LOOPS = ("for", "while")
 LONGEST_SHOWN = 4
 """Elements of a list that has rows of its own, or is written out."""
+SEARCHED_STEPS = 400
+"""Steps in which a line that has no label is looked for."""
 MOST_ROUNDS = 1_000_000
 
 
@@ -179,6 +181,22 @@ def _recorded(typed: Typed, inputs: tuple[Any, ...]) -> tuple[LaneStep, ...]:
     limits = replace(LISTING, rounds=MOST_ROUNDS)
     steps, _ = steps_until_problem(typed.program, _thawed(inputs), limits=limits)
     return tuple(step for step in steps if step.depth == 1)
+
+
+def position_that_runs(
+    trace: StageTrace, listing: EditedListing, line: int, begin: int
+) -> tuple[int | None, int]:
+    """Return the first position behind another one whose step runs a line, from 1; ``None``: none was found.
+
+    Beside it the last position that was looked at: `SEARCHED_STEPS` at most are.
+    """
+    last = min(begin + SEARCHED_STEPS, trace.steps.count)
+    for position in range(begin + 1, last + 1):
+        done = trace.explain(position)
+        step = edited_step(done) if done is not None and done.listing is listing else None
+        if step is not None and any(each.line == line for each in step.steps):
+            return position, position
+    return None, last
 
 
 # What is said.

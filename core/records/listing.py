@@ -163,6 +163,16 @@ def moved_lines(old: str, new: str) -> dict[int, int]:
     return found
 
 
+def kept_line(old: str, new: str, line: int) -> int | None:
+    """Return where a line of a text, from 1, stands in a changed one, changed or not; ``None``: it is gone."""
+    before, after, moved = old.splitlines(), new.splitlines(), moved_lines(old, new)
+    at = moved.get(line)
+    if at is None or at > len(after):
+        return None
+    is_alone = sum(other == at for other in moved.values()) == 1
+    return at if is_alone or before[line - 1] == after[at - 1] else None
+
+
 _PRINTED: dict[Callable[..., Any], str] = {}
 
 

@@ -6,7 +6,7 @@ from functools import partial
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication, QKeyEvent, QResizeEvent
-from PySide6.QtWidgets import QBoxLayout, QGraphicsOpacityEffect, QLabel, QSizePolicy, QWidget
+from PySide6.QtWidgets import QBoxLayout, QGraphicsOpacityEffect, QLabel, QPushButton, QSizePolicy, QWidget
 
 from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
@@ -34,6 +34,7 @@ UNLIMITED = (1 << 24) - 1
 """Height of a label without a limit, as Qt has it."""
 OLD_OPACITY = 0.4
 """Of a picture that is no longer that of what stands there."""
+SWAP_TIP, USE_TIP = "Swap the settings of A and B", "Give the page the settings of B"
 CODE_LINES = 10
 """Lines of text that the listings of A and B are high at least, where they are shown."""
 
@@ -100,6 +101,7 @@ class CompareView(QWidget):
         self._settings: tuple[Setting, ...] = ()
         self._sides: tuple[Side, ...] = ()
         self._is_flipped = False
+        self._buttons: dict[str, QPushButton] = {}
         for box, name, tip in (
             (self.buffer_box, "Buffer", "Which buffer is compared"),
             (
@@ -133,13 +135,14 @@ class CompareView(QWidget):
                 "Go to the first step that differs, in both runs",
                 self.divergence_requested,
             ),
-            ("Swap", "Swap the settings of A and B", self.swap_requested),
-            ("Use B", "Give the page the settings of B", self.use_requested),
+            ("Swap", SWAP_TIP, self.swap_requested),
+            ("Use B", USE_TIP, self.use_requested),
             ("B = A", "Give B the settings of A", self.reset_requested),
         ):
             button = button_with_tip(text, tip, self)
             button.clicked.connect(signal)
             buttons.addWidget(button)
+            self._buttons[text] = button
         self.flip_button = button_with_tip("Flip", "Swap the two pictures while it is held (X)", self)
         self.flip_button.pressed.connect(partial(self.show_flipped, True))
         self.flip_button.released.connect(partial(self.show_flipped, False))
@@ -227,6 +230,14 @@ class CompareView(QWidget):
             self.family_box.addItem(mark + setting.label, setting.family)
         self.family_box.setCurrentIndex(max(self.family_box.findData(family), 0))
         self._show_values()
+
+    def show_refusal(self, reason: str) -> None:
+        """Let the page take over the settings of B; with a reason: it cannot, and the two buttons say why."""
+        for name, tip in (("Swap", SWAP_TIP), ("Use B", USE_TIP)):
+            button = self._buttons[name]
+            button.setEnabled(not reason)
+            button.setToolTip(reason or tip)
+            button.setAccessibleDescription(reason)
 
     def show_family(self, family: str) -> None:
         """Bring a family to the choice."""

@@ -13,6 +13,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QTextEdit, QWidget
 
+from core.records.listing import kept_line
 from widgets.basics.theme import current_theme
 from widgets.inspector.code_view import CodeView
 from widgets.inspector.listing_looks import token_formats, token_looks
@@ -37,6 +38,8 @@ class ListingEditor(CodeView):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._problem: tuple[int, int] | None = None
+        self._step: tuple[int | None, str] = None, ""
+        """Line of the step just done, in the text that ran, and that text."""
         self._is_set = False
         """Whether the text is being set by the program."""
         self._is_new = True
@@ -47,6 +50,7 @@ class ListingEditor(CodeView):
         self._pause.setInterval(PAUSE_MS)
         self._pause.timeout.connect(self._type)
         self.textChanged.connect(self._await_pause)
+        self.textChanged.connect(self._follow_text)
         self.cursorPositionChanged.connect(self.mark_line)
         self.blockCountChanged.connect(self.place_margin)
         self.setAccessibleName("Edited listing")
@@ -100,10 +104,20 @@ class ListingEditor(CodeView):
         self.setTextCursor(cursor)
         self.setFocus(Qt.FocusReason.ShortcutFocusReason)
 
-    def show_line(self, line: int | None) -> None:
-        """Mark the line of the step just done; what is being typed stays in sight."""
-        if line != self._line:
-            self._line = line
+    def show_step(self, line: int | None, source: str) -> None:
+        """Mark the line of the step just done, which stands in the text that ran; what is typed stays in sight.
+
+        The mark follows its line while lines are typed above it, and goes where the line is taken out.
+        """
+        self._step = line, source
+        self._follow_text()
+
+    @Slot()
+    def _follow_text(self) -> None:
+        line, source = self._step
+        now = None if line is None else kept_line(source, self.toPlainText(), line)
+        if now != self._line:
+            self._line = now
             self.mark_line()
 
     def show_problem(self, place: tuple[int, int] | None) -> None:

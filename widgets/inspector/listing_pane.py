@@ -2,9 +2,17 @@
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtGui import QAction, QResizeEvent, QTextDocumentFragment
-from PySide6.QtWidgets import QMenu, QSizePolicy, QStackedWidget, QTabBar, QToolButton, QWidget
+from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
+from PySide6.QtGui import QAction, QKeyEvent, QResizeEvent, QTextDocumentFragment
+from PySide6.QtWidgets import (
+    QLineEdit,
+    QMenu,
+    QSizePolicy,
+    QStackedWidget,
+    QTabBar,
+    QToolButton,
+    QWidget,
+)
 
 from widgets.basics.accessible import announce
 from widgets.basics.controls import LEAST_TARGET, column_layout, row_layout
@@ -16,6 +24,11 @@ from widgets.inspector.listing_editor import ListingEditor
 A, B = 0, 1
 HEAD_HEIGHT = 1.85
 """Height of the head, in heights of the text."""
+UNNAMED = "mine"
+NAME_LENGTH = 60
+"""Longest name of a version in characters."""
+TAB_LETTERS = 16
+"""Letters of a name that a tab shows at most."""
 EDIT_TIP = "Change a line: side B draws at once what your version draws (F2)"
 
 
@@ -30,7 +43,11 @@ class PaneHead:
     is_edited: bool = False
     """Whether there is an edited version of it."""
     note: str = ""
-    """How many lines are changed."""
+    """How many lines are changed, or where else a listing is edited."""
+    resets: str = ""
+    """What Reset takes back, in words; empty: nothing is edited."""
+    name: str = ""
+    """What the user calls the edited version; empty: it has no name."""
 
 
 class ListingPane(QWidget):
@@ -44,6 +61,8 @@ class ListingPane(QWidget):
     """The user wants to see `A` or `B`."""
     link_clicked = Signal(str)
     """The user has clicked a link of the sentence."""
+    name_given = Signal(str)
+    """The user has named the edited version; empty: it has no name any more."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -56,16 +75,21 @@ class ListingPane(QWidget):
         self.sides.setExpanding(False)
         self.sides.setAccessibleName("Version of the listing")
         self.sides.addTab("A")
-        self.sides.addTab("B: mine")
+        self.sides.addTab(f"B: {UNNAMED}")
         self.sides.setTabToolTip(A, "The method as it is")
-        self.sides.setTabToolTip(B, "Your version")
+        self.sides.setTabToolTip(B, "Your version. Double-click: give it a name")
         self.sides.setFocusPolicy(Qt.FocusPolicy.TabFocus)
         self.note = ElidedLabel(self)
         self.note.setProperty("role", "muted")
+        self.name_field = QLineEdit(self)
+        self.name_field.setMaxLength(NAME_LENGTH)
+        self.name_field.setPlaceholderText("Name of your version")
+        self.name_field.setAccessibleName("Name of your version")
+        self.name_field.hide()
         self.edit_button, self.reset_button = QToolButton(self), QToolButton(self)
         for button, text, tip in (
             (self.edit_button, "Edit", EDIT_TIP),
-            (self.reset_button, "Reset", "Take all changes of the listing back"),
+            (self.reset_button, "Reset", ""),
         ):
             button.setText(text)
             button.setToolTip(tip)
@@ -86,6 +110,7 @@ class ListingPane(QWidget):
         row = row_layout(self.head, spacing=4, margins=(0, 0, 4, 0))
         row.addWidget(self.sides)
         row.addWidget(self.note, 1)
+        row.addWidget(self.name_field, 1)
         row.addWidget(self.reset_button)
         row.addWidget(self.edit_button)
         layout = column_layout(self, 0)
@@ -96,6 +121,10 @@ class ListingPane(QWidget):
         self.reset_button.clicked.connect(self.reset_requested)
         self.sides.tabBarClicked.connect(self.side_chosen)
         self.sides.currentChanged.connect(self._choose_side)
+        self.sides.tabBarDoubleClicked.connect(self._name_side)
+        self.name_field.returnPressed.connect(self._take_name)
+        self.name_field.editingFinished.connect(self._end_naming)
+        self.name_field.installEventFilter(self)
         self.message.linkActivated.connect(self.link_clicked)
         self.listing.menu_opened.connect(self._add_to_menu)
         theme_notifier().theme_changed.connect(self._follow_theme)
@@ -119,11 +148,54 @@ class ListingPane(QWidget):
         self._head = head
         self.head.setVisible(head.is_shown)
         self.sides.setVisible(head.is_edited)
-        self.reset_button.setVisible(head.is_edited)
+        self.sides.setTabText(B, f"B: {self._short(head.name) or UNNAMED}")
+        self.reset_button.setVisible(bool(head.resets))
+        self.reset_button.setToolTip(f"Take back {head.resets}")
         self.note.setText(head.note)
         self.edit_button.setVisible(not head.refusal)
         if was_shown != head.is_shown:
             self.listing.room_changed.emit()
+
+    def _short(self, name: str) -> str:
+        room = self.fontMetrics().averageCharWidth() * TAB_LETTERS
+        # In a tab, & would underline the next letter.
+        return self.fontMetrics().elidedText(name, Qt.TextElideMode.ElideRight, room).replace("&", "&&")
+
+    @Slot()
+    def ask_name(self) -> None:
+        """Let the user name the edited version, in the head."""
+        if self._head.is_edited:
+            self.name_field.setText(self._head.name)
+            self.note.hide()
+            self.name_field.show()
+            self.name_field.selectAll()
+            self.name_field.setFocus(Qt.FocusReason.OtherFocusReason)
+
+    @Slot(int)
+    def _name_side(self, side: int) -> None:
+        if side == B:
+            self.ask_name()
+
+    @Slot()
+    def _take_name(self) -> None:
+        self.name_given.emit(self.name_field.text().strip())
+
+    @Slot()
+    def _end_naming(self) -> None:
+        if self.name_field.hasFocus():
+            (self.editor if self.is_editing else self.listing).setFocus(Qt.FocusReason.OtherFocusReason)
+        self.name_field.hide()
+        self.note.show()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Let Escape leave the field of the name, and no shortcut of the window take its keys."""
+        if watched is self.name_field and isinstance(event, QKeyEvent) and event.key() == Qt.Key.Key_Escape:
+            if event.type() == QEvent.Type.ShortcutOverride:
+                event.accept()
+            elif event.type() == QEvent.Type.KeyPress:
+                self._end_naming()
+            return True
+        return super().eventFilter(watched, event)
 
     def show_side(self, side: int) -> None:
         """Show that the listing is that of `A` or `B`."""
@@ -193,7 +265,9 @@ class ListingPane(QWidget):
         edit.triggered.connect(lambda: self.edit_requested.emit(line))
         menu.addAction(edit)
         if head.is_edited:
-            menu.addAction("Reset the listing", self.reset_requested.emit)
+            menu.addAction("Name your version …", self.ask_name)
+        if head.resets:
+            menu.addAction(f"Take back {head.resets}", self.reset_requested.emit)
 
     @Slot()
     def _follow_theme(self) -> None:

@@ -118,7 +118,7 @@ class InspectorPresenter(QObject):
     def _show_line(self, line: int | None) -> None:
         """Mark the line that has run, also where that listing is being edited."""
         self._listing.show_line(line)
-        self._column.code.editor.show_line(line)
+        self._column.code.editor.show_step(line, self._shown.source if self._shown else "")
 
     def _show_listing(self, listing: Listing | None) -> None:
         if listing is not self._shown:

@@ -1,12 +1,14 @@
 """Change the line: the listing of a step is edited, and side B of A | B draws what the edited one draws."""
 
+from collections.abc import Iterable
 from functools import partial
 from html import escape
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, QTimer, Slot
+from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.background.workers import Job
+from app.files.state_models import DRAFT_LIMIT, DraftRecord
 from app.pages.step.ab.presenter import ComparePresenter
 from app.pages.step.breaks import line_positions
 from app.pages.step.inspector_column import InspectorColumn
@@ -31,6 +33,9 @@ LATER_MS = 50
 EDITED_FAMILIES = ("line", "fill_rule", "fill", "interpolation", "depth", "blend")
 """Families whose listings can be edited, as `core.edits.EDITABLE` has them."""
 EDITED_STAGES = frozenset(FAMILIES[family].stage for family in EDITED_FAMILIES)
+DRAFT_KEPT = "Your text does not run"
+LISTING_CHANGES = "all changes of this listing"
+OLD_STEP = " The step and its numbers are those of the last version that ran."
 HAS_NONE = "This step has no listing."
 FIRST = '<a href="first">First difference</a>'
 SAME = "On this scene your version draws the same picture as the method."
@@ -38,6 +43,9 @@ SAME = "On this scene your version draws the same picture as the method."
 
 class ListingPresenter(QObject):
     """Lets the listing be edited, and shows in the inspector whose step is meant: that of A, or of B."""
+
+    drafts_changed = Signal()
+    """Another text that does not run is kept, or one is no more."""
 
     def __init__(
         self,
@@ -70,6 +78,8 @@ class ListingPresenter(QObject):
         pane.edit_requested.connect(self.begin)
         pane.reset_requested.connect(self.reset)
         pane.side_chosen.connect(self.show_side)
+        pane.name_given.connect(self._name)
+        pane.editor.textChanged.connect(self._follow_text)
         pane.editor.text_typed.connect(self._try)
         pane.editor.left.connect(self.leave)
         pane.link_clicked.connect(self._follow_link)
@@ -112,9 +122,23 @@ class ListingPresenter(QObject):
             self._inspector.refresh_history(self._session.moment)
 
     def begin_anew(self) -> None:
-        """Leave the editor, and forget what did not run: another scene was opened."""
+        """Leave the editor: another scene was opened. What did not run is kept, as what ran is."""
         self._end_editing()
-        self._drafts.clear()
+
+    @property
+    def drafts(self) -> list[DraftRecord]:
+        """The texts that do not run, also the one that is being typed."""
+        texts = dict(self._drafts)
+        if self._place is not None and self._pane.editor.has_problem:
+            texts[self._place] = self._pane.editor.text
+        # No file holds half of a character that takes two units.
+        whole = {place: text.encode("utf-8", "replace").decode() for place, text in texts.items()}
+        return [DraftRecord(part=part, of=of, text=text[:DRAFT_LIMIT]) for (part, of), text in whole.items()]
+
+    def show_drafts(self, drafts: Iterable[DraftRecord]) -> None:
+        """Keep the texts of a state that do not run: *Edit* opens them."""
+        self._drafts = {(draft.part, draft.of): draft.text for draft in drafts}
+        self._show_head(self._inspector.shown_listing)
 
     def refresh(self, moment: Moment) -> None:
         """Follow the document: its edits may have been undone, or another scene has none."""
@@ -153,19 +177,55 @@ class ListingPresenter(QObject):
             self._later.start(LATER_MS)
             return
         from app.session.edited_run import changed_lines, changed_text, edit_of, edited_place, why_not
+        from core.edits import original
 
-        edit = edit_of(document, edited_place(listing, document))
+        place = self._place if self._pane.is_editing else edited_place(listing, document)
+        edit = edit_of(document, place)
         refusal = why_not(listing, stage, document) if listing is not None else HAS_NONE
         lines: tuple[frozenset[int], frozenset[int]] = (frozenset(), frozenset())
-        note = ""
-        if edit is not None:
-            from core.edits import original
-
-            old = original(edit.part, edit.of).source
-            lines, note = changed_lines(old, edit.text), changed_text(old, edit.text)
+        note = resets = ""
+        text = self._text_of(place) or (edit.text if edit is not None else "")
+        if place is not None and text:
+            old = original(*place).source
+            note, resets = changed_text(old, text), LISTING_CHANGES if text != old else ""
+            typed = changed_lines(old, text)
+            self._pane.editor.show_changed_lines(typed[B])
+            lines = typed if edit is None or edit.text == text else changed_lines(old, edit.text)
+            if place in self._drafts and not self._pane.is_editing:
+                note = DRAFT_KEPT
+        elif document.edits:
+            note, resets = f"Edited: {self._last_edit(document)}", f"the edit of {self._last_edit(document)}"
         self._pane.listing.show_changed_lines(lines[self.side])
-        self._pane.editor.show_changed_lines(lines[B])
-        self._pane.show_head(PaneHead(has_head, refusal, edit is not None, note))
+        is_shown = has_head or bool(document.edits)
+        name = edit.name if edit is not None else ""
+        self._pane.show_head(PaneHead(is_shown, refusal, edit is not None, note, resets, name))
+
+    def _text_of(self, place: tuple[str, str] | None) -> str:
+        """Return the text that stands in the editor, or is kept for it, in place of what has run; empty: none."""
+        if self._pane.is_editing:
+            return self._pane.editor.text
+        return "" if place is None else self._drafts.get(place, "")
+
+    @staticmethod
+    def _last_edit(document: Document) -> str:
+        """Return what is edited elsewhere, in words."""
+        return document.edits[-1].title.removeprefix("the edited ")
+
+    @Slot()
+    def _follow_text(self) -> None:
+        """Mark the lines that are changed while they are typed."""
+        if self._pane.is_editing and self._place is not None:
+            self._show_head(self._inspector.shown_listing)
+
+    @Slot(str)
+    def _name(self, name: str) -> None:
+        """Name the edited version."""
+        from app.session.edited_run import edited_place, named
+
+        document = self._session.latest
+        place = self._place or edited_place(self._inspector.shown_listing, document)
+        if place is not None:
+            self._session.edit(named(document, place, name))
 
     @Slot()
     def _show_head_later(self) -> None:
@@ -198,7 +258,7 @@ class ListingPresenter(QObject):
         self._place, edit = place, edit_of(moment.document, place)
         line = line or self._pane.listing.line or 1
         text = original(*place).source if edit is None else edit.text
-        draft = self._drafts.pop(place, None)
+        draft = self._drafts.get(place)
         if not isinstance(listing, EditedListing):
             line = moved_lines(listing.source, text).get(line, line)
         self._page.show_view("compare")
@@ -208,7 +268,9 @@ class ListingPresenter(QObject):
         self.show_side(B)
         self._pane.begin_editing(draft or text, line)
         if draft:
+            self._drafts.pop(place)
             self._try(draft)
+        self._show_head(self._inspector.shown_listing)
 
     @Slot()
     def leave(self) -> None:
@@ -229,22 +291,33 @@ class ListingPresenter(QObject):
         self._pane.end_editing()
         if self._pane.editor.has_problem:
             self._show_right()
+            self._pane.editor.show_problem(None)
             if place is not None:
                 self._drafts[place] = self._pane.editor.text
                 self._pane.show_message(KEPT)
+                self.drafts_changed.emit()
         self._comparing.show_begun(None)
 
     @Slot()
     def reset(self) -> None:
-        """Take all changes of the listing that is shown back."""
-        from app.session.edited_run import edited_place, without_edit
+        """Take all changes of the listing that is shown back, or else the last edit of another one."""
+        from app.session.edited_run import edit_of, edited_place, without_edit
+        from core.edits import original
 
         document = self._session.latest
         place = self._place if self._pane.is_editing else None
         place = place or edited_place(self._inspector.shown_listing, document)
-        if place is not None:
-            self._drafts.pop(place, None)
-            self._session.edit(without_edit(document, place[0]))
+        if self._drafts.pop(place, None) is not None if place is not None else False:
+            self.drafts_changed.emit()
+        elif edit_of(document, place) is None and not self._pane.is_editing and document.edits:
+            place = document.edits[-1].part, document.edits[-1].of
+        if place is None:
+            return
+        self._session.edit(without_edit(document, place[0]))
+        if self._pane.is_editing:
+            self._pane.editor.show_text(original(*place).source)
+            self._show_right()
+        self._show_head(self._inspector.shown_listing)
 
     def show_edited(self) -> str:
         """Show A | B with the edited listings; return why they cannot run on the open scene, else nothing."""
@@ -259,13 +332,14 @@ class ListingPresenter(QObject):
     @Slot(str)
     def _try(self, text: str) -> None:
         """Run what is typed; B stays the last version that ran where it cannot."""
-        from app.session.edited_run import with_edit
+        from app.session.edited_run import edit_of, with_edit
         from core.edits import Edit
 
         if self._place is None:
             return
         document = self._session.latest
-        edited = with_edit(document, Edit(*self._place, text))
+        known = edit_of(document, self._place)
+        edited = with_edit(document, Edit(*self._place, text, known.name if known is not None else ""))
         if edited.edits == document.edits:
             self._show_right()
             self._tell_outcome()
@@ -295,8 +369,9 @@ class ListingPresenter(QObject):
 
         place = (error.line, error.column) if isinstance(error, Problem) else None
         self._pane.editor.show_problem(place)
-        self._pane.show_message(f"✕ {escape(str(error))}", is_problem=True)
+        self._pane.show_message(f"✕ {escape(str(error))}.{OLD_STEP}", is_problem=True)
         self._comparing.show_old(True)
+        self.drafts_changed.emit()
 
     # Where A and B part.
 
@@ -361,9 +436,21 @@ class ListingPresenter(QObject):
         step, listing = self._comparing.second, self._inspector.shown_listing
         if step is None or listing is None:
             return
-        line = max((at for at in listing.lines.values() if at <= line), default=line)
-        at = nearest(line_positions(step.stage_trace, listing.name, line), step.cursor.position, 1)
-        if at is None:
-            self._page.tell(f"No further step at line {line} in this stage.")
-        else:
+        trace, begin = step.stage_trace, step.cursor.position
+        if line in listing.lines.values() or not isinstance(listing, EditedListing):
+            at = nearest(line_positions(trace, listing.name, line), begin, 1)
+            if at is None:
+                self._page.tell(f"No further step at line {line} in this stage.")
+            else:
+                self._comparing.go_to_second(at)
+            return
+        from core.explain.edited import position_that_runs
+
+        at, last = position_that_runs(trace, listing, line, begin)
+        if at is not None:
             self._comparing.go_to_second(at)
+            self._page.tell(f"Line {line} runs in this step.")
+        elif last < trace.steps.count:
+            self._page.tell(f"Line {line} does not run in the next {last - begin:,} steps.")
+        else:
+            self._page.tell(f"No further step runs line {line} in this stage.")

@@ -48,6 +48,7 @@ def look_of(page: "StepPage", text_size: TextSize) -> Look:
         orbits={name: OrbitRecord(**vars(orbit)) for name, orbit in page.views.chosen_orbits().items()},
         other=dict(page.comparing.differences),
         printed=page.comparing.printed,
+        drafts=page.editing.drafts,
         other_buffer=page.comparing.buffer,
         panes=page.desk_panes(),
         text_size=text_size,
@@ -63,6 +64,7 @@ def show_look(page: "StepPage", look: Look) -> None:
         page.comparing.set_differences(look.other)
     if look.printed:
         page.comparing.show_printed(look.printed, seeks=False)
+    page.editing.show_drafts(look.drafts)
     page.events.choose(look.event)
     if look.panes is not None:
         page.show_desk_panes(look.panes)

@@ -71,17 +71,9 @@ class EditedB(QObject):
 
     def try_edit(self, document: Document, stage: str, earlier: Trace) -> None:
         """Run the edited listings of a document as B would; `ran` or `failed` follows."""
-        from app.session.edited_run import settings_of
-
-        self._trial.cancel()
-        try:
-            other = replace(document, settings=settings_of(document)[1])
-        except ValueError as error:
-            self.failed.emit(error)
-            return
         self._trying = document
-        is_long = other.estimated_seconds > QUICK_SECONDS
-        self._trial.do(partial(trace_now, other, stage, earlier), is_long=is_long)
+        is_long = document.estimated_seconds > QUICK_SECONDS
+        self._trial.do(partial(_traced, document, stage, earlier), is_long=is_long)
 
     def run_of(self, document: Document) -> Trace | None:
         """Return the run of B beside a document that was tried last."""
@@ -92,3 +84,10 @@ class EditedB(QObject):
         assert self._trying is not None
         self._tried, self._trying = (self._trying, trace), None
         self.ran.emit(self._tried[0])
+
+
+def _traced(document: Document, stage: str, earlier: Trace) -> Trace:
+    """Trace a stage with the edited listings of a document; raises ValueError where one of them cannot run."""
+    from app.session.edited_run import settings_of
+
+    return trace_now(replace(document, settings=settings_of(document)[1]), stage, earlier)

@@ -13,7 +13,9 @@ from app.pages.step.steps_ahead import sentence_at
 from app.session.cursor import Cursor
 from app.session.moment import Step
 from core import STAGES, Trace
+from core.explain import variables
 from core.records.arrays import Flags
+from core.records.words import joined
 from widgets.grid.buffer import GridBuffer, number_text
 from widgets.grid.compare_view import Side
 from widgets.grid.geometry import GridGeometry
@@ -25,6 +27,8 @@ if TYPE_CHECKING:
 
 Outlines = Callable[[Trace, Cursor], GridGeometry]
 """Returns the triangles of a run."""
+NAMED = 3
+"""Things in which A and B differ that a sentence names at most."""
 OTHER = "read them at a pixel, or choose a buffer that both share."
 ALIKE = "A and B do the same in every stage."
 REORDERED = "A and B give the same results; only the order of their steps differs."
@@ -185,6 +189,25 @@ DIFFERING = {
 """Words for variables in which two runs can differ first."""
 
 
+def _words_of(found: "Divergence", first: Trace) -> list[str]:
+    """Return what differs, in words or by the name that it has among the variables of A."""
+    run, row = first.stage(found.stage), found.rows[0]
+    assert row is not None
+    done = run.explain(run.steps.position_after(row))
+    shown = () if done is None else variables(done)
+    words = []
+    for name in found.names:
+        ours, theirs = (np.atleast_1d(values[name]) for values in found.values)
+        own = [
+            each.name
+            for each in shown
+            if each.column == name
+            and (each.element is None or not np.array_equal(ours[each.element], theirs[each.element]))
+        ]
+        words += [DIFFERING[name]] if name in DIFFERING else own
+    return list(dict.fromkeys(words))[:NAMED] or ["a number that the variables do not show"]
+
+
 def divergence_text(found: "Divergence | None", first: Trace, second: Trace) -> str:
     """Return in words where two runs differ first."""
     from core.study.accuracy.divergence import is_same_schedule
@@ -198,8 +221,5 @@ def divergence_text(found: "Divergence | None", first: Trace, second: Trace) -> 
     if None in found.rows:
         said = f"{'AB'[found.rows.index(None)]} has no step there"
     else:
-        words = [
-            DIFFERING.get(name, name.replace("color", "colour").replace("_", " ")) for name in found.names
-        ]
-        said = f"A and B differ in {', '.join(words)}"
+        said = f"A and B differ in {joined(_words_of(found, first))}"
     return f"First divergence, at {where}: {said}. Ctrl+[ goes back."

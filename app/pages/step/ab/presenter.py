@@ -34,8 +34,10 @@ if TYPE_CHECKING:
     from core.study.accuracy.divergence import Divergence  # Looked for long after the window is open.
 
 PREDICTING = "Hidden until the answer is shown."
-FAULTY = "B is a run with a mistake: the page cannot take it over."
-EDITED = "B runs an edited listing: the page keeps the method itself, so that both can be compared."
+SHOWN_ONLY = (
+    "B is shown for comparison only, as a listing in print or with a mistake: A keeps its own method."
+)
+EDITED = "B runs your edited listing, and A keeps the method itself, so that both can be compared."
 
 OLD = "B is the last version that ran."
 
@@ -211,9 +213,6 @@ class ComparePresenter(QObject):
 
     def _edit(self, differences: dict[str, str | int]) -> bool:
         """Give the page the settings of B, and B other differences; return whether the page could take them."""
-        if self._b.title:
-            self._page.tell(EDITED if self._b.edits else FAULTY)
-            return False
         other, before = self.other, self._chosen
         self._chosen = SideB(differences)
         try:
@@ -518,6 +517,7 @@ class ComparePresenter(QObject):
             Side(name, f"{name}: {title}", text, reason=self._refusal)
             for name, title, text in zip("AB", self._titles(moment), texts, strict=True)
         ]
+        self._view.show_refusal((EDITED if self._b.edits else SHOWN_ONLY) if self._b.title else "")
         steps: list[Step] = [moment] if second is None else [moment, second]
         wanted = self._buffers.get(moment.cursor.stage, "")
         buffers, shown, pictures = pictured(sides, steps, self._outlines, wanted, bool(self.printed))

@@ -8,7 +8,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QTextCursor
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel, QMenu
+from PySide6.QtWidgets import QLabel, QMenu, QPushButton
 
 from app.files.open_any import open_any
 from app.files.state_files import EXTENSION, load_state, save_state
@@ -139,6 +139,7 @@ def test_a_text_that_fails_leaves_the_last_picture_greyed(window: MainWindow) ->
     assert window.session.document.edits == edits
     assert view.grids[1].graphicsEffect() is not None
     assert "the last version that ran" in view.titles[1].text()
+    assert "numbers are those of the last version that ran" in pane.message.text()
     QTest.keyClick(editor, Qt.Key.Key_Backspace)
     wait(lambda: not editor.has_problem)
     assert view.grids[1].graphicsEffect() is None
@@ -158,6 +159,109 @@ def test_a_text_that_fails_leaves_the_last_picture_greyed(window: MainWindow) ->
     window.run_action("edit_line")
     assert "while True:" in editor.text
     wait(lambda: editor.has_problem)
+
+
+def test_marks_follow_what_is_typed_though_it_does_not_run(window: MainWindow) -> None:
+    bresenham(window)
+    window.session.go_to(5)
+    editor = edit(window, "D = 2 * dy - dx")
+    pane = pane_of(window)
+    assert editor.line == 8
+    QTest.keyClick(editor, Qt.Key.Key_Home)
+    QTest.keyClicks(editor, "d =")
+    QTest.keyClick(editor, Qt.Key.Key_Return)
+    wait(lambda: editor.has_problem)
+    assert window.session.document.edits == ()
+    assert editor.line == 9
+    assert 8 in editor.changed_lines
+    assert pane.note.text() == "1 line changed"
+    # It can be taken back, though it never ran.
+    assert pane.reset_button.isVisible()
+    pane.reset_button.click()
+    assert editor.text == original("line", "bresenham").source
+    assert not editor.has_problem
+    assert not pane.reset_button.isVisible()
+
+
+def test_what_does_not_run_is_kept_in_a_state_and_in_other_scenes(window: MainWindow, tmp_path: Path) -> None:
+    bresenham(window)
+    editor = edit(window, "D = 2 * dy - dx")
+    QTest.keyClicks(editor, " + d")
+    wait(lambda: editor.has_problem)
+    typed, path = editor.text, tmp_path / f"mine{EXTENSION}"
+    save_state(path, window.files.state())
+    _, notes = load_state(path)
+    assert len(notes) == 1
+    assert notes[0].startswith(
+        "A text that does not run is kept for the listing of Bresenham, integers: line 8"
+    )
+    window.session.open(open_any("single-triangle").document)
+    assert [draft.text for draft in window.page.editing.drafts] == [typed]
+    window.page.editing.show_drafts([])
+    window.files.show_opened(open_any(str(path)))
+    assert pane_of(window).note.text() == "Your text does not run"
+    window.run_action("edit_line")
+    assert editor.text == typed
+    wait(lambda: editor.has_problem)
+    pane_of(window).reset_button.click()
+    assert window.page.editing.drafts == []
+
+
+def test_an_edit_can_be_named_and_taken_back_from_everywhere(window: MainWindow, tmp_path: Path) -> None:
+    bresenham(window)
+    editor, pane = edit(window, "D = 2 * dy - dx"), pane_of(window)
+    QTest.keyClicks(editor, " + 9")
+    wait(lambda: window.session.document.edits)
+    view = window.page.compare_view
+    buttons = {button.text(): button for button in view.findChildren(QPushButton)}
+    assert not buttons["Use B"].isEnabled()
+    assert not buttons["Swap"].isEnabled()
+    assert "A keeps the method itself" in buttons["Use B"].toolTip()
+    pane.sides.tabBarDoubleClicked.emit(B)
+    QTest.keyClicks(pane.name_field, "too early")
+    QTest.keyClick(pane.name_field, Qt.Key.Key_Return)
+    assert window.session.document.edits[0].name == "too early"
+    assert pane.sides.tabText(B) == "B: too early"
+    wait(lambda: "my version “too early”: Bresenham, integers" in view.titles[1].text())
+    QTest.keyClicks(editor, "9")
+    wait(lambda: "+ 99" in window.session.document.edits[0].text)
+    assert window.session.document.edits[0].name == "too early"
+    path = tmp_path / f"mine{EXTENSION}"
+    save_state(path, window.files.state())
+    _, notes = load_state(path)
+    assert notes == ("This runs a listing that was edited, “too early”: listing of Bresenham, integers.",)
+    window.files.show_opened(open_any(str(path)))
+    assert window.session.document.edits[0].name == "too early"
+    window.session.set_stage("transform", 1)
+    assert pane.reset_button.isVisible()
+    assert pane.note.text() == "Edited: listing of Bresenham, integers"
+    pane.reset_button.click()
+    assert window.session.document.edits == ()
+    assert not pane.reset_button.isVisible()
+    window.page.show_view("compare")
+    wait(buttons["Use B"].isEnabled)
+
+
+def test_a_click_on_a_line_goes_to_a_step_that_runs_it(window: MainWindow) -> None:
+    bresenham(window)
+    editor = edit(window, "D = 2 * dy - dx")
+    QTest.keyClicks(editor, " + 9")
+    wait(lambda: window.session.document.edits)
+    QTest.keyClick(editor, Qt.Key.Key_Escape)
+    said: list[str] = []
+    window.page.message_sent.connect(said.append)
+    window.session.go_to(0)
+    listing = pane_of(window).listing
+    source = listing.toPlainText().splitlines()
+    line = next(k for k, text in enumerate(source, 1) if text.strip().startswith("for "))
+    second = window.page.comparing.second
+    assert second is not None
+    labelled = set(window.page.inspector.shown_listing.lines.values())  # type: ignore[union-attr]
+    assert line not in labelled
+    listing.line_clicked.emit(line)
+    assert said[-1] == f"Line {line} runs in this step."
+    listing.line_clicked.emit(1)
+    assert said[-1].startswith("No further step runs line 1")
 
 
 def test_each_text_that_ran_is_one_entry_of_undo(window: MainWindow) -> None:
@@ -259,7 +363,7 @@ def test_another_scene_keeps_the_edit_where_it_runs(window: MainWindow) -> None:
     window.files.show_opened(open_any("segment"))
     assert window.page.current_view() == "compare"
     assert window.session.document.edits[0].of == "bresenham"
-    assert window.page.comparing.second is not None
+    wait(lambda: window.page.comparing.second)
 
 
 def test_an_edit_that_does_not_fit_the_scene_sleeps(window: MainWindow) -> None:
@@ -274,7 +378,7 @@ def test_an_edit_that_does_not_fit_the_scene_sleeps(window: MainWindow) -> None:
     assert pane_of(window).message.text() == ""
     QTest.keyClicks(edit(window, "if D >= 0"), ".5")
     wait(lambda: len(window.session.document.edits) == 2)
-    assert window.page.comparing.second is not None
+    wait(lambda: window.page.comparing.second)
 
 
 def test_a_state_opens_with_the_edit_in_b(window: MainWindow, tmp_path: Path) -> None:
@@ -292,7 +396,7 @@ def test_a_state_opens_with_the_edit_in_b(window: MainWindow, tmp_path: Path) ->
     window.files.show_opened(open_any(str(path)))
     assert window.session.document.edits == edits
     assert window.session.document.settings.replacements == {}
-    assert window.page.comparing.second is not None
+    wait(lambda: window.page.comparing.second)
 
 
 def test_no_listing_is_edited_while_predicting(window: MainWindow) -> None:

@@ -5,6 +5,7 @@ import re
 from pathlib import Path
 
 import pytest
+from PySide6.QtWidgets import QPushButton
 
 from app.files.open_any import open_any
 from app.files.state_files import State, StateFileError, load_state, save_state
@@ -53,7 +54,8 @@ def test_it_stands_in_no_menu_of_methods_and_the_page_cannot_take_it(window: Mai
     window.show_printed("pellacini-dda")
     titles = {method.title for method in table}
     assert not titles & {printed.method.title for printed in runnable() if printed.method is not None}
-    window.page.comparing._use()
+    buttons = window.page.compare_view.findChildren(QPushButton)
+    assert {button.text() for button in buttons if not button.isEnabled()} == {"Swap", "Use B"}
     assert window.session.document.settings.replacements == {}
     comparing = window.page.comparing
     assert comparing._view.value_box.currentText() == "as printed: DDA loop (Pellacini)"
