@@ -4,12 +4,15 @@ Pixels of areas take their values from planes over the window, pixels of outline
 """
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from core.fragments.interpolation import Interpolator
 from core.fragments.textures import uses_mipmaps
 from core.fragments.uv_slopes import uv_slopes
+from core.fragments.value_rule import ValueRule
+from core.methods import table
 from core.raster.coverage import Fragments
 from core.raster.lines.slopes import line_slopes
 from core.raster.lines.wireframe import LineFragments, interpolate_outlines
@@ -21,6 +24,9 @@ from core.resolved import resolve
 from core.scene import AnyScene
 from core.stages.fragment_color import Surface, shade_fragments
 from core.stages.geometry import Geometry
+
+if TYPE_CHECKING:
+    from core.fragments.edited_slopes import EditedSlopes  # Edited listings are few.
 
 
 def owner_of(fragments: Fragments) -> Integers:
@@ -150,9 +156,23 @@ def slopes_at(geometry: Geometry, primitive: Integers, x: Floats, y: Floats, val
     """Return the same (4, F), or ``None``, for primitives at window positions (F,)."""
     if not _asks_for_slopes(geometry):
         return None
+    rule, *_ = resolve(geometry.settings).interpolation
+    if isinstance(rule, ValueRule):
+        return edited_slopes_at(geometry, primitive, x, y).slopes
     uv = values[:, geometry.primitives.layout["uv"]]
-    how = geometry.settings.interpolation
-    return uv_slopes(geometry.planes, geometry.primitives.values, primitive, x, y, uv, how)
+    name = geometry.settings.interpolation
+    return uv_slopes(geometry.planes, geometry.primitives.values, primitive, x, y, uv, name)
+
+
+def edited_slopes_at(geometry: Geometry, primitive: Integers, x: Floats, y: Floats) -> "EditedSlopes":
+    """Return the slopes for primitives at window positions (F,) where an edited listing interpolates."""
+    from core.fragments.edited_slopes import edited_slopes
+
+    rule, provoking, interval = resolve(geometry.settings).interpolation
+    assert isinstance(rule, ValueRule)
+    name = table.get("interpolation", geometry.settings.interpolation).name
+    values = geometry.primitives.values
+    return edited_slopes(rule, geometry.planes, values, primitive, x, y, name, provoking, interval)
 
 
 def _asks_for_slopes(geometry: Geometry) -> bool:

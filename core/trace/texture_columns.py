@@ -5,9 +5,11 @@ from typing import Any
 
 import numpy as np
 
+from core.fragments.edited_slopes import slopes_of_edit
 from core.fragments.mipmap_samples import LevelSamples, sample_mipmaps
 from core.fragments.textures import sample_texture
 from core.fragments.uv_slopes import slope_numerators, slopes_at, slopes_of_one_value
+from core.fragments.value_rule import ValueRule
 from core.methods import table
 from core.raster.lines.slopes import affine_line_slopes_at, line_slopes_at
 from core.raster.lines.wireframe import LineFragments, line_parameter, values_at_ends
@@ -15,6 +17,7 @@ from core.records.arrays import Floats, Integers
 from core.records.operation import Operation
 from core.records.primitives import interpolation_form
 from core.scene import Texture
+from core.stages.fragments import edited_slopes_at
 from core.trace.source import TraceSource
 
 SLOPE_LISTINGS: dict[str, Callable[..., Any]] = {
@@ -22,12 +25,15 @@ SLOPE_LISTINGS: dict[str, Callable[..., Any]] = {
     "flat": slopes_of_one_value,
     "line": line_slopes_at,
     "affine-line": affine_line_slopes_at,
+    "edited": slopes_of_edit,
 }
 """How the slopes of texture coordinates come about, see `slope_kind`, to its listing."""
 
 
 def slope_kind(source: TraceSource) -> str:
-    """Return how the slopes of u and v come about: over areas, along lines, or not at all."""
+    """Return how the slopes of u and v come about: over areas, along lines, by an edit, or not at all."""
+    if isinstance(table.get("interpolation", source.settings.interpolation).function, ValueRule):
+        return "edited"
     form = interpolation_form(source.settings.interpolation)
     if form == "flat":
         return form
@@ -101,8 +107,12 @@ def _slope_columns(source: TraceSource, chosen: Integers) -> dict[str, np.ndarra
     if kind == "flat":
         return {}
     uv = geometry.primitives.varyings[..., geometry.primitives.layout["uv"]]
+    x, y = source.centers
+    if kind == "edited":
+        made = edited_slopes_at(geometry, fragments.primitive[chosen], x[chosen], y[chosen])
+        sides = dict(zip(("right", "left", "up", "down"), made.apart, strict=True))
+        return {"slope_rule": made.of_method.T, **{f"slope_{name}": off.T for name, off in sides.items()}}
     if kind == "area":
-        x, y = source.centers
         primitive = fragments.primitive[chosen]
         across, up, n = slope_numerators(
             geometry.planes, primitive, x[chosen], y[chosen], source.settings.interpolation

@@ -127,6 +127,8 @@ def slopes(step: StepValues) -> Said:
         along = up if step.flag("is_steep") else right
         text = f"along the line (u, v) change by {along} per pixel, across it they do not change."
         return f"{step.pixel_name}: {text}", _line_slope(step, k)
+    if step.has("slope_rule"):
+        return _edited_slopes(step, k)
     if not step.has("slope_n"):
         text = "u and v are those of one corner everywhere, so they change neither to the right nor upwards."
         return f"{step.pixel_name}: {text}", equation(*beside(*([(name, 0.0)] for name in SLOPES)))
@@ -139,6 +141,24 @@ def slopes(step: StepValues) -> Said:
     )
     quotient = fraction((symbols, numbers), ("n", sum(step.vector("slope_n"))))
     return text, equation((SLOPES[k], values[k]), "=", quotient)
+
+
+def _edited_slopes(step: StepValues, k: int) -> Said:
+    """Return how the slopes of an edited listing come about: those of the method, and how far its values are apart."""
+    values, of_method = step.vector("uv_slopes"), step.vector("slope_rule")
+    right, up = vector_text(values[:2]), vector_text(values[2:])
+    text = (
+        f"{step.pixel_name}: by your listing (u, v) change by {right} per pixel to the right, by {up} upwards: "
+        "the method's slopes, and how much more your values change than its values from half a pixel before to "
+        "half a pixel behind."
+    )
+    letter, (ahead, behind) = "uv"[k % 2], (("right", "left"), ("up", "down"))[k // 2]
+    apart = [step.vector(f"slope_{side}")[k % 2] for side in (ahead, behind)]
+    marks = [rf"\Delta {letter}_{{\mathrm{{{side}}}}}" for side in (ahead, behind)]
+    own = rf"{SLOPES[k]}^{{\mathrm{{method}}}}"
+    sum_of = rf"{own} + ({marks[0]} - {marks[1]})"
+    numbers = rf"{number_latex(of_method[k])} + ({number_latex(apart[0])} - {signed_latex(apart[1])})"
+    return text, equation((SLOPES[k], values[k]), "=", (sum_of, numbers))
 
 
 def _line_slope(step: StepValues, k: int) -> Formula:
@@ -318,6 +338,15 @@ shows(
         ),
         "slope_b": VariableText("b#", "Change of the numerator n per pixel upwards.", "uv_slopes", "edges"),
         "slope_n": VariableText("n#", "Numerator of the corner's weight.", "uv_slopes", "edges"),
+        "slope_rule": VariableText("slopes of the method", "Of its own u and v.", "uv_slopes"),
+        **{
+            f"slope_{side}": VariableText(
+                f"apart {side}",
+                f"u and v of your listing less the method's, half a pixel {side}.",
+                "uv_slopes",
+            )
+            for side in ("right", "left", "up", "down")
+        },
         "corner_uv": VariableText("u, v at corner #", "Texture coordinates there.", "uv_slopes", "edges"),
         "length": VariableText("L", "Pixels of the line along its major axis.", "uv_slopes"),
         "end_uv": VariableText("u, v at end #", "Texture coordinates there.", "uv_slopes", "parts"),

@@ -20,7 +20,9 @@ from core.edits import (
     refusal,
     without_edits,
 )
+from core.explain import formula
 from core.explain.steps import sentence
+from core.fragments.edited_slopes import slopes_of_edit
 from core.framebuffer.display import to_display
 from core.lanes.problem import Problem
 from core.methods import table
@@ -142,6 +144,29 @@ def test_values_come_from_the_listing_not_only_weights():
     assert not np.array_equal(
         wrong.columns["values"], trace(scene, settings).stage("interpolate").columns["values"]
     )
+
+
+def test_the_level_of_detail_follows_the_edited_values():
+    scene = replace(make_scene("textured-floor"), size=(48, 48))
+    settings = Settings(texture_filter="trilinear")
+    source = original("interpolation", "perspective").source
+    as_it_is = apply_edit(settings, Edit("interpolation", "perspective", source))
+    right, same = trace(scene, settings).stage("shade"), trace(scene, as_it_is).stage("shade")
+    np.testing.assert_array_equal(same.columns["uv_slopes"], right.columns["uv_slopes"])
+    text = original("interpolation", "perspective").source.replace("return", "value = value * 4\n  return")
+    four_times = apply_edit(settings, Edit("interpolation", "perspective", text))
+    ours = trace(scene, four_times).stage("shade")
+    textured = np.isfinite(right.columns["lod"])
+    apart = ours.columns["lod"][textured] - right.columns["lod"][textured]
+    np.testing.assert_allclose(apart, 2, atol=0.05)
+    row = int(np.flatnonzero(textured)[0])
+    slopes = slopes_of_edit(
+        *(ours.columns[f"slope_{name}"][row] for name in ("rule", "right", "left", "up", "down"))
+    )
+    np.testing.assert_array_equal(slopes, ours.columns["uv_slopes"][row])
+    step = ours.explain(ours.steps.position_after(row) - len(ours.steps.operations[ours.kind_of(row)]) + 1)
+    assert "by your listing (u, v) change by" in sentence(step, -1, None)
+    assert formula(step) is not None
 
 
 INCLUSIVE = edit("fill", *MISTAKES["all-edges-inclusive"][1:])

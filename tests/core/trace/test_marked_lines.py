@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from core import STAGES, ClipScene, Settings, Trace, trace
 from core.assembly.depth_tables import table_scene
+from core.edits import Edit, apply_edit, original
 from core.explain.steps import load_subjects
 from core.explain.variable_text import VARIABLES
 from core.fragments.barycentric import WAYS
@@ -82,6 +83,8 @@ def rare_traces() -> Iterator[Trace]:
     for way in ("perspective", "affine"):
         outlined = Settings(texture_filter="trilinear", polygon_mode="wireframe", interpolation=way)
         yield trace(SCENES["textured-clip"], outlined)
+    as_it_is = Edit("interpolation", "perspective", original("interpolation", "perspective").source)
+    yield trace(SCENES["textured-clip"], apply_edit(Settings(texture_filter="trilinear"), as_it_is))
     yield trace(replace(SCENES["lit"], lights=()))
     depths = np.array([[[1.0, 3, 2]], [[1.0, 2, 3]]])
     for test in DEPTH_TESTS:
