@@ -58,7 +58,6 @@ def _depth_test_of(method: Method) -> Callable[..., Any]:
 
 _BLOCKS = "It takes or leaves whole blocks without testing their pixels: choose fill bounding-box."
 _SPANS = "It tests no pixel, but finds the spans of rows: choose fill bounding-box."
-_ARRAYS = "Its listing computes with arrays, which are not in the language of listings."
 _PLANAR = "It compares whole numbers that stand in integer planes, packed with the triangle's number."
 EDITABLE = {
     part.name: part
@@ -81,9 +80,6 @@ EDITABLE = {
             line_clipping.edited_clipper,
             refused={
                 "none": "Nothing is clipped.",
-                "cohen-sutherland": "Its listing counts the bits of numbers by a method of Python's own.",
-                "cyrus-beck": _ARRAYS,
-                "cyrus-beck-lecture": _ARRAYS,
                 "exact": "Its listing computes with fractions, which are not in the language of listings.",
             },
         ),

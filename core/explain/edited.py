@@ -16,6 +16,7 @@ from core.explain.digits import spoken
 from core.explain.equation import Part, equation
 from core.explain.records import Formula, Value, Variable
 from core.explain.term_latex import equality_parts
+from core.geometry.line_clipping.records import ClipWindow
 from core.lanes.limits import LISTING
 from core.lanes.nodes import Put
 from core.lanes.notes import LaneStep, steps_until_problem
@@ -60,7 +61,7 @@ class EditedStep:
     @property
     def main(self) -> LaneStep | None:
         """The line that the operation stands for: its labelled one, else the first that computes something."""
-        lines = set(self.listing.lines.values())
+        lines = set(map(self.listing.begin_of, self.listing.lines.values()))
         told = [step for step in self.steps if step.kind not in LOOPS] or list(self.steps)
         return next((step for step in told if step.line in lines), told[0] if told else None)
 
@@ -68,6 +69,11 @@ class EditedStep:
 def is_edited(explanation: Explanation) -> bool:
     """Return whether a step is one of an edited listing."""
     return isinstance(explanation.listing, EditedListing)
+
+
+def is_clipping(explanation: Explanation) -> bool:
+    """Return whether a step of an edited listing is one of a line clipper, in a row before those of the pixels."""
+    return int(explanation.values.get("clip_row", -1)) >= 0
 
 
 @lru_cache(KEPT_EXPLANATIONS)
@@ -79,13 +85,16 @@ def edited_step(explanation: Explanation) -> EditedStep | None:
     if inputs is None:
         return None
     ran: Sequence[LaneStep] = _recorded(Typed(listing.original.function, listing.source), _frozen(inputs))
-    if explanation.key.startswith("raster.") and "first_end" in explanation.values:
+    if is_clipping(explanation):
+        ran = _of_put(ran, int(explanation.values["clip_row"]))
+    elif explanation.key.startswith("raster.") and "first_end" in explanation.values:
         found = _of_pixel(ran, explanation.values)
         if found is None:
             return None
         ran = found
-    lines = [each.line for each in (*explanation.earlier, explanation) if each.listing is listing]
-    labelled = frozenset(listing.lines.values())
+    shown = [each.line for each in (*explanation.earlier, explanation) if each.listing is listing]
+    lines = [listing.begin_of(line) for line in shown]
+    labelled = frozenset(map(listing.begin_of, listing.lines.values()))
     begin, group = 0, range(0)
     for place, line in enumerate(lines):
         is_last = place == len(lines) - 1
@@ -112,6 +121,12 @@ def _group(
     return range(0 if is_first else begin, end)
 
 
+def _of_put(ran: Sequence[LaneStep], index: int) -> Sequence[LaneStep]:
+    """Return the steps that lead to what is put to a list, by its index; behind the last one, all that follow."""
+    puts = [k for k, step in enumerate(ran) if isinstance(step.statement, Put)]
+    return ran[puts[index - 1] + 1 if index else 0 : puts[index] + 1 if index < len(puts) else len(ran)]
+
+
 def _of_pixel(ran: Sequence[LaneStep], values: Mapping[str, Any]) -> Sequence[LaneStep] | None:
     """Return the steps of a line's run that lead to one pixel: those behind the pixel before."""
     puts = [
@@ -133,6 +148,8 @@ def _inputs(explanation: Explanation, listing: EditedListing) -> list[Any] | Non
         ends = [*np.asarray(values["first_end"]).tolist(), *np.asarray(values["second_end"]).tolist()]
         is_whole = all(float(end).is_integer() for end in ends)
         return [*(int(end) if is_whole else end for end in ends), explanation.corner_count == 2]
+    if is_clipping(explanation):
+        return _clipper_inputs(values, Typed(listing.original.function, listing.source))
     stage, _, operation = explanation.key.split(".", 2)
     held: dict[str, Any] = {}
     for name in names:
@@ -145,6 +162,19 @@ def _inputs(explanation: Explanation, listing: EditedListing) -> list[Any] | Non
         if "provoking" in names:
             held["provoking"] = int(np.argmax(np.asarray(values["weights"], float)))
     return [held[name] for name in names] if all(name in held for name in names) else None
+
+
+def _clipper_inputs(values: Mapping[str, Any], typed: Typed) -> list[Any]:
+    """Return what the listing of a line clipper is given."""
+    from core.edits.line_clipping import clipper_inputs
+
+    corners, points, normals = (
+        np.asarray(values[f"clip_{name}"]) for name in ("corners", "points", "normals")
+    )
+    # Only what takes normals is given another window than a rectangle.
+    window = ClipWindow(corners, points, normals, (), is_rectangle=True)
+    ends = [*np.asarray(values["window_start"]).tolist(), *np.asarray(values["window_end"]).tolist()]
+    return clipper_inputs(typed, ends, window, values["line_clipping"] == "cyrus-beck-lecture")
 
 
 def _component(explanation: Explanation, operation: str) -> int:
@@ -287,7 +317,7 @@ def edited_variables(explanation: Explanation) -> tuple[Variable, ...]:
             name, int(np.asarray(explanation.values[name])), int(np.asarray(explanation.values[name])), text
         )
         for name, text in PLACE.items()
-        if name in explanation.values
+        if name in explanation.values and not is_clipping(explanation)
     ]
     step = edited_step(explanation)
     if step is None or step.latest is None:

@@ -58,7 +58,9 @@ def account(
     text, made = _said(StepValues(explanation, triangle, pixel))
     standing = made if made is not None else _earlier_formula(explanation, triangle, pixel)
     said = in_words(text, standing.digits if standing is not None else {})
-    return of_kind(said, explanation.corner_count), made
+    # The names of a student's own code stay as they are.
+    is_own = isinstance(explanation.listing, EditedListing)
+    return said if is_own else of_kind(said, explanation.corner_count), made
 
 
 def _earlier_formula(
@@ -77,7 +79,7 @@ def _said(step: StepValues) -> tuple[str, Formula | None]:
     if isinstance(step.explanation.listing, EditedListing):
         from core.explain.edited import edited_account  # Wanted by few: it takes the evaluator.
 
-        place = f"{step.pixel_name}: " if step.has("column", "row") else ""
+        place = f"{step.pixel_name}: " if step.has("column", "row") and step.number("column") >= 0 else ""
         return edited_account(step.explanation, place)
     row = row_of(step.explanation.key)
     said = row.say(step) if row is not None else _plain_account(step)

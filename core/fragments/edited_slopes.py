@@ -33,7 +33,8 @@ class EditedSlopes:
         """(4, F) float64, du/dx, dv/dx, du/dy, dv/dy."""
         right, left, up, down = self.apart
         with np.errstate(invalid="ignore"):
-            return self.of_method + np.concatenate([right - left, up - down])
+            found: Floats = self.of_method + np.concatenate([right - left, up - down])
+        return found
 
 
 def edited_slopes(

@@ -268,9 +268,7 @@ class PythonDialect:
             raise Problem(place, f"{kind_of(whole)} has no elements [ ]")
         parts = self.elements(whole, mask, place, run)
         if np.ndim(index):
-            is_outside = (index < 0) | (index >= len(parts))
-            if (is_outside if mask is None else is_outside & mask).any() or not parts:
-                raise Problem(place, f"an index is outside of 0 to {len(parts) - 1}")
+            check_inside(index, len(parts), mask, place)
             if not all(is_number(part) for part in parts):
                 raise Problem(place, "an index that is not the same in every lane takes numbers only")
             chosen = np.clip(index, 0, len(parts) - 1)
@@ -286,7 +284,7 @@ class PythonDialect:
         if isinstance(new, Log):
             raise Problem(place, "a list that is still growing cannot be put into a list")
         if isinstance(index, np.ndarray) and index.dtype.kind == "i":
-            self.part(whole, index, mask, place, run)
+            check_inside(index, len(parts), mask, place)
             for k, part in enumerate(parts):
                 here = index == k if mask is None else (index == k) & mask
                 parts[k] = self.merged(here, new, part, place, run) if here.any() else part
@@ -328,6 +326,13 @@ class PythonDialect:
             if not is_number(value):
                 raise Problem(place, f"{name} of {kind_of(value)} is not possible")
         return rounded(name, values[0], mask, place) if name in ROUNDING else applied(name, values, place)
+
+
+def check_inside(index: Any, count: Any, mask: Some, place: Place) -> None:
+    """Refuse indices (L,) outside of 0 to ``count - 1``; the mask is (L,)."""
+    is_outside = (index < 0) | (index >= count)
+    if (is_outside if mask is None else is_outside & mask).any() or np.max(count) == 0:
+        raise Problem(place, f"an index is outside of 0 to {np.max(count) - 1}")
 
 
 def _length_of(numbers: range) -> str:

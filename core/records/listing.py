@@ -50,6 +50,11 @@ class Listing:
         """
         return self._assigned.get(line, frozenset())
 
+    def begin_of(self, line: int) -> int:
+        """Return the first line of the statement that a line belongs to, or the line itself."""
+        statement = self._statements.get(line)
+        return line if statement is None else statement.lineno
+
     def decides(self, line: int) -> bool:
         """Return whether the statement on a line gives nothing a value: it tests, goes on, breaks or returns."""
         kinds = (ast.If, ast.While, ast.For, ast.Return, ast.Break, ast.Continue)

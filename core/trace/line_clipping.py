@@ -15,7 +15,7 @@ from core.geometry.line_clipping.records import (
     ParameterRows,
 )
 from core.methods import table
-from core.records.listing import RETURN, listing
+from core.records.listing import RETURN, EditedListing, listing
 from core.records.operation import Columns, Labels, Operation
 from core.stages.clipped_outlines import OutlineClip
 from core.trace.inserted_rows import InsertedRows, insert_rows
@@ -111,6 +111,17 @@ def with_line_clipping(found: StageTrace, source: TraceSource) -> StageTrace:
         "window_end": whole.window[segment, 1],
         **own,
     }
+    constants: dict[str, Any] = {"line_clipping": source.settings.line_clipping}
+    shown = listing(algorithm)
+    if isinstance(shown, EditedListing):
+        # What it is given: its steps are told by its own lines.
+        columns = {**columns, "clip_row": np.arange(len(segment)) - np.searchsorted(segment, segment)}
+        window = clip.lines.window
+        constants |= {
+            "clip_corners": window.corners,
+            "clip_points": window.points,
+            "clip_normals": window.normals,
+        }
     inserted = InsertedRows(
         before=np.searchsorted(pixel_segment, segment),
         group=segment,
@@ -119,14 +130,14 @@ def with_line_clipping(found: StageTrace, source: TraceSource) -> StageTrace:
         kind=rows.case,
         operations={kind: operations[kind] for kind in kinds},
         columns=columns,
-        listings=dict.fromkeys(kinds, listing(algorithm)),
+        listings=dict.fromkeys(kinds, shown),
     )
     # Edges are numbered among all of them, not among those that are left.
     numbered = replace(
         found,
         columns={**found.columns, "segment": pixel_segment},
         extra={**found.extra, "outline_clip": clip},
-        constants={**found.constants, "line_clipping": source.settings.line_clipping},
+        constants={**found.constants, **constants},
     )
     return insert_rows(numbered, pixel_segment, inserted)
 

@@ -70,9 +70,7 @@ def normal_of(edge: int) -> tuple[int, ...]:
 def entry_and_exit(x0: float, y0: float, x1: float, y1: float) -> tuple[float, float, bool]:
     """Return t_E, t_L and whether something is kept, by the listing of ``cyrus-beck``."""
     window = rectangle_window(*WINDOW)
-    ends, seen = cyrus_beck_listing(
-        np.array([x0, y0]), np.array([x1, y1]), window.normals, window.points, ignores_parallel=False
-    )
+    ends, seen = cyrus_beck_listing([x0, y0], [x1, y1], window.normals, window.points, ignores_parallel=False)
     return float(seen[-1][3]), float(seen[-1][4]), bool(ends)
 
 

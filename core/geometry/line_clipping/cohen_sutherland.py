@@ -11,6 +11,7 @@ LMU, *Computer Graphics 1*, tutorial 5, "Cohen & Sutherland algorithm".
 """
 
 from dataclasses import fields
+from math import frexp
 
 import numpy as np
 
@@ -26,8 +27,8 @@ from core.geometry.line_clipping.records import (
 from core.methods import method
 from core.records.arrays import Flags, Floats, Integers
 
-Listed = list[tuple[int, int, int, int]]
-"""Both outcodes, the edge and the end that moves to it (-1: none) of every pass, from a listing."""
+Listed = list[tuple[int, int, int, int] | tuple[int, int, int, int, float, float]]
+"""Both outcodes, the edge and the end that moves to it (-1: none), and where it moves, of every pass of a listing."""
 FIRST_EDGE = np.array([-1, 0, 1, 0, 2, 0, 1, 0, 3, 0, 1, 0, 2, 0, 1, 0])
 """(16,) int64, the first edge that an outcode names; -1: none."""
 
@@ -47,7 +48,7 @@ def cohen_sutherland_listing(
         if codes[0] & codes[1] != 0:  #: reject
             return [], [*passes, (codes[0], codes[1], -1, -1)]
         end = 0 if codes[0] != 0 else 1  #: end
-        edge = (codes[end] & -codes[end]).bit_length() - 1  #: edge
+        edge = frexp(codes[end] & -codes[end])[1] - 1  #: edge
         if edge < 2:
             border = left if edge == 0 else right
             t = (border - x0) / (x1 - x0)
@@ -56,11 +57,11 @@ def cohen_sutherland_listing(
             border = bottom if edge == 2 else top
             t = (border - y0) / (y1 - y0)
             x, y = x0 + (x1 - x0) * t, border
-        x = max(x, left) if done[end] & 1 else min(x, right) if done[end] & 2 else x
-        y = max(y, bottom) if done[end] & 4 else min(y, top) if done[end] & 8 else y
+        x = max(x, left) if done[end] & 1 != 0 else min(x, right) if done[end] & 2 != 0 else x
+        y = max(y, bottom) if done[end] & 4 != 0 else min(y, top) if done[end] & 8 != 0 else y
         ends[end] = [x, y]  #: move
-        done[end] |= 1 << edge
-        passes.append((codes[0], codes[1], edge, end))
+        done[end] |= codes[end] & -codes[end]
+        passes.append((codes[0], codes[1], edge, end, x, y))
 
 
 @method(
@@ -102,7 +103,9 @@ def cohen_sutherland(segments: Floats, window: ClipWindow) -> ClippedLines:
         done[active, end] |= 1 << edge
         cut_by[active, end] = edge
     kept = np.where(is_kept[:, None, None], ends, np.nan)
-    return ClippedLines(kept, is_kept, np.where(is_kept[:, None], cut_by, -1), window, lambda: _join(passes))
+    return ClippedLines(
+        kept, is_kept, np.where(is_kept[:, None], cut_by, -1), window, lambda: join_passes(passes)
+    )
 
 
 def outcode(points: Floats, window: ClipWindow) -> Integers:
@@ -145,7 +148,7 @@ def hold_inside(points: Floats, done: Integers, window: ClipWindow) -> Floats:
     return np.minimum(np.maximum(points, low), high)
 
 
-def _join(passes: list[OutcodeRows]) -> OutcodeRows:
+def join_passes(passes: list[OutcodeRows]) -> OutcodeRows:
     """Put the passes of all segments in order: segment by segment."""
     if not passes:
         none, empty = np.empty(0, np.int64), np.empty((0, 2))

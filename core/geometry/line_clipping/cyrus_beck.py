@@ -13,7 +13,8 @@ M. Cyrus, J. Beck, *Generalized two- and three-dimensional clipping*, 1978.
 M. I. Jubair, *Computer Graphics*, "Cyrus-Beck Parametric Line Clipping Algorithm".
 """
 
-import numpy as np
+from collections.abc import Sequence
+from math import nan
 
 from core.geometry.line_clipping.edge_walk import clipped_lines, points_at, walk_edges
 from core.geometry.line_clipping.records import ClippedLines, ClipWindow
@@ -25,18 +26,18 @@ Listed = list[tuple[float, float, float, float, float]]
 
 
 def cyrus_beck_listing(
-    p0: Floats, p1: Floats, normals: Floats, points: Floats, ignores_parallel: bool
-) -> tuple[list[Floats], Listed]:
+    p0: Sequence[float], p1: Sequence[float], normals: Floats, points: Floats, ignores_parallel: bool
+) -> tuple[list[Sequence[float]], Listed]:
     """Listing of Cyrus-Beck on one segment: the ends that are left (none: nothing is), and the numbers.
 
     With ``ignores_parallel`` as printed.
     """
-    d = p1 - p0
+    d = p1[0] - p0[0], p1[1] - p0[1]
     is_point = d[0] == 0 and d[1] == 0
     t_e, t_l, entry, exit = 0.0, 1.0, -1, -1
     seen: Listed = []
     for k, (n, p_e) in enumerate(zip(normals, points, strict=True)):
-        t = float("nan")
+        t = nan
         to_start = p0[0] - p_e[0], p0[1] - p_e[1]
         along, room = n[0] * d[0] + n[1] * d[1], -(n[0] * to_start[0] + n[1] * to_start[1])  #: edges
         if along == 0:
@@ -51,8 +52,16 @@ def cyrus_beck_listing(
         seen.append((along, room, t, t_e, t_l))
     if t_e > t_l:
         return [], seen  #: empty
-    first, second = p0 + t_e * d if entry >= 0 else p0, p0 + t_l * d if exit >= 0 else p1  #: ends
-    return [np.asarray(first), np.asarray(second)], seen
+    first, second = (
+        point_at(p0, d, t_e) if entry >= 0 else p0,
+        point_at(p0, d, t_l) if exit >= 0 else p1,
+    )  #: ends
+    return [first, second], seen
+
+
+def point_at(p0: Sequence[float], d: Sequence[float], t: float) -> list[float]:
+    """Return P(t) = P0 + t D."""
+    return [p0[0] + t * d[0], p0[1] + t * d[1]]
 
 
 @method(

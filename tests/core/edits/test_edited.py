@@ -313,6 +313,26 @@ def test_every_method_of_an_editable_family_is_editable_or_says_why_not():
     assert refusal("shade", "phong").startswith("What can be edited")
 
 
+@pytest.mark.parametrize("of", ["liang-barsky", "cohen-sutherland", "cyrus-beck"])
+def test_steps_of_a_clipper_tell_its_own_lines_border_by_border(of):
+    text = original("line_clipping", of).source.replace("t = ", "t = 0 + ")
+    wireframe = Settings(polygon_mode="wireframe", line_clipping=of)
+    stage = trace(
+        make_scene("clipped-segment"), apply_edit(wireframe, Edit("line_clipping", of, text))
+    ).stage("raster")
+    rows = np.flatnonzero(stage.columns["clip_row"] >= 0)
+    wanted = stage.columns["crossing_t" if of != "cohen-sutherland" else "clip_row"][rows]
+    for row, number in zip(rows.tolist(), wanted.tolist(), strict=True):
+        first, end = stage.steps.starts[row : row + 2].tolist()
+        said = " ".join(sentence(stage.explain(k), -1, None) for k in range(first + 1, end + 1))
+        assert "Pixel" not in said
+        assert "segment" not in said
+        if of != "cohen-sutherland" and np.isfinite(number):
+            assert f"t = {number:.4g}." in said
+        if of == "cohen-sutherland":
+            assert f"codes = ({stage.columns['code_start'][row]}, {stage.columns['code_end'][row]})" in said
+
+
 def test_an_endless_loop_of_a_line_ends_with_its_line():
     with pytest.raises(Problem, match="does it ever end") as caught:
         render(make_scene("segment"), apply_edit(Settings(), edit("line", "x += sx", "x = x")))
