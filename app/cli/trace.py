@@ -97,6 +97,11 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         choices=("earlier", "cleared"),
         help="buffers at the start: as earlier triangles left them, or cleared",
     )
+    parser.add_argument(
+        "--lanes",
+        choices=("one", "together"),
+        help="order of a shader's steps: one vertex or fragment after another, or those of a triangle together",
+    )
     add_settings(parser)
     add_edits(parser)
     add_shaders(parser)
@@ -144,12 +149,12 @@ def make_trace(opened: Opened, options: argparse.Namespace) -> Trace:
             f"argument --triangle: must be 0 to {document.triangle_count - 1} in {options.file}, got {triangle}"
         )
     settings = chosen_settings(document.settings, options.set, options.edit)
-    before = options.before or document.before
+    before, lanes = options.before or document.before, options.lanes or document.lanes
     if options.size is not None or options.region is not None:
         scene = sized(document.scene, options)
         check_region(options.region, scene.size)
-        return trace(scene, settings, triangle, options.region, before)
-    document = replace(document, settings=settings, before=before)
+        return trace(scene, settings, triangle, options.region, before, lanes=lanes)
+    document = replace(document, settings=settings, before=before, lanes=lanes)
     if opened.state is None:
         document = focus_on(document, triangle)
     return replace(document, triangle=triangle).make_trace()

@@ -100,6 +100,7 @@ def save_state(path: str | Path, state: State, keep: Keep = array_record) -> Non
         ),
         triangle=document.triangle,
         before=document.before,
+        lanes=document.lanes,
         stage=state.stage,
         position=state.position,
         level=state.level,
@@ -256,6 +257,7 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
         settings=settings,
         triangle=record.triangle,
         before=record.before,
+        lanes=record.lanes,
         title=record.title,
         path=mesh_path,
     )

@@ -313,6 +313,8 @@ class StateRecord(Record):
     triangle: Count | None
     before: str
     """``earlier`` or ``cleared``."""
+    lanes: Literal["one", "together"] = "one"
+    """Order of a shader's steps: one lane after another, or those of a triangle together."""
     stage: StageName
     position: Count
     level: Annotated[int, Field(ge=0, le=4)]

@@ -72,6 +72,8 @@ class Document:
     """The triangle in focus, ``None``: all of them are stepped."""
     before: str = "earlier"
     """Buffers at the start: as ``"earlier"`` triangles left them, or ``"cleared"``."""
+    lanes: str = "one"
+    """Order of a shader's steps: ``"one"`` lane after another, or those of a triangle ``"together"``."""
     title: str = ""
     path: str = ""
     """File that the scene came from; empty: built in or typed."""
@@ -80,7 +82,9 @@ class Document:
 
     def has_run_of(self, other: "Document") -> bool:
         """Return whether it is the same run: of the same scene, under the same settings."""
-        mine, theirs = ((each.raster, each.triangle, each.before, each.settings) for each in (self, other))
+        mine, theirs = (
+            (each.raster, each.triangle, each.before, each.lanes, each.settings) for each in (self, other)
+        )
         return self.scene is other.scene and mine == theirs
 
     @property
@@ -147,7 +151,7 @@ class Document:
     def make_trace(self, settings: Settings | None = None, earlier: Trace | None = None) -> Trace:
         """Prepare the trace, under other settings if they are given; see ``core.trace`` for the ``earlier`` one."""
         run = self.traced_scene, settings or self.settings, self.triangle, self.region, self.before
-        return trace(*run, earlier=earlier)
+        return trace(*run, earlier=earlier, lanes=self.lanes)
 
 
 NEAR_THE_MIDDLE = 64

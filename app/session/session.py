@@ -160,8 +160,10 @@ class Session(QObject):
         Raises ValueError if it cannot be traced; nothing changes.
         """
         source = self.trace.source
-        run = document.settings, document.triangle, document.region, document.before
-        is_same_run = run == (source.settings, source.triangle, source.region, source.before)
+        is_same_run = all(
+            getattr(document, name) == getattr(source, name)
+            for name in ("settings", "triangle", "region", "before", "lanes")
+        )
         if document.triangle is None or not is_same_run:
             self.edit(document, gesture)
             return

@@ -49,6 +49,8 @@ class Variable:
     """Significant digits of numbers by their size, as the formula of the step shows them; of others the usual four."""
     column: str = ""
     """Its column in the trace."""
+    share: float | None = None
+    """What part of a whole it is, which is drawn as a bar; ``None``: of none."""
     element: int | None = None
     """Which number of that column's array it is; ``None``: all of it."""
 

@@ -197,14 +197,26 @@ def _shader_variables(explanation: Explanation) -> tuple[Variable, ...]:
     """Return the shader's own variables after a statement."""
     values = explanation.values
     own = [name for name in explanation.known if f"{name} before" in values or name in explanation.changed]
-    return tuple(
-        Variable(
-            name,
-            _value(values[name]),
-            _value(values.get(f"{name} before")) if name in explanation.changed else _value(values[name]),
-            "A variable of the shader.",
-        )
-        for name in own
+    what = "vertices" if explanation.key.startswith("transform") else "fragments"
+    live, lanes, earlier = (int(values[name]) for name in ("live", "lanes", "lanes earlier"))
+    together = Variable(
+        f"{what} that run",
+        f"{live:,} of {lanes:,}",
+        f"{earlier:,} of {lanes:,}",
+        f"How many {what} of this triangle run this statement together. The others wait, or have ended.",
+        share=live / lanes,
+    )
+    return (
+        together,
+        *(
+            Variable(
+                name,
+                _value(values[name]),
+                _value(values.get(f"{name} before")) if name in explanation.changed else _value(values[name]),
+                "A variable of the shader.",
+            )
+            for name in own
+        ),
     )
 
 

@@ -63,6 +63,7 @@ def trace(
     region: tuple[int, int, int, int] | None = None,
     before: str = "earlier",
     earlier: Trace | None = None,
+    lanes: str = "one",
 ) -> Trace:
     """Prepare the trace of a scene, or of one of its triangles.
 
@@ -77,20 +78,24 @@ def trace(
     earlier : Trace, optional
         Of the scene before an edit: what it has computed of triangles that did not change is taken over, while it is
         kept in memory by others. The result is the same.
+    lanes : str
+        Order of a shader's steps: ``"one"`` vertex or fragment after another, or all of a triangle ``"together"``.
 
     Raises
     ------
     ValueError
-        For a triangle that is not there, a region without pixels, or another ``before``.
+        For a triangle that is not there, a region without pixels, or another ``before`` or ``lanes``.
     """
     count = scene_triangle_count(scene)
     if triangle is not None and not 0 <= triangle < count:
         raise ValueError(f"triangle must be 0 to {count - 1}, got {triangle}")
     if before not in ("earlier", "cleared"):
         raise ValueError(f"before must be earlier or cleared, got {before}")
+    if lanes not in ("one", "together"):
+        raise ValueError(f"lanes must be one or together, got {lanes}")
     from core.trace.source import TraceSource
 
-    source = TraceSource(scene, settings or Settings(), triangle, region, before)
+    source = TraceSource(scene, settings or Settings(), triangle, region, before, lanes)
     if earlier is not None:
         from core.trace.incremental.retrace import after_edit
 

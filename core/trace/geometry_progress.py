@@ -5,7 +5,7 @@ import numpy as np
 from core.geometry.culling import KEPT
 from core.records.arrays import Flags, Integers
 from core.stages.declared import STAGES
-from core.trace import Trace
+from core.trace import StageTrace, Trace
 
 SPACES = ("object", "world", "camera", "clip", "NDC", "window")
 """Spaces of a corner, in the order in which it goes through them."""
@@ -20,15 +20,23 @@ def spaces_reached(trace: Trace, stage: str, position: int) -> Integers:
     shape = len(trace.source.geometry.assembled), trace.source.scene.corner_count
     if stage != STAGES[0]:
         return np.full(shape, WINDOW)
+    traced = trace.stage(stage)
+    done = traced.steps.rows_done(position)
+    if "statement" in traced.steps.kinds:
+        return _behind_shader(traced, done, shape)
     first = 0 if trace.source.geometry.vertices.object is not None else CLIP
     rows = WINDOW - first
-    steps = trace.stage(stage).steps
-    done = steps.rows_done(position)
-    if "statement" in steps.kinds:
-        # A vertex shader has any number of rows; what comes behind it is the division and the viewport.
-        done = int(np.count_nonzero(steps.kind[:done] != steps.kinds.index("statement")))
     reached: Integers = first + np.clip(done - rows * np.arange(shape[0] * shape[1]), 0, rows)
     return reached.reshape(shape)
+
+
+def _behind_shader(traced: StageTrace, done: int, shape: tuple[int, int]) -> Integers:
+    """Return the spaces (T, k) of corners that a vertex shader takes to clip space, after ``done`` rows."""
+    runs = traced.steps.kind == traced.steps.kinds.index("statement")
+    corner, count = traced.extra["corners"], shape[0] * shape[1]
+    left = np.bincount(corner[done:][runs[done:]], minlength=count)
+    divided = np.bincount(corner[:done][~runs[:done]], minlength=count)
+    return np.where(left == 0, CLIP + divided, 0).reshape(shape)
 
 
 def is_dropped(trace: Trace, stage: str, position: int) -> Flags:

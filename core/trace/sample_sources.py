@@ -163,7 +163,7 @@ def count_fragments(whole: TraceSource) -> tuple[int, int, int, int]:
 def center_source(whole: TraceSource, samples: tuple[SampleSource, ...]) -> CenterSource:
     """Return the source of what is shaded of four samples."""
     return CenterSource(
-        whole.scene, whole.settings, whole.triangle, whole.region, whole.before, samples=samples
+        whole.scene, whole.settings, whole.triangle, whole.region, whole.before, whole.lanes, samples=samples
     )
 
 
@@ -176,6 +176,7 @@ def sources_of_samples(whole: TraceSource) -> tuple[SampleSource, ...]:
             whole.triangle,
             whole.region,
             whole.before,
+            whole.lanes,
             whole=whole,
             sample=sample,
         )
@@ -186,4 +187,5 @@ def sources_of_samples(whole: TraceSource) -> tuple[SampleSource, ...]:
 def finer_source(whole: TraceSource, side: int) -> FinerSource:
     """Return the source of ``side`` x ``side`` samples a pixel."""
     scene, settings = finer_scene(whole.scene, side), finer_settings(whole.settings)
-    return FinerSource(scene, settings, whole.triangle, None, whole.before, whole=whole, side=side)
+    run = scene, settings, whole.triangle, None, whole.before, whole.lanes
+    return FinerSource(*run, whole=whole, side=side)

@@ -1,17 +1,18 @@
 """Traces of the stages that a scene's shaders run: one row for each statement of each vertex or fragment."""
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 
-from core.lanes.nodes import Declare, Name
+from core.lanes.nodes import Block, Declare, Discard, Name, Nothing, Statement
 from core.lanes.notes import LaneStep
 from core.lanes.run import Watch
 from core.records.arrays import Flags, Integers
+from core.records.cached import cached_property
 from core.records.listing import ShaderListing
 from core.records.operation import Columns, Operation
 from core.shaders.glsl_types import GlslValue
@@ -56,18 +57,30 @@ class LaneRows:
     """(R,) int64, the lane's number, 0 to N - 1."""
     step: Integers
     """(R,) int64, its statement among those of its lane, from 0."""
+    number: Integers
+    """(R,) int64, its statement among those of all lanes: lanes with the same number run it together."""
     line: Integers
     """(R,) int64."""
-    live: Integers
-    """(R,) int64, how many lanes run the statement together."""
     result: Any
     """(R, 4) float64: what it stored, tested or returned; NaN beyond its components."""
-    lanes: Integers
-    """(R,) int64, how many lanes there are."""
     stored: Mapping[str, tuple[Integers, Any]]
     """Variable as typed to rows that give it a value, and its components (rows, n)."""
     undefined: Flags
     """(R,) bool, the value has a component that is not a number."""
+    discards: Flags
+    """(R,) bool, the lane is discarded."""
+
+    def ordered(self, order: Integers) -> "LaneRows":
+        """Return the rows in another order (R,)."""
+        back = np.empty(len(order), np.int64)
+        back[order] = np.arange(len(order))
+        arrays = {name: getattr(self, name)[order] for name in _ARRAYS}
+        stored = {name: join_rows([(back[at], values)]) for name, (at, values) in self.stored.items()}
+        return LaneRows(stored=stored, **arrays)
+
+
+_ARRAYS = ("lane", "step", "number", "line", "result", "undefined", "discards")
+"""Arrays (R, ...) of `LaneRows`."""
 
 
 def record_rows(lane_count: int, lanes: Integers, run: Callable[[Watch], object], shader: Shader) -> LaneRows:
@@ -86,7 +99,6 @@ def record_rows(lane_count: int, lanes: Integers, run: Callable[[Watch], object]
     live = np.array([step.live[lanes] for step in steps]).reshape(len(steps), len(lanes))
     lane, number = np.nonzero(live.T)
     begins = np.searchsorted(lane, np.arange(len(lanes)))
-    counts = np.array([int(step.live.sum()) for step in steps], np.int64)
     result = np.full((len(lane), 4), np.nan)
     undefined = np.zeros(len(lane), bool)
     stored: dict[str, list[tuple[Integers, Any]]] = {}
@@ -101,16 +113,50 @@ def record_rows(lane_count: int, lanes: Integers, run: Callable[[Watch], object]
                 if whole is not None:
                     stored.setdefault(typed_name(name), []).append((rows, whole))
     lines = np.array([step.line for step in steps], np.int64)
+    discards = np.array([isinstance(step.node, Discard) for step in steps], bool)
     return LaneRows(
         lane,
         np.arange(len(lane)) - begins[lane],
-        lines[number] if len(lines) else np.zeros(0, np.int64),
-        counts[number] if len(counts) else np.zeros(0, np.int64),
+        number,
+        lines[number],
         result,
-        np.full(len(lane), lane_count),
         {name: join_rows(parts) for name, parts in stored.items()},
         undefined,
+        discards[number],
     )
+
+
+def side_by_side(parts: Sequence[tuple[Integers, LaneRows]]) -> LaneRows:
+    """Join the rows of the lanes of several meshes, lane by lane; each part has the numbers of its lanes."""
+    if len(parts) == 1:
+        return parts[0][1]
+    stored: dict[str, list[tuple[Integers, Any]]] = {}
+    first = 0
+    for _, rows in parts:
+        for name, (of, values) in rows.stored.items():
+            stored.setdefault(name, []).append((first + of, values))
+        first += len(rows.lane)
+    arrays = {name: np.concatenate([getattr(rows, name) for _, rows in parts]) for name in _ARRAYS}
+    arrays["lane"] = np.concatenate([at[rows.lane] for at, rows in parts])
+    joined = LaneRows(stored={name: join_rows(found) for name, found in stored.items()}, **arrays)
+    return joined.ordered(np.argsort(joined.lane, kind="stable"))
+
+
+def live_lanes(number: Integers, triangle: Integers, lanes_of: Integers) -> tuple[Integers, Integers]:
+    """Return how many lanes (R,) run each row's statement together, and how many (R,) its triangle has.
+
+    ``number`` and ``triangle`` are those of the rows (R,), ``lanes_of`` (L,) the triangle of every lane.
+    """
+    key = triangle * (int(number.max(initial=0)) + 1) + number
+    _, place, counts = np.unique(key, return_inverse=True, return_counts=True)
+    of_triangle = np.bincount(lanes_of, minlength=1)
+    return counts[place.reshape(-1)], of_triangle[triangle]
+
+
+def order_together(triangle: Integers, number: Integers, lane: Integers) -> Integers:
+    """Return rows (R,), lane by lane, in the order in which the lanes of each triangle run together."""
+    rank = np.cumsum(np.append(0, triangle[1:] != triangle[:-1])) if len(triangle) else triangle
+    return np.lexsort((np.arange(len(lane)), lane, number, rank))
 
 
 def join_rows(parts: list[tuple[Integers, Any]]) -> tuple[Integers, Any]:
@@ -142,6 +188,8 @@ class ShaderStageTrace(StageTrace):
     """The steps of a lane, run again."""
     names: frozenset[str] = frozenset()
     """Own names of the variables that occur in the shader."""
+    lines: frozenset[int] = frozenset()
+    """Lines (from 1) of the shader that have a statement."""
 
     def step_at(self, row: int) -> LaneStep | None:
         """Return the step of a row; ``None`` of rows that run no statement."""
@@ -149,6 +197,52 @@ class ShaderStageTrace(StageTrace):
             return None
         found = self.steps_of(int(self.columns["lane"][row]))
         return found[int(self.columns["lane_step"][row])]
+
+    def _rows_of_triangle(self, row: int) -> slice:
+        """Return the rows of the triangle that a row is about."""
+        number = int(np.searchsorted(self.steps.triangle_ends, row, "right"))
+        return slice(
+            int(np.append(0, self.steps.triangle_ends)[number]), int(self.steps.triangle_ends[number])
+        )
+
+    def line_shares(self, row: int) -> Mapping[int, float]:
+        """Return the lines (from 1), each with the share of its triangle's lanes that run it at some time."""
+        if self.kind_of(row) != "statement":
+            return {}
+        of = self._rows_of_triangle(row)
+        if of.start not in self._shares:
+            lane, line = (self.columns[name][of] for name in ("lane", "line"))
+            ran = np.unique(np.stack([line, lane], axis=1)[line >= 0], axis=0)[:, 0]
+            counts = np.bincount(ran) / self.columns["lanes"][row]
+            self._shares[of.start] = {k: float(counts[k]) if k < len(counts) else 0.0 for k in self.lines}
+        return self._shares[of.start]
+
+    def waiting_at(self, row: int) -> tuple[Integers, Integers] | None:
+        """Return which fragments of its triangle do not run a row's statement, both (n,).
+
+        Those that wait or have ended, and those that were discarded; ``None`` for a row without a fragment.
+        """
+        if self.pixel[row, 0] < 0:
+            return None
+        of = self._rows_of_triangle(row)
+        lane, number = (self.columns[name][of] for name in ("lane", "lane_number"))
+        assert self.lane_rows is not None
+        at = self.columns["lane_number"][row]
+        discarded = np.unique(lane[self.lane_rows.discards[of] & (number < at)])
+        others = np.setdiff1d(lane, lane[number == at])
+        return np.setdiff1d(others, discarded), discarded
+
+    @cached_property
+    def _shares(self) -> dict[int, Mapping[int, float]]:
+        """First row of a triangle to its `line_shares`."""
+        return {}
+
+    def _live_before(self, row: int) -> int:
+        """Return how many lanes ran the statement before with this row's lane."""
+        of = self._rows_of_triangle(row)
+        lane, step = (self.columns[name] for name in ("lane", "lane_step"))
+        earlier = of.start + np.flatnonzero((lane[of] == lane[row]) & (step[of] == step[row] - 1))
+        return int(self.columns["live"][earlier[0]] if len(earlier) else self.columns["lanes"][row])
 
     def _done(self, row: int, values: Mapping[str, Value], operation: int) -> Explanation:
         """Explain a statement by its own line and variables."""
@@ -161,10 +255,11 @@ class ShaderStageTrace(StageTrace):
             f"{name} before": value for name, value in _shown_variables(step.before, self.names).items()
         }
         changed = tuple(map(typed_name, filter(None, (stored_name(step.statement),))))
-        said = _sentence(step, int(self.columns["live"][row]), int(self.columns["lanes"][row]))
+        live, lanes = int(self.columns["live"][row]), int(self.columns["lanes"][row])
+        said = _sentence(step, live, lanes, "vertices" if self.stage == "transform" else "fragments")
         return Explanation(
             key=explanation.key,
-            values={**values, **before, **held, "said": said},
+            values={**values, **before, **held, "said": said, "lanes earlier": self._live_before(row)},
             known=(*explanation.known, *held),
             changed=changed,
             listing=explanation.listing,
@@ -172,11 +267,11 @@ class ShaderStageTrace(StageTrace):
         )
 
 
-def _sentence(step: LaneStep, live: int, lanes: int) -> str:
+def _sentence(step: LaneStep, live: int, lanes: int, what: str) -> str:
     words = words_of(step)
     while (changed := _VECTOR.sub(r"(\1)", words)) != words:
         words = changed
-    together = "" if lanes <= 1 or live == lanes else f"; {live:,} of {lanes:,} lanes run this line"
+    together = "" if live == lanes else f"; {live:,} of {lanes:,} {what} run this line"
     return f"Line {step.line}: {words}{together}."
 
 
@@ -196,6 +291,16 @@ def occurring_names(shader: Shader) -> frozenset[str]:
     nodes += [node for statement in shader.syntax.prelude for node in walk(statement)]
     found = {node.name for node in nodes if isinstance(node, Name)}
     return frozenset(found | {node.name for node in nodes if isinstance(node, Declare)})
+
+
+def statement_lines(shader: Shader) -> frozenset[int]:
+    """Return the lines (from 1) on which a statement of some function begins."""
+    nodes = [node for function in shader.syntax.functions.values() for node in walk(function)]
+    return frozenset(
+        node.place.line
+        for node in nodes
+        if isinstance(node, Statement) and not isinstance(node, Block | Nothing)
+    )
 
 
 def remembered(steps_of: Callable[[int], tuple[LaneStep, ...]]) -> Callable[[int], tuple[LaneStep, ...]]:

@@ -18,11 +18,14 @@ from core.trace.shader_rows import (
     STATEMENT,
     LaneRows,
     ShaderStageTrace,
-    join_rows,
+    live_lanes,
     occurring_names,
+    order_together,
     record_rows,
     remembered,
     shader_listing,
+    side_by_side,
+    statement_lines,
 )
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace, no_pixels
@@ -42,28 +45,35 @@ def trace_vertex_shader(source: TraceSource) -> StageTrace:
         at = np.flatnonzero(mesh == number)
         run = partial(_run_corners, scene, int(number), own[at])
         parts.append((at, record_rows(len(at), np.arange(len(at)), run, shader)))
-    rows = _side_by_side(parts)
+    rows, owner = side_by_side(parts), divided.triangle[::2]
+    if source.lanes == "together":
+        rows = rows.ordered(order_together(owner[rows.lane], rows.number, rows.lane))
 
     def steps_of(corner: int) -> tuple[LaneStep, ...]:
         run = partial(_run_corners, scene, int(mesh[corner]), own[corner : corner + 1])
         return _without_prelude(record_lane(run, 0), shader)
 
-    # Statements of a corner, then its two divisions.
+    # Statements of a corner, or of a triangle's corners together, then the two divisions of each corner.
     count, kinds = len(rows.lane), len(STATEMENT)
     corner = np.concatenate([rows.lane, np.repeat(np.arange(len(corners)), 2)])
-    order = np.lexsort((np.arange(len(corner)), corner))
+    after = np.arange(len(corner)) >= count
+    if source.lanes == "together":
+        group = owner[corner] if len(owner) == 0 else np.searchsorted(ends_of(owner), corner, "right")
+        order = np.lexsort((np.arange(len(corner)), after, group))
+    else:
+        order = np.lexsort((np.arange(len(corner)), corner))
     columns = {name: _after_nothing(count, values)[order] for name, values in divided.columns.items()}
-    for name, values in _statement_columns(rows).items():
+    for name, values in _statement_columns(rows, owner[rows.lane], owner).items():
         columns[name] = _before_nothing(values, 2 * len(corners))[order]
     columns["vertex"], columns["corner"] = (
         np.concatenate([divided.columns[name][::2][rows.lane], divided.columns[name]])[order]
         for name in ("vertex", "corner")
     )
-    owner = divided.triangle[::2][corner][order]
     first = divided.steps.kinds.index("divide")
     kind = np.concatenate([np.zeros(count, np.int64), divided.steps.kind - first + kinds])[order]
     projection = listing(divide_and_map)
     nan = np.concatenate([rows.undefined, divided.marks["nan"]])
+    triangle = owner[corner][order]
     return ShaderStageTrace(
         stage="transform",
         method="",
@@ -71,11 +81,11 @@ def trace_vertex_shader(source: TraceSource) -> StageTrace:
             kinds=("statement", "divide", "viewport"),
             kind=kind,
             operations={**STATEMENT, **{k: divided.steps.operations[k] for k in ("divide", "viewport")}},
-            triangle_ends=ends_of(owner),
-            group_ends=ends_of(corner[order]),
+            triangle_ends=ends_of(triangle),
+            group_ends=_group_ends(source, triangle, corner[order], columns["lane_number"]),
         ),
         columns=columns,
-        triangle=owner,
+        triangle=triangle,
         pixel=no_pixels(len(order)),
         listings={
             "statement": shader_listing(shader.source, "vertex"),
@@ -83,12 +93,23 @@ def trace_vertex_shader(source: TraceSource) -> StageTrace:
             "viewport": projection,
         },
         marks={"nan": nan[order]},
-        extra=divided.extra,
+        extra={**divided.extra, "corners": corner[order]},
         constants=divided.constants,
         lane_rows=rows,
         steps_of=remembered(steps_of),
         names=occurring_names(shader),
+        lines=statement_lines(shader),
     )
+
+
+def _group_ends(source: TraceSource, triangle: Integers, lane: Integers, number: Integers) -> Integers:
+    """Return the ends of groups among rows (R,): of lanes, or of the statements that lanes run together.
+
+    ``number`` is that of the statement, -1 of rows that run none.
+    """
+    if source.lanes == "together":
+        return ends_of(triangle, number, np.where(number < 0, lane, -1))
+    return ends_of(lane)
 
 
 def _run_corners(scene: Scene, number: int, vertex: Integers, watch: Any) -> object:
@@ -118,7 +139,9 @@ def trace_fragment_shader(source: TraceSource) -> StageTrace:
         place = np.searchsorted(chosen, lanes.lane[at])
         run = partial(_run_fragments, source, lanes, chosen)
         parts.append((at, record_rows(len(chosen), place, run, shader)))
-    rows = _side_by_side(parts)
+    rows, owner = side_by_side(parts), source.triangle_of_fragment
+    if source.lanes == "together":
+        rows = rows.ordered(order_together(owner[rows.lane], rows.number, rows.lane))
 
     def steps_of(fragment: int) -> tuple[LaneStep, ...]:
         lane = int(lanes.lane[fragment])
@@ -127,14 +150,14 @@ def trace_fragment_shader(source: TraceSource) -> StageTrace:
         return _without_prelude(record_lane(run, int(np.searchsorted(chosen, lane))), shader)
 
     color = source.surface.color
-    columns = _statement_columns(rows)
+    triangle = owner[rows.lane]
+    columns = _statement_columns(rows, triangle, owner)
     columns |= {
         "column": fragments.column[rows.lane],
         "row": fragments.row[rows.lane],
         "primitive": fragments.primitive[rows.lane],
         "color": color[rows.lane],
     }
-    triangle = source.triangle_of_fragment[rows.lane]
     pixel = np.stack([columns["column"], columns["row"]], axis=1)
     return ShaderStageTrace(
         stage="shade",
@@ -144,18 +167,19 @@ def trace_fragment_shader(source: TraceSource) -> StageTrace:
             kind=np.zeros(len(rows.lane), np.int64),
             operations=STATEMENT,
             triangle_ends=ends_of(triangle),
-            group_ends=ends_of(rows.lane),
+            group_ends=_group_ends(source, triangle, rows.lane, rows.number),
         ),
         columns=columns,
         triangle=triangle,
         pixel=pixel,
         listings={"statement": shader_listing(shader.source, "fragment")},
         marks={"nan": rows.undefined},
-        buffers=_buffers(source, rows, color),
+        buffers=_buffers(source, rows, columns["live"], color),
         extra={"mesh": mesh},
         lane_rows=rows,
         steps_of=remembered(steps_of),
         names=occurring_names(shader),
+        lines=statement_lines(shader),
     )
 
 
@@ -170,36 +194,15 @@ def _without_prelude(steps: tuple[LaneStep, ...], shader: Shader) -> tuple[LaneS
     return tuple(step for step in steps if step.statement.place not in prelude)
 
 
-def _side_by_side(parts: list[tuple[Integers, LaneRows]]) -> LaneRows:
-    """Join the rows of the lanes of several meshes, lane by lane; each part has the numbers of its lanes."""
-    if len(parts) == 1:
-        return parts[0][1]
-    lane = np.concatenate([at[rows.lane] for at, rows in parts])
-    order = np.argsort(lane, kind="stable")
-    back = np.empty(len(order), np.int64)
-    back[order] = np.arange(len(order))
-    stored: dict[str, list[tuple[Integers, Any]]] = {}
-    first = 0
-    for _, rows in parts:
-        for name, (of, values) in rows.stored.items():
-            stored.setdefault(name, []).append((back[first + of], values))
-        first += len(rows.lane)
-    joined = {
-        name: np.concatenate([getattr(rows, name) for _, rows in parts])[order]
-        for name in ("step", "line", "live", "result", "lanes", "undefined")
-    }
-    return LaneRows(
-        lane=lane[order], stored={name: join_rows(found) for name, found in stored.items()}, **joined
-    )
-
-
-def _statement_columns(rows: LaneRows) -> dict[str, Any]:
+def _statement_columns(rows: LaneRows, triangle: Integers, lanes_of: Integers) -> dict[str, Any]:
+    live, lanes = live_lanes(rows.number, triangle, lanes_of)
     return {
         "lane": rows.lane,
         "lane_step": rows.step,
+        "lane_number": rows.number,
         "line": rows.line,
-        "live": rows.live,
-        "lanes": rows.lanes,
+        "live": live,
+        "lanes": lanes,
         "result": rows.result,
     }
 
@@ -218,10 +221,11 @@ def _before_nothing(values: Any, count: int) -> Any:
     return np.concatenate([values, _missing(values, count)])
 
 
-def _buffers(source: TraceSource, rows: LaneRows, color: Any) -> tuple[BufferTrack, ...]:
+def _buffers(source: TraceSource, rows: LaneRows, live: Any, color: Any) -> tuple[BufferTrack, ...]:
     """Return the colour, how many lanes run together, and every variable that some line stores."""
     place, shape = source.place, source.raster.shape
-    last = np.flatnonzero(np.append(rows.lane[1:] != rows.lane[:-1], len(rows.lane) > 0))
+    _, before_end = np.unique(rows.lane[::-1], return_index=True)
+    last = np.sort(len(rows.lane) - 1 - before_end)
     shown = last[source.goes_on[rows.lane[last]]]
 
     def track(name: str, at: Integers, values: Any, kind: str) -> BufferTrack:
@@ -231,7 +235,7 @@ def _buffers(source: TraceSource, rows: LaneRows, color: Any) -> tuple[BufferTra
     every = np.arange(len(rows.lane))
     tracks = [
         track("fragment color", shown, color[rows.lane[shown]], "color"),
-        track("lanes together", every, rows.live.astype(float), "scalar"),
+        track("lanes together", every, live.astype(float), "scalar"),
     ]
     for name, (at, values) in rows.stored.items():
         width = values.shape[1]

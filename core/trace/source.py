@@ -47,6 +47,8 @@ class TraceSource:
     """(first column, first row, columns, rows) of the buffers; ``None``: the whole image."""
     before: str = "earlier"
     """Buffers at the start: as the ``"earlier"`` triangles left them, or ``"cleared"``."""
+    lanes: str = "one"
+    """Order of a shader's steps: ``"one"`` lane after another, or those of a triangle ``"together"``."""
 
     def __post_init__(self) -> None:
         check_edits(self.scene, self.settings)

@@ -185,6 +185,14 @@ class StageTrace:
         """Return the rows that are about one pixel."""
         return np.flatnonzero((self.pixel[:, 0] == column) & (self.pixel[:, 1] == row))
 
+    def line_shares(self, row: int) -> Mapping[int, float]:
+        """Return the lines (from 1) of a shader that the row runs, each with the share of lanes that run it."""
+        return {}
+
+    def waiting_at(self, row: int) -> tuple[Integers, Integers] | None:
+        """Return the fragments (n,) that wait, and those that were discarded, while a shader's row runs."""
+        return None
+
     def summary(self, first: int, end: int) -> dict[str, int]:
         """Count the rows from ``first`` to ``end`` (excluded), the pixels ``tested`` in them, and their marks.
 

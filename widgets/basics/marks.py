@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from enum import Enum
 
-from PySide6.QtCore import QPointF, QRectF, Qt
+from PySide6.QtCore import QPointF, QRect, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen, QPixmap, QPolygonF
 
 from widgets.basics.theme import CLEAR, Theme, contrast, current_theme
@@ -35,6 +35,14 @@ def blended(color: str, ground: str, share: float) -> QColor:
         for a, b in zip(top.getRgb()[:3], bottom.getRgb()[:3], strict=True)  # type: ignore[index]
     ]
     return QColor(*channels)
+
+
+def paint_share(painter: QPainter, room: QRect, share: float) -> None:
+    """Draw a bar in its room that is as long as a share of it, 0 to 1."""
+    theme = current_theme()
+    painter.fillRect(room, blended(theme.muted_text, theme.panel, 0.25))
+    full = room.adjusted(0, 0, round(share * room.width()) - room.width(), 0)
+    painter.fillRect(full, QColor(theme.muted_text))
 
 
 def draw_mark(painter: QPainter, mark: Mark, box: QRectF) -> None:

@@ -1,6 +1,6 @@
 """Code with line numbers: what a listing that is read, and one that is edited, have in common."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt, Signal, Slot
 from PySide6.QtGui import (
@@ -18,7 +18,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QFrame, QPlainTextEdit, QTextEdit, QWidget
 
-from widgets.basics.marks import Mark, blended, draw_mark
+from widgets.basics.marks import Mark, blended, draw_mark, paint_share
 from widgets.basics.theme import current_theme, theme_notifier
 
 
@@ -30,6 +30,7 @@ class CodeView(QPlainTextEdit):
         self._line: int | None = None
         self._breakpoints: frozenset[int] = frozenset()
         self._changed_lines: frozenset[int] = frozenset()
+        self._shares: Mapping[int, float] = {}
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setWordWrapMode(QTextOption.WrapMode.WrapAtWordBoundaryOrAnywhere)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -62,6 +63,17 @@ class CodeView(QPlainTextEdit):
         """Mark the lines that differ from those of the other version."""
         if lines != self._changed_lines:
             self._changed_lines = lines
+            self.margin.update()
+
+    @property
+    def shares(self) -> Mapping[int, float]:
+        """The lines, from 1, of a shader, each with the share of vertices or fragments that run it."""
+        return self._shares
+
+    def show_shares(self, shares: Mapping[int, float]) -> None:
+        """Draw a bar beside each of these lines."""
+        if shares != self._shares:
+            self._shares = shares
             self.margin.update()
 
     def visible_lines(self) -> Iterator[tuple[int, QRectF]]:
@@ -204,6 +216,9 @@ class CodeMargin(QWidget):
         first = QRect(row.left(), row.top(), row.width() - 3, line_height)
         number = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
         painter.drawText(first, number, f"*{line}" if is_changed else str(line))
+        if line in view.shares:
+            room = QRect(7, first.bottom() - 2, row.width() - 10, 3)
+            paint_share(painter, room, view.shares[line])
         if is_changed:
             painter.fillRect(QRect(row.right() - 1, row.top(), 2, row.height()), QColor(theme.text))
 

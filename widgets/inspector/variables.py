@@ -5,7 +5,17 @@ from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
 
-from PySide6.QtCore import QEvent, QModelIndex, QPersistentModelIndex, QSignalBlocker, QSize, Qt, Signal, Slot
+from PySide6.QtCore import (
+    QEvent,
+    QModelIndex,
+    QPersistentModelIndex,
+    QRect,
+    QSignalBlocker,
+    QSize,
+    Qt,
+    Signal,
+    Slot,
+)
 from PySide6.QtGui import (
     QAction,
     QColor,
@@ -33,6 +43,7 @@ from core.explain.number_text import DIGITS, exact_text, fraction_text, full_tex
 from core.explain.records import Value, Variable
 from widgets.basics.controls import LEAST_TARGET
 from widgets.basics.key_claim import KeyClaim
+from widgets.basics.marks import paint_share
 from widgets.basics.theme import Theme, current_theme, theme_notifier
 from widgets.basics.typed_value import tabular_font
 
@@ -219,6 +230,9 @@ class VariablesView(QTreeWidget):
                 break
             if item.is_changed:
                 painter.fillRect(left, row.top() + 3, 4, row.height() - 6, QColor(theme.accent))
+            if item.share is not None:
+                bar = QRect(left + 6, row.bottom() - 3, self.columnWidth(1) - 10, 3)
+                paint_share(painter, bar, item.share)
             item = self.itemBelow(item)
 
     def _fit_names(self) -> None:
@@ -325,6 +339,11 @@ class _VariableItem(QTreeWidgetItem):
     def is_changed(self) -> bool:
         """Whether the step has changed the value."""
         return self._shown is not None and self._shown[3]
+
+    @property
+    def share(self) -> float | None:
+        """What part of a whole the value is."""
+        return self._variable.share
 
     def in_full(self, *, is_before: bool = False) -> str:
         """Return the value with full precision."""

@@ -5,14 +5,19 @@ from dataclasses import dataclass
 from functools import partial
 
 from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtWidgets import QGridLayout, QLabel, QLineEdit, QTabWidget, QWidget
+from PySide6.QtWidgets import QFrame, QGridLayout, QLabel, QLineEdit, QScrollArea, QTabWidget, QWidget
 
 from widgets.basics.choice_box import ChoiceBox
-from widgets.basics.controls import column_layout
+from widgets.basics.controls import column_layout, row_layout
 from widgets.shaders.source_editor import SourceEditor
 
 STAGES = {"vertex": "Vertex", "fragment": "Fragment"}
 OWN, BUILT_IN = "own", ""
+ORDERS = {"one": "One lane at a time", "together": "Lanes together"}
+LANES = (
+    "A lane is one vertex or one fragment. One lane at a time: each runs the whole shader, one after the other. "
+    "Lanes together: all lanes of a triangle run each statement together, as on a graphics card."
+)
 HINT = "Choose shaders to begin with, or type your own. They run without a graphics card."
 
 
@@ -23,7 +28,9 @@ class ShownUniform:
     name: str
     of: str
     text: str
-    """Its numbers, separated by commas."""
+    """Its numbers as the user has typed them, separated by commas; empty: none were typed."""
+    given: str = ""
+    """Its numbers where none were typed: those of the scene's light or material, or 0."""
 
 
 @dataclass(frozen=True)
@@ -37,6 +44,8 @@ class ShownProgram:
     dialect: str
     uniforms: tuple[ShownUniform, ...]
     notes: str = ""
+    lanes: str = "one"
+    """In which of `ORDERS` its statements are stepped."""
 
 
 class ShaderPane(QWidget):
@@ -49,8 +58,10 @@ class ShaderPane(QWidget):
     dialect_chosen = Signal(str)
     comparison_chosen = Signal(str)
     """The user wants another pair as B; empty: the built-in shading."""
+    lanes_chosen = Signal(str)
+    """The user steps in another one of `ORDERS`."""
     uniform_typed = Signal(str, str)
-    """Name and text."""
+    """Name and text; empty: the scene's own numbers."""
     left = Signal()
     """The user gives the keyboard back."""
 
@@ -76,10 +87,16 @@ class ShaderPane(QWidget):
         self._beside = ChoiceBox(self)
         self._beside.setAccessibleName("Shaders of B")
         self._beside.setToolTip("Step these shaders beside other ones, or beside the built-in shading.")
-        self._beside.addItem("Compare with (A | B) ...", OWN)
+        self._beside.addItem("Compare (A | B) …", OWN)
         for name, title in ((BUILT_IN, "Built-in Phong shading"), *presets):
             self._beside.addItem(title, name)
         self._beside.activated.connect(self._choose_beside)
+        self._lanes = ChoiceBox(self)
+        self._lanes.setAccessibleName("Order of the steps")
+        self._lanes.setToolTip(LANES)
+        for name, title in ORDERS.items():
+            self._lanes.addItem(title, name)
+        self._lanes.activated.connect(self._choose_lanes)
         self._preset.activated.connect(self._choose_preset)
         self._dialect.activated.connect(self._choose_dialect)
         self._tabs = QTabWidget(self)
@@ -94,16 +111,29 @@ class ShaderPane(QWidget):
         self._message = QLabel(HINT, self)
         self._message.setWordWrap(True)
         self._message.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
-        self._uniforms = QWidget(self)
-        self._rows = QGridLayout(self._uniforms)
-        self._rows.setContentsMargins(0, 0, 0, 0)
+        self._uniforms = QScrollArea(self)
+        self._uniforms.setWidgetResizable(True)
+        self._uniforms.setFrameShape(QFrame.Shape.NoFrame)
+        content = QWidget(self._uniforms)
+        column = column_layout(content, 0)
+        self._rows = QGridLayout()
+        self._rows.setContentsMargins(0, 4, 4, 4)
+        column.addLayout(self._rows)
+        column.addStretch(1)
+        self._uniforms.setWidget(content)
+        self._tabs.addTab(self._uniforms, "Uniforms")
         self._shown_uniforms: tuple[ShownUniform, ...] = ()
         layout = column_layout(self, 6, margins=(8, 8, 8, 8))
-        layout.addWidget(self._preset)
-        layout.addWidget(self._dialect)
-        layout.addWidget(self._tabs, 1)
-        for widget in (self._message, self._uniforms, self._beside):
-            layout.addWidget(widget)
+        for above, first, second in ((True, self._preset, self._dialect), (False, self._lanes, self._beside)):
+            row = row_layout(spacing=6)
+            for box in (first, second):
+                box.setMinimumContentsLength(6)
+                box.setSizeAdjustPolicy(ChoiceBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+                row.addWidget(box, 1)
+            layout.addLayout(row)
+            if above:
+                layout.addWidget(self._tabs, 1)
+                layout.addWidget(self._message)
         self.show_program(None, is_possible=True)
 
     @property
@@ -119,7 +149,7 @@ class ShaderPane(QWidget):
         """Show the shaders of the document; ``None``: it has none, and ``is_possible``: it may have some."""
         self._select(self._preset, BUILT_IN if program is None else program.preset)
         has_program = program is not None
-        for widget in (self._dialect, self._tabs, self._uniforms, self._beside):
+        for widget in (self._dialect, self._tabs, self._beside, self._lanes):
             widget.setVisible(has_program)
         if program is None:
             self._from_document = {}
@@ -130,6 +160,7 @@ class ShaderPane(QWidget):
             )
             return
         self._select(self._dialect, program.dialect)
+        self._select(self._lanes, program.lanes)
         is_new = False
         for stage, editor in self._editors.items():
             if self._from_document.get(stage) != program.sources[stage]:
@@ -161,6 +192,9 @@ class ShaderPane(QWidget):
 
     def _show_uniforms(self, uniforms: tuple[ShownUniform, ...]) -> None:
         self._shown_uniforms = uniforms
+        place = self._tabs.indexOf(self._uniforms)
+        self._tabs.setTabText(place, f"Uniforms ({len(uniforms)})")
+        self._tabs.setTabEnabled(place, bool(uniforms))
         while (item := self._rows.takeAt(0)) is not None:
             widget = item.widget()
             if widget is not None:
@@ -169,6 +203,8 @@ class ShaderPane(QWidget):
         for row, uniform in enumerate(uniforms):
             label, field = QLabel(f"{uniform.name}  {uniform.of}", self), QLineEdit(uniform.text, self)
             label.setBuddy(field)
+            field.setPlaceholderText(uniform.given)
+            field.setToolTip("Empty: the numbers of the scene's light and material." if uniform.given else "")
             field.setAccessibleName(f"Uniform {uniform.name}, {uniform.of}")
             field.editingFinished.connect(partial(self._type_uniform, uniform, field))
             self._rows.addWidget(label, row, 0)
@@ -194,6 +230,10 @@ class ShaderPane(QWidget):
         self._beside.setCurrentIndex(0)
         if name != OWN:
             self.comparison_chosen.emit(name)
+
+    @Slot(int)
+    def _choose_lanes(self, index: int) -> None:
+        self.lanes_chosen.emit(self._lanes.itemData(index))
 
     @Slot(int)
     def _choose_dialect(self, index: int) -> None:

@@ -8,6 +8,7 @@ from app.files.state_models import GridLook
 from app.pages.page_bar import Page
 from app.pages.step.cut_overlays import area_overlays, clip_overlays
 from app.pages.step.grid_records import (
+    LANE_MARKS,
     block_overlays,
     buffers_of,
     edge_overlays,
@@ -41,6 +42,7 @@ DEFAULT_OVERLAYS = {
     "raster": frozenset(
         {"rejected", "tie", "nan", "spans", "clip window", "clipped lines", "clipped polygon"}
     ),
+    "shade": frozenset({*LANE_MARKS, "nan"}),
     "depth": frozenset({"failed", "nan"}),
     "resolve": frozenset({"nan", "cutting edge", "cut polygon"}),
 }

@@ -53,6 +53,10 @@ STATES = {
 }
 
 
+LANE_MARKS = {"does not run this line": Mark.REJECTED, "discarded": Mark.DEPTH_FAILED}
+"""What fragments of a triangle do while another one runs a statement, and how that is marked."""
+
+
 def buffers_of(step: Step) -> list[GridBuffer]:
     """Return the buffers of a stage after a step: what is known by then, and nothing that comes later."""
     stage, done, source = step.stage_trace, step.rows_done, step.trace.source
@@ -260,6 +264,11 @@ def mask_overlays(step: Step) -> list[Overlay]:
     if stage.stage == "depth":
         overlays.append(MaskOverlay("passed", Mark.DEPTH_PASSED, mask(marks["covered"])))
         overlays.append(MaskOverlay("failed", Mark.DEPTH_FAILED, mask(marks["depth-failed"])))
+    if (waiting := stage.waiting_at(step.row) if done else None) is not None:
+        for key, mark, lanes in zip(LANE_MARKS, LANE_MARKS.values(), waiting, strict=True):
+            chosen = np.zeros(raster.shape, bool)
+            chosen.ravel()[step.trace.source.place[lanes]] = True
+            overlays.append(MaskOverlay(key, mark, chosen, title=key))
     if "nan" in marks:
         overlays.append(MaskOverlay("nan", Mark.NAN, mask(marks["nan"])))
     return overlays

@@ -107,6 +107,7 @@ class InspectorPresenter(QObject):
             self._listing.show_hint(HINT if first is None else NO_LISTING)
             self._show_listing(first.listing if first else None)
             self._show_line(None)
+            self._listing.show_shares({})
             return
         self._formula.show_hint(NO_FORMULA)
         self._column.show_formula(formula(explanation), is_new_stage)
@@ -114,6 +115,7 @@ class InspectorPresenter(QObject):
         self._listing.show_hint(NO_LISTING)
         self._show_listing(explanation.listing)
         self._show_line(explanation.line or None)
+        self._listing.show_shares(trace.line_shares(step.row))
 
     def _show_line(self, line: int | None) -> None:
         """Mark the line that has run, also where that listing is being edited."""

@@ -6,11 +6,13 @@ What reads and runs shaders is imported when it is first needed: most windows op
 from dataclasses import replace
 from math import isfinite
 
+import numpy as np
 from PySide6.QtCore import QEvent, QObject, Signal, Slot
 
 from app.pages.page_bar import Page
 from app.session.moment import Moment
 from app.session.session import Session
+from core.records.steps import Level
 from core.scene import Scene
 from core.shaders.presets import PRESETS, preset_program, scene_uniforms
 from core.shaders.record import DIALECTS, ShaderProblem, ShaderProgram
@@ -46,6 +48,7 @@ class ShaderPresenter(QObject):
         pane.dialect_chosen.connect(self._choose_dialect)
         pane.uniform_typed.connect(self._type_uniform)
         pane.comparison_chosen.connect(self._compare)
+        pane.lanes_chosen.connect(self._choose_lanes)
         pane.left.connect(page.setFocus)
         self.refresh(session.moment)
 
@@ -61,11 +64,11 @@ class ShaderPresenter(QObject):
         return False
 
     def _show(self) -> None:
-        scene = self._session.latest.scene
+        document = self._session.latest
+        scene = document.scene
         program = scene.program if isinstance(scene, Scene) else None
-        self._pane.show_program(
-            None if program is None else shown_program(program), is_possible=isinstance(scene, Scene)
-        )
+        shown = None if program is None else replace(shown_program(program), lanes=document.lanes)
+        self._pane.show_program(shown, is_possible=isinstance(scene, Scene))
 
     @Slot(str)
     def _begin(self, preset: str) -> None:
@@ -101,6 +104,20 @@ class ShaderPresenter(QObject):
         except ValueError as problem:
             self._refuse(problem)
             self._show()
+
+    @Slot(str)
+    def _choose_lanes(self, lanes: str) -> None:
+        """Step in another order, from the statement at hand on."""
+        session, (row, before) = self._session, (self._session.moment.row, self._session.stage_trace)
+        session.edit(replace(session.latest, lanes=lanes))
+        session.set_level(Level.GROUP if lanes == "together" else Level.PIXEL)
+        now = session.stage_trace
+        if "lane" not in now.columns or now is before or row < 0:
+            return
+        same = [now.columns[name] == before.columns[name][row] for name in ("lane", "lane_step")]
+        at = np.flatnonzero(same[0] & same[1])
+        if before.columns["lane"][row] >= 0 and len(at):
+            session.scrub(now.steps.position_after(int(at[0])))
 
     @Slot(str, str)
     def _type_uniform(self, name: str, text: str) -> None:

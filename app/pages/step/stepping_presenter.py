@@ -346,10 +346,9 @@ def _level_names(moment: Moment) -> dict[Level, str]:
     names = {Level.TRIANGLE: of_kind("Triangle", corner_count)} if corner_count != 3 else {}
     if "statement" in moment.stage_trace.steps.kinds:
         # A scene's own shader runs line by line.
-        return names | {
-            Level.GROUP: "Vertex" if stage == "transform" else "Fragment",
-            Level.PIXEL: "Statement",
-        }
+        lane = "Vertex" if stage == "transform" else "Fragment"
+        order = (lane, "Statement") if moment.document.lanes == "one" else ("Statement", lane)
+        return names | dict(zip((Level.GROUP, Level.PIXEL), order, strict=True))
     if stage == "raster":
         is_wireframe = corner_count < 3 or table.get("polygon_mode", settings.polygon_mode).function()
         fill = effective_fill(settings.fill, settings.coverage)

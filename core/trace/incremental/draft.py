@@ -34,5 +34,5 @@ def draft(scene: AnyScene, earlier: Trace) -> Trace:
     """
     source = earlier.source
     assert source.triangle is not None
-    run = source.settings, source.triangle, source.region, source.before
+    run = source.settings, source.triangle, source.region, source.before, source.lanes
     return Trace(Draft(scene, *run, start=source.start, picture=source.picture))

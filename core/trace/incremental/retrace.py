@@ -66,7 +66,7 @@ class Retrace(TraceSource):
     def changed(self) -> ChangedSource:
         """The primitives that changed."""
         assert self.number_before is not None
-        run = self.scene, self.settings, self.triangle, self.region, self.before
+        run = self.scene, self.settings, self.triangle, self.region, self.before, self.lanes
         runs = self.runs.take(np.flatnonzero(self.number_before[self.runs.triangle] < 0))
         return ChangedSource(*run, geometry=self.geometry, _schedule=(self.boxes, runs))
 
@@ -156,5 +156,5 @@ class Retrace(TraceSource):
 
 def after_edit(source: TraceSource, earlier: TraceSource) -> Retrace:
     """Return ``source`` as one that takes over what ``earlier`` has computed."""
-    run = source.scene, source.settings, source.triangle, source.region, source.before
+    run = source.scene, source.settings, source.triangle, source.region, source.before, source.lanes
     return Retrace(*run, earlier=ref(earlier))

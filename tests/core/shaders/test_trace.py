@@ -10,6 +10,7 @@ from core.explain.steps import sentence, variables
 from core.records.listing import ShaderListing
 from core.records.steps import Level
 from core.shaders.presets import TASK_FRAGMENT, TASK_VERTEX
+from core.trace.geometry_progress import spaces_reached
 from tests.core.shaders.scenes import square_scene, tutorial_scene
 
 BRANCHES = """
@@ -75,7 +76,7 @@ def test_a_step_says_its_line_its_numbers_and_what_came_out():
         "k[i] = k[i] + (r if p.x > 0 else 1 − r) = 0 + (0.8839 if −0.0625 > 0 else 1 − 0.8839) = 0.1161"
         in said[7]
     )
-    assert "27 of 40 lanes run this line." in said[5]
+    assert "25 of 36 fragments run this line." in said[5]
     corner = _sentences(stage, stage.rows_at_pixel(0, 0))
     assert corner[-1].startswith("Line 10: discard: the fragment ends here, and nothing of it is written; ")
 
@@ -127,3 +128,59 @@ def test_too_many_lane_steps_are_refused(monkeypatch):
     monkeypatch.setattr(import_module("core.trace.shader_rows"), "LANE_STEP_LIMIT", 100)
     with pytest.raises(ValueError, match="too many to step: trace one triangle, or a region"):
         trace(square_scene(BRANCHES), Settings()).stage("shade")
+
+
+def test_lanes_together_are_the_same_rows_statement_by_statement():
+    for scene in (square_scene(BRANCHES), tutorial_scene(size=(24, 18))):
+        for name in ("transform", "shade"):
+            one, together = (
+                trace(scene, Settings(), lanes=lanes).stage(name) for lanes in ("one", "together")
+            )
+            lane = one.extra["corners"] if name == "transform" else one.columns["lane"]
+            theirs = together.extra["corners"] if name == "transform" else together.columns["lane"]
+            order = np.argsort(theirs, kind="stable")
+            np.testing.assert_array_equal(theirs[order], lane)
+            for column, values in one.columns.items():
+                np.testing.assert_array_equal(together.columns[column][order], values, err_msg=column)
+            for track, other in zip(one.buffers, together.buffers, strict=True):
+                np.testing.assert_array_equal(
+                    track.at(one.steps.row_count), other.at(one.steps.row_count), err_msg=track.name
+                )
+            begin = 0
+            for end in together.steps.group_ends:
+                groups = {
+                    (together.triangle[row], together.columns["lane_number"][row])
+                    for row in range(begin, end)
+                }
+                assert len(groups) == 1
+                if together.kind_of(begin) == "statement":
+                    assert (together.columns["live"][begin:end] == end - begin).all()
+                begin = end
+
+
+def test_lanes_that_run_wait_and_were_discarded_are_all_of_the_triangle():
+    stage = trace(square_scene(BRANCHES), Settings(), lanes="together").stage("shade")
+    seen = set()
+    for end in stage.steps.group_ends:
+        row = int(end) - 1
+        waiting, discarded = stage.waiting_at(row)
+        same = stage.triangle == stage.triangle[row]
+        live = stage.columns["lane"][
+            same & (stage.columns["lane_number"] == stage.columns["lane_number"][row])
+        ]
+        lanes = np.concatenate([live, waiting, discarded])
+        assert sorted(lanes.tolist()) == np.unique(stage.columns["lane"][same]).tolist()
+        assert len(live) == stage.columns["live"][row]
+        seen.add((len(waiting) > 0, len(discarded) > 0))
+    assert seen == {(False, False), (True, False), (False, True), (True, True)}
+
+
+def test_a_corner_is_in_clip_space_behind_its_last_statement():
+    for lanes, halfway in (("one", [5, 0, 0]), ("together", [5, 3, 3])):
+        traced = trace(tutorial_scene(), Settings(), lanes=lanes)
+        steps = traced.stage("transform").steps
+        kinds = [steps.kinds[kind] for kind in steps.kind]
+        first = steps.position_after(kinds.index("viewport"))
+        assert spaces_reached(traced, "transform", 0).tolist() == [[0, 0, 0]]
+        assert spaces_reached(traced, "transform", first).tolist() == [halfway]
+        assert spaces_reached(traced, "transform", steps.count).tolist() == [[5, 5, 5]]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from app.pages.step.grid_presenter import OUTLINING
-from app.pages.step.grid_records import buffers_of, mask_overlays
+from app.pages.step.grid_records import LANE_MARKS, buffers_of, mask_overlays
 from app.pages.step.step_mark import step_mark
 from app.pages.step.steps_ahead import sentence_at
 from app.session.cursor import Cursor
@@ -34,7 +34,7 @@ ALIKE = "A and B do the same in every stage."
 REORDERED = "A and B give the same results; only the order of their steps differs."
 ORDERED_STAGES = ("bin", "raster", "depth")
 """Stages in which methods may do the same in another order."""
-SHOWN_MARKS = ("rejected", "tie", "nan", "failed")
+SHOWN_MARKS = ("rejected", "tie", "nan", "failed", *LANE_MARKS)
 """Marks of rows done that lie over the pictures."""
 
 

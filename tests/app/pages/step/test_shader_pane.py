@@ -8,8 +8,12 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit
 
 from app.files.open_any import open_any
+from app.pages.step.grid_records import mask_overlays
+from app.session.document import focus_on
 from app.window.main_window import MainWindow
+from core.explain.steps import variables
 from core.records.listing import ShaderListing
+from core.records.steps import Level
 from core.shaders.presets import TASK_FRAGMENT
 
 pytestmark = pytest.mark.shared_window
@@ -100,9 +104,7 @@ def test_a_preset_and_its_uniforms(lab, qtbot):
     _choose(pane._preset, "toon")
     qtbot.waitUntil(lambda: _program(lab).name == "Toon shading")
     QTest.qWait(1)
-    fields = {
-        field.accessibleName(): field for field in pane.findChildren(QLineEdit) if field.isVisibleTo(pane)
-    }
+    fields = {field.accessibleName(): field for field in pane.findChildren(QLineEdit) if not field.isHidden()}
     assert list(fields) == ["Uniform lightDirection, vec3", "Uniform steps, float"]
     steps = fields["Uniform steps, float"]
     steps.setFocus()
@@ -114,6 +116,42 @@ def test_a_preset_and_its_uniforms(lab, qtbot):
     assert pane.message == "lightDirection needs 3 numbers, separated by commas, got 1, 2."
     _choose(pane._preset, "")
     qtbot.waitUntil(lambda: _program(lab) is None)
+
+
+def test_lanes_together_are_stepped_from_the_same_statement_on(lab):
+    session, pane = lab.session, lab.page.shader_pane
+    session.go_to(101)
+    row, before = session.moment.row, session.stage_trace
+    _choose(pane._lanes, "together")
+    now, at = session.stage_trace, session.moment.row
+    assert session.document.lanes == "together"
+    assert session.cursor.level == Level.GROUP
+    for name in ("lane", "lane_step", "line"):
+        assert now.columns[name][at] == before.columns[name][row]
+    session.step(1)
+    assert now.columns["live"][session.moment.row] == now.columns["lanes"][session.moment.row]
+    assert variables(session.explanation)[0].name == "fragments that run"
+
+    # The document remembers the order, and undo brings the other one back.
+    session.undo()
+    QTest.qWait(1)
+    assert pane._lanes.currentData() == "one"
+
+
+def test_fragments_that_wait_or_were_discarded_are_marked(lab, qtbot):
+    lab.session.open(focus_on(open_any("cube").document, 3))
+    lab.session.set_stage("shade")
+    QTest.qWait(1)
+    _choose(lab.page.shader_pane._preset, "alpha-test")
+    qtbot.waitUntil(lambda: _program(lab) is not None)
+    marks = {overlay.label: overlay.mask for overlay in mask_overlays(lab.session.moment)}
+    source, columns = lab.session.trace.source, lab.session.stage_trace.columns
+    kept = columns["live"][columns["line"] == 12][0]
+    assert marks["discarded"].sum() == len(source.fragments) - kept > 0
+    assert not marks["does not run this line"].any()
+    lines = lab.page.listing.shares
+    assert lines[12] == pytest.approx(kept / len(source.fragments))
+    assert lines[10] == 1
 
 
 def test_raw_shader_material_declares_nothing(lab):
