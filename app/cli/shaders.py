@@ -9,7 +9,7 @@ from app.usage import UsageError
 from core.lanes.limits import SHADER
 from core.scene import AnyScene, Scene
 from core.shaders.linking import own_uniforms
-from core.shaders.presets import PRESETS, VERTEX, preset_program, scene_uniforms
+from core.shaders.presets import PRESETS, VERTEX, preset_program
 from core.shaders.record import DIALECTS, ShaderProgram
 
 PLAIN_FRAGMENT = PRESETS["normals"].fragment
@@ -65,7 +65,7 @@ def with_shaders(scene: AnyScene, options: argparse.Namespace) -> AnyScene:
     if options.shaders:
         program = preset_program(options.shaders, scene)
     elif asked:
-        program = _from_files(scene, options)
+        program = _from_files(options)
     elif scene.program is None:
         raise UsageError("argument --uniform: needs shaders: give --vertex, --fragment or --shaders")
     else:
@@ -73,13 +73,10 @@ def with_shaders(scene: AnyScene, options: argparse.Namespace) -> AnyScene:
     return replace(scene, program=_with_uniforms(program, options.uniform))
 
 
-def _from_files(scene: Scene, options: argparse.Namespace) -> ShaderProgram:
+def _from_files(options: argparse.Namespace) -> ShaderProgram:
     vertex = _text(options.vertex) if options.vertex else VERTEX
     fragment = _text(options.fragment) if options.fragment else PLAIN_FRAGMENT
-    program = ShaderProgram(vertex, fragment, (), options.dialect)
-    given = scene_uniforms(scene)
-    known = {name: given[name] for name in own_uniforms(program) if name in given}
-    return replace(program, uniforms=tuple(known.items()))
+    return ShaderProgram(vertex, fragment, (), options.dialect)
 
 
 def _with_uniforms(program: ShaderProgram, chosen: list[tuple[str, tuple[float, ...]]]) -> ShaderProgram:

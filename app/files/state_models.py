@@ -313,7 +313,7 @@ class StateRecord(Record):
     triangle: Count | None
     before: str
     """``earlier`` or ``cleared``."""
-    lanes: Literal["one", "together"] = "one"
+    lanes: Annotated[str, _one_of("one", "together")] = "one"
     """Order of a shader's steps: one lane after another, or those of a triangle together."""
     stage: StageName
     position: Count

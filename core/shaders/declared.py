@@ -12,6 +12,7 @@ UNIFORMS = {
     "viewMatrix": "mat4",
     "normalMatrix": "mat3",
     "cameraPosition": "vec3",
+    "isOrthographic": "bool",
 }
 """What the scene gives a shader."""
 _OWN = {
@@ -23,7 +24,9 @@ _MATERIAL = {
         *((name, of, "in") for name, of in ATTRIBUTES.items()),
         *((name, of, "uniform") for name, of in UNIFORMS.items()),
     ),
-    "fragment": (("viewMatrix", "mat4", "uniform"), ("cameraPosition", "vec3", "uniform")),
+    "fragment": tuple(
+        (name, UNIFORMS[name], "uniform") for name in ("viewMatrix", "cameraPosition", "isOrthographic")
+    ),
 }
 
 

@@ -1,13 +1,9 @@
 """Shaders to begin with: those of the slides, word for word, and the ways of shading that the lectures name."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from itertools import zip_longest
+from dataclasses import dataclass, replace
 
-import numpy as np
-
-from core.records.arrays import Floats
-from core.scene import DirectionalLight, Scene
+from core.scene import Scene
 from core.shaders.record import ShaderProgram
 
 MINIMAL_VERTEX = """#version 300 es
@@ -60,12 +56,14 @@ void main() {
 VERTEX = """#version 300 es
 precision highp float;
 out vec3 vPosition; // seen from the eye
+out vec3 vWorld;
 out vec3 vNormal;
 out vec3 vColor;
 out vec2 vUv;
 void main() {
    vec4 seen = modelViewMatrix * vec4(position, 1.0);
    vPosition = seen.xyz;
+   vWorld = (modelMatrix * vec4(position, 1.0)).xyz;
    vNormal = normalMatrix * normal;
    vColor = color;
    vUv = uv;
@@ -76,49 +74,59 @@ void main() {
 _HEAD = """#version 300 es
 precision highp float;
 in vec3 vPosition;
+in vec3 vWorld;
 in vec3 vNormal;
 in vec3 vColor;
 in vec2 vUv;
 """
-_LIGHT = """uniform vec3 lightDirection; // the way the light travels, in the world
+_LIGHT = """uniform vec4 lightSource; // w = 0: the way its light travels; w = 1: its place
 uniform vec3 lightColor;
-uniform vec3 fillDirection; // of a second light
+uniform vec4 fillSource; // a second light
 uniform vec3 fillColor;
 uniform float ambient;
 uniform float diffuse;
 uniform float specular;
 uniform float shininess;
 """
-_LIT = """vec3 lit(vec3 N, vec3 V, vec3 surface, vec3 direction, vec3 strength) {
+_TRAVELS = """vec3 travels(vec4 source, vec3 place) {
+   return source.w > 0.5 ? place - source.xyz : source.xyz;
+}
+"""
+_LIT = f"""{_TRAVELS}vec3 lit(vec3 N, vec3 V, vec3 surface, vec3 direction, vec3 strength) {{
    vec3 L = normalize(mat3(viewMatrix) * -direction);
    float cosine = dot(N, L);
    if (cosine <= 0.0) return vec3(0.0);
    vec3 H = normalize(L + V);
    float power = pow(max(dot(N, H), 0.0), shininess);
    return (surface * diffuse * cosine + specular * power) * strength;
-}
+}}
 """
-_LIGHTS = """   light += lit(N, V, vColor, lightDirection, lightColor);
-   light += lit(N, V, vColor, fillDirection, fillColor);
+_LIGHTS = """   light += lit(N, V, vColor, travels(lightSource, vWorld), lightColor);
+   light += lit(N, V, vColor, travels(fillSource, vWorld), fillColor);
 """
+_EYE = "isOrthographic ? vec3(0.0, 0.0, 1.0) : normalize(-vPosition)"
+_TURNED = "   if (!gl_FrontFacing) N = -N; // seen from behind\n"
 PHONG = f"""{_HEAD}{_LIGHT}out vec4 outColor;
 {_LIT}void main() {{
    vec3 N = normalize(vNormal);
-   vec3 V = normalize(-vPosition);
+{_TURNED}   vec3 V = {_EYE};
    vec3 light = vColor * ambient;
 {_LIGHTS}   outColor = vec4(light, 1.0);
 }}
 """
-FLAT = PHONG.replace("normalize(vNormal)", "normalize(cross(dFdx(vPosition), dFdy(vPosition)))")
+FLAT = PHONG.replace(_TURNED, "").replace(
+    "normalize(vNormal)", "normalize(cross(dFdx(vPosition), dFdy(vPosition)))"
+)
 GOURAUD_VERTEX = f"""#version 300 es
 precision highp float;
 {_LIGHT}out vec3 vLight;
 {_LIT}void main() {{
    vec4 seen = modelViewMatrix * vec4(position, 1.0);
    vec3 N = normalize(normalMatrix * normal);
-   vec3 V = normalize(-seen.xyz);
+   vec3 V = {_EYE.replace("vPosition", "seen.xyz")};
+   vec3 place = (modelMatrix * vec4(position, 1.0)).xyz;
    vec3 light = color * ambient;
-{_LIGHTS.replace("vColor", "color")}   vLight = light;
+{_LIGHTS.replace("vColor", "color").replace("vWorld", "place")}   vLight = light;
    gl_Position = projectionMatrix * seen;
 }}
 """
@@ -130,12 +138,12 @@ void main() {
    outColor = vec4(vLight, 1.0);
 }
 """
-TOON = f"""{_HEAD}uniform vec3 lightDirection;
+TOON = f"""{_HEAD}uniform vec4 lightSource; // w = 0: the way its light travels; w = 1: its place
 uniform float steps;
 out vec4 outColor;
-void main() {{
+{_TRAVELS}void main() {{
    vec3 N = normalize(vNormal);
-   vec3 L = normalize(mat3(viewMatrix) * -lightDirection);
+{_TURNED}   vec3 L = normalize(mat3(viewMatrix) * -travels(lightSource, vWorld));
    float cosine = max(dot(N, L), 0.0);
    float band = floor(cosine * steps + 0.5) / steps;
    outColor = vec4(vColor * (0.2 + 0.8 * band), 1.0);
@@ -206,43 +214,49 @@ PRESETS = {
 """By name."""
 
 
-def is_preset(program: ShaderProgram) -> bool:
-    """Whether the texts are still those of the preset that they began with."""
-    return any(
-        (each.title, each.vertex, each.fragment) == (program.name, program.vertex, program.fragment)
-        for each in PRESETS.values()
+def preset_of(program: ShaderProgram) -> str:
+    """Return the name of the preset whose texts a program has; empty: they are other ones."""
+    texts = (program.vertex, program.fragment)
+    same = (
+        n
+        for n, of in PRESETS.items()
+        if texts in ((of.vertex, of.fragment), (of.vertex, _textured(of.fragment)))
     )
+    return next(same, "")
 
 
 def preset_program(name: str, scene: Scene) -> ShaderProgram:
-    """Return a preset for a scene, with the light and the material of its first mesh.
+    """Return a preset for a scene, which gives it light, material, and in the lit ones its texture.
 
     Raises ValueError for a name that is not one of `PRESETS`.
     """
     if name not in PRESETS:
         raise ValueError(f"preset must be one of {', '.join(PRESETS)}, got {name}")
-    preset = PRESETS[name]
-    text = preset.vertex + preset.fragment
-    own = dict(preset.uniforms)
-    for uniform, values in scene_uniforms(scene).items():
-        if f" {uniform};" in text:
-            own.setdefault(uniform, values)
-    return ShaderProgram(preset.vertex, preset.fragment, tuple(own.items()), preset.dialect, preset.title)
+    preset, is_textured = PRESETS[name], any(mesh.texture is not None for mesh in scene.meshes)
+    fragment = _textured(preset.fragment) if is_textured else preset.fragment
+    own = tuple(preset.uniforms.items())
+    return ShaderProgram(preset.vertex, fragment, own, preset.dialect, preset.title)
 
 
-def scene_uniforms(scene: Scene) -> dict[str, tuple[float, ...]]:
-    """Return the light and material of a scene as values of uniforms."""
-    material = scene.meshes[0].material
-    found: dict[str, tuple[float, ...]] = {
-        name: (float(getattr(material, name)),) for name in ("ambient", "diffuse", "specular", "shininess")
-    }
-    lights = [light for light in scene.lights if isinstance(light, DirectionalLight)][:2]
-    for name, light in zip_longest(("light", "fill"), lights):
-        direction = np.array([0.0, 0.0, -1.0]) if light is None else light.direction
-        color = np.full(3, float(not lights and name == "light")) if light is None else light.color
-        found |= {f"{name}Direction": _numbers(direction), f"{name}Color": _numbers(color)}
-    return found
+def _textured(fragment: str) -> str:
+    """Return a lit fragment shader with the texture's colour in its surface; another one unchanged."""
+    if "light = vColor * ambient" not in fragment:
+        return fragment
+    for old, new in (
+        ("out vec4 outColor;", "uniform sampler2D map;\nout vec4 outColor;"),
+        (
+            "   vec3 light = vColor",
+            "   vec3 surface = vColor * texture(map, vUv).rgb;\n   vec3 light = surface",
+        ),
+        ("lit(N, V, vColor,", "lit(N, V, surface,"),
+    ):
+        fragment = fragment.replace(old, new)
+    return fragment
 
 
-def _numbers(values: Floats) -> tuple[float, ...]:
-    return tuple(float(value) for value in values)
+def retyped(program: ShaderProgram, scene: Scene, vertex: str, fragment: str) -> ShaderProgram:
+    """Return the shaders of a scene with other texts, and the same uniforms.
+
+    Raises `ShaderProblem` or ValueError as `ShaderProgram`.
+    """
+    return replace(program, vertex=vertex, fragment=fragment)

@@ -45,7 +45,10 @@ class ShaderProgram:
     fragment: str
     """Source of the fragment shader."""
     uniforms: tuple[tuple[str, tuple[float, ...]], ...] = ()
-    """Name of a uniform and its numbers, of a matrix column by column; those that are missing are 0."""
+    """Name of a uniform and its numbers, of a matrix column by column.
+
+    Those that are missing are the scene's light and material, see `core.shaders.scene_uniforms`; others are 0.
+    """
     dialect: str = "shader-material"
     """Who declares three.js's names, a key of `DIALECTS`."""
     name: str = field(default="", compare=False)

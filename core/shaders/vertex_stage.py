@@ -14,6 +14,7 @@ from core.records.shaded import ShadedVertices
 from core.scene import COORDINATE_LIMIT, Mesh, Scene
 from core.shaders.glsl_types import GlslValue, component_count, from_rows, rows_of
 from core.shaders.record import ShaderProblem, ShaderProgram
+from core.shaders.scene_uniforms import scene_uniforms
 from core.shaders.shader import SECONDS, Outcome, Shader
 
 OUT = "out "
@@ -139,18 +140,20 @@ def uniform_values(scene: Scene, number: int) -> dict[str, GlslValue]:
         "projectionMatrix": from_rows("mat4", projection(scene.camera, width / height)),
         "normalMatrix": from_rows("mat3", normal),
         "cameraPosition": from_rows("vec3", scene.camera.eye),
+        "isOrthographic": from_rows("bool", scene.camera.projection == "orthographic"),
     }
     assert scene.program is not None
-    return found | _own_values(scene.program)
+    return found | _own_values(scene, scene.program, number)
 
 
-def _own_values(program: ShaderProgram) -> dict[str, GlslValue]:
+def _own_values(scene: Scene, program: ShaderProgram, number: int) -> dict[str, GlslValue]:
+    """Return what the user has given the uniforms, and the scene's light and material where he has not."""
     from core.shaders.linking import own_uniforms
 
-    found, values = {}, program.values
+    found, values = {}, scene_uniforms(scene, number) | program.values
     for name, of in own_uniforms(program).items():
-        numbers = values.get(name)
-        if numbers is None:
+        numbers = values.get(name, ())
+        if len(numbers) != component_count(of):
             continue
         shaped: Any = np.array(numbers)
         if of.startswith("mat"):

@@ -204,7 +204,7 @@ class ShaderPane(QWidget):
             label, field = QLabel(f"{uniform.name}  {uniform.of}", self), QLineEdit(uniform.text, self)
             label.setBuddy(field)
             field.setPlaceholderText(uniform.given)
-            field.setToolTip("Empty: the numbers of the scene's light and material." if uniform.given else "")
+            field.setToolTip("Empty: the scene's light and material, or 0")
             field.setAccessibleName(f"Uniform {uniform.name}, {uniform.of}")
             field.editingFinished.connect(partial(self._type_uniform, uniform, field))
             self._rows.addWidget(label, row, 0)

@@ -3,6 +3,7 @@
 What reads and runs shaders is imported when it is first needed: most windows open without any.
 """
 
+from collections.abc import Sequence
 from dataclasses import replace
 from math import isfinite
 
@@ -14,8 +15,9 @@ from app.session.moment import Moment
 from app.session.session import Session
 from core.records.steps import Level
 from core.scene import Scene
-from core.shaders.presets import PRESETS, preset_program, scene_uniforms
+from core.shaders.presets import PRESETS, preset_of, preset_program, retyped
 from core.shaders.record import DIALECTS, ShaderProblem, ShaderProgram
+from core.shaders.scene_uniforms import scene_uniforms
 from widgets.shaders.shader_pane import OWN, ShaderPane, ShownProgram, ShownUniform
 
 TRIAL_SECONDS = 3.0
@@ -67,7 +69,9 @@ class ShaderPresenter(QObject):
         document = self._session.latest
         scene = document.scene
         program = scene.program if isinstance(scene, Scene) else None
-        shown = None if program is None else replace(shown_program(program), lanes=document.lanes)
+        shown = None
+        if isinstance(scene, Scene) and program is not None:
+            shown = replace(shown_program(program, scene), lanes=document.lanes)
         self._pane.show_program(shown, is_possible=isinstance(scene, Scene))
 
     @Slot(str)
@@ -124,6 +128,12 @@ class ShaderPresenter(QObject):
         program = self._program()
         if program is None:
             return
+        scene = self._session.latest.scene
+        assert isinstance(scene, Scene)
+        others = {other: numbers for other, numbers in program.values.items() if other != name}
+        if not text.strip() and name in scene_uniforms(scene):
+            self._edit(replace(program, uniforms=tuple(others.items())))
+            return
         count = component_count(uniforms_of(program)[name])
         try:
             values = tuple(float(number) for number in text.replace(";", ",").split(","))
@@ -134,7 +144,7 @@ class ShaderPresenter(QObject):
             self._pane.show_problem("", 0, 0, f"{name} needs {numbers}, got {text or 'nothing'}.")
             return
         try:
-            self._edit(replace(program, uniforms=tuple({**program.values, name: values}.items())))
+            self._edit(replace(program, uniforms=(*others.items(), (name, values))))
         except ValueError as problem:
             self._refuse(problem)
 
@@ -157,13 +167,7 @@ class ShaderPresenter(QObject):
         scene = self._session.latest.scene
         assert isinstance(scene, Scene)
         try:
-            texts = sources["vertex"], sources["fragment"]
-            typed = ShaderProgram(*texts, program.uniforms, program.dialect, program.name)
-            given = scene_uniforms(scene)
-            new = {
-                name: given[name] for name in uniforms_of(typed) if name in given and name not in typed.values
-            }
-            self._edit(replace(typed, uniforms=tuple({**typed.values, **new}.items())))
+            self._edit(retyped(program, scene, sources["vertex"], sources["fragment"]))
         except ValueError as problem:
             self._refuse(problem)
 
@@ -223,21 +227,26 @@ def ended(sentence: str) -> str:
     return sentence if sentence.endswith(("?", ".", ";")) else f"{sentence}."
 
 
+def _text_of(values: Sequence[float]) -> str:
+    return ", ".join(f"{value:g}" for value in values)
+
+
 def notes_of(program: ShaderProgram) -> str:
     """Return what is worth a sentence although both shaders run."""
     return " ".join(note for shader in program.shaders for note in shader.notes)
 
 
-def shown_program(program: ShaderProgram) -> ShownProgram:
-    """Return what the pane shows of shaders."""
-    texts = (program.vertex, program.fragment)
-    preset = next((name for name, each in PRESETS.items() if (each.vertex, each.fragment) == texts), OWN)
-    values = program.values
+def shown_program(program: ShaderProgram, scene: Scene) -> ShownProgram:
+    """Return what the pane shows of a scene's shaders."""
+    values, given = program.values, scene_uniforms(scene)
     uniforms = tuple(
         ShownUniform(
-            name, of, ", ".join(f"{value:g}" for value in values.get(name, (0.0,) * component_count(of)))
+            name,
+            of,
+            _text_of(values.get(name, ())),
+            _text_of(given[name]) if name in given else _text_of((0.0,) * component_count(of)),
         )
         for name, of in uniforms_of(program).items()
     )
     sources = {"vertex": program.vertex, "fragment": program.fragment}
-    return ShownProgram(sources, preset, program.dialect, uniforms, notes_of(program))
+    return ShownProgram(sources, preset_of(program) or OWN, program.dialect, uniforms, notes_of(program))

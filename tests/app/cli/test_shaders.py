@@ -66,7 +66,7 @@ def test_a_trace_has_the_lines_of_the_shader(tmp_path):
         (
             ["--shaders", "toon", "--uniform", "step=4"],
             2,
-            "these shaders have no uniform step, only lightDirection",
+            "these shaders have no uniform step, only lightSource",
         ),
         (["--uniform", "steps"], 2, "must be NAME=N,N"),
         (["--uniform", "steps=4"], 2, "needs shaders: give --vertex, --fragment or --shaders"),

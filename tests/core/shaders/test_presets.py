@@ -29,6 +29,25 @@ def test_a_preset_draws_the_scene(name):
     assert (frame.color[frame.primitive >= 0][:, 3] == 1).all()
 
 
+def test_phong_in_glsl_is_the_built_in_one_whatever_light_material_and_camera():
+    names = ("cube", "lit-floor", "near-plane", "sphere", "textured-floor", "z-fighting")
+    scenes = [replace(make_scene(name), size=(24, 24)) for name in names]
+    camera = replace(scenes[0].camera, projection="orthographic", view_height=4.0)
+    for scene in (*scenes, replace(scenes[0], camera=camera)):
+        ours = render(replace(scene, program=preset_program("phong", scene)))
+        np.testing.assert_allclose(ours.color, render(scene).color, atol=2e-5)
+
+
+def test_uniforms_follow_the_scene_until_they_are_set():
+    floor = replace(make_scene("lit-floor"), size=(24, 18))
+    program = preset_program("phong", floor)
+    dark = replace(floor, lights=(replace(floor.lights[0], color=np.zeros(3)),))
+    lit, unlit = (render(replace(scene, program=program)).color for scene in (floor, dark))
+    assert lit.max() > 0.5 > 0.2 > unlit[..., :3].max()
+    own = replace(program, uniforms=(("lightColor", (1.0, 1.0, 1.0)),))
+    np.testing.assert_array_equal(render(replace(dark, program=own)).color, lit)
+
+
 @pytest.mark.parametrize(
     ("preset", "shading"), [("phong", "phong"), ("gouraud", "gouraud"), ("flat", "flat")]
 )

@@ -12,7 +12,7 @@ from core.explain.stage_texts import family_title
 from core.methods import ReplacedName, table
 from core.scene import AnyScene, Scene
 from core.settings import FAMILIES, no_effect
-from core.shaders.presets import is_preset
+from core.shaders.presets import preset_of
 from widgets.basics.settings_panel import Setting, SettingChoice
 
 if TYPE_CHECKING:
@@ -85,7 +85,7 @@ def shaders_of(scenes: tuple[AnyScene, AnyScene]) -> str | None:
         return None
     if mine.program is None:
         return "built-in shading"
-    return mine.program.name if is_preset(mine.program) else "own shaders"
+    return mine.program.name if preset_of(mine.program) else "own shaders"
 
 
 @dataclass(frozen=True, eq=False)
