@@ -69,6 +69,23 @@ def _first_comparable(buffers: Sequence[Mapping[str, GridBuffer]]) -> str:
     return next(iter(first))
 
 
+def differing_buffer(first: Step, second: Step) -> str:
+    """Return the name of the first buffer that differs once the stage is done; empty: none does."""
+    ends = (replace(each, cursor=replace(each.cursor, position=each.steps.count)) for each in (first, second))
+    mine, theirs = ({buffer.name: buffer for buffer in buffers_of(end)} for end in ends)
+    for name, buffer in mine.items():
+        if name in theirs and _hold_the_same(buffer, theirs[name]) and not _is_equal(buffer, theirs[name]):
+            return name
+    return ""
+
+
+def _is_equal(a: GridBuffer, b: GridBuffer) -> bool:
+    # What one of both has not reached is no number there.
+    mine, theirs = (each.values.astype(float) for each in (a, b))
+    mine[~_known(a)] = theirs[~_known(b)] = np.nan
+    return np.array_equal(mine, theirs, equal_nan=True)
+
+
 def _hold_the_same(a: GridBuffer, b: GridBuffer) -> bool:
     """Return whether it is not other numbers for the same thing, as 16 bits and 1/w for a depth."""
     return a.kind != "scalar" or (a.unit, a.description) == (b.unit, b.description)

@@ -13,7 +13,7 @@ from app.pages.page_bar import Page
 from app.pages.step.ab.bounded_run import BoundedRun
 from app.pages.step.ab.edited_b import EditedB
 from app.pages.step.ab.lock_step import LockStep
-from app.pages.step.ab.pictures import divergence_text, nothing, pictured
+from app.pages.step.ab.pictures import differing_buffer, divergence_text, nothing, pictured
 from app.pages.step.ab.side_b import SideB, first_difference, settings_difference
 from app.pages.step.grid_records import geometry_of
 from app.pages.step.vertex_drags import VertexDrags
@@ -63,6 +63,8 @@ class ComparePresenter(QObject):
         """B as it follows the stage."""
         self._buffers: dict[str, str] = {}
         """Name of the buffer in which both are compared, by stage, where it was chosen."""
+        self._fitting = ""
+        """Name of the buffer that shows what an edit or a mistake does, where none was chosen; empty: the first one."""
         self._is_active = self._is_held = False
         self._second: Trace | None = None
         """The run of B; ``None``: it cannot be drawn, is being drawn, or is not shown."""
@@ -182,6 +184,10 @@ class ComparePresenter(QObject):
             self._session.edit(replace(self._session.latest, edits=()))
         self.refresh(self._session.moment)
         self.look_changed.emit()
+
+    def look_only_at(self, stage: str, name: str) -> None:
+        """Compare in a buffer while a stage is shown, and in other stages in what shows first; empty: there, too."""
+        self._buffers = {stage: name} if name else {}
 
     @Slot(str)
     def set_buffer(self, name: str) -> None:
@@ -307,6 +313,11 @@ class ComparePresenter(QObject):
     @Slot(object)
     def _take(self, second: Trace) -> None:
         moment, self._second = self._moment, second
+        b = self._b
+        has_fault = bool(b.edits) or (bool(b.title) and not b.printed)
+        self._fitting = (
+            differing_buffer(moment, Step(second, replace(moment.cursor, position=0))) if has_fault else ""
+        )
         self._steps = LockStep(moment.stage_trace, second.stage(moment.cursor.stage), moment.cursor)
         self._show()
         self._reach_goal()
@@ -519,7 +530,7 @@ class ComparePresenter(QObject):
         ]
         self._view.show_refusal((EDITED if self._b.edits else SHOWN_ONLY) if self._b.title else "")
         steps: list[Step] = [moment] if second is None else [moment, second]
-        wanted = self._buffers.get(moment.cursor.stage, "")
+        wanted = self._buffers.get(moment.cursor.stage, "") or self._fitting
         buffers, shown, pictures = pictured(sides, steps, self._outlines, wanted, bool(self.printed))
         self._view.buffer_box.show_buffers(buffers, shown)
         if self._is_old:
