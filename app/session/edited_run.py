@@ -5,11 +5,10 @@ from difflib import SequenceMatcher
 
 from app.session.document import Document
 from core import Settings
-from core.edits import EDITABLE, Edit, apply_edit, original, place_of, refusal
+from core.edits import EDITABLE, Edit, edited_settings, original, place_of, refusal
 from core.methods import ReplacedName, table
 from core.records.listing import EditedListing, Listing
 from core.records.words import counted, joined
-from core.settings import with_method
 
 NOT_EDITABLE = "This listing cannot be edited: it is a fixed part of the pipeline."
 
@@ -26,19 +25,11 @@ def title_of(edits: tuple[Edit, ...]) -> str:
 
 
 def settings_of(document: Document) -> tuple[Settings, Settings]:
-    """Return the settings with the methods as they are, and with all edited listings of a document in their place.
+    """Return the settings of a document with the methods as they are, and with its edited listings in their place.
 
-    An edit that the scene would pass over sleeps where another one was made since. Raises ValueError
-    (`core.lanes.problem.Problem` with a place in the text) where a text cannot run, or the last one not here.
+    Raises ValueError as `core.edits.edited_settings`.
     """
-    mine = other = document.settings
-    for edit in document.edits:
-        if edit is not document.edits[-1] and edit.passed_over(document.settings, document.scene):
-            continue
-        family = EDITABLE[edit.part].family
-        mine = with_method(mine, family, edit.of)
-        other = apply_edit(other, edit)
-    return mine, other
+    return edited_settings(document.settings, document.scene, document.edits)
 
 
 def with_edit(document: Document, edit: Edit) -> Document:

@@ -111,12 +111,15 @@ def _do(window: MainWindow, walk: LessonWalk, states: States) -> bool:
         return False
     state = states.of_step(walk.number)
     done = solved(state, step.solution)
-    if done.scene is not state.scene or done.settings != state.settings:
+    if done.edits != state.edits:
+        window.page.show_view("compare")  # As the editor of a listing does.
+    if (done.scene, done.settings, done.edits) != (state.scene, state.settings, state.edits):
         document = session.document
         raster = document.raster
         if done.scene.size != state.scene.size:
             raster = replace(raster, columns=done.scene.size[0], rows=done.scene.size[1])
-        session.edit(replace(document, scene=done.scene, settings=done.settings, raster=raster))
+        edited = replace(document, scene=done.scene, settings=done.settings, edits=done.edits, raster=raster)
+        session.edit(edited)
         settle(window)
     if step.solution.stage is not None or step.solution.at is not None:
         session.set_stage(done.stage, done.position(session.trace))

@@ -4,7 +4,15 @@ The rule draws where nothing was typed; only what was typed runs in the lanes of
 method whose listing is edited, and keeps what this method needs.
 """
 
-from core.edits.edit import Edit, apply_edit, edits_of, original, place_of, without_edits
+from core.edits.edit import (
+    Edit,
+    apply_edit,
+    edited_settings,
+    edits_of,
+    original,
+    place_of,
+    without_edits,
+)
 from core.edits.editable import EDITABLE, NOT_EDITABLE, Part, refusal
 
 __all__ = [
@@ -13,6 +21,7 @@ __all__ = [
     "Edit",
     "Part",
     "apply_edit",
+    "edited_settings",
     "edits_of",
     "original",
     "place_of",

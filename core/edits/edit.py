@@ -1,6 +1,6 @@
 """An edit: which listing a text stands for; and the settings that run it."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any
@@ -96,6 +96,21 @@ def _edited(method: Method, edit: Edit, part: Part) -> Method:
 def edits_of(settings: Settings) -> tuple[Edit, ...]:
     """Return the edits that settings run."""
     return tuple(edit for method in settings.replacements.values() for edit in method.edits)
+
+
+def edited_settings(settings: Settings, scene: Any, edits: Sequence[Edit]) -> tuple[Settings, Settings]:
+    """Return settings with the methods that are edited as they are, and with all edits in their place.
+
+    An edit that the scene would pass over sleeps where another one was made since. Raises ValueError (`Problem` with
+    a place in the text) where a text cannot run, or the last one not here.
+    """
+    mine = other = settings
+    for edit in edits:
+        if edit is not edits[-1] and edit.passed_over(settings, scene):
+            continue
+        mine = with_method(mine, EDITABLE[edit.part].family, edit.of)
+        other = apply_edit(other, edit)
+    return mine, other
 
 
 def without_edits(settings: Settings) -> Settings:

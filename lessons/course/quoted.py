@@ -5,7 +5,7 @@ A number with a fraction is equal to what agrees with it in the digits that are 
 
 import ast
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cached_property
 from typing import Any
@@ -13,11 +13,13 @@ from typing import Any
 import numpy as np
 
 from core import Settings, Trace, render
+from core.edits import Edit, edited_settings
 from core.framebuffer.display import to_display
 from core.records.arrays import Flags
 from core.records.frame import Frame
-from core.scene import AnyScene
+from core.scene import AnyScene, Scene
 from core.settings import settings_from_texts
+from core.study.planner.trials import difference
 from core.trace import StageTrace, trace
 from core.trace.conditions import Condition, TraceNames, evaluate, parse_condition, spelled
 from core.trace.run_to import named_position
@@ -39,6 +41,8 @@ class Situation:
     """The pixel that is pinned."""
     other: Settings | None = None
     """Of side B, where A | B is shown."""
+    edits: tuple[Edit, ...] = ()
+    """Listings that are edited: side B runs them."""
 
     @property
     def scene(self) -> AnyScene:
@@ -56,14 +60,28 @@ class Situation:
         return self.run.stage(self.stage)
 
     @cached_property
+    def edited(self) -> "Situation":
+        """The run of the edited listings, at its start; where none is edited, what is open.
+
+        Raises ValueError where an edited listing cannot run.
+        """
+        if not self.edits:
+            return self
+        other = edited_settings(self.settings, self.scene, self.edits)[1]
+        return Situation(trace(self.scene, other), self.stage, 0, self.pixel)
+
+    @cached_property
     def _frames(self) -> dict[str, Frame]:
         return {}
 
     def frame(self, chosen: Mapping[str, str] | None = None) -> Frame:
-        """Return the picture, with other methods where they are ``chosen``."""
+        """Return the picture, with other methods where they are ``chosen``; shading that is chosen needs no shaders."""
         key = repr(sorted((chosen or {}).items()))
         if key not in self._frames:
-            self._frames[key] = render(self.scene, self.chosen(chosen))
+            scene = self.scene
+            if "shading" in (chosen or {}) and isinstance(scene, Scene):
+                scene = replace(scene, program=None)
+            self._frames[key] = render(scene, self.chosen(chosen))
         return self._frames[key]
 
     def chosen(self, chosen: Mapping[str, str] | None) -> Settings:
@@ -155,6 +173,10 @@ class _Names:
     def call(self, name: str, given: Sequence[ast.expr], chosen: Mapping[str, str]) -> Any:
         """Return what a function of `FUNCTIONS` or `OVER_ROWS` gives."""
         situation = self.situation
+        if name == EDITED:
+            if len(given) != 1 or chosen:
+                raise ValueError(f"expected what is asked of the edited listings, as {name}(drawn)")
+            return evaluate(given[0], _Names(situation.edited))
         if name in OVER_ROWS:
             if len(given) != 1:
                 raise ValueError(f"expected one condition, as {name}(covered)")
@@ -210,6 +232,8 @@ def _owner(situation: Situation, given: list[Any], chosen: Mapping[str, str]) ->
 def _other_frame(situation: Situation, chosen: Mapping[str, str]) -> Frame:
     if chosen:
         return situation.frame(chosen)
+    if situation.edits:
+        return situation.edited.frame()
     if situation.other is None:
         raise ValueError("expected a method, as differs(depth=z-16), or a state with other")
     return render(situation.scene, situation.other)
@@ -217,6 +241,12 @@ def _other_frame(situation: Situation, chosen: Mapping[str, str]) -> Frame:
 
 def _differs(situation: Situation, given: list[Any], chosen: Mapping[str, str]) -> int:
     return len(different_pixels(situation.frame(), _other_frame(situation, chosen)))
+
+
+def _apart(situation: Situation, given: list[Any], chosen: Mapping[str, str]) -> int:
+    frames = situation.frame(), _other_frame(situation, chosen)
+    colors = (to_display(frame.color).pixels[..., :3].astype(np.int64) for frame in frames)
+    return int(difference(*colors).max())
 
 
 def _unlike(situation: Situation, given: list[Any], chosen: Mapping[str, str]) -> int:
@@ -329,6 +359,7 @@ FUNCTIONS: dict[str, tuple[Function, tuple[int, ...]]] = {
     "seen": (_seen, (1,)),
     "owner": (_owner, (2,)),
     "differs": (_differs, (0,)),
+    "apart": (_apart, (0,)),
     "unlike": (_unlike, (0,)),
     "tested": (_tested, (0,)),
     "decisions": (_decisions, (0,)),
@@ -357,5 +388,7 @@ ARITHMETIC: dict[str, Callable[..., Any]] = {
 """Functions of numbers alone, which may stand in a condition over rows, too."""
 OVER_ROWS = ("count", "some")
 """Functions of a condition, which is asked of all rows of the stage."""
-CALLED = (*FUNCTIONS, *ARITHMETIC, *OVER_ROWS)
+EDITED = "edited"
+"""A function of a number that is asked of the run of the edited listings."""
+CALLED = (*FUNCTIONS, *ARITHMETIC, *OVER_ROWS, EDITED)
 """All names that may be called."""

@@ -4,6 +4,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
+from core.shaders.presets import PRESETS
 from lessons.exercises.answer_parts import AnswerPart
 from lessons.exercises.fields import (
     AnyMistake,
@@ -24,7 +25,7 @@ STEPS = (4, 6)
 """Least and greatest number of steps."""
 VIEWS = ("pixels", "scene", "clip", "pyramid", "texture", "flow", "compare")
 """Main views of the Step page."""
-PANES = ("scene", "methods", "overlays", "details", "thumbnails", "navigator", "listing")
+PANES = ("scene", "methods", "overlays", "shaders", "details", "thumbnails", "navigator", "listing")
 """What may stand beside the grid: only what a state names does."""
 KEPT = ("scene", "size", "camera", "settings", "window")
 """What a task may leave as it is: all of it, or for ``window`` that every corner stays in the window."""
@@ -58,6 +59,7 @@ Condition = Annotated[str, Field(min_length=1, max_length=300)]
 Conditions = Annotated[list[Condition], BeforeValidator(_conditions)]
 Numbers = list[AnyNumber]
 Pixel = Annotated[list[Annotated[int, Field(ge=0)]], Field(max_length=2)]
+SourceText = Annotated[str, Field(max_length=6000)]
 Name = Annotated[str, Field(pattern=r"^[a-z0-9]+(-[a-z0-9]+)*$", max_length=60)]
 
 
@@ -75,6 +77,15 @@ class CameraPart(Part):
     projection: Literal["perspective", "orthographic"] | None = None
 
 
+class MaterialPart(Part):
+    """Numbers of the material of all meshes; what is not named stays."""
+
+    ambient: AnyNumber | None = None
+    diffuse: AnyNumber | None = None
+    specular: AnyNumber | None = None
+    shininess: AnyNumber | None = None
+
+
 class ChangePart(Part):
     """What is different from a scene as it is named."""
 
@@ -87,6 +98,9 @@ class ChangePart(Part):
     camera: CameraPart | None = None
     light: list[Annotated[Numbers, Field(min_length=4, max_length=4)]] = Field(default_factory=list)
     """[light, x, y, z]: where it stands, or the way it goes."""
+    edit: list[Annotated[list[SourceText], Field(min_length=3, max_length=3)]] = Field(default_factory=list)
+    """[part, old, new]: a text that stands once becomes another one, in the listing of a part that
+    `core.edits.EDITABLE` has, or in the ``vertex`` or ``fragment`` shader."""
 
 
 class StatePart(ChangePart):
@@ -98,6 +112,9 @@ class StatePart(ChangePart):
     """Columns and rows of a scene that is named; left out: its own."""
     vertices: list[Annotated[Numbers, Field(min_length=5, max_length=5)]] = Field(default_factory=list)
     """[mesh, vertex, x, y, z] in object space."""
+    material: MaterialPart | None = None
+    shaders: Literal[tuple(PRESETS)] | None = None  # type: ignore[valid-type]
+    """Preset of shaders that draw the scene in place of the built-in ones."""
     shared: bool = False
     """Corners at one place move together."""
     settings: SettingTexts = Field(default_factory=dict)

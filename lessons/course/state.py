@@ -8,13 +8,15 @@ from typing import Any
 import numpy as np
 
 from core import STAGES, Settings, Trace, trace
+from core.edits import Edit
 from core.scene import AnyScene, ClipScene, DirectionalLight, PointLight, Scene
 from core.settings import settings_from_texts
 from core.trace import scene_triangle_count
 from core.trace.length import LONGEST_RUN, most_tests
 from core.trace.run_to import START
 from lessons.course.lesson_file import Lesson
-from lessons.course.record import CameraPart, ChangePart, SolutionPart, StatePart
+from lessons.course.record import CameraPart, ChangePart, MaterialPart, SolutionPart, StatePart
+from lessons.course.texts import is_of_shader, with_changed_listings, with_changed_shaders, with_shaders
 from lessons.exercises.drawn_scene import DrawnScene, draw_scene
 from lessons.exercises.draws import Draws
 from lessons.printed.catalogue import printed_listing
@@ -24,7 +26,21 @@ from lessons.slides.scenes import scene_named
 
 RASTER_LIMIT = (96, 72)
 """Largest raster of a state in pixels: one on which every pixel can be pointed at."""
-OF_SCENE = ("size", "shared", "corners", "depth", "w", "vertices", "camera", "light", "triangle", "pixel")
+OF_SCENE = (
+    "size",
+    "shared",
+    "corners",
+    "depth",
+    "w",
+    "vertices",
+    "camera",
+    "light",
+    "material",
+    "shaders",
+    "edit",
+    "triangle",
+    "pixel",
+)
 """What a state drops when it names another scene."""
 
 
@@ -42,6 +58,8 @@ class State:
     """Of side B; ``None``: only A is shown."""
     printed: str = ""
     """Name of the listing that B runs as it is printed; empty: none."""
+    edits: tuple[Edit, ...] = ()
+    """Listings that are edited: B runs them."""
     place: RunPlace = field(default_factory=RunPlace)
     triangle: int | None = None
     buffer: str = ""
@@ -146,6 +164,7 @@ class States:
             settings,
             settings_from_texts(part.other, settings) if part.other else None,
             printed_listing(part.printed).name if part.printed else "",
+            with_changed_listings((), settings, drawn.scene, part.edit),
             RunPlace(stage, part.at or START, part.operation or "", pixel),
             part.triangle,
             part.buffer or "",
@@ -157,8 +176,8 @@ class States:
         """Return the scene of a state, and its title."""
         if part.scene is None:
             raise ValueError("expected a scene, here or in [state]")
-        names = ("scene", "size", "shared", "corners", "depth", "w", "vertices", "camera", "light")
-        key = repr([getattr(part, name) for name in names])
+        names = ("scene", *OF_SCENE[: OF_SCENE.index("edit")])
+        key = repr([*(getattr(part, name) for name in names), [*filter(is_of_shader, part.edit)]])
         if key not in self._scenes:
             name = part.scene.builtin
             named = None if name is None else scene_named(name)
@@ -170,6 +189,10 @@ class States:
                 raise ValueError("expected coordinates, not ranges to draw from")
             drawn = draw_scene(part.scene.model_copy(update={"size": list(size)}), Draws(0))
             scene = moved_vertices(drawn.scene, part.vertices)
+            if part.material is not None:
+                scene = _of_material(scene, part.material)
+            if part.shaders is not None:
+                scene = with_shaders(scene, part.shaders)
             if part.shared:
                 scene = join_shared(scene)
             scene = changed(scene, part)
@@ -221,7 +244,7 @@ def changed(scene: AnyScene, change: ChangePart) -> AnyScene:
         scene = _through(scene, change.camera)
     for light, *vector in change.light:
         scene = _lit(scene, int(light), [float(one) for one in vector])
-    return scene
+    return with_changed_shaders(scene, change.edit)
 
 
 def _corner(scene: AnyScene, at: list[Any]) -> tuple[int, int]:
@@ -245,6 +268,14 @@ def _through(scene: AnyScene, part: CameraPart) -> Scene:
         else:
             values[name] = value if isinstance(value, str) else float(value)
     return replace(scene, camera=replace(scene.camera, **values))
+
+
+def _of_material(scene: AnyScene, part: MaterialPart) -> Scene:
+    if isinstance(scene, ClipScene):
+        raise ValueError("expected a scene of meshes where the material is changed")
+    values = {name: float(getattr(part, name)) for name in part.model_fields_set}
+    meshes = (replace(mesh, material=replace(mesh.material, **values)) for mesh in scene.meshes)
+    return replace(scene, meshes=tuple(meshes))
 
 
 def _lit(scene: AnyScene, number: int, vector: list[float]) -> Scene:
@@ -273,4 +304,5 @@ def solved(state: State, solution: SolutionPart) -> State:
         pixel=_pixel(solution.pixel, scene) or state.pixel,
     )
     settings = settings_from_texts(solution.settings, state.settings)
-    return replace(state, scene=scene, settings=settings, place=place)
+    edits = with_changed_listings(state.edits, settings, scene, solution.edit)
+    return replace(state, scene=scene, settings=settings, edits=edits, place=place)

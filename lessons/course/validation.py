@@ -22,7 +22,7 @@ Found = TypeVar("Found")
 
 def situation_of(state: State) -> Situation:
     """Return what is open in a state; ValueError where its cursor cannot be found."""
-    return Situation(state.run, state.stage, state.position(state.run), state.pixel, state.other)
+    return Situation(state.run, state.stage, state.position(state.run), state.pixel, state.other, state.edits)
 
 
 def solved_situation(step: StepPart, state: State) -> Situation:
@@ -33,7 +33,7 @@ def solved_situation(step: StepPart, state: State) -> Situation:
         return situation_of(done)
     count = done.run.stage(done.stage).steps.count
     position = 0 if step.solution.stage else min(state.position(state.run), count)
-    return Situation(done.run, done.stage, position, done.pixel, done.other)
+    return Situation(done.run, done.stage, position, done.pixel, done.other, done.edits)
 
 
 def validate(lesson: Lesson, names: Collection[str]) -> None:

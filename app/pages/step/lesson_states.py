@@ -120,6 +120,7 @@ class LessonStates(QObject):
         page, state, session = self._page, shown.state, self._page.session
         page.timeline.show_playing(False)
         page.grids.look_only_at(shown.cursor.stage, state.buffer)
+        page.comparing.look_only_at(shown.cursor.stage, state.buffer)
         before = session.moment
         with page.comparing.held():
             if session.document is shown.document:
@@ -147,7 +148,7 @@ class LessonStates(QObject):
             page.comparing.show_printed(state.printed, seeks=state.place.at == START)
         elif state.other is not None:
             page.comparing.set_differences(state.settings.differences(state.other))
-        if state.printed or state.other is not None:
+        if state.printed or state.edits or state.other is not None:
             page.show_view(state.view or "compare")
         elif state.view:
             page.show_view(state.view)
@@ -168,12 +169,14 @@ def opened(state: State, asked: LessonQuestion | None, known: tuple[OpenState, .
     """Trace a state, or take the trace of a ``known`` one that has the same; ValueError where it cannot be opened."""
     for each in known:
         same = each.state.scene is state.scene and each.state.triangle == state.triangle
-        if same and each.document.settings == _settings(state):
+        if same and each.document.settings == _settings(state) and each.document.edits == state.edits:
             document, run = each.document, each.trace
             break
     else:
         raster = TeachingRaster(*state.scene.size)
-        document = Document(state.scene, raster, _settings(state), state.triangle, title=state.title)
+        document = Document(
+            state.scene, raster, _settings(state), state.triangle, title=state.title, edits=state.edits
+        )
         run = trace_now(document, state.stage)
     run.stage(state.stage)
     return OpenState(state, document, run, cursor_at(state.place, run, Level.PIXEL), asked)

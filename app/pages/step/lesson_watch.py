@@ -15,7 +15,7 @@ from lessons.course.quoted import Situation
 if TYPE_CHECKING:
     from lessons.course.record import UntilPart
 
-WATCHED = Change.DOCUMENT | Change.CURSOR | Change.PIN
+WATCHED = Change.DOCUMENT | Change.EDITS | Change.CURSOR | Change.PIN
 
 
 @dataclass(frozen=True, eq=False)
@@ -94,4 +94,5 @@ class LessonWatch(QObject):
 
 def situation_of(moment: Moment) -> Situation:
     """Return what conditions are asked about."""
-    return Situation(moment.trace, moment.cursor.stage, moment.cursor.position, moment.pin)
+    cursor = moment.cursor
+    return Situation(moment.trace, cursor.stage, cursor.position, moment.pin, edits=moment.document.edits)

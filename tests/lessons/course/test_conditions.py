@@ -5,6 +5,7 @@ from dataclasses import replace
 import pytest
 
 from core import Settings, trace
+from core.edits import Edit, original
 from core.scene import AnyScene
 from core.settings import settings_from_texts
 from lessons.course.conditions import is_done
@@ -37,6 +38,8 @@ def moved(x: float, y: float) -> AnyScene:
     return move_corner(SQUARE, 0, 2, (x, y), (6, 6))
 
 
+DOUBLED = Edit("fill", "bounding-box", original("fill", "bounding-box").source.replace("and owns_tie[k]", ""))
+YELLOW = ALL_SCENES["lmu-minimal-shaders"].make()
 END = trace(SQUARE, Settings(fill="bounding-box")).stage("raster").steps.count
 FLOOR = replace(ALL_SCENES["textured-floor"].make(), size=(16, 12))
 ROLLED = set_value(FLOOR, "camera/up/x", 0.3, (16, 12))
@@ -57,6 +60,18 @@ ROLLED = set_value(FLOOR, "camera/up/x", 0.3, (16, 12))
         ({"tested": 50}, at(), at(chosen={"fill": "brute-force"})),
         ({"decisions": 50}, at(), at(chosen={"fill": "brute-force"})),
         ({"same": {"interpolation": "affine"}}, at(), at(FLOOR)),
+        ({"holds": "edited(twice) == 5"}, replace(at(), edits=(DOUBLED,)), at()),
+        ({"holds": "differs() == 9"}, replace(at(), edits=(DOUBLED,)), replace(at(), other=at().settings)),
+        (
+            {"holds": ["edited(count(covered)) == 30", "count(covered) == 16"]},
+            replace(at(), edits=(DOUBLED,)),
+            at(),
+        ),
+        (
+            {"holds": "apart(shading=unlit) == 255"},
+            at(YELLOW, {}),
+            at(replace(YELLOW, program=None), {"shading": "unlit"}),
+        ),
         ({"stage": "depth"}, at(stage="depth"), at()),
         ({"pixel": [2, 3]}, at(pixel=(2, 3)), at(pixel=(3, 2))),
         ({"holds": ["drawn == 16", "twice == 0"]}, at(), at(chosen={"fill_rule": "inclusive"})),
@@ -110,6 +125,7 @@ RIGHT = [
     "count(covered) == 16 and some(tie) and count(tie, fill_rule=inclusive) > 0 and not some(E0 == 99.5)",
     "count(weights[0] == 0.75) > 0 and count(abs(E0) < 1) > 0",
     "floor(2.7) == 2 and round(2.7) == 3 and sqrt(16) == 4 and log2(8) == 3 and power(0.9, 40) == 0.015",
+    "edited(drawn) == 16 and edited(edited(E0)) == 0 and apart(interpolation=affine) == 0",
     "12 - 3 * 2.5 - 4 * 0.5 == 2.5",
 ]
 

@@ -13,6 +13,7 @@ from lessons.course.record import (
     CameraPart,
     FailsPart,
     LessonPart,
+    MaterialPart,
     NextPart,
     SolutionPart,
     StatePart,
@@ -46,7 +47,18 @@ def test_the_first_lesson_of_the_page_works(tmp_path: Path, monkeypatch: pytest.
 
 @pytest.mark.parametrize(
     "part",
-    [LessonPart, StepPart, StatePart, UntilPart, SolutionPart, WrongPart, FailsPart, NextPart, CameraPart],
+    [
+        LessonPart,
+        StepPart,
+        StatePart,
+        UntilPart,
+        SolutionPart,
+        WrongPart,
+        FailsPart,
+        NextPart,
+        CameraPart,
+        MaterialPart,
+    ],
 )
 def test_every_key_stands_on_the_page(part: type[BaseModel]) -> None:
     assert [name for name in part.model_fields if f"`{name}`" not in TEXT] == []

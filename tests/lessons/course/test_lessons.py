@@ -107,6 +107,32 @@ BROKEN = [
     ),
     ("[[0, 2, 4.25, 4.25]]", "[[2, 2, 4, 4]]", "step.3.solution: expected a corner of the scene, got [2, 2]"),
     ("[[0, 2, 4.25, 4.25]]", "[[0, 2, 64.25, 64.25]]", "expected a solution after which keeps holds"),
+    (
+        "solution = { corners = [[0, 2, 4.25, 4.25]] }",
+        'solution = { edit = [["fill", "value >= 0", ""]] }',
+        "step.3.solution: expected a text that stands once in the listing of fill, got 'value >= 0'",
+    ),
+    (
+        "solution = { corners = [[0, 2, 4.25, 4.25]] }",
+        'solution = { edit = [["fill", "value > 0", "value >"]] }',
+        "step.3.solution: line 7, column",
+    ),
+    (
+        "solution = { corners = [[0, 2, 4.25, 4.25]] }",
+        'solution = { edit = [["fragment", "1.0", "0.0"]] }',
+        "step.3.solution: expected a scene with shaders where one is changed",
+    ),
+    (
+        "solution = { corners = [[0, 2, 4.25, 4.25]] }",
+        'solution = { edit = [["cull", "a", "b"]] }',
+        "step.3.solution: Its listing returns words",
+    ),
+    (
+        "pixel = [32, 24]",
+        'pixel = [32, 24], shaders = "phong"',
+        "expected a scene of meshes where shaders draw",
+    ),
+    ("pixel = [32, 24]", 'pixel = [32, 24], shaders = "fhong"', "step.0.state.shaders: expected"),
     ('keeps = ["window"', 'keeps = ["door"', "step.3.until: expected one of scene, size, camera"),
     ('["shared-edge"]', '["shared-edges"]', "exercises.0: expected one that there is, got 'shared-edges'"),
     ("minutes = 5", 'minutes = 5\nneeds = ["none"]', "needs.0: expected one that there is, got 'none'"),
