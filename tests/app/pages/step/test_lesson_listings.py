@@ -5,15 +5,48 @@ from pathlib import Path
 from pytestqt.qtbot import QtBot
 
 from app.window.main_window import MainWindow
-from lessons.course import catalogue
-from tests.app.pages.step.test_lessons import answered, kept, opened
+from lessons.course.catalogue import FOLDER
+from tests.app.pages.step.test_lessons import answered, kept, opened, settled
 from widgets.exercises.code_answer import CodeAnswerView
+from widgets.lessons.records import Standing
 
-LESSON = Path(catalogue.__file__).with_name("repair-a-listing.toml").read_text(encoding="utf-8")
+
+def lesson_text(name: str) -> str:
+    return (FOLDER / f"{name}.toml").read_text(encoding="utf-8")
+
+
+def test_a_listing_that_is_edited_is_a_task(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    walk = opened(window, qtbot, tmp_path, 5, lesson_text("shared-edges"))
+    pane, box = window.page.column.code, window.page.compare_view.buffer_box
+    window.run_action("edit_line")
+    editor, right = pane.editor, pane.editor.text
+    editor.begin(right.replace("value > 0 or", "value > 0 and"), 1)
+    editor.text_typed.emit(editor.text)
+    settled(window, qtbot)
+    assert walk.standings[5] is Standing.OPEN
+    editor.begin(right.replace("value > 0 or", "value >= 0 or"), 1)
+    editor.text_typed.emit(editor.text)
+    qtbot.waitUntil(lambda: walk.standings[5] is Standing.DONE)
+    assert (window.page.current_view(), box.currentData()) == ("compare", "overdraw")
+    # One way to do it is shown with the text that draws it.
+    walk.return_here()
+    settled(window, qtbot)
+    assert (window.page.current_view(), window.session.document.edits) == ("pixels", ())
+    walk.task.reveal()
+    settled(window, qtbot)
+    assert [edit.part for edit in window.session.document.edits] == ["fill"]
+    assert (window.page.current_view(), box.currentData()) == ("compare", "overdraw")
+
+
+def test_a_step_names_the_buffer_of_a_and_b(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    walk = opened(window, qtbot, tmp_path, 0, lesson_text("three-signs"))
+    walk.go(0)
+    settled(window, qtbot)
+    assert window.page.compare_view.buffer_box.currentData() == "overdraw"
 
 
 def test_a_lesson_asks_for_a_listing(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
-    walk = opened(window, qtbot, tmp_path, 2, LESSON)
+    walk = opened(window, qtbot, tmp_path, 2, lesson_text("repair-a-listing"))
     assert walk.answers.asked is not None
     right = walk.answers.asked.question.draft.answer.reference
     endless = right.replace("x += sx", "x += 0")
