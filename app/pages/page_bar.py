@@ -44,6 +44,8 @@ class StepRequest:
     """What B is called, where it is a run that no settings can name."""
     edits: "tuple[Edit, ...]" = ()
     """Edited listings that B runs, in A | B; the user can go on editing them."""
+    hides_right: bool = False
+    """Whether the listings as they are stay hidden: an exercise still asks for them."""
     position: int | None = None
     """Steps of the stage that are done; ``None``: those up to the pixel, or none."""
     is_asked: bool | None = None

@@ -92,7 +92,8 @@ class Evidence(QObject):
             elif is_pictured(question, name):
                 shown[f"Show that picture{words}"] = partial(self._show_picture, name)
         if self._checked.opened is not None:
-            shown[OPEN] = partial(self._step, partial(wrong_run, question, self._checked.opened))
+            make = partial(wrong_run, question, self._checked.opened, hides_right=not self._is_shown)
+            shown[OPEN] = partial(self._step, make)
         if self._checked.drawn is not None:
             shown[DRAWN] = partial(self._show_drawn, self._checked.drawn)
         if judgement.refutation is not None:

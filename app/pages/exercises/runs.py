@@ -100,8 +100,13 @@ def drawn_picture(question: Question, drawn: Frame) -> Live:
     return Live(None, coverage_of(drawn, "your picture"), marks)
 
 
-def wrong_run(question: Question, opened: Opened) -> StepRequest:
-    """Return what steps the right listing beside a wrong one, on the smallest input that shows it."""
+def wrong_run(question: Question, opened: Opened, *, hides_right: bool) -> StepRequest:
+    """Return what steps the right run beside a wrong one, on the smallest input that shows it.
+
+    ``hides_right``: the right listing itself is not shown.
+    """
     shown = opened.shown
     opening = Opening(shown.scene, shown.settings, shown.stage, shown.pixel)
-    return StepRequest(opening, question.template.title, edits=(opened.edit,), is_asked=False)
+    return StepRequest(
+        opening, question.template.title, edits=(opened.edit,), hides_right=hides_right, is_asked=False
+    )

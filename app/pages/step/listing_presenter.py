@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from app.session.named_mistakes import Outcome
 
 HIDDEN = "While you predict, or a question is asked about this scene, no listing can be edited."
+ASKED = "A's listing is hidden: it is asked for"
 KEPT = "The text that does not run is kept: Edit opens it again."
 LOADING = "The editor is being loaded."
 LATER_MS = 50
@@ -62,6 +63,8 @@ class ListingPresenter(QObject):
         """Part and method of what is edited in the editor."""
         self._drafts: dict[tuple[str, str], str] = {}
         """Texts that did not run when the editor was left, by part and method."""
+        self._hides_right = False
+        """Whether the listing as it is, and where the edited one differs, stays hidden: an exercise asks for it."""
         self._naming = Job(self)
         """Looks for the mistake that an edit is."""
         self._naming.succeeded.connect(self._name_mistake)
@@ -94,8 +97,11 @@ class ListingPresenter(QObject):
     @Slot(int)
     def show_side(self, side: int) -> None:
         """Show the step of A or of B in the inspector."""
-        if side == B and not self._session.document.edits:
+        has_edits = bool(self._session.document.edits)
+        if side == B and not has_edits:
             side = A
+        elif self._hides_right and has_edits:
+            side = B
         if side == A and self._pane.is_editing:
             self._end_editing()
         self._set_side(side)
@@ -121,8 +127,15 @@ class ListingPresenter(QObject):
             self._inspector.refresh_step(self._session.moment)
             self._inspector.refresh_history(self._session.moment)
 
+    def hide_right(self) -> None:
+        """Show no listing as it is until another scene is opened: an exercise asks for it."""
+        self._hides_right = True
+        self.show_side(B)
+        self._show_head(self._inspector.shown_listing)
+
     def begin_anew(self) -> None:
         """Leave the editor: another scene was opened. What did not run is kept, as what ran is."""
+        self._hides_right = False
         self._end_editing()
 
     @property
@@ -185,7 +198,11 @@ class ListingPresenter(QObject):
         lines: tuple[frozenset[int], frozenset[int]] = (frozenset(), frozenset())
         note = resets = ""
         text = self._text_of(place) or (edit.text if edit is not None else "")
-        if place is not None and text:
+        hides = self._hides_right and edit is not None
+        if hides:
+            note = ASKED
+            self._pane.editor.show_changed_lines(frozenset())
+        elif place is not None and text:
             old = original(*place).source
             note, resets = changed_text(old, text), LISTING_CHANGES if text != old else ""
             typed = changed_lines(old, text)
@@ -198,7 +215,7 @@ class ListingPresenter(QObject):
         self._pane.listing.show_changed_lines(lines[self.side])
         is_shown = has_head or bool(document.edits)
         name = edit.name if edit is not None else ""
-        self._pane.show_head(PaneHead(is_shown, refusal, edit is not None, note, resets, name))
+        self._pane.show_head(PaneHead(is_shown, refusal, edit is not None and not hides, note, resets, name))
 
     def _text_of(self, place: tuple[str, str] | None) -> str:
         """Return the text that stands in the editor, or is kept for it, in place of what has run; empty: none."""

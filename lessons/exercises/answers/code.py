@@ -253,6 +253,7 @@ def _differs(opened: Opened) -> bool:
             [frame.primitive for frame in frames],
             [frame.cover_count for frame in frames],
             [frame.color for frame in frames],
+            [frame.depth for frame in frames],
         )
     )
 

@@ -12,6 +12,7 @@ from app.window.main_window import MainWindow
 from lessons.exercises.answers.code import CodeAnswer
 from tests.app.pages.exercises.acting import Page, check
 from widgets.exercises.code_answer import NAME, CodeAnswerView
+from widgets.inspector.listing_pane import A
 
 CONTROL = Qt.KeyboardModifier.ControlModifier
 
@@ -122,3 +123,41 @@ def test_the_smallest_input_is_opened_in_a_b_and_escape_ends_a_check(
     step.settle()
     document = window.session.document
     assert [edit.part for edit in document.edits] == ["fill"]
+    # The right run stands beside it, in a buffer that differs; the right listing is still asked for.
+    pane, compared = step.column.code, step.compare_view
+    assert [part.isVisible() for part in (pane.sides, pane.reset_button, pane.listing)] == [
+        False,
+        False,
+        True,
+    ]
+    pane.side_chosen.emit(A)
+    assert "value >= 0" in pane.listing.toPlainText()
+    assert not pane.listing.changed_lines
+    assert not compared.notes[2].text().startswith("0 of")
+    # The model answer shows it.
+    window.run_action("page_exercises")
+    shown.questions.show_model()
+    shown.settle()
+    view.twin_button.click()
+    qtbot.waitUntil(lambda: isinstance(window.pages.current, StepPage))
+    step.settle()
+    assert pane.sides.isVisible()
+
+
+def test_what_differs_is_shown_where_depths_are_alike(page: Page, window: MainWindow, qtbot: QtBot) -> None:
+    shown = page("repair-depth-test", 0)
+    assert shown.question is not None
+    right = shown.question.draft.answer
+    assert isinstance(right, CodeAnswer)
+    answer = shown.question_view.answer
+    assert isinstance(answer, CodeAnswerView)
+    answer.show_given(right.named_mistakes["last-wins-ties"])
+    answer.answer_changed.emit()
+    check(shown)
+    shown.question_view.twin_button.click()
+    qtbot.waitUntil(lambda: isinstance(window.pages.current, StepPage))
+    step = window.pages.current
+    assert isinstance(step, StepPage)
+    step.settle()
+    assert window.session.cursor.stage == "depth"
+    assert step.compare_view.buffer_box.currentData() == "primitive"
