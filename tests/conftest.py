@@ -108,6 +108,20 @@ def shared_folder() -> Path:
 
 
 @pytest.hookimpl(trylast=True)
+def pytest_runtest_teardown() -> None:
+    """Release the mouse button that a double click of QTest leaves pressed: arrows do something else with it."""
+    if "PySide6.QtTest" not in sys.modules:
+        return
+    from PySide6.QtCore import Qt
+    from PySide6.QtTest import QTest
+    from PySide6.QtWidgets import QApplication, QWidget
+
+    for button in Qt.MouseButton:
+        if button in QApplication.mouseButtons():
+            QTest.mouseRelease(QWidget(), button)
+
+
+@pytest.hookimpl(trylast=True)
 def pytest_sessionfinish() -> None:
     """Close what is still open while Python is whole, so that the process ends with its own exit code."""
     if "PySide6.QtWidgets" not in sys.modules:
