@@ -4,7 +4,15 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QAbstractSpinBox, QApplication, QLabel, QLineEdit, QWidget
+from PySide6.QtWidgets import (
+    QAbstractSpinBox,
+    QApplication,
+    QLabel,
+    QLineEdit,
+    QPlainTextEdit,
+    QTextEdit,
+    QWidget,
+)
 
 from app.pages.page_bar import Page
 from app.window.appearance import the_application
@@ -163,9 +171,8 @@ class Presenter(QObject):
     def _takes(self, event: QKeyEvent) -> bool:
         """Return whether a key is a clicker's."""
         is_of_page = event.key() == Qt.Key.Key_F5 and self._window.pages.current_name not in PAGES_TO_STEP
-        # Where an answer is typed, letters are typed and Page Down is still the clicker's.
-        is_answering = self._window.page.lessons.is_answering(QApplication.focusWidget())
-        heeds_fields = event.key() in TYPED or not is_answering
+        # In a lesson letters are typed where an answer or a line is, and Page Down is still the clicker's.
+        heeds_fields = event.key() in TYPED or not self._window.page.lessons.is_open
         is_elsewhere = is_of_page or self._window.overlays.scenes.isVisible()
         return event.key() in CLICKER and not is_elsewhere and _is_for_all(event, heeds_fields)
 
@@ -221,6 +228,13 @@ class Presenter(QObject):
 
 def _is_for_all(event: QKeyEvent, heeds_fields: bool) -> bool:
     """Return whether a key is pressed alone, and not for a menu, a dialog or, with ``heeds_fields``, a field."""
-    is_typing = heeds_fields and isinstance(QApplication.focusWidget(), QLineEdit | QAbstractSpinBox)
+    is_typing = heeds_fields and _takes_text(QApplication.focusWidget())
     is_elsewhere = QApplication.activeModalWidget() or QApplication.activePopupWidget()
     return not (event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier or is_typing or is_elsewhere)
+
+
+def _takes_text(widget: QWidget | None) -> bool:
+    """Return whether keys are typed into a widget: a field, or an editor of several lines."""
+    if isinstance(widget, QPlainTextEdit | QTextEdit):
+        return not widget.isReadOnly()
+    return isinstance(widget, QLineEdit | QAbstractSpinBox)

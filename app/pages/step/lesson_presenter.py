@@ -14,7 +14,6 @@ from core import Trace
 
 if TYPE_CHECKING:
     # Lessons are imported when the first one is opened.
-    from PySide6.QtWidgets import QWidget
 
     from app.pages.step.lesson_attempts import LessonAttempts, Progress
     from app.pages.step.lesson_question import JudgedAnswer
@@ -90,10 +89,6 @@ class LessonPresenter(QObject):
     def is_asking(self) -> bool:
         """Whether a lesson has a question open."""
         return self.walk is not None and self.walk.answers.is_open
-
-    def is_answering(self, widget: "QWidget | None") -> bool:
-        """Return whether a widget belongs to the form of an answer in the lesson."""
-        return widget is not None and self.walk is not None and self.walk.view.is_of_answer(widget)
 
     @property
     def is_working(self) -> bool:

@@ -20,6 +20,7 @@ from lessons.exercises.scene_digest import scene_digest
 from tests.lessons.course.lesson_texts import GOOD
 from widgets.grid.overlay import MaskOverlay
 from widgets.grid.pixel_grid import PixelGrid
+from widgets.inspector.listing_editor import ListingEditor
 from widgets.lessons.records import Standing
 
 pytestmark = pytest.mark.shared_window
@@ -466,6 +467,24 @@ def test_a_clicker_shows_the_answer_first_and_keeps_nothing(
     assert kept(walk, window, qtbot) == before
     window.presenter.leave()
     assert walk.view.isVisible()
+
+
+@pytest.mark.own_window
+def test_what_is_typed_in_an_editor_is_not_a_clickers(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.lessons.open("repair-a-listing", 2)
+    walk = settled(window, qtbot)
+    window.presenter.arrange()
+    editor, cursor = walk.view.findChild(ListingEditor), window.session.cursor
+    assert editor is not None
+    editor.setFocus()
+    qtbot.waitUntil(editor.hasFocus)
+    place, before = editor.textCursor().position(), editor.toPlainText()
+    QTest.keyClicks(editor, "b.")
+    assert editor.toPlainText() == f"{before[:place]}b.{before[place:]}"
+    QTest.keyClick(editor, Qt.Key.Key_Left)
+    assert (editor.textCursor().position(), window.session.cursor) == (place + 1, cursor)
+    QTest.keyClick(editor, Qt.Key.Key_PageDown)
+    assert not settled(window, qtbot).task.is_unsolved
 
 
 def test_a_clicker_leads_back_from_a_scene_to_the_lesson(
