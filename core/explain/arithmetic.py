@@ -1,72 +1,75 @@
-r"""Arithmetic in LaTeX: the plain part of it that formulas use is read, and worked out without any error.
+r"""Arithmetic on the tree of a formula: which terms are plain arithmetic, and what they come to, without any error.
 
-Known are decimals, marked numbers (`core.explain.digits`), sums, products, fractions, powers, roots, logarithms to base
-2, rounding, least and greatest values, sizes and the product of two vectors.
+Known are numbers, sums, products, fractions, powers, roots, logarithms to base 2, rounding, least and greatest values,
+sizes and the product of two vectors.
 """
 
 import math
 import re
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import partial, reduce
 
 import numpy as np
 
 from core.explain.digits import MARK
+from core.records.terms import Applied, Leaf, ListOf, Operation, Prefix, Term
 
 Number = Fraction | float
 """A finite number without error, or a float where it is not rational: a root, a logarithm, infinite, NaN."""
-Leaf = Callable[[float], Number]
-"""What a marked number counts as: the value of its digits."""
+Count = Callable[[float], Number]
+"""What a number counts as: the value of its digits."""
 _TOKEN = re.compile(
     rf"\s+|\\[,;! ]|(?P<mark>{MARK.pattern})|(?P<number>\d+\.?\d*|\.\d+)|(?P<word>\\[A-Za-z]+)|(?P<sign>.)"
 )
 _SCRIPTED = re.compile(r"\\mathrm\{([a-z][a-z0-9]*)\}|\\log_(?:\{\{2\}\}|\{2\}|2)")
-_ROUNDING = {"floor", "ceil", "round"}
 
 
 class UnreadError(ValueError):
     """A side is no arithmetic."""
 
 
-@dataclass(frozen=True)
-class Term:
-    """An operation on terms, a vector of them, or a number."""
+def is_constant(leaf: Leaf) -> bool:
+    """Return whether a leaf is written in full: a fraction, or a whole number that is no variable."""
+    return isinstance(leaf.value, Fraction) or (not leaf.symbol and type(leaf.value) is int)
 
-    name: str
-    """``mark``, ``number`` or the operation."""
-    parts: tuple["Term", ...] = ()
-    value: float | Fraction = 0.0
-    digits: int = 0
-    """Significant digits of a number that is written out."""
 
-    def every(self) -> Iterator["Term"]:
-        """Yield the term and all of its parts, to any depth."""
-        yield self
-        for part in self.parts:
-            yield from part.every()
+def is_arithmetic(term: Term) -> bool:
+    """Return whether a term can be worked out."""
+    if isinstance(term, Leaf):
+        return isinstance(term.value, int | float | Fraction) and not isinstance(term.value, bool)
+    parts, name = term.inside(), _name(term)
+    if name in _OF_VECTORS and all(_elements(part) is not None for part in parts):
+        return True
+    return name in _OPERATIONS and all(map(is_arithmetic, parts))
 
-    @property
-    def is_alone(self) -> bool:
-        """Whether it is one number, with or without its sign."""
-        return self.name in ("mark", "number") or (self.name == "negative" and self.parts[0].is_alone)
 
-    @property
-    def number(self) -> "Term":
-        """The number of a side that is one, without its sign."""
-        return self.parts[0].number if self.name == "negative" else self
+def _elements(term: Term) -> tuple[Term, ...] | None:
+    """Return the elements of a vector; ``None``: it is none."""
+    if isinstance(term, Leaf) and isinstance(term.value, list):
+        return tuple(Leaf(term.symbol, value) for value in term.value)
+    return term.parts if isinstance(term, ListOf) else None
 
-    @property
-    def is_rounded(self) -> bool:
-        """Whether a part of it is rounded to a whole number, so that nothing is left to be about equal."""
-        return any(term.name in _ROUNDING for term in self.every())
 
-    def marks(self) -> set[float]:
-        """Return the finite ones of its marked numbers."""
-        return {
-            float(term.value) for term in self.every() if term.name == "mark" and math.isfinite(term.value)
-        }
+def lone_number(term: Term) -> Leaf | None:
+    """Return the number that a side is, without its sign; ``None``: it is more than one."""
+    while isinstance(term, Prefix):
+        term = term.operand
+    return term if isinstance(term, Leaf) and not isinstance(term.value, list) else None
+
+
+def is_rounded(term: Term) -> bool:
+    """Return whether a part of it is rounded to a whole number, so that nothing is left to be about equal."""
+    return any(_name(part) in ("floor", "ceil", "round", "//") for part in term.every())
+
+
+def numbers_in(term: Term) -> set[float]:
+    """Return the finite numbers of a term, without its constants."""
+    found = [part for part in term.every() if isinstance(part, Leaf) and not is_constant(part)]
+    values = [
+        value for leaf in found for value in (leaf.value if isinstance(leaf.value, list) else [leaf.value])
+    ]
+    return {float(value) for value in values if math.isfinite(value)}
 
 
 def in_full(value: float) -> Number:
@@ -74,24 +77,46 @@ def in_full(value: float) -> Number:
     return Fraction(value) if math.isfinite(value) else value
 
 
+def work_out(term: Term, count: Count = in_full) -> tuple[Number, Fraction]:
+    """Return the value of a term, and the largest number that takes part in it."""
+    if isinstance(term, Leaf):
+        value: Number = Fraction(term.value) if is_constant(term) else count(float(term.value))
+        return value, _size(value)
+    name, parts = _name(term), term.inside()
+    if name in _OF_VECTORS and (vectors := list(filter(None, map(_elements, parts)))):
+        name, parts = ("sum", tuple(map(_product, *vectors))) if name == "*" else (name, vectors[0])
+    found = [work_out(part, count) for part in parts]
+    result = _apply(name, [value for value, _ in found])
+    return result, max(_size(result), *(size for _, size in found))
+
+
+def _product(first: Term, second: Term) -> Term:
+    return first * second
+
+
+def _name(term: Term) -> str:
+    """Return the name of an operation or function."""
+    if isinstance(term, Operation):
+        return term.operator
+    if isinstance(term, Prefix) and term.operator == "-":
+        return "negative"
+    return term.function if isinstance(term, Applied) else ""
+
+
 def read(text: str) -> Term:
     """Read arithmetic in LaTeX; UnreadError for anything else."""
     reader = _Reader(text)
     found = reader.sum()
-    if reader.place < len(reader.tokens) or found.name == "vector":
+    if reader.place < len(reader.tokens) or isinstance(found, ListOf) or not is_arithmetic(found):
         raise UnreadError(text)
     return found
 
 
-def _made(name: str, *parts: Term) -> Term:
-    """Return an operation; vectors are only multiplied with each other, as the sum of their products."""
-    vectors = [part for part in parts if part.name == "vector"]
-    if not vectors:
-        return Term(name, parts)
-    if name != "times" or len(vectors) != len(parts):
-        raise UnreadError(name)
-    products = [Term("times", pair) for pair in zip(*(vector.parts for vector in vectors), strict=True)]
-    return reduce(partial(_made, "plus"), products)
+@dataclass(frozen=True)
+class ReadNumber(Leaf):
+    """A number that was read, and its significant digits."""
+
+    digits: int
 
 
 class _Reader:
@@ -116,8 +141,7 @@ class _Reader:
     def sum(self) -> Term:
         found = self.product()
         while self.next() in ("+", "-"):
-            name = "plus" if self.take() == "+" else "minus"
-            found = _made(name, found, self.product())
+            found = Operation(self.take(), found, self.product())
         return found
 
     def product(self) -> Term:
@@ -125,23 +149,23 @@ class _Reader:
         while True:
             if self.next() in (r"\cdot", r"\times"):
                 self.take()
-                found = _made("times", found, self.power())
+                found = found * self.power()
             elif self.next() == "/":
                 self.take()
-                found = _made("over", found, self.power())
+                found = found / self.power()
             elif self.next() in ("(", r"\frac", r"\lfloor", r"\sqrt"):
-                found = _made("times", found, self.power())
+                found = found * self.power()
             else:
                 return found
 
     def power(self) -> Term:
         if self.next() == "-":
             self.take()
-            return _made("negative", self.power())
+            return -self.power()
         found = self.one()
         if self.next() == "^":
             self.take()
-            found = _made("power", found, self.one())
+            found = found ** self.one()
         return found
 
     def one(self) -> Term:
@@ -149,12 +173,12 @@ class _Reader:
         token = self.take()
         group = self.tokens[start].lastgroup
         if group == "mark":
-            return Term("mark", value=float(self.tokens[start]["value"]))
+            return Leaf(r"\num", float(self.tokens[start]["value"]))
         if group == "number":
-            number = Term("number", value=Fraction(token), digits=len(token.replace(".", "").lstrip("0")))
+            number = ReadNumber("", Fraction(token), len(token.replace(".", "").lstrip("0")))
             # A mixed fraction stands without a space: 382 250/256.
             if self.next() == r"\frac" and self.tokens[self.place].start() == self.tokens[start].end():
-                return _made("plus", number, self.one())
+                return number + self.one()
             return number
         match token:
             case "(":
@@ -164,21 +188,22 @@ class _Reader:
             case "|":
                 found = self.sum()
                 self.take("|")
-                return _made("size", found)
+                return Applied("abs", (found,))
             case r"\frac":
-                return _made("over", self.one(), self.one())
+                return self.one() / self.one()
             case r"\lfloor" | r"\lceil":
                 found = self.sum()
                 self.take(rf"\r{token[2:]}")
-                return _made(token[2:], found)
+                return Applied(token[2:], (found,))
             case r"\infty":
-                return Term("number", value=math.inf)
+                return Leaf("", math.inf)
             case r"\vertex":
                 self.one()
                 return self.one()
             case r"\min" | r"\max" | r"\sqrt" | r"\round" | r"\sign" | r"\log" | r"\float":
                 found = self.power()
-                return _made(token[1:], *(found.parts if found.name == "vector" else (found,)))
+                name = {"log": "log2", "float": "float32"}.get(token[1:], token[1:])
+                return Applied(name, found.parts if isinstance(found, ListOf) else (found,))
         raise UnreadError(token)
 
     def bracketed(self, end: str) -> Term:
@@ -187,29 +212,18 @@ class _Reader:
             self.take()
             parts.append(self.sum())
         self.take(end)
-        return parts[0] if len(parts) == 1 else Term("vector", tuple(parts))
+        return parts[0] if len(parts) == 1 else ListOf(tuple(parts))
 
 
 def _with_power_of_ten(found: Term) -> Term:
     r"""Return a term, or the number that is written as ``{1.5 \cdot 10^{-3}}``."""
     match found:
-        case Term("times", (Term("number" | "negative") as mantissa, Term("power", (Term(value=10), _)))):
+        case Operation("*", Leaf() | Prefix() as mantissa, Operation("**", Leaf(_, 10), _)):
             value = Fraction(work_out(found)[0])
-            number = Term("number", value=abs(value), digits=max(term.digits for term in mantissa.every()))
-            return Term("negative", (number,)) if value < 0 else number
+            digits = max(part.digits for part in mantissa.every() if isinstance(part, ReadNumber))
+            number = ReadNumber("", abs(value), digits)
+            return -number if isinstance(mantissa, Prefix) else number
     return found
-
-
-def work_out(term: Term, leaf: Leaf = in_full) -> tuple[Number, Fraction]:
-    """Return the value of a term, and the largest number that takes part in it."""
-    if term.name == "mark":
-        value = leaf(float(term.value))
-        return value, _size(value)
-    if term.name == "number":
-        return term.value, _size(term.value)
-    parts = [work_out(part, leaf) for part in term.parts]
-    found = _apply(term.name, [value for value, _ in parts])
-    return found, max(_size(found), *(size for _, size in parts))
 
 
 def _size(value: Number) -> Fraction:
@@ -218,7 +232,7 @@ def _size(value: Number) -> Fraction:
     return abs(Fraction(value)) if math.isfinite(value) else Fraction(0)
 
 
-def _apply(name: str, values: Sequence[Number]) -> Number:
+def _apply(name: str, values: list[Number]) -> Number:
     """Return the result of an operation; that of undefined ones is NaN."""
     if not all(isinstance(value, Fraction) or math.isfinite(value) for value in values):
         values = [float(value) for value in values]
@@ -234,21 +248,27 @@ def _power(base: Number, exponent: Number) -> Number:
     return math.pow(float(base), float(exponent))
 
 
+_OF_VECTORS = ("*", "min", "max")
+"""What takes vectors: the product of two, the least and the greatest element of one."""
 _OPERATIONS: dict[str, Callable[..., Number]] = {
-    "plus": lambda a, b: a + b,
-    "minus": lambda a, b: a - b,
-    "times": lambda a, b: a * b,
-    "over": lambda a, b: a / b,
+    "+": lambda a, b: a + b,
+    "-": lambda a, b: a - b,
+    "*": lambda a, b: a * b,
+    "@": lambda a, b: a * b,
+    "/": lambda a, b: a / b,
+    "//": lambda a, b: math.floor(a / b),
+    "**": _power,
     "negative": lambda a: -a,
-    "power": _power,
-    "size": abs,
+    "sum": lambda *values: sum(values),
+    "abs": abs,
+    **dict.fromkeys(("int", "bool"), lambda a: a),
     "floor": math.floor,
     "ceil": math.ceil,
     "round": round,
     "sign": lambda a: (a > 0) - (a < 0),
-    "float": lambda a: Fraction(float(np.float32(float(a)))),
+    "float32": lambda a: Fraction(float(np.float32(float(a)))),
     "sqrt": lambda a: math.sqrt(a),
-    "log": lambda a: math.log2(a) if a else -math.inf,
+    "log2": lambda a: math.log2(a) if a else -math.inf,
     "min": min,
     "max": max,
 }

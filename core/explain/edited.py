@@ -13,9 +13,9 @@ import numpy as np
 
 from core.edits.typed import Typed, parameters_of
 from core.explain.digits import spoken
-from core.explain.equation import Part, equation
+from core.explain.formulas import formula_of
 from core.explain.records import Formula, Value, Variable
-from core.explain.term_latex import equality_parts
+from core.explain.typed_latex import stated
 from core.geometry.line_clipping.records import ClipWindow
 from core.lanes.limits import LISTING
 from core.lanes.nodes import Put
@@ -290,15 +290,8 @@ def _formula(step: EditedStep) -> Formula | None:
     """Return the line that a step stands for, and its lines that were changed, as one formula."""
     main, changed = step.main, _changed_lines(step.listing)
     told = [each for each in step.steps if each is main or (each.line in changed and each.kind not in LOOPS)]
-    parts: list[Part] = []
-    count = 0
-    for each in told:
-        for equality in equalities(each):
-            if count < EQUATIONS:
-                parts += [r"\quad"] if parts else []
-                parts += equality_parts(equality, each.kind, each.before)
-                count += 1
-    return equation(*parts) if parts else None
+    made = [stated(equality, each.kind, each.before) for each in told for equality in equalities(each)]
+    return formula_of(*made[:EQUATIONS]) if made else None
 
 
 @lru_cache(8)

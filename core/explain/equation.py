@@ -6,14 +6,12 @@ corners and edges 0, 1, 2 get their colours from `FormulaView`, which knows them
 """
 
 from collections.abc import Sequence
-from fractions import Fraction
 from math import isnan
 
-from core.explain.arithmetic import Term
-from core.explain.digits import MOST_DIGITS, in_latex, number_latex, signed_latex
-from core.explain.number_text import DIGITS, digit_count, position_text, shown_value
+from core.explain.digits import in_latex, number_latex, signed_latex
+from core.explain.number_text import position_text
 from core.explain.records import Formula
-from core.explain.statements import BREAKS, Statement, statements
+from core.explain.statements import BREAKS, about_equal, checkable_digits, placed_statements
 from core.explain.statements import RELATIONS as STATED
 from core.raster.edges.snapping import SUBPIXELS
 
@@ -65,56 +63,13 @@ def equation(*parts: Part) -> Formula:
         write = number_latex if previous in RELATIONS else signed_latex
         numbers.append(value if isinstance(value, str) else write(value))
         previous = ""
-    stated = statements(numbers)
-    digits = checkable_digits(stated)
-    for statement in stated:
-        for k, (place, relation) in enumerate(zip(statement.places, statement.relations, strict=True)):
-            if relation == "=" and not statement.is_exact(k, lambda value: _shown(value, digits)):
-                numbers[place] = r"\approx"
+    stated = placed_statements(numbers)
+    digits = checkable_digits([statement for statement, _ in stated])
+    for statement, places in stated:
+        for k in about_equal(statement, digits):
+            numbers[places[k]] = r"\approx"
     symbolic, substituted = (in_latex(" & ".join(cells), digits) for cells in (symbols, numbers))
     return Formula(symbolic, substituted, digits)
-
-
-def checkable_digits(stated: Sequence[Statement]) -> dict[float, int]:
-    """Return the size of every number to its significant digits, as few as it takes for all statements to hold."""
-    digits = {
-        abs(value): DIGITS for statement in stated for side in statement.sides for value in side.marks()
-    }
-    for _ in range(MOST_DIGITS * len(stated)):
-        failing = [statement for statement in stated if not holds(statement, digits)]
-        grown = {value for statement in failing for value in _growing(statement, digits)}
-        if not grown:
-            break
-        digits |= {value: digits[value] + 1 for value in grown}
-    return digits
-
-
-def holds(statement: Statement, digits: dict[float, int]) -> bool:
-    """Return whether a statement holds for the digits that its numbers have."""
-
-    def digits_of(number: Term) -> int:
-        value = float(number.value)
-        return number.digits or digit_count(value, digits.get(abs(value), DIGITS))
-
-    return statement.holds(lambda value: _shown(value, digits), digits_of)
-
-
-def _growing(statement: Statement, digits: dict[float, int]) -> set[float]:
-    """Return the sizes of the numbers that get a digit more: a lone result only where no other number can."""
-    found = [{abs(value) for side in statement.sides for value in side.marks()}]
-    if {*statement.relations} <= {"=", r"\approx", r"\equiv"}:
-        found.insert(0, {abs(v) for side in statement.sides if not side.is_alone for v in side.marks()})
-    for values in found:
-        inexact = {
-            v for v in values if digits[v] < MOST_DIGITS and _shown(v, digits) != shown_value(v, MOST_DIGITS)
-        }
-        if inexact:
-            return inexact
-    return set()
-
-
-def _shown(value: float, digits: dict[float, int]) -> Fraction | float:
-    return shown_value(value, digits.get(abs(value), DIGITS))
 
 
 def linear(

@@ -11,7 +11,22 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from core.explain.arithmetic import Leaf, Number, Term, UnreadError, in_full, read, work_out
+from core.explain.arithmetic import (
+    Count,
+    Number,
+    ReadNumber,
+    UnreadError,
+    in_full,
+    is_arithmetic,
+    is_rounded,
+    lone_number,
+    numbers_in,
+    read,
+    work_out,
+)
+from core.explain.digits import MOST_DIGITS
+from core.explain.number_text import DIGITS, digit_count, shown_value
+from core.records.terms import Leaf, Term
 
 RELATIONS = ("=", "<", ">", r"\le", r"\ge", r"\ne", r"\approx", r"\equiv")
 MODULUS = r"(\mathrm{mod}"
@@ -23,6 +38,8 @@ FLOAT_ERROR = Fraction(1, 2**44)
 LEAST_DIGITS = 4
 """Digits to which the sides of an equation that is rounded agree at least."""
 
+Relation = str | tuple[str, str]
+"""The sign between two sides; two signs: the one that is asked, and the one that holds."""
 _COMPARISONS: dict[str, Callable[[Number, Number], bool]] = {
     "<": operator.lt,
     ">": operator.gt,
@@ -32,36 +49,42 @@ _COMPARISONS: dict[str, Callable[[Number, Number], bool]] = {
 }
 
 
+def _digits_of(number: Leaf) -> int:
+    return number.digits if isinstance(number, ReadNumber) else digit_count(float(number.value))
+
+
 @dataclass(frozen=True)
-class Statement:
+class Chain:
     """Sides with relations between them."""
 
     sides: tuple[Term, ...]
-    relations: tuple[str, ...]
-    places: tuple[int, ...]
-    """Index of the cell of each relation."""
-    modulus: Fraction = Fraction(0)
-    """Of a congruence."""
+    relations: tuple[Relation, ...] = ()
+    modulus: int = 0
+    """Of a congruence, as a power of 2."""
 
-    def holds(
-        self, leaf: Leaf = in_full, digits: Callable[[Term], int] = operator.attrgetter("digits")
-    ) -> bool:
-        """Return whether all relations hold, for numbers that count as ``leaf`` says.
+    @property
+    def is_arithmetic(self) -> bool:
+        """Whether it states something that can be checked."""
+        return bool(self.relations) and all(map(is_arithmetic, self.sides))
+
+    def holds(self, count: Count = in_full, digits: Callable[[Leaf], int] = _digits_of) -> bool:
+        """Return whether all relations hold.
 
         Parameters
         ----------
-        leaf : callable
-            Returns the value of a marked number.
+        count : callable
+            Returns what a number counts as.
         digits : callable
             Returns the significant digits of a side that is one number.
         """
-        found = [work_out(side, leaf) for side in self.sides]
+        found = [work_out(side, count) for side in self.sides]
         return all(
-            self._relates(place, relation, found, digits) for place, relation in enumerate(self.relations)
+            self._relates(place, relation, found, digits)
+            for place, relation in enumerate(held(self.relations))
         )
 
     def _relates(
-        self, place: int, relation: str, found: list[tuple[Number, Fraction]], digits: Callable[[Term], int]
+        self, place: int, relation: str, found: list[tuple[Number, Fraction]], digits: Callable[[Leaf], int]
     ) -> bool:
         (first, one), (second, other) = found[place : place + 2]
         if relation not in ("=", r"\approx", r"\equiv"):
@@ -69,21 +92,26 @@ class Statement:
         if is_same(first, second):
             return True
         if relation == r"\equiv" and self.modulus and math.isfinite(first - second):
-            turns = round((Fraction(first) - Fraction(second)) / self.modulus)
-            first, second = Fraction(first), Fraction(second) + turns * self.modulus
+            turns = round((Fraction(first) - Fraction(second)) / 2**self.modulus)
+            first, second = Fraction(first), Fraction(second) + turns * 2**self.modulus
         sides = self.sides[place : place + 2]
-        if not math.isfinite(first - second) or any(side.is_rounded for side in sides):
+        if not math.isfinite(first - second) or any(map(is_rounded, sides)):
             return False
         unit = Fraction(0)
         for value, side in zip((first, second), sides, strict=True):
-            if side.is_alone:
-                unit = max(unit, last_unit(value, max(LEAST_DIGITS, digits(side.number))))
+            if (alone := lone_number(side)) is not None:
+                unit = max(unit, last_unit(value, max(LEAST_DIGITS, digits(alone))))
         return abs(Fraction(first) - Fraction(second)) <= unit + FLOAT_ERROR * max(one, other)
 
-    def is_exact(self, place: int, leaf: Leaf) -> bool:
+    def is_exact(self, place: int, count: Count) -> bool:
         """Return whether the sides beside a relation are equal to the last digit."""
-        first, second = (work_out(side, leaf)[0] for side in self.sides[place : place + 2])
+        first, second = (work_out(side, count)[0] for side in self.sides[place : place + 2])
         return first == second or (is_nan(first) and is_nan(second))
+
+
+def held(relations: Sequence[Relation]) -> tuple[str, ...]:
+    """Return the relations that hold."""
+    return tuple(sign if isinstance(sign, str) else sign[1] for sign in relations)
 
 
 def is_nan(value: Number) -> bool:
@@ -103,9 +131,68 @@ def last_unit(value: Number, digits: int) -> Fraction:
     return Fraction(10) ** (math.floor(math.log10(abs(float(value)))) + 1 - digits)
 
 
-def statements(cells: Sequence[str]) -> list[Statement]:
+def checkable_digits(stated: Sequence[Chain]) -> dict[float, int]:
+    """Return the size of every number to its significant digits, as few as it takes for all statements to hold."""
+    digits = {
+        abs(value): DIGITS for statement in stated for side in statement.sides for value in numbers_in(side)
+    }
+    for _ in range(MOST_DIGITS * len(stated)):
+        failing = [statement for statement in stated if not _holds(statement, digits)]
+        grown = {value for statement in failing for value in _growing(statement, digits)}
+        if not grown:
+            break
+        digits |= {value: digits[value] + 1 for value in grown}
+    return digits
+
+
+def _holds(statement: Chain, digits: dict[float, int]) -> bool:
+    """Return whether a statement holds for the digits that its numbers have."""
+
+    def digits_of(number: Leaf) -> int:
+        value = float(number.value)
+        own = number.digits if isinstance(number, ReadNumber) else 0
+        return own or digit_count(value, digits.get(abs(value), DIGITS))
+
+    return statement.holds(lambda value: _shown(value, digits), digits_of)
+
+
+def _growing(statement: Chain, digits: dict[float, int]) -> set[float]:
+    """Return the sizes of the numbers that get a digit more: a lone result only where no other number can."""
+    found = [{abs(value) for side in statement.sides for value in numbers_in(side)}]
+    if {*held(statement.relations)} <= {"=", r"\approx", r"\equiv"}:
+        found.insert(
+            0, {abs(v) for side in statement.sides if lone_number(side) is None for v in numbers_in(side)}
+        )
+    for values in found:
+        inexact = {
+            v for v in values if digits[v] < MOST_DIGITS and _shown(v, digits) != shown_value(v, MOST_DIGITS)
+        }
+        if inexact:
+            return inexact
+    return set()
+
+
+def about_equal(statement: Chain, digits: dict[float, int]) -> set[int]:
+    """Return the places of relations ``=`` between sides that are equal only about, as they are shown."""
+    return {
+        place
+        for place, relation in enumerate(statement.relations)
+        if relation == "=" and not statement.is_exact(place, lambda value: _shown(value, digits))
+    }
+
+
+def _shown(value: float, digits: dict[float, int]) -> Fraction | float:
+    return shown_value(value, digits.get(abs(value), DIGITS))
+
+
+def statements(cells: Sequence[str]) -> list[Chain]:
     """Return the statements of a line of numbers that can be read as arithmetic; marked numbers are read too."""
-    found: list[Statement] = []
+    return [found for found, _ in placed_statements(cells)]
+
+
+def placed_statements(cells: Sequence[str]) -> list[tuple[Chain, tuple[int, ...]]]:
+    """Return them with the cells of their relations."""
+    found: list[tuple[Chain, tuple[int, ...]]] = []
     start = 0
     for end in [*(k for k, cell in enumerate(cells) if cell in BREAKS), len(cells)]:
         part = [(place, cells[place]) for place in range(start, end)]
@@ -113,7 +200,7 @@ def statements(cells: Sequence[str]) -> list[Statement]:
         try:
             if len(part) == 1 and part[0][1].startswith(MODULUS) and found:
                 modulus, _ = work_out(read(part[0][1][len(MODULUS) : -1]))
-                found[-1] = replace(found[-1], modulus=Fraction(modulus))
+                found[-1] = replace(found[-1][0], modulus=round(math.log2(modulus))), found[-1][1]
             elif (statement := _statement(part)) is not None:
                 found.append(statement)
         except UnreadError:
@@ -121,7 +208,7 @@ def statements(cells: Sequence[str]) -> list[Statement]:
     return found
 
 
-def _statement(part: Sequence[tuple[int, str]]) -> Statement | None:
+def _statement(part: Sequence[tuple[int, str]]) -> tuple[Chain, tuple[int, ...]] | None:
     """Return what neighbouring cells with their places state; ``None`` without a relation."""
     relations = [(place, cell) for place, cell in part if cell in RELATIONS]
     if not relations:
@@ -133,4 +220,4 @@ def _statement(part: Sequence[tuple[int, str]]) -> Statement | None:
         else:
             sides[-1].append(cell)
     places, names = zip(*relations, strict=True)
-    return Statement(tuple(read(" ".join(side)) for side in sides), names, places)
+    return Chain(tuple(read(" ".join(side)) for side in sides), names), places

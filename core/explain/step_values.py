@@ -4,6 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from core.explain.formulas import Named
 from core.framebuffer.packed_keys import NUMBER_BITS
 from core.raster.edges.fill_rule import owns as owns_by_side
 from core.trace import Explanation
@@ -62,6 +63,10 @@ class StepValues:
     def number(self, name: str) -> float:
         """Return a real number."""
         return float(np.asarray(self.explanation.values[name]).item())
+
+    def named(self, name: str, symbol: str) -> Named:
+        """Return a real number with the symbol that formulas have for it."""
+        return Named(symbol, self.number(name))
 
     def whole(self, name: str) -> int:
         """Return a whole number."""

@@ -1,22 +1,23 @@
-r"""The tree of terms of a typed line as LaTeX: in symbols, and with the numbers of its step, cell under cell.
+r"""Terms as LaTeX: in symbols, and with the numbers of their step put in, cell under cell."""
 
-An element 0, 1 or 2 of a list of three, and a name with such an index, belongs to a vertex: it has its colour.
-"""
-
-import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from core.explain.digits import number_latex
-from core.explain.equation import Part
-from core.lanes.terms import (
+from core.explain.arithmetic import is_constant
+from core.explain.digits import in_latex
+from core.explain.number_text import DIGITS, latex_text
+from core.raster.edges.snapping import SUBPIXELS
+from core.records.terms import (
+    CHOICE,
+    LEAF,
     TIGHTNESS,
     Applied,
     Choice,
-    Equality,
-    Gathered,
     Joined,
     Leaf,
     ListOf,
@@ -25,9 +26,9 @@ from core.lanes.terms import (
     Term,
 )
 
+NO_DIGITS: Mapping[float, int] = MappingProxyType({})
 LONGEST_LIST = 4
 """Elements of a list that are written out."""
-LEAF, CHOICE = 20, 0
 SIGNS = {
     "*": r"\cdot",
     "<=": r"\le",
@@ -44,179 +45,192 @@ SIGNS = {
 AROUND = {
     "floor": (r"\lfloor ", r" \rfloor"),
     "ceil": (r"\lceil ", r" \rceil"),
-    "abs": ("| ", " |"),
+    "abs": ("|", "|"),
     "sqrt": (r"\sqrt{", "}"),
 }
 """Functions that stand around what they take."""
 FUNCTIONS = {"min": r"\min", "max": r"\max"}
-_ELEMENT = re.compile(r"^(?P<name>\w+)\[(?P<index>\w+)\]$")
-_INDEXED = re.compile(r"^(?P<name>[A-Za-z]+)(?P<index>\d)$")
-_GREEK = {"alpha", "beta", "gamma", "delta", "lambda"}
+UNSEEN = ("bool", "int", "float")
+"""Functions that formulas leave out."""
 
 
-def name_latex(name: str) -> str:
-    """Write the name of a variable: one letter as in mathematics, a word upright, a digit behind it as an index."""
-    found = _INDEXED.match(name)
-    if found:
-        return f"{name_latex(found['name'])}_{{{found['index']}}}"
-    if len(name) == 1 and name.isalpha():
-        return name
-    if name in _GREEK:
-        return rf"\{name}"
-    return rf"\mathrm{{{_escaped(name)}}}"
+@dataclass(frozen=True)
+class Written(Term):
+    """What is written out by hand, in symbols and with its numbers: it is no arithmetic."""
+
+    symbols: str
+    numbers: str
 
 
-def symbol_latex(symbol: str, now: Mapping[str, Any]) -> str:
-    """Write a variable, or an element of a list, in the colour of its vertex; ``now`` are the variables of the step."""
-    found = _ELEMENT.match(symbol)
-    if found is None:
-        text = name_latex(symbol) if symbol.isidentifier() else rf"\mathrm{{{_escaped(symbol)}}}"
-        named = _INDEXED.match(symbol)
-        return rf"\vertex{{{named['index']}}}{{{text}}}" if named and int(named["index"]) < 3 else text
-    index: Any = found["index"]
-    index = int(index) if index.isdigit() else now.get(index)
-    is_known = isinstance(index, int) and not isinstance(index, bool)
-    text = f"{name_latex(found['name'])}_{{{index if is_known else found['index']}}}"
-    held = now.get(found["name"])
-    is_vertex = is_known and index in (0, 1, 2) and isinstance(held, list) and len(held) == 3
-    return rf"\vertex{{{index}}}{{{text}}}" if is_vertex else text
+@dataclass(frozen=True)
+class Colored(Term):
+    """A term in the colour of a corner."""
+
+    corner: int
+    term: Term
+
+    def inside(self) -> tuple[Term, ...]:
+        """Return the term."""
+        return (self.term,)
 
 
-def _escaped(text: str) -> str:
+def exact_latex(value: Fraction | int) -> str:
+    """Write a whole number in full, and 1/256ths as a mixed fraction."""
+    if isinstance(value, int):
+        return str(value)
+    sign, (whole, part) = "-" if value < 0 else "", divmod(abs(value) * SUBPIXELS, SUBPIXELS)
+    return rf"{sign}{whole or ''}\frac{{{part}}}{{{SUBPIXELS}}}"
+
+
+def escaped(text: str) -> str:
+    """Return the name of something with the signs that LaTeX reads otherwise."""
     return text.replace("_", r"\_").replace("%", r"\%").replace("&", r"\&").replace(" ", r"\ ")
 
 
-def value_latex(value: Any) -> str:
-    """Write a value: a number with its mark, a flag as a word, a short list in brackets."""
-    if isinstance(value, bool | np.bool_):
-        return rf"\text{{{'true' if value else 'false'}}}"
-    if isinstance(value, int | float | np.integer | np.floating):
-        return number_latex(float(value))
-    if isinstance(value, list):
-        if len(value) > LONGEST_LIST:
-            return rf"\text{{{len(value)} values}}"
-        return rf"({', '.join(map(value_latex, value))})"
-    return rf"\text{{{'nothing' if value is None else value}}}"
-
-
 class TermLatex:
-    """Prints the terms of one step, in symbols and in numbers at once."""
+    """Prints terms in symbols, or with their numbers.
 
-    def __init__(self, now: Mapping[str, Any]) -> None:
-        self._now = now
+    Parameters
+    ----------
+    puts_in : bool
+        Whether numbers stand in the place of their symbols.
+    digits : mapping, optional
+        Size of a number to its significant digits; others have four.
+    """
 
-    def pair(self, term: Term) -> tuple[str, str]:
-        """Return a term in symbols, and with its numbers."""
-        return self.text(term, False), self.text(term, True)
+    def __init__(self, puts_in: bool, digits: Mapping[float, int] = NO_DIGITS) -> None:
+        self.puts_in, self.digits = puts_in, digits
 
-    def text(self, term: Term, puts_in: bool) -> str:
-        """Return a term in symbols, or with its numbers put in."""
-        return self._printed(term, puts_in)[0]
-
-    def cells(self, term: Term) -> list[Part]:
-        """Return a term as parts of an equation: the outermost sum, or conditions with and, or, in several."""
+    def cells(self, term: Term, *, is_first: bool = True) -> list[str]:
+        """Return the cells of a term: sums, products, and conditions with and, or, in several."""
         match term:
             case Applied("bool", (condition,)):
-                return self.cells(condition)
-            case Operation("+" | "-" as operator, left, right):
-                return [*self.cells(left), operator, self._operand(right, TIGHTNESS["+"] + 1)]
+                return self.cells(condition, is_first=is_first)
+            case Operation("+" | "-" | "*" as operator, left, right):
+                tight = TIGHTNESS[operator]
+                sign = SIGNS.get(operator, operator)
+                return [
+                    *self._inner_cells(left, tight, is_first),
+                    sign,
+                    *self._inner_cells(right, tight + 1, False),
+                ]
+            case Prefix("-", operand) if is_first:
+                return ["-", *self._inner_cells(operand, TIGHTNESS["*"], False)]
             case Joined(is_and, parts):
-                found: list[Part] = []
+                found: list[str] = []
                 for part in parts:
                     found += [r"\land" if is_and else r"\lor"] if found else []
-                    found.append(self._operand(part, TIGHTNESS["not"]))
+                    found.append(self._inner(part, TIGHTNESS["not"]))
                 return found
-        return [self.pair(term)]
+        return [self._printed(term, is_first)]
 
-    def _operand(self, term: Term, least: int) -> tuple[str, str]:
-        symbols, numbers = (self._inner(term, least, puts_in) for puts_in in (False, True))
-        return symbols, _signed(numbers)
+    def _inner_cells(self, term: Term, least: int, is_first: bool) -> list[str]:
+        return [self._inner(term, least)] if tightness(term) < least else self.cells(term, is_first=is_first)
 
-    def _inner(self, term: Term, least: int, puts_in: bool) -> str:
-        text, tight = self._printed(term, puts_in)
-        return f"({text})" if tight < least else text
+    def text(self, term: Term) -> str:
+        """Return a term in one cell."""
+        return self._printed(term, True)
 
-    def _printed(self, term: Term, puts_in: bool) -> tuple[str, int]:
-        """Return the text of a term, and how tightly it holds together."""
+    def _inner(self, term: Term, least: int = CHOICE, is_first: bool = True) -> str:
+        if tightness(term) < least:
+            return f"({self._printed(term, True)})"
+        return self._printed(term, is_first)
+
+    def _printed(self, term: Term, is_first: bool) -> str:
+        """Return the text of a term; one that is not first has brackets around its sign."""
         match term:
-            case Leaf(symbol, value):
-                is_short = not isinstance(value, list) or len(value) <= LONGEST_LIST
-                if not symbol or (puts_in and value is not None and is_short):
-                    return value_latex(value), LEAF
-                return symbol_latex(symbol, self._now), LEAF
+            case Leaf():
+                return self._leaf(term, is_first)
+            case Written(symbols, numbers):
+                return in_latex(numbers, self.digits) if self.puts_in else symbols
+            case Colored(corner, inner):
+                text = self._printed(inner, is_first)
+                return text if self.puts_in else rf"\vertex{{{corner}}}{{{text}}}"
             case Operation("/", left, right):
-                above, below = (self._inner(part, CHOICE, puts_in) for part in (left, right))
-                return rf"\frac{{{above}}}{{{below}}}", LEAF
+                return rf"\frac{{{self._inner(left)}}}{{{self._inner(right)}}}"
             case Operation("//", left, right):
-                above, below = (self._inner(part, CHOICE, puts_in) for part in (left, right))
-                return rf"\lfloor \frac{{{above}}}{{{below}}} \rfloor", LEAF
+                return rf"\lfloor \frac{{{self._inner(left)}}}{{{self._inner(right)}}} \rfloor"
             case Operation("**", left, right):
-                base = self._inner(left, LEAF, puts_in)
-                base = f"({base})" if puts_in and base.startswith(r"\num{-") else base
-                return f"{{{base}}}^{{{self._inner(right, CHOICE, puts_in)}}}", TIGHTNESS["**"]
+                return f"{{{self._inner(left, LEAF, False)}}}^{{{self._inner(right)}}}"
+            case Operation("@", left, right):
+                sign = r"\cdot " if self.puts_in else ""
+                tight = TIGHTNESS["@"]
+                return f"{self._inner(left, tight, is_first)} {sign}{self._inner(right, tight + 1, False)}"
             case Operation(operator, left, right):
-                tight = TIGHTNESS[operator]
-                after = _signed(self._inner(right, tight + 1, puts_in))
-                return f"{self._inner(left, tight, puts_in)} {SIGNS.get(operator, operator)} {after}", tight
+                tight, sign = TIGHTNESS[operator], SIGNS.get(operator, operator)
+                return f"{self._inner(left, tight, is_first)} {sign} {self._inner(right, tight + 1, False)}"
             case Prefix("not", operand):
-                return rf"\lnot {self._inner(operand, LEAF, puts_in)}", TIGHTNESS["not"]
+                return rf"\lnot {self._inner(operand, LEAF)}"
             case Prefix(operator, operand):
-                sign = "-" if operator in "-+" and operator == "-" else operator
-                return f"{sign}{_signed(self._inner(operand, LEAF, puts_in))}", TIGHTNESS["sign"]
+                text = f"{operator}{self._inner(operand, LEAF, False)}"
+                return text if is_first or operator != "-" else f"({text})"
             case Joined(is_and, parts):
-                word, tight = (r"\land", TIGHTNESS["and"]) if is_and else (r"\lor", TIGHTNESS["or"])
                 # Brackets that the language does not need: and in or is read wrongly without.
-                inner = [self._inner(part, TIGHTNESS["not"], puts_in) for part in parts]
-                return rf" \; {word} \; ".join(inner), tight
+                word = r" \; \land \; " if is_and else r" \; \lor \; "
+                return word.join(self._inner(part, TIGHTNESS["not"]) for part in parts)
             case Choice(test, yes, no):
-                first, condition, other = (self._inner(part, 1, puts_in) for part in (yes, test, no))
-                return rf"{first} \text{{ if }} {condition} \text{{ else }} {other}", CHOICE
+                first, condition, other = (self._inner(part, 1) for part in (yes, test, no))
+                return rf"{first} \text{{ if }} {condition} \text{{ else }} {other}"
             case Applied(function, arguments):
-                return self._applied(function, arguments, puts_in)
+                return self._applied(function, arguments, is_first)
             case ListOf(parts):
-                return rf"({', '.join(self._inner(part, CHOICE, puts_in) for part in parts)})", LEAF
-            case Gathered(element, target, things, written):
-                if written:
-                    printers = (TermLatex({**self._now, target: k}) for k in range(len(written)))
-                    each = (one.text(part, puts_in) for one, part in zip(printers, written, strict=True))
-                    return f"({', '.join(each)})", LEAF
-                one_of, among = (self._inner(part, CHOICE, False) for part in (element, things))
-                return rf"({one_of} \text{{ for }} {name_latex(target)} \in {among})", LEAF
+                return f"({', '.join(map(self._inner, parts))})"
         raise AssertionError(f"{type(term).__name__} has no printer")
 
-    def _applied(self, function: str, arguments: Sequence[Term], puts_in: bool) -> tuple[str, int]:
-        texts = [self._inner(argument, CHOICE, puts_in) for argument in arguments]
+    def _leaf(self, leaf: Leaf, is_first: bool) -> str:
+        symbol, value = leaf.symbol, leaf.value
+        is_short = not isinstance(value, list) or len(value) <= LONGEST_LIST
+        if symbol and not (self.puts_in and value is not None and is_short):
+            return symbol
+        text = exact_latex(value) if is_constant(leaf) else self.value(value)
+        return f"({text})" if text.startswith(("-", "{-")) and not is_first else text
+
+    def value(self, value: Any) -> str:
+        """Write a value: a flag as a word, a short list in brackets."""
+        if isinstance(value, bool | np.bool_):
+            return rf"\text{{{'true' if value else 'false'}}}"
+        if isinstance(value, list):
+            if len(value) > LONGEST_LIST:
+                return rf"\text{{{len(value)} values}}"
+            return f"({', '.join(map(self.value, value))})"
+        if value is None or isinstance(value, str):
+            return rf"\text{{{'nothing' if value is None else value}}}"
+        return latex_text(float(value) + 0.0, self.digits.get(abs(float(value)), DIGITS))
+
+    def _applied(self, function: str, arguments: tuple[Term, ...], is_first: bool) -> str:
+        if function in UNSEEN and len(arguments) == 1:
+            return self._printed(arguments[0], is_first)
+        texts = [self._inner(argument) for argument in arguments]
         if function in AROUND and len(texts) == 1:
-            before, after = AROUND[function]
-            return f"{before}{texts[0]}{after}", LEAF
-        if function in ("bool", "int", "float") and len(texts) == 1:
-            return texts[0], self._printed(arguments[0], puts_in)[1]
+            return texts[0].join(AROUND[function])
         if function == "is None":
-            return rf"{texts[0]} = \text{{nothing}}", TIGHTNESS["=="]
+            return rf"{texts[0]} = \text{{nothing}}"
         if function == "in":
-            return rf"{texts[0]} \in {texts[1]}", TIGHTNESS["=="]
-        name = FUNCTIONS.get(function, rf"\mathrm{{{_escaped(function)}}}")
-        return f"{name}({', '.join(texts)})", LEAF
+            return rf"{texts[0]} \in {texts[1]}"
+        if function == "log2":
+            # In double brackets, since a single 2 below a symbol has the colour of corner 2.
+            return rf"\log_{{{{2}}}} {self._inner(arguments[0], LEAF)}"
+        name = FUNCTIONS.get(function, rf"\mathrm{{{escaped(function)}}}")
+        return f"{name}({', '.join(texts)})"
 
 
-def _signed(text: str) -> str:
-    """Return what stands behind an operator: a lone negative number in brackets."""
-    if text.startswith(r"\num{") and text.count(r"\num") == 1 and text.endswith("}") and " " not in text:
-        return text.replace(r"\num{", r"\nums{", 1)
-    return f"({text})" if text.startswith("-") else text
-
-
-def equality_parts(equality: Equality, kind: str, now: Mapping[str, Any]) -> list[Part]:
-    """Return the parts of an equation that says what a step computes; ``kind`` is that of its `LaneStep`."""
-    printer, result = TermLatex(now), value_latex(equality.result)
-    right = printer.cells(equality.right)
-    if kind in ("if", "while"):
-        return [*right, r"\Rightarrow", result]
-    if kind in ("set", "for") and equality.symbol:
-        return [(symbol_latex(equality.symbol, now), result), "=", *right]
-    is_known = len(right) == 1 and isinstance(right[0], tuple) and right[0][1] == result
-    return right if is_known else [*right, *_outcome(equality.result, result)]
-
-
-def _outcome(value: Any, result: str) -> list[Part]:
-    return [r"\Rightarrow", result] if isinstance(value, bool | np.bool_) else ["=", result]
+def tightness(term: Term) -> int:
+    """Return how tightly the text of a term holds together."""
+    match term:
+        case Operation("/" | "//"):
+            return LEAF
+        case Operation(operator):
+            return TIGHTNESS[operator]
+        case Prefix(operator):
+            return TIGHTNESS["not" if operator == "not" else "sign"]
+        case Joined(is_and):
+            return TIGHTNESS["and" if is_and else "or"]
+        case Choice():
+            return CHOICE
+        case Applied(function, (argument,)) if function in UNSEEN:
+            return tightness(argument)
+        case Applied("is None" | "in"):
+            return TIGHTNESS["=="]
+        case Colored(_, inner):
+            return tightness(inner)
+    return LEAF

@@ -27,110 +27,26 @@ from core.lanes.nodes import (
     Unary,
 )
 from core.lanes.notes import LaneStep
+from core.records.terms import (
+    CHOICE,
+    LEAF,
+    TIGHTNESS,
+    Applied,
+    Choice,
+    Gathered,
+    Joined,
+    Leaf,
+    ListOf,
+    Operation,
+    Prefix,
+    Term,
+)
 
 MINUS, TIMES = "\u2212", "\u00b7"
 DIGITS = 4
 LONGEST_LIST = 4
 """Elements of a list that are written out."""
-TIGHTNESS = {
-    "or": 1,
-    "and": 2,
-    "not": 3,
-    "<": 4,
-    ">": 4,
-    "<=": 4,
-    ">=": 4,
-    "==": 4,
-    "!=": 4,
-    "|": 5,
-    "^": 6,
-    "&": 7,
-    "<<": 8,
-    ">>": 8,
-    "+": 9,
-    "-": 9,
-    "*": 10,
-    "/": 10,
-    "//": 10,
-    "%": 10,
-    "sign": 11,
-    "**": 12,
-}
-"""How tightly operators bind their operands, as in Python."""
-CHOICE, LEAF = 0, 20
 SHOWN = {"*": TIMES, "-": MINUS}
-
-
-@dataclass(frozen=True)
-class Term:
-    """A part of what is computed."""
-
-
-@dataclass(frozen=True)
-class Leaf(Term):
-    """A variable or an element of a list, and its value in the step; a constant has no symbol."""
-
-    symbol: str
-    value: Any
-
-
-@dataclass(frozen=True)
-class Operation(Term):
-    """Two terms with an operator between them."""
-
-    operator: str
-    left: Term
-    right: Term
-
-
-@dataclass(frozen=True)
-class Prefix(Term):
-    """An operator before a term."""
-
-    operator: str
-    operand: Term
-
-
-@dataclass(frozen=True)
-class Joined(Term):
-    """Conditions with and, or between them."""
-
-    is_and: bool
-    parts: tuple[Term, ...]
-
-
-@dataclass(frozen=True)
-class Choice(Term):
-    """One of two terms, by a condition."""
-
-    test: Term
-    yes: Term
-    no: Term
-
-
-@dataclass(frozen=True)
-class Applied(Term):
-    """A function of terms."""
-
-    function: str
-    arguments: tuple[Term, ...]
-
-
-@dataclass(frozen=True)
-class ListOf(Term):
-    """A list; ``is_starred`` parts stand for their elements."""
-
-    parts: tuple[Term, ...]
-
-
-@dataclass(frozen=True)
-class Gathered(Term):
-    """A list that is told by a rule, and the same written out."""
-
-    element: Term
-    target: str
-    things: Term
-    written: tuple[Term, ...]
 
 
 @dataclass(frozen=True)

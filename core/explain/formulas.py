@@ -1,0 +1,132 @@
+r"""Formulas: written once, as statements about terms, and printed in symbols and in numbers, cell under cell.
+
+A row writes arithmetic on named numbers, ``D.equals(2 * dy - dx)``, and its sentence the same numbers. Symbols of
+corners and edges 0, 1, 2 get their colours from `FormulaView`, which knows them by their subscript or by
+``\vertex{k}{...}``.
+"""
+
+from collections.abc import Container, Iterator, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import isnan
+
+from core.explain.digits import number_latex
+from core.explain.number_text import position_text
+from core.explain.records import Formula
+from core.explain.statements import Chain, about_equal, checkable_digits
+from core.explain.term_latex import TermLatex, Written
+from core.records.terms import Leaf, Term, term
+
+
+@dataclass(frozen=True)
+class Named(Leaf):
+    """A number with the symbol that formulas have for it; in a sentence it is the number."""
+
+    def __str__(self) -> str:
+        return number_latex(self.value)
+
+    def equals(self, *others: Term | float) -> "Chain":
+        """Return the statement that it equals the others."""
+        return Chain((self, *map(term, others)), ("=",) * len(others))
+
+    def compared(self, wanted: str, limit: Leaf | float = 0) -> "Chain":
+        """Return what is asked of it in symbols, over what holds in numbers: ``E_0 > 0`` over ``-3 < 0``."""
+        limit = limit if isinstance(limit, Leaf) else named("", limit)
+        return Chain((self, limit), ((wanted, relation(self.value, limit.value)),))
+
+    def of_vertex(self, k: int | None) -> "Named":
+        """Return it with its symbol in the colour of a corner."""
+        return self if k is None else Named(rf"\vertex{{{k}}}{{{self.symbol}}}", self.value)
+
+
+@dataclass(frozen=True)
+class Conclusion:
+    """What follows from statements."""
+
+    chains: tuple[Chain, ...]
+    then: Term
+    word: str = r"\land"
+    """What stands between them."""
+
+
+Stated = Chain | Term | Conclusion
+
+
+def concludes(wanted: str, found: str, *chains: Chain, word: str = r"\land") -> Conclusion:
+    """Return what is asked of all statements together, over what was found."""
+    return Conclusion(chains, Written(rf"\text{{{wanted}}}", rf"\text{{{found}}}"), word)
+
+
+def formula_of(*stated: Stated) -> Formula:
+    r"""Print statements side by side.
+
+    Parameters
+    ----------
+    *stated : Chain, Term or Conclusion
+        What the step computes, or compares and concludes.
+
+    Returns
+    -------
+    Formula
+        Two lines of equally many cells. The numbers have the fewest digits with which all that is stated can be
+        checked; between sides that are equal only about, ``=`` becomes ``\approx`` in the line of numbers.
+    """
+    pieces = list(_pieces(stated))
+    known = [piece for piece in pieces if isinstance(piece, Chain) and piece.is_arithmetic]
+    digits = checkable_digits(known)
+    printers = TermLatex(False, digits), TermLatex(True, digits)
+    lines: tuple[list[str], list[str]] = [], []
+    for piece in pieces:
+        if isinstance(piece, Chain):
+            about = about_equal(piece, digits) if piece in known else ()
+            for cells, one in zip(lines, printers, strict=True):
+                cells += _cells(piece, one, about)
+        else:
+            for cells, one in zip(lines, printers, strict=True):
+                cells += [piece] if isinstance(piece, str) else one.cells(piece)
+    symbols, numbers = (" & ".join(cells) for cells in lines)
+    return Formula(symbols, numbers, digits)
+
+
+def _pieces(stated: Sequence[Stated]) -> Iterator[Chain | Term | str]:
+    """Yield statements and terms, and what stands between them."""
+    for place, piece in enumerate(stated):
+        if place:
+            yield r"\quad"
+        if not isinstance(piece, Conclusion):
+            yield piece
+            continue
+        for number, chain in enumerate(piece.chains):
+            if number:
+                yield piece.word
+            yield chain
+        yield r"\Rightarrow"
+        yield piece.then
+
+
+def _cells(chain: Chain, printer: TermLatex, about: Container[int]) -> list[str]:
+    """Return the cells of a statement; ``about``: which of its relations hold only about."""
+    made = printer.cells(chain.sides[0])
+    for place, (sign, side) in enumerate(zip(chain.relations, chain.sides[1:], strict=True)):
+        shown = sign if isinstance(sign, str) else sign[printer.puts_in]
+        made += [r"\approx" if printer.puts_in and place in about else shown, *printer.cells(side)]
+    if chain.modulus:
+        made += [r"\quad", rf"(\mathrm{{mod}} \, 2^{{{chain.modulus}}})"]
+    return made
+
+
+def named(symbol: str, value: float | list[float]) -> Named:
+    """Return a number, or a vector, with its symbol."""
+    return Named(symbol, value)
+
+
+def on_grid(symbol: str, value: float) -> Leaf:
+    """Return a position on the 1/256-pixel grid, written exactly: as a short decimal or a mixed fraction."""
+    return Leaf(symbol, Fraction(value)) if "/" in position_text([value]) else named(symbol, value)
+
+
+def relation(value: float, limit: float = 0.0) -> str:
+    """Return the relation that holds between a number and a limit."""
+    if isnan(value) or isnan(limit):
+        return r"\ne"
+    return "<" if value < limit else ">" if value > limit else "="
