@@ -15,7 +15,7 @@ from core.explain.number_text import position_text
 from core.explain.records import Formula
 from core.explain.statements import Chain, about_equal, checkable_digits
 from core.explain.term_latex import TermLatex, Written
-from core.records.terms import Leaf, Term, term
+from core.records.terms import Applied, Leaf, Term, term
 
 
 @dataclass(frozen=True)
@@ -118,6 +118,19 @@ def _cells(chain: Chain, printer: TermLatex, about: Container[int]) -> list[str]
 def named(symbol: str, value: float | list[float]) -> Named:
     """Return a number, or a vector, with its symbol."""
     return Named(symbol, value)
+
+
+def upright(word: str) -> str:
+    """Write a word as a symbol."""
+    return rf"\mathrm{{{word}}}"
+
+
+def call(function: str, *arguments: Term | float) -> Applied:
+    """Return a function of terms."""
+    return Applied(function, tuple(map(term, arguments)))
+
+
+HALF = term(1) / 2
 
 
 def on_grid(symbol: str, value: float) -> Leaf:

@@ -1,22 +1,24 @@
 """What the marked line of a listing computes, in symbols and numbers: read from the line itself."""
 
 import ast
+import math
 from collections.abc import Callable, Mapping
 from functools import cache
 from typing import Any
 
-from core.explain.digits import number_latex, signed_latex
-from core.explain.equation import Part, fraction
+from core.explain.arithmetic import work_out
+from core.explain.formulas import Named, named
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
+from core.explain.term_latex import TermLatex
 from core.explain.variable_text import held_values
 from core.methods import table
 from core.records.listing import source_listing
+from core.records.terms import Term, term
 
 BEFORE = r"_{\mathrm{before}}"
 NAMES = {"major": "x", "minor": "y"}
 """Columns that the table of variables has other names for where a listing has swapped x and y."""
-Values = Mapping[str, float]
-"""Name in the listing to its number."""
 
 
 @cache
@@ -66,18 +68,23 @@ def symbols(code: ast.expr) -> str:
     return ast.unparse(code).replace("*", "·").replace(" - ", " − ")
 
 
-def symbols_latex(code: ast.expr) -> str:
-    """Write an expression as formulas do, in symbols."""
-    return " ".join(part if isinstance(part, str) else part[0] for part in _sum(code, {}))
+def value_of(code: ast.expr) -> float:
+    """Return the number of an expression without names."""
+    return float(work_out(_sum(code, {}))[0])
 
 
-def assignment(step: StepValues) -> tuple[list[Part], str, float]:
+def named_sum(code: ast.expr, value: float) -> Named:
+    """Return an expression with its number, as one symbol."""
+    return named(TermLatex(False).text(_sum(code, {})), value)
+
+
+def assignment(step: StepValues) -> tuple[Chain, str, float]:
     """Return what a step's line computes.
 
     Returns
     -------
-    parts : list of Part
-        Of the equation ``D = D_before - 2 dx``.
+    equation : Chain
+        As ``D = D_before - 2 dx``.
     added : str
         What the line adds or takes off in symbols; of a plain assignment the whole right side.
     value : float
@@ -87,46 +94,19 @@ def assignment(step: StepValues) -> tuple[list[Part], str, float]:
     name = assigned_name(code)
     assert isinstance(code, ast.Assign | ast.AugAssign), f"{step.explanation.key} assigns nothing"
     values, now = _values(step, name)
-    symbol = _latex(name)
-    made = _sum(code.value, values)
-    made = [(symbol + BEFORE, part[1]) if part[0] == symbol else part for part in made]
-    added, value = symbols(code.value), number_of(code.value, values)
+    names = {key: named(_latex(key), value) for key, value in values.items()}
+    names[name] = named(_latex(name) + BEFORE, values.get(name, math.nan))
+    added = _sum(code.value, names)
+    right = added
     if isinstance(code, ast.AugAssign):
-        made = _sum(ast.BinOp(ast.Name(name + BEFORE), code.op, code.value), values)
-    return [(symbol, now), "=", *made], added, value
-
-
-def used_values(step: StepValues) -> Values:
-    """Return the numbers that a step's line computes with."""
-    code = code_of(step)
-    assert isinstance(code, ast.Assign | ast.AugAssign), f"{step.explanation.key} assigns nothing"
-    values, _ = _values(step, assigned_name(code))
-    return {node.id: values[node.id] for node in ast.walk(code.value) if isinstance(node, ast.Name)}
-
-
-def number_of(code: ast.expr, values: Values) -> float:
-    """Return the number of an expression."""
-    if isinstance(code, ast.BinOp):
-        first, second = number_of(code.left, values), number_of(code.right, values)
-        if isinstance(code.op, ast.Add):
-            return first + second
-        if isinstance(code.op, ast.Sub):
-            return first - second
-        return first * second if isinstance(code.op, ast.Mult) else first / second
-    if isinstance(code, ast.Name):
-        return values.get(code.id, float("nan"))
-    if isinstance(code, ast.UnaryOp):
-        return -number_of(code.operand, values)
-    if isinstance(code, ast.Call):
-        return number_of(code.args[0], values)
-    assert isinstance(code, ast.Constant)
-    return float(code.value)  # type: ignore[arg-type]
+        right = _sum(code.value, names, names[name], 1 if isinstance(code.op, ast.Add) else -1)
+    return named(_latex(name), now).equals(right), symbols(code.value), float(work_out(added)[0])
 
 
 def _values(step: StepValues, assigned: str) -> tuple[dict[str, float], float]:
     """Return the numbers before a step, and the one that it gives to a name."""
     values: dict[str, float] = {}
-    now = float("nan")
+    now = math.nan
     for held in held_values(step):
         name = NAMES.get(held.column.removesuffix("_before"), held.label)
         if not isinstance(held.now, int | float):
@@ -134,56 +114,38 @@ def _values(step: StepValues, assigned: str) -> tuple[dict[str, float], float]:
         if name == assigned:
             now = float(held.now)
             if held.before is not None:
-                values |= dict.fromkeys((name, name + BEFORE), float(held.before))
+                values[name] = float(held.before)
         else:
             values[name] = float(held.now)
     return values, now
 
 
-def _sum(code: ast.expr, values: Values) -> list[Part]:
-    """Return the parts of an expression as a sum of products, without brackets."""
-    parts: list[Part] = []
-    for sign, term in _terms(code, 1):
-        if parts or sign < 0:
-            parts.append("+" if sign > 0 else "-")
-        parts += _product(term, values)
-    return parts
-
-
-def _terms(code: ast.expr, sign: int) -> list[tuple[int, ast.expr]]:
+def _sum(code: ast.expr, names: Mapping[str, Named], before: Term | None = None, sign: int = 1) -> Term:
+    """Return an expression as a sum of products, added to what stands before it or taken off."""
     if isinstance(code, ast.BinOp) and isinstance(code.op, ast.Add | ast.Sub):
-        second = sign if isinstance(code.op, ast.Add) else -sign
-        return [*_terms(code.left, sign), *_terms(code.right, second)]
+        before = _sum(code.left, names, before, sign)
+        return _sum(code.right, names, before, sign if isinstance(code.op, ast.Add) else -sign)
     if isinstance(code, ast.UnaryOp):
-        return _terms(code.operand, -sign)
+        return _sum(code.operand, names, before, -sign)
     if isinstance(code, ast.Call):
         # Rounding to float32, which the sign of equality shows.
-        return _terms(code.args[0], sign)
-    return [(sign, code)]
+        return _sum(code.args[0], names, before, sign)
+    factor = _factor(code, names)
+    if before is None:
+        return factor if sign > 0 else -factor
+    return before + factor if sign > 0 else before - factor
 
 
-def _product(code: ast.expr, values: Values) -> list[Part]:
-    if isinstance(code, ast.BinOp) and isinstance(code.op, ast.Add | ast.Sub):
-        parts = _sum(code, values)
-        symbols = " ".join(part if isinstance(part, str) else part[0] for part in parts)
-        numbers = " ".join(part if isinstance(part, str) else _number(part[1]) for part in parts)
-        return [(f"({symbols})", f"({numbers})")]
+def _factor(code: ast.expr, names: Mapping[str, Named]) -> Term:
     if isinstance(code, ast.BinOp) and isinstance(code.op, ast.Mult):
-        return [*_product(code.left, values), r"\cdot", *_product(code.right, values)]
-    if isinstance(code, ast.BinOp):
-        above, below = (
-            (_latex(ast.unparse(side)), number_of(side, values)) for side in (code.left, code.right)
-        )
-        return [fraction(above, below)]
+        return _factor(code.left, names) * _factor(code.right, names)
+    if isinstance(code, ast.BinOp) and isinstance(code.op, ast.Div):
+        return _factor(code.left, names) / _factor(code.right, names)
     if isinstance(code, ast.Name):
-        return [(_latex(code.id), values.get(code.id, float("nan")))]
-    return [number_latex(number_of(code, values))]
-
-
-def _number(value: float | str) -> str:
-    return value if isinstance(value, str) else signed_latex(value)
+        return names.get(code.id) or named(_latex(code.id), math.nan)
+    return term(code.value) if isinstance(code, ast.Constant) else _sum(code, names)  # type: ignore[arg-type]
 
 
 def _latex(name: str) -> str:
     stem, found, rest = name.partition("_")
-    return name if not found or rest.startswith("{") else rf"{stem}_{{\mathrm{{{rest}}}}}"
+    return rf"{stem}_{{\mathrm{{{rest}}}}}" if found else name

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from core.explain.formulas import Named
+from core.explain.formulas import Named, upright
 from core.framebuffer.packed_keys import NUMBER_BITS
 from core.raster.edges.fill_rule import owns as owns_by_side
 from core.trace import Explanation
@@ -67,6 +67,10 @@ class StepValues:
     def named(self, name: str, symbol: str) -> Named:
         """Return a real number with the symbol that formulas have for it."""
         return Named(symbol, self.number(name))
+
+    def upright(self, name: str) -> Named:
+        """Return a number whose symbol is its name, in upright letters."""
+        return self.named(name, upright(name))
 
     def whole(self, name: str) -> int:
         """Return a whole number."""

@@ -115,7 +115,8 @@ class TermLatex:
                     *self._inner_cells(right, tight + 1, False),
                 ]
             case Prefix("-", operand) if is_first:
-                return ["-", *self._inner_cells(operand, TIGHTNESS["*"], False)]
+                inner = self._inner_cells(operand, TIGHTNESS["*"], False)
+                return ["-", *inner] if len(inner) > 1 else [f"-{inner[0]}"]
             case Joined(is_and, parts):
                 found: list[str] = []
                 for part in parts:

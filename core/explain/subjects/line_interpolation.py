@@ -1,12 +1,7 @@
 """Interpolation along lines: the weights of both ends."""
 
-from core.explain.digits import number_latex, spoken
-from core.explain.equation import (
-    beside,
-    equation,
-    fraction,
-    linear,
-)
+from core.explain.digits import spoken
+from core.explain.formulas import formula_of, named
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -16,22 +11,24 @@ from core.explain.variable_text import VariableText, given, shows
 @explains("interpolate.line-perspective.parts")
 def parts(step: StepValues) -> Said:
     """Both ends' parts of 1/w."""
-    t, w, (start, end) = step.number("t"), step.vector("end_w"), step.vector("parts")
+    t, (start, end) = step.named("t", "t"), map(named, ("p_0", "p_1"), step.vector("parts"))
+    first, second = (named(step.of_end("w", k), w) for k, w in enumerate(step.vector("end_w")))
     text = (
-        f"{step.fragment_name}: at t = {spoken(t)} between ends with w = {spoken(w[0])} and w = {spoken(w[1])}, "
-        f"the first end gives {spoken(start)} of 1/w and the second {spoken(end)}."
+        f"{step.fragment_name}: at t = {t} between ends with w = {first} and w = {second}, "
+        f"the first end gives {start} of 1/w and the second {end}."
     )
-    first = fraction(("1 - t", f"1 - {number_latex(t)}"), (step.of_end("w", 0), w[0]))
-    second = fraction(("t", t), (step.of_end("w", 1), w[1]))
-    return text, equation(*beside([("p_0", start), "=", first], [("p_1", end), "=", second]))
+    return text, formula_of(start.equals((1 - t) / first), end.equals(t / second))
 
 
 @explains("interpolate.line-perspective.total")
 def total(step: StepValues) -> Said:
     """1/w along the line."""
-    (start, end), whole = step.vector("parts"), step.number("total")
-    text = f"{step.fragment_name}: both parts add up to 1/w = {spoken(whole)}."
-    return text, linear(r"\frac{1}{w}", whole, [("p_0", start), ("p_1", end)])
+    (start, end), whole = (
+        map(named, ("p_0", "p_1"), step.vector("parts")),
+        step.named("total", r"\frac{1}{w}"),
+    )
+    text = f"{step.fragment_name}: both parts add up to 1/w = {whole}."
+    return text, formula_of(whole.equals(start + end))
 
 
 def second_weight(step: StepValues) -> Asked | None:
@@ -43,14 +40,12 @@ def second_weight(step: StepValues) -> Asked | None:
 @explains("interpolate.*.weight", asks=second_weight, decides=True)
 def weight(step: StepValues) -> Said:
     """The weights of the ends."""
-    s, is_affine = step.number("s"), step.kind == "line-affine"
+    s, is_affine = step.named("s", "s"), step.kind == "line-affine"
     how = "its place along the line in the window" if is_affine else "the second part over 1/w"
-    text = f"{step.fragment_name}: the second end has weight {spoken(s)}, {how}, and the first end {spoken(1 - s)}."
+    text = f"{step.fragment_name}: the second end has weight {s}, {how}, and the first end {spoken(1 - s.value)}."
     if is_affine:
-        return text, equation(("s", s), "=", ("t", step.number("t")))
-    return text, equation(
-        ("s", s), "=", fraction(("p_1", step.vector("parts")[1]), ("1/w", step.number("total")))
-    )
+        return text, formula_of(s.equals(step.named("t", "t")))
+    return text, formula_of(s.equals(named("p_1", step.vector("parts")[1]) / step.named("total", "1/w")))
 
 
 shows(

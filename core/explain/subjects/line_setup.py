@@ -2,21 +2,9 @@
 
 import ast
 
-from core.explain.digits import number_latex, spoken, vector_text
-from core.explain.equation import (
-    Part,
-    beside,
-    conclusion,
-    difference,
-    equation,
-    fraction,
-    relation,
-)
-from core.explain.listed_code import (
-    assignment,
-    code_of,
-    used_values,
-)
+from core.explain.digits import spoken, vector_text
+from core.explain.formulas import HALF, Conclusion, Named, call, concludes, formula_of, named
+from core.explain.listed_code import assignment, code_of
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -30,6 +18,7 @@ from core.explain.subjects.line_names import (
 )
 from core.explain.variable_text import given, shows
 from core.raster.lines.traits import line_traits
+from core.records.terms import Leaf, Term
 from core.records.words import counted, joined
 
 
@@ -67,71 +56,72 @@ def octant(step: StepValues) -> Said:
         text = f"{name} begins and ends in {first}" if traits.takes_pixels else text
     wanted = r"\ge" if traits.is_diagonal_steep else ">"
     in_x, in_y = (rise, run) if is_steep else (run, rise)
-    return text + end, equation(
-        ("|y_1 - y_0|", in_y),
-        (wanted, relation(in_y, in_x)),
-        ("|x_1 - x_0|", in_x),
-        *conclusion("row by row", steps),
-    )
+    longer = named("|y_1 - y_0|", in_y).compared(wanted, named("|x_1 - x_0|", in_x))
+    return text + end, formula_of(concludes("row by row", steps, longer))
 
 
 @explains("raster.*.lengths")
 def lengths(step: StepValues) -> Said:
     """The lengths along both axes."""
     major, minor = axes(step)
-    (x0, y0), (x1, y1) = listed_ends(step)
-    dx, dy = step.number("dx"), step.number("dy")
-    text = f"The line goes {counted(int(dx), 'pixel')} along {major} and {spoken(dy)} along {minor}."
-    bar = "|" if "abs" in ast.unparse(code_of(step) or ast.Pass()) else ""
-    made: list[list[Part]] = []
-    for axis, found, first, second in ((MAJOR, dx, x0, x1), (MINOR, dy, y0, y1)):
-        symbols, numbers = difference((f"{axis}_1", second), (f"{axis}_0", first))
-        made.append([(f"d{axis}", found), "=", (f"{bar}{symbols}{bar}", f"{bar}{numbers}{bar}")])
-    return text, equation(*beside(*made))
+    dx, dy = step.named("dx", "dx"), step.named("dy", "dy")
+    text = f"The line goes {counted(int(dx.value), 'pixel')} along {major} and {dy} along {minor}."
+    across, up = _extents(step)
+    if "abs" in ast.unparse(code_of(step) or ast.Pass()):
+        across, up = call("abs", across), call("abs", up)
+    return text, formula_of(dx.equals(across), dy.equals(up))
+
+
+def _named_ends(step: StepValues) -> tuple[tuple[Named, Named], ...]:
+    """Return both ends as the listing has them: x and y of each with their symbols."""
+    return tuple(
+        (named(f"{MAJOR}_{end}", x), named(f"{MINOR}_{end}", y))
+        for end, (x, y) in enumerate(listed_ends(step))
+    )
+
+
+def _extents(step: StepValues) -> tuple[Term, Term]:
+    """Return how far the ends are apart along both axes."""
+    (x0, y0), (x1, y1) = _named_ends(step)
+    return x1 - x0, y1 - y0
 
 
 @explains("raster.*.directions")
 def directions(step: StepValues) -> Said:
     """The way in which the listing goes along the axes."""
     ways: list[str] = []
-    made: list[list[Part]] = []
-    for k, (axis, symbol) in enumerate(zip(axes(step), (MAJOR, MINOR), strict=True)):
+    made: list[Conclusion] = []
+    for axis, symbol, first, second in zip(axes(step), (MAJOR, MINOR), *_named_ends(step), strict=True):
         if f"s{symbol}" in step.explanation.changed:
-            value, (first, second) = step.number(f"s{symbol}"), listed_ends(step)
-            ways.append(f"{axis} {'grows' if value > 0 else 'falls'} by 1")
-            compared: list[Part] = [
-                (f"{symbol}_1", second[k]),
-                (r"\ge", relation(second[k], first[k])),
-                (f"{symbol}_0", first[k]),
-            ]
-            made.append([*compared, r"\Rightarrow", (f"s{symbol}", value)])
+            way = step.named(f"s{symbol}", f"s{symbol}")
+            ways.append(f"{axis} {'grows' if way.value > 0 else 'falls'} by 1")
+            made.append(Conclusion((second.compared(r"\ge", first),), way))
     text = f"From the first end to the second, {', and '.join(ways)}{' where it steps' * (len(ways) > 1)}."
-    return text, equation(*beside(*made))
+    return text, formula_of(*made)
 
 
 @explains("raster.*.start")
 def started(step: StepValues) -> Said:
     """Where the line begins."""
-    (major, minor), ((x0, y0), _) = axes(step), listed_ends(step)
-    x = step.number("major")
+    (major, minor), ((x0, y0), _) = axes(step), _named_ends(step)
+    x = step.named("major", MAJOR)
     if "minor" not in step.explanation.changed:
-        side, bracket = ("before", "ceil") if step.number("sx") > 0 else ("after", "floor")
-        text = f"The line starts at {major} = {spoken(x)}, the first whole number not {side} {spoken(x0)}."
-        whole = (rf"\l{bracket} {MAJOR}_0 \r{bracket}", rf"\l{bracket} {number_latex(x0)} \r{bracket}")
-        return text, equation((MAJOR, x), "=", whole)
+        side, rounding = ("before", "ceil") if step.number("sx") > 0 else ("after", "floor")
+        text = f"The line starts at {major} = {x}, the first whole number not {side} {x0}."
+        return text, formula_of(x.equals(call(rounding, x0)))
     swapped = f", its second end, so that {major} grows" if is_reversed(step) else ""
-    text = f"The line starts at {major} = {spoken(x)} and {minor} = {spoken(y0)}{swapped}."
-    return text, equation(
-        *beside([(MAJOR, x), "=", (f"{MAJOR}_0", x0)], [(MINOR, y0), "=", (f"{MINOR}_0", y0)])
-    )
+    text = f"The line starts at {major} = {x} and {minor} = {y0}{swapped}."
+    return text, formula_of(x.equals(x0), named(MINOR, y0.value).equals(y0))
 
 
 def starting_sum(step: StepValues) -> Asked | None:
     """Ask for the first value of the sum, where it is computed."""
     name, (made, computed, value) = sum_name(step), assignment(step)
-    if len(made) == 3:
+    if isinstance(made.sides[1], Leaf):
         return None
-    known = joined([f"{symbol} = {spoken(number)}" for symbol, number in used_values(step).items()])
+    known = joined(
+        sorted({f"{leaf.symbol} = {leaf}" for leaf in made.sides[1].every() if isinstance(leaf, Named)})
+    )
     return number(
         f"With {known}, what is the first {name}?",
         value,
@@ -143,7 +133,7 @@ def starting_sum(step: StepValues) -> Asked | None:
 def first_sum(step: StepValues) -> Said:
     """The first value of the sum that decides."""
     name, (made, computed, value) = sum_name(step), assignment(step)
-    return f"The first {name} is {amount(computed, value)}.", equation(*made)
+    return f"The first {name} is {amount(computed, value)}.", formula_of(made)
 
 
 def amount(computed: str, value: float) -> str:
@@ -157,34 +147,30 @@ def error_slope(step: StepValues) -> Said:
     if "d" not in ast.unparse(code_of(step) or ast.Pass()):
         return line_slope(step)
     _, minor = axes(step)
-    run, rise, m = (step.number(name) for name in ("run", "rise", "slope"))
-    bars = fraction((f"d{MINOR}", rise), (f"d{MAJOR}", max(run, 1.0)))
-    text = f"The slope m is {spoken(rise)} / {spoken(run)} = {spoken(m)}, the change along {minor} with every pixel."
-    return text, equation(("m", m), "=", bars)
+    run, rise, m = step.number("run"), step.named("rise", f"d{MINOR}"), step.named("slope", "m")
+    text = f"The slope m is {rise} / {spoken(run)} = {m}, the change along {minor} with every pixel."
+    return text, formula_of(m.equals(rise / named(f"d{MAJOR}", max(run, 1.0))))
 
 
 @explains("raster.*.slope")
 def line_slope(step: StepValues) -> Said:
     """The slope of the line."""
-    m, (_, minor) = step.number("slope"), axes(step)
-    text = f"The slope m is {spoken(m)}, the change along {minor} for every 1 along {axes(step)[0]}."
-    (x0, y0), (x1, y1) = listed_ends(step)
-    above = difference((f"{MINOR}_1", y1), (f"{MINOR}_0", y0))
-    below = difference((f"{MAJOR}_1", x1), (f"{MAJOR}_0", x0))
-    quotient: list[Part] = ["=", fraction(above, below)] if x0 != x1 else []
-    return text, equation(("m", m), *quotient)
+    m, (major, minor), (run, rise) = step.named("slope", "m"), axes(step), _extents(step)
+    text = f"The slope m is {m}, the change along {minor} for every 1 along {major}."
+    (x0, _), (x1, _) = listed_ends(step)
+    return text, formula_of(m.equals(rise / run) if x0 != x1 else m)
 
 
 @explains("raster.*.intercept")
 def line_intercept(step: StepValues) -> Said:
     """The equation of the line."""
-    m, b, ((x0, y0), _) = step.number("slope"), step.number("intercept"), listed_ends(step)
+    m, b, ((x0, y0), _) = step.named("slope", "m"), step.named("intercept", "b"), _named_ends(step)
     swapped = ", where x counts rows" if is_swapped(step) else ""
     text = (
         f"With pixel centres at whole numbers the line is "
-        f"{MINOR} = {spoken(m)} · {MAJOR} {'−' if b < 0 else '+'} {spoken(abs(b))}{swapped}."
+        f"{MINOR} = {m} · {MAJOR} {'−' if b.value < 0 else '+'} {spoken(abs(b.value))}{swapped}."
     )
-    return text, equation(("b", b), "=", (f"{MINOR}_0", y0), "-", ("m", m), r"\cdot", (f"{MAJOR}_0", x0))
+    return text, formula_of(b.equals(y0 - m * x0))
 
 
 @explains("raster.*.skip")
@@ -209,15 +195,13 @@ def pixel_of_point(step: StepValues) -> Said:
     x, y = step.vector("window_start")
     column, row = step.whole("column"), step.whole("row")
     text = f"Point {step.triangle} at {vector_text([x, y])} lies in pixel ({column}, {row})"
-    center = step.number("center")
-    if 0.5 in (column + center - x, row + center - y):
+    c = step.named("center", "c")
+    if 0.5 in (column + c.value - x, row + c.value - y):
         text += ", as the left and the lower border of a pixel belong to it"
-    found: list[list[Part]] = []
-    for name, found_at, axis, at in (("column", column, "x", x), ("row", row, "y", y)):
-        inside = f"{axis} - c", f"{number_latex(at)} - {number_latex(center)}"
-        symbols, numbers = (rf"\lfloor {of} + \frac{{1}}{{2}} \rfloor" for of in inside)
-        found.append([(rf"\mathrm{{{name}}}", float(found_at)), "=", (symbols, numbers)])
-    return f"{text}.", equation(*beside(*found))
+    return f"{text}.", formula_of(
+        step.upright("column").equals(call("floor", named("x", x) - c + HALF)),
+        step.upright("row").equals(call("floor", named("y", y) - c + HALF)),
+    )
 
 
 @explains("raster.point.plot")

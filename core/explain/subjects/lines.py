@@ -6,28 +6,13 @@ from fractions import Fraction
 
 import numpy as np
 
-from core.explain.digits import number_latex, signed_latex, spoken
-from core.explain.equation import (
-    Part,
-    all_of,
-    comparison,
-    conclusion,
-    difference,
-    equation,
-    fraction,
-    linear,
-)
-from core.explain.listed_code import (
-    BEFORE,
-    assignment,
-    code_of,
-    number_of,
-    symbols,
-    symbols_latex,
-)
+from core.explain.digits import spoken
+from core.explain.formulas import HALF, Named, call, concludes, formula_of, named
+from core.explain.listed_code import BEFORE, assignment, code_of, named_sum, symbols, value_of
 from core.explain.listed_code import tested as tested_by
 from core.explain.records import Asked, choice, number
 from core.explain.rows import REMARKS, Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
 from core.explain.subjects.line_names import (
     MAJOR,
@@ -41,6 +26,7 @@ from core.explain.subjects.line_setup import amount, listed_ends
 from core.methods import table
 from core.records.arrays import Flags, Integers
 from core.records.operation import Columns
+from core.records.terms import Term
 
 RELATIONS_LATEX = {ast.Gt: ">", ast.GtE: r"\ge", ast.LtE: r"\le", ast.Lt: "<"}
 ON_LINE = 1e-9
@@ -82,7 +68,7 @@ def will_step(step: StepValues) -> Asked:
 def rounded_step(step: StepValues) -> Said:
     """The slope in the line's direction."""
     made, computed, value = assignment(step)
-    return f"The step sy is {amount(computed, value)}, rounded to float32.", equation(*made)
+    return f"The step sy is {amount(computed, value)}, rounded to float32.", formula_of(made)
 
 
 @explains("raster.dda-float32.advance")
@@ -90,14 +76,14 @@ def added_in_float32(step: StepValues) -> Said:
     """The slope added once more, and the sum rounded."""
     now, added = step.number("decision"), step.number("sy")
     text = f"Adding sy = {spoken(added)} to y and rounding the sum to float32 makes y = {spoken(now)}."
-    return text, equation(*assignment(step)[0])
+    return text, formula_of(assignment(step)[0])
 
 
 @explains("raster.*.test", asks=will_step, decides=True)
 def tested(step: StepValues) -> Said:
     """The decision whether the minor coordinate steps."""
     compared, value = comparison_of(step), step.number("decision")
-    name, limit = symbols(compared.left), number_of(compared.comparators[0], {})
+    name, limit = symbols(compared.left), value_of(compared.comparators[0])
     near, does = nearness(step), _does(step)
     side = "above" if value > limit else "below"
     if value == limit:
@@ -112,10 +98,8 @@ def tested(step: StepValues) -> Said:
     wanted = RELATIONS_LATEX[type(compared.ops[0])]
     is_yes = step.flag("has_stepped") != isinstance(compared.ops[0], ast.LtE)
     yes, no = ("stay", "step") if isinstance(compared.ops[0], ast.LtE) else ("step", "stay")
-    return text, equation(
-        *comparison(symbols_latex(compared.left), wanted, value, limit),
-        *conclusion(yes, yes if is_yes else no),
-    )
+    test = named_sum(compared.left, value).compared(wanted, limit)
+    return text, formula_of(concludes(yes, yes if is_yes else no, test))
 
 
 def _though(near: int) -> str:
@@ -137,36 +121,33 @@ def stepped(step: StepValues) -> Said:
         why = "Both pixels are equally near the line, and by this version's rule"
     elif near > 0:
         why = "By this version's rule"
-    return f"{why} {minor} steps to {spoken(now)}{_though(near)}.", equation(*assignment(step)[0])
+    return f"{why} {minor} steps to {spoken(now)}{_though(near)}.", formula_of(assignment(step)[0])
 
 
 @explains("raster.*.column")
 def next_column(step: StepValues) -> Said:
     """The next column, or row of a steep line, that the line reaches."""
-    (major, _), now = axes(step), step.number("major")
-    word, before = "row" if step.flag("is_steep") else "column", step.number("major_before")
+    (major, _), now = axes(step), step.named("major", MAJOR)
+    word, before = "row" if step.flag("is_steep") else "column", step.named("major_before", MAJOR + BEFORE)
     if step.kind.endswith("-start") and line_method(step) == "diamond-exit":
-        return f"The line's first pixel is in the {word} {major} = {spoken(now)}."
-    if math.isnan(before) or step.kind.endswith("-start"):
-        low = number_latex(min(end[0] for end in listed_ends(step)))
-        symbols, numbers = (
-            rf"\lfloor {text} + \frac{{1}}{{2}} \rfloor" for text in (rf"{MAJOR}_{{\min}}", low)
-        )
-        text = f"The first {word} that the line reaches is {major} = {spoken(now)}."
-        return text, equation((MAJOR, now), "=", (symbols, numbers))
-    made: list[Part] = [(MAJOR, now), "=", (MAJOR + BEFORE, before), "+", ("sx", step.number("sx"))]
-    return f"The next {word} is {major} = {spoken(now)}.", equation(*made)
+        return f"The line's first pixel is in the {word} {major} = {now}."
+    if math.isnan(before.value) or step.kind.endswith("-start"):
+        low = named(rf"{MAJOR}_{{\min}}", min(end[0] for end in listed_ends(step)))
+        text = f"The first {word} that the line reaches is {major} = {now}."
+        return text, formula_of(now.equals(call("floor", low + HALF)))
+    return f"The next {word} is {major} = {now}.", formula_of(now.equals(before + step.named("sx", "sx")))
 
 
 @explains("raster.*.first-y")
 def first_pixel(step: StepValues) -> Said:
     """The first pixel on the minor axis."""
-    first, m, b, x = (step.number(name) for name in ("minor", "slope", "intercept", "major"))
-    line = rf"m \cdot {MAJOR} + b", rf"{number_latex(m)} \cdot {signed_latex(x)} + {signed_latex(b)}"
-    symbols, numbers = (rf"\lfloor {text} + \frac{{1}}{{2}} \rfloor" for text in line)
-    return f"The nearest pixel centre at x = {spoken(x)} is at y = {spoken(first)}.", equation(
-        (MINOR, first), "=", (symbols, numbers)
-    )
+    y, x = step.named("minor", MINOR), step.named("major", MAJOR)
+    text = f"The nearest pixel centre at x = {x} is at y = {y}."
+    return text, formula_of(y.equals(call("floor", _on_line(step, x) + HALF)))
+
+
+def _on_line(step: StepValues, x: Named) -> Term:
+    return step.named("slope", "m") * x + step.named("intercept", "b")
 
 
 @explains("raster.*.correct|advance")
@@ -176,23 +157,22 @@ def added(step: StepValues) -> Said:
     name, now = sum_name(step), step.number(step.explanation.changed[0])
     is_added = isinstance(code_of(step).op, ast.Add)  # type: ignore[union-attr]
     does = "Adding" if is_added else "Subtracting"
-    return f"{does} {amount(computed, value)} makes {name} = {spoken(now)}.", equation(*made)
+    return f"{does} {amount(computed, value)} makes {name} = {spoken(now)}.", formula_of(made)
 
 
 @explains("raster.*.next")
 def moved(step: StepValues) -> Said:
     """The next pixel on the major axis."""
     (major, _), now = axes(step), step.number("major")
-    return f"The next pixel is at {major} = {spoken(now)}.", equation(*assignment(step)[0])
+    return f"The next pixel is at {major} = {spoken(now)}.", formula_of(assignment(step)[0])
 
 
 @explains("raster.*.evaluate")
 def evaluated(step: StepValues) -> Said:
     """The line equation at a column or row."""
-    (major, minor), at, value = axes(step), step.number("major"), step.number("decision")
-    text = f"At {major} = {spoken(at)} the line has {minor} = {spoken(value)}, with pixel centres at whole numbers."
-    terms = [("m", step.number("slope")), ("b", step.number("intercept"))]
-    return text, linear(MINOR, value, terms, (MAJOR, at))
+    (major, minor), x, y = axes(step), step.named("major", MAJOR), step.named("decision", MINOR)
+    text = f"At {major} = {x} the line has {minor} = {y}, with pixel centres at whole numbers."
+    return text, formula_of(y.equals(_on_line(step, x)))
 
 
 def nearest_pixel(step: StepValues) -> Asked | None:
@@ -210,16 +190,13 @@ def nearest_pixel(step: StepValues) -> Asked | None:
 @explains("raster.*.round", asks=nearest_pixel, decides=True)
 def rounded(step: StepValues) -> Said:
     """The nearest pixel centre."""
-    (_, minor), value, nearest = axes(step), step.number("decision"), step.number("minor")
-    text = f"The nearest pixel centre to {minor} = {spoken(value)} is at {spoken(nearest)}."
+    (_, minor), y, nearest = axes(step), step.named("decision", MINOR), step.named("minor", "Y")
+    text = f"The nearest pixel centre to {minor} = {y} is at {nearest}."
     if step.flag("is_tie"):
         text = (
-            f"The value {minor} = {spoken(value)} lies exactly between two pixel centres: "
-            f"halves round up, to {spoken(nearest)}."
+            f"The value {minor} = {y} lies exactly between two pixel centres: halves round up, to {nearest}."
         )
-    symbols = rf"\lfloor {MINOR} + \frac{{1}}{{2}} \rfloor"
-    numbers = rf"\lfloor {number_latex(value)} + \frac{{1}}{{2}} \rfloor"
-    return text, equation(("Y", nearest), "=", (symbols, numbers))
+    return text, formula_of(nearest.equals(call("floor", y + HALF)))
 
 
 @explains("raster.diamond-exit|diamond-exit-start.round", asks=nearest_pixel, decides=True)
@@ -236,21 +213,21 @@ def nearest_centre(step: StepValues) -> Said:
         text = (
             f"{step.pixel_name} ties with its neighbour in this {line}, and OpenGL's rule takes it: {passes}."
         )
-    half, away = r"\frac{1}{2}", (rf"{MINOR} - {MINOR}_{{\mathrm{{centre}}}}", height)
-    return text, equation(f"-{half}", r"\le", away, r"\le", half)
+    away = named(rf"{MINOR} - {MINOR}_{{\mathrm{{centre}}}}", height)
+    return text, formula_of(Chain((-HALF, away, HALF), (r"\le", r"\le")))
 
 
 @explains("raster.diamond-exit|diamond-exit-start.leaves", decides=True)
 def leaves(step: StepValues) -> Said:
     """The diamond-exit test."""
-    first, second = step.number("exit_start"), step.number("exit_end")
-    tie = ", a tie that OpenGL's rule decides" if 0.5 in (first, second) else ""
+    first, second = step.named("exit_start", "d_0"), step.named("exit_end", "d_1")
+    tie = ", a tie that OpenGL's rule decides" if 0.5 in (first.value, second.value) else ""
     text = (
-        f"{step.pixel_name}: its diamond ends at 0.5, the edge begins at {spoken(first)} and ends at {spoken(second)}, "
+        f"{step.pixel_name}: its diamond ends at 0.5, the edge begins at {first} and ends at {second}, "
         f"so it leaves the diamond{tie}."
     )
-    compared = [comparison("d_0", "<", first, 0.5), comparison("d_1", r"\ge", second, 0.5)]
-    return text, all_of(compared, *conclusion("leaves", "leaves"))
+    tests = first.compared("<", 0.5), second.compared(r"\ge", 0.5)
+    return text, formula_of(concludes("leaves", "leaves", *tests))
 
 
 def _is_other(columns: Columns, rows: Integers) -> Flags:
@@ -321,12 +298,11 @@ def plotted(step: StepValues) -> Said:
     else:
         at = {0.0: "at the first end", 1.0: "at the second end"}.get(along, f"at t = {spoken(along)}")
         where = f"lies {at} of {edge}"
-    text, t = f"{step.pixel_name} {drawn}: its centre {where}{_right_of_printed(step)}.", step.number("t")
+    text, t = f"{step.pixel_name} {drawn}: its centre {where}{_right_of_printed(step)}.", step.named("t", "t")
     if not length:
-        return (text, equation(("t", t))) if start != end else text
-    above = difference((axis, center), (f"{axis}_0", start[k]))
-    symbols, numbers = fraction(above, difference((f"{axis}_1", end[k]), (f"{axis}_0", start[k])))
-    if along != t:
-        bound = r"\max(0, " if along < 0 else r"\min(1, "
-        symbols, numbers = f"{bound}{symbols})", f"{bound}{numbers})"
-    return text, equation(("t", t), "=", (symbols, numbers))
+        return (text, formula_of(t)) if start != end else text
+    first, second = named(f"{axis}_0", start[k]), named(f"{axis}_1", end[k])
+    place: Term = (named(axis, center) - first) / (second - first)
+    if along != t.value:
+        place = call("max", 0, place) if along < 0 else call("min", 1, place)
+    return text, formula_of(t.equals(place))

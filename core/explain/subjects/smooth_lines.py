@@ -2,16 +2,16 @@
 
 import math
 
-from core.explain.digits import number_latex, signed_latex, spoken, vector_text
-from core.explain.equation import Part, beside, difference, equation, fraction
+from core.explain.digits import spoken, vector_text
+from core.explain.formulas import HALF, call, formula_of, named
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
 from core.explain.subjects.line_names import MAJOR, MINOR, axes, line_method
 from core.explain.variable_text import VariableText, shows
+from core.records.terms import Term, term
 from core.records.words import counted
-
-_HALF = r"\frac{1}{2}"
 
 
 def _name(step: StepValues) -> str:
@@ -22,13 +22,13 @@ def _name(step: StepValues) -> str:
 @explains("raster.rectangle-start.length")
 def rectangle_length(step: StepValues) -> Said:
     """The length of a rectangle."""
-    run, rise, length = (step.number(name) for name in ("run", "rise", "length"))
+    run, rise, length = step.number("run"), step.number("rise"), step.named("length", "L")
     text = (
         f"The ends, snapped to 1/256 pixel, are {spoken(run)} and {spoken(rise)} apart along the axes, so the "
-        f"rectangle is {spoken(length)} px long and reaches half a pixel to either side."
+        f"rectangle is {length} px long and reaches half a pixel to either side."
     )
-    x, y = map(number_latex, (rise, run) if step.flag("is_steep") else (run, rise))
-    return text, equation(("L", length), "=", (r"\sqrt{dx^2 + dy^2}", rf"\sqrt{{{x}^2 + {y}^2}}"))
+    dx, dy = map(named, ("dx", "dy"), (rise, run) if step.flag("is_steep") else (run, rise))
+    return text, formula_of(length.equals(call("sqrt", dx**2 + dy**2)))
 
 
 def away(step: StepValues) -> Asked | None:
@@ -44,7 +44,7 @@ def away(step: StepValues) -> Asked | None:
 @explains("raster.rectangle|rectangle-start.across", asks=away, decides=True)
 def across(step: StepValues) -> Said:
     """The distance from the line, between the long sides."""
-    away, length = step.number("decision"), step.number("length")
+    a, away = step.named("decision", "a"), step.number("decision")
     text = f"The centre of {_name(step)} is {spoken(abs(away))} px to the {'left' if away > 0 else 'right'} of the line"
     if away == 0:
         text = f"The centre of {_name(step)} lies on the line, so it is between the rectangle's long sides."
@@ -53,38 +53,35 @@ def across(step: StepValues) -> Said:
     else:
         text += ", not more than 0.5, so it is between the rectangle's long sides."
     (x0, y0), (x1, y1) = step.vector("first_end"), step.vector("second_end")
-    x, y = step.pixel
-    from_y, of_y = difference(("y", y), ("y_0", y0))
-    from_x, of_x = difference(("x", x), ("x_0", x0))
-    products = (
-        rf"(x_1 - x_0) ({from_y}) - (y_1 - y_0) ({from_x})",
-        rf"{signed_latex(x1 - x0)} \cdot ({of_y}) - {signed_latex(y1 - y0)} \cdot ({of_x})",
-    )
-    within: list[Part] = [f"-{_HALF}", r"\le", ("a", away), r"\le", _HALF]
-    return text, equation(*beside(within, [("a", away), "=", fraction(products, ("L", length))]))
+    x, y = map(named, "xy", step.pixel)
+    dx, dy = named("(x_1 - x_0)", x1 - x0), named("(y_1 - y_0)", y1 - y0)
+    product = dx @ (y - named("y_0", y0)) - dy @ (x - named("x_0", x0))
+    within = Chain((-HALF, a, HALF), (r"\le", r"\le"))
+    return text, formula_of(within, a.equals(product / step.named("length", "L")))
 
 
 @explains("raster.rectangle|rectangle-start.along")
 def along(step: StepValues) -> Said:
     """The position along the line, between the short sides."""
-    place, length = step.number("along"), step.number("length")
-    text = f"It is {spoken(place)} px along the line, between the short sides at 0 and {spoken(length)}."
-    return text, equation("0", r"\le", ("s", place), "<", ("L", length))
+    place, length = step.named("along", "s"), step.named("length", "L")
+    text = f"It is {place} px along the line, between the short sides at 0 and {length}."
+    return text, formula_of(Chain((term(0), place, length), (r"\le", "<")))
 
 
 @explains("raster.*.share")
 def share(step: StepValues) -> Said:
     """How much of a column the line spans."""
-    part, at = step.number("share"), number_latex(step.number("major"))
+    part, x = step.named("share", "g"), step.named("major", MAJOR)
     word = "row" if step.flag("is_steep") else "column"
-    text = f"The line ends in this {word} and spans {spoken(part)} of it, which scales the intensities."
-    if part == 1:
+    text = f"The line ends in this {word} and spans {part} of it, which scales the intensities."
+    if part.value == 1:
         text = f"The line spans the whole {word}."
     k = int(step.flag("is_steep"))
-    low, high = sorted((step.vector("first_end")[k], step.vector("second_end")[k]))
-    symbols = rf"\min({MAJOR} + {_HALF}, {MAJOR}_{{\max}}) - \max({MAJOR} - {_HALF}, {MAJOR}_{{\min}})"
-    numbers = rf"\min({at} + {_HALF}, {number_latex(high)}) - \max({at} - {_HALF}, {number_latex(low)})"
-    return text, equation(("g", part), "=", (symbols, numbers))
+    ends = sorted((step.vector("first_end")[k], step.vector("second_end")[k]))
+    low, high = (
+        named(rf"{MAJOR}_{{\{bound}}}", end) for bound, end in zip(("min", "max"), ends, strict=True)
+    )
+    return text, formula_of(part.equals(call("min", x + HALF, high) - call("max", x - HALF, low)))
 
 
 def intensity(step: StepValues) -> Asked | None:
@@ -105,27 +102,25 @@ def intensity(step: StepValues) -> Asked | None:
 def pixel_of_column(step: StepValues) -> Said:
     """Which pixel of the column is looked at."""
     minor, line, is_wu = step.number("minor"), step.number("decision"), line_method(step) == "wu"
+    y = step.named("decision", MINOR)
     first = math.floor(line) if is_wu else math.floor(line) + (line - math.floor(line) >= 0.5)
     sides = ("to the left of", "to the right of") if step.flag("is_steep") else ("below", "above")
     what = f"the next one {sides[minor > first]}" if minor != first else "the nearest to the line"
     if is_wu:
         what = f"{sides[minor > first]} the line" if minor != line else "on the line"
-    half = "" if is_wu else f" + {_HALF}"
-    symbols, numbers = (rf"\lfloor {text}{half} \rfloor" for text in (MINOR, number_latex(line)))
-    more: list[Part] = [] if minor == first else ["+" if minor > first else "-", "1"]
-    text = f"{_name(step).capitalize()} is {what}."
-    return text, equation(("Y", minor), "=", (symbols, numbers), *more)
+    pixel: Term = call("floor", y if is_wu else y + HALF)
+    if minor != first:
+        pixel = pixel + 1 if minor > first else pixel - 1
+    return f"{_name(step).capitalize()} is {what}.", formula_of(named("Y", minor).equals(pixel))
 
 
 @explains("raster.*.fraction")
 def fraction_of_way(step: StepValues) -> Said:
     """How far the line passes from the lower pixel to the upper one."""
-    (_, axis), line, part = axes(step), step.number("decision"), step.number("fraction")
-    below = math.floor(line)
-    text = f"The line passes {spoken(part)} of the way from {axis} = {spoken(below)} to {axis} = {spoken(below + 1)}."
-    shown = number_latex(line)
-    made: Part = (rf"{MINOR} - \lfloor {MINOR} \rfloor", rf"{shown} - \lfloor {shown} \rfloor")
-    return text, equation(("f", part), "=", made)
+    (_, axis), y, part = axes(step), step.named("decision", MINOR), step.named("fraction", "f")
+    below = math.floor(y.value)
+    text = f"The line passes {part} of the way from {axis} = {spoken(below)} to {axis} = {spoken(below + 1)}."
+    return text, formula_of(part.equals(y - call("floor", y)))
 
 
 @explains("raster.*.divide", asks=intensity, decides=True)
@@ -138,30 +133,28 @@ def divided(step: StepValues) -> Said:
     scaled = "" if of_column == 1 else f" times the weight {spoken(of_column)}"
     result = "" if not is_lower and not scaled else f" = {spoken(found)}"
     text = f"{_name(step).capitalize()} gets the intensity {law}{scaled}{result}."
-    shown: Part = ("(1 - f)", f"(1 - {number_latex(part)})") if is_lower else ("f", part)
-    return text, equation(("I", found), "=", shown, r"\cdot", ("g", of_column))
+    f = step.named("fraction", "f")
+    return text, formula_of(named("I", found).equals((1 - f if is_lower else f) * named("g", of_column)))
 
 
 @explains("raster.*.cosine")
 def line_cosine(step: StepValues) -> Said:
     """The cosine of the line's angle with its longer axis."""
-    (_, axis), cosine, m = axes(step), step.number("cosine"), signed_latex(step.number("slope"))
-    text = f"A distance from the line is {spoken(cosine)}, the cosine of the line's angle, times that along {axis}."
-    below = (r"\sqrt{1 + m^2}", rf"\sqrt{{1 + {m}^2}}")
-    return text, equation(("c", cosine), "=", fraction(("1", 1.0), below))
+    (_, axis), cosine, m = axes(step), step.named("cosine", "c"), step.named("slope", "m")
+    text = f"A distance from the line is {cosine}, the cosine of the line's angle, times that along {axis}."
+    return text, formula_of(cosine.equals(1 / call("sqrt", 1 + m**2)))
 
 
 @explains("raster.*.distance", decides=True)
 def distance(step: StepValues) -> Said:
     """The distance of a pixel's centre from the line."""
-    (_, axis), minor, line = axes(step), step.number("minor"), step.number("decision")
-    found = step.number("line_distance")
+    (_, axis), pixel, y = axes(step), step.named("minor", "Y"), step.named("decision", MINOR)
+    found = step.named("line_distance", "d")
     text = (
-        f"The centre of {_name(step)} is {spoken(abs(minor - line))} from the line along {axis}, which gives a "
-        f"distance of {spoken(found)} px."
+        f"The centre of {_name(step)} is {spoken(abs(pixel.value - y.value))} from the line along {axis}, which "
+        f"gives a distance of {found} px."
     )
-    apart = (rf"|Y - {MINOR}|", f"|{number_latex(minor)} - {signed_latex(line)}|")
-    return text, equation(("d", found), "=", apart, r"\cdot", ("c", step.number("cosine")))
+    return text, formula_of(found.equals(call("abs", pixel - y) * step.named("cosine", "c")))
 
 
 def nearest_entry(step: StepValues) -> Asked | None:
@@ -178,39 +171,40 @@ def nearest_entry(step: StepValues) -> Asked | None:
 @explains("raster.*.entry", asks=nearest_entry)
 def entry_of_table(step: StepValues) -> Said:
     """Where the filter's table is looked up."""
-    entry, found = step.number("entry"), step.number("line_distance")
-    text = f"The nearest entry of the filter's table is at {counted(int(entry), 'sixteenth')} of a pixel."
-    made = (rf"\lfloor 16 d + {_HALF} \rfloor", rf"\lfloor 16 \cdot {number_latex(found)} + {_HALF} \rfloor")
-    return text, equation((r"\mathrm{entry}", entry), "=", made)
+    entry, d = step.upright("entry"), step.named("line_distance", "d")
+    text = (
+        f"The nearest entry of the filter's table is at {counted(int(entry.value), 'sixteenth')} of a pixel."
+    )
+    return text, formula_of(entry.equals(call("floor", term(16) @ d + HALF)))
 
 
 @explains("raster.*.look-up")
 def looked_up(step: StepValues) -> Said:
     """The value in the filter's table."""
-    value = step.number("filtered")
-    return f"There the filter's table has {spoken(value)}.", equation(("T", value))
+    value = step.named("filtered", "T")
+    return f"There the filter's table has {value}.", formula_of(value)
 
 
 @explains("raster.*.filter")
 def filtered(step: StepValues) -> Said:
     """The intensity by the filter's table."""
-    value, of_column, found = (step.number(name) for name in ("filtered", "share", "intensity"))
-    text = f"{_name(step).capitalize()} gets the intensity {spoken(found)}, the value of the table."
-    if of_column != 1:
-        text = f"{_name(step).capitalize()} gets {spoken(of_column)} of it, the intensity {spoken(found)}."
-    return text, equation(("I", found), "=", ("T", value), r"\cdot", ("g", of_column))
+    of_column, found = step.named("share", "g"), step.named("intensity", "I")
+    text = f"{_name(step).capitalize()} gets the intensity {found}, the value of the table."
+    if of_column.value != 1:
+        text = f"{_name(step).capitalize()} gets {of_column} of it, the intensity {found}."
+    return text, formula_of(found.equals(step.named("filtered", "T") * of_column))
 
 
 @explains("blend.*.weigh")
 def weighed(step: StepValues) -> Said:
     """Alpha scaled by the line's intensity."""
-    alpha, intensity, source = step.vector("color")[3], step.number("intensity"), step.vector("source")[3]
+    alpha, intensity = named(r"a_{\mathrm{shaded}}", step.vector("color")[3]), step.named("intensity", "I")
+    source = named(r"a_{\mathrm{source}}", step.vector("source")[3])
     text = (
-        f"{step.pixel_name}: the line's intensity {spoken(intensity)} scales the alpha {spoken(alpha)} of its colour "
-        f"to {spoken(source)}, to be blended with {vector_text(step.vector('before'))}."
+        f"{step.pixel_name}: the line's intensity {intensity} scales the alpha {alpha} of its colour "
+        f"to {source}, to be blended with {vector_text(step.vector('before'))}."
     )
-    product = (r"a_{\mathrm{shaded}}", alpha), r"\cdot", ("I", intensity)
-    return text, equation((r"a_{\mathrm{source}}", source), "=", *product)
+    return text, formula_of(source.equals(alpha * intensity))
 
 
 shows(
