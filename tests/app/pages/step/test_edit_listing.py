@@ -2,7 +2,9 @@
 
 from collections.abc import Callable
 from dataclasses import replace
+from inspect import getsource
 from pathlib import Path
+from time import monotonic
 
 import pytest
 from PySide6.QtCore import Qt
@@ -17,6 +19,7 @@ from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import Settings
 from core.edits import EDITABLE, Edit, original
+from core.lanes.limits import LISTING
 from core.records.steps import Level
 from core.trace.stage_trace import StageTrace
 from lessons.scenes import make_scene
@@ -31,11 +34,15 @@ def pane_of(window: MainWindow) -> ListingPane:
 
 
 def wait(holds: Callable[[], object]) -> None:
-    for _ in range(800):
-        if holds():
-            return
+    end = monotonic() + 60
+    while not holds():
+        assert monotonic() < end, f"this has not come: {getsource(holds).strip()}"
         QTest.qWait(10)
-    raise AssertionError("it has not come to that")
+
+
+def wait_for_b(window: MainWindow) -> None:
+    """Wait until what was typed has run and B is drawn, in the background where the machine is busy."""
+    wait(lambda: window.session.document.edits and window.page.comparing.second is not None)
 
 
 def bresenham(window: MainWindow) -> MainWindow:
@@ -62,6 +69,7 @@ def put_behind(editor: ListingEditor, before: str) -> None:
 
 
 def second_raster(window: MainWindow) -> StageTrace:
+    wait(lambda: window.page.comparing.second is not None)
     second = window.page.comparing.second
     assert second is not None
     return second.trace.stage("raster")
@@ -76,7 +84,7 @@ def test_typing_behind_if_d_redraws_b(window: MainWindow) -> None:
     assert "my version: Bresenham, integers" in window.page.compare_view.titles[1].text()
     assert second_raster(window).pixel.tolist() == window.session.trace.stage("raster").pixel.tolist()
     QTest.keyClick(editor, Qt.Key.Key_Delete)
-    wait(lambda: window.session.document.edits)
+    wait_for_b(window)
     (made,) = window.session.document.edits
     assert (made.part, made.of) == ("line", "bresenham")
     assert made.text == original("line", "bresenham").source.replace("D >= 0", "D > 0")
@@ -93,7 +101,7 @@ def test_the_first_difference_is_one_click_away(window: MainWindow) -> None:
     bresenham(window)
     editor = edit(window, "D = 2 * dy - dx")
     QTest.keyClicks(editor, " + 9")
-    wait(lambda: window.session.document.edits)
+    wait_for_b(window)
     said: list[str] = []
     window.page.message_sent.connect(said.append)
     pane_of(window).message.linkActivated.emit("first")
@@ -108,7 +116,7 @@ def test_the_inspector_steps_through_the_lines_of_b(window: MainWindow) -> None:
     bresenham(window)
     editor = edit(window, "D = 2 * dy - dx")
     QTest.keyClicks(editor, " + 9")
-    wait(lambda: window.session.document.edits)
+    wait_for_b(window)
     QTest.keyClick(editor, Qt.Key.Key_Escape)
     pane, page = pane_of(window), window.page
     assert not pane.is_editing
@@ -129,7 +137,7 @@ def test_a_text_that_fails_leaves_the_last_picture_greyed(window: MainWindow) ->
     bresenham(window)
     editor = edit(window, "D = 2 * dy - dx")
     QTest.keyClicks(editor, " + 9")
-    wait(lambda: window.session.document.edits)
+    wait_for_b(window)
     edits = window.session.document.edits
     QTest.keyClicks(editor, "d")
     pane, view = pane_of(window), window.page.compare_view
@@ -294,7 +302,11 @@ def test_each_text_that_ran_is_one_entry_of_undo(window: MainWindow) -> None:
     wait(lambda: "* 1" not in window.session.document.edits[0].text)
 
 
-def test_a_long_run_leaves_the_window_free_and_escape_ends_it(window: MainWindow) -> None:
+def test_a_long_run_leaves_the_window_free_and_escape_ends_it(
+    window: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    # On a busy machine the window may come to look only when the usual time is over.
+    monkeypatch.setattr("core.lanes.limits.LISTING", replace(LISTING, seconds=600.0))
     window.session.open(open_any("shared-edge").document)
     window.session.set_stage("interpolate", 40)
     editor = edit(window, "value =")
@@ -333,7 +345,7 @@ def test_the_pixel_history_of_b_asks_the_edited_decision(window: MainWindow) -> 
     window.session.set_stage("raster", 4000)
     editor = edit(window, "value >")
     QTest.keyClicks(editor, "=")
-    wait(lambda: window.session.document.edits)
+    wait_for_b(window)
     QTest.keyClick(editor, Qt.Key.Key_Escape)
     window.session.set_pin((12, 6))
     column, page = window.page.column, window.page
@@ -353,7 +365,7 @@ def test_another_scene_keeps_the_edit_where_it_runs(window: MainWindow) -> None:
     bresenham(window)
     editor = edit(window, "D = 2 * dy - dx")
     QTest.keyClicks(editor, " + 9")
-    wait(lambda: window.session.document.edits)
+    wait_for_b(window)
     QTest.keyClick(editor, Qt.Key.Key_Escape)
     said: list[str] = []
     window.page.message_sent.connect(said.append)
@@ -363,14 +375,14 @@ def test_another_scene_keeps_the_edit_where_it_runs(window: MainWindow) -> None:
     window.files.show_opened(open_any("segment"))
     assert window.page.current_view() == "compare"
     assert window.session.document.edits[0].of == "bresenham"
-    wait(lambda: window.page.comparing.second)
+    wait_for_b(window)
 
 
 def test_an_edit_that_does_not_fit_the_scene_sleeps(window: MainWindow) -> None:
     window.session.open(open_any("shared-edge").document)
     window.session.set_stage("raster", 4000)
     QTest.keyClicks(edit(window, "value >"), "=")
-    wait(lambda: window.session.document.edits)
+    wait_for_b(window)
     QTest.keyClick(pane_of(window).editor, Qt.Key.Key_Escape)
     window.files.show_opened(open_any("segment"))
     assert window.page.editing.side == A
@@ -378,14 +390,14 @@ def test_an_edit_that_does_not_fit_the_scene_sleeps(window: MainWindow) -> None:
     assert pane_of(window).message.text() == ""
     QTest.keyClicks(edit(window, "if D >= 0"), ".5")
     wait(lambda: len(window.session.document.edits) == 2)
-    wait(lambda: window.page.comparing.second)
+    wait_for_b(window)
 
 
 def test_a_state_opens_with_the_edit_in_b(window: MainWindow, tmp_path: Path) -> None:
     bresenham(window)
     editor = edit(window, "D = 2 * dy - dx")
     QTest.keyClicks(editor, " + 9")
-    wait(lambda: window.session.document.edits)
+    wait_for_b(window)
     edits = window.session.document.edits
     path = tmp_path / f"mine{EXTENSION}"
     save_state(path, window.files.state())
@@ -396,7 +408,7 @@ def test_a_state_opens_with_the_edit_in_b(window: MainWindow, tmp_path: Path) ->
     window.files.show_opened(open_any(str(path)))
     assert window.session.document.edits == edits
     assert window.session.document.settings.replacements == {}
-    wait(lambda: window.page.comparing.second)
+    wait_for_b(window)
 
 
 def test_no_listing_is_edited_while_predicting(window: MainWindow) -> None:
