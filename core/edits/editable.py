@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from core.edits import coverage, framebuffer, interpolation, line_clipping, lines
+from core.edits import coverage, framebuffer, interpolation, line_clipping, lines, textures
 from core.edits.typed import Typed
 from core.framebuffer.depth import depth_test
 from core.methods import Method, table
@@ -117,6 +117,14 @@ EDITABLE = {
             passed_over=interpolation.interpolation_is_passed_over,
         ),
         Part(
+            "texture_filter",
+            "listing",
+            "texture_filter",
+            textures.check_filter,
+            textures.edited_filter,
+            passed_over=textures.filter_is_passed_over,
+        ),
+        Part(
             "depth_test",
             "depth test",
             "depth",
@@ -156,8 +164,7 @@ NOT_EDITABLE = {
     "polygon_fill": "Its listing keeps tables of edges.",
     "pixel_center": _FIXED,
     "provoking": _FIXED,
-    "texture_filter": "The picture asks it which texels are read, and its listing returns their colour.",
-    "wrap": "The picture asks it only where a texel lies outside of the texture.",
+    "wrap": "The listing of the texture filter calls it: edit that one, and write a wrap of your own below it.",
     "shading": "Its listing takes materials and lights as records.",
     "visibility": "It orders triangles, or casts rays, for the whole picture at once.",
     "antialiasing": _FIXED,

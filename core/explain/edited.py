@@ -16,6 +16,7 @@ from core.explain.digits import spoken
 from core.explain.formulas import formula_of
 from core.explain.records import Formula, Value, Variable
 from core.explain.typed_latex import stated
+from core.fragments.textures import finite_coordinates
 from core.geometry.line_clipping.records import ClipWindow
 from core.lanes.limits import LISTING
 from core.lanes.nodes import Put
@@ -144,12 +145,15 @@ def _of_pixel(ran: Sequence[LaneStep], values: Mapping[str, Any]) -> Sequence[La
 def _inputs(explanation: Explanation, listing: EditedListing) -> list[Any] | None:
     """Return what the listing is given in a step, in the order of its parameters."""
     values, names = explanation.values, parameters_of(listing.original.function)
+    typed = Typed(listing.original.function, listing.source)
     if "first_end" in values and "last_pixel" in names:
         ends = [*np.asarray(values["first_end"]).tolist(), *np.asarray(values["second_end"]).tolist()]
         is_whole = all(float(end).is_integer() for end in ends)
         return [*(int(end) if is_whole else end for end in ends), explanation.corner_count == 2]
     if is_clipping(explanation):
-        return _clipper_inputs(values, Typed(listing.original.function, listing.source))
+        return _clipper_inputs(values, typed, listing.given["window"])
+    if "textures" in listing.given:
+        return _filter_inputs(values, typed, listing.given)
     stage, _, operation = explanation.key.split(".", 2)
     held: dict[str, Any] = {}
     for name in names:
@@ -164,17 +168,23 @@ def _inputs(explanation: Explanation, listing: EditedListing) -> list[Any] | Non
     return [held[name] for name in names] if all(name in held for name in names) else None
 
 
-def _clipper_inputs(values: Mapping[str, Any], typed: Typed) -> list[Any]:
+def _clipper_inputs(values: Mapping[str, Any], typed: Typed, window: ClipWindow) -> list[Any]:
     """Return what the listing of a line clipper is given."""
     from core.edits.line_clipping import clipper_inputs
 
-    corners, points, normals = (
-        np.asarray(values[f"clip_{name}"]) for name in ("corners", "points", "normals")
-    )
-    # Only what takes normals is given another window than a rectangle.
-    window = ClipWindow(corners, points, normals, (), is_rectangle=True)
     ends = [*np.asarray(values["window_start"]).tolist(), *np.asarray(values["window_end"]).tolist()]
     return clipper_inputs(typed, ends, window, values["line_clipping"] == "cyrus-beck-lecture")
+
+
+def _filter_inputs(values: Mapping[str, Any], typed: Typed, given: Mapping[str, Any]) -> list[Any] | None:
+    """Return what the listing of a texture filter is given."""
+    from core.edits.textures import filter_inputs
+
+    texture = given["textures"][int(values["mesh"])]
+    if texture is None:
+        return None
+    u, v = finite_coordinates(np.asarray(values["uv"], float).reshape(1, 2))[:, 0].tolist()
+    return filter_inputs(typed, texture, u, v, values.get("lod"), given["wrap"])
 
 
 def _component(explanation: Explanation, operation: str) -> int:

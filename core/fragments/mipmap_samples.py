@@ -4,9 +4,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.fragments.color_rule import ColorRule
 from core.fragments.level_of_detail import LevelChoice, choose_levels
 from core.fragments.mipmaps import mipmap_levels
-from core.fragments.textures import TextureSamples, sample_texture, texture_colors
+from core.fragments.textures import TextureSamples, finite_coordinates, sample_texture, texture_colors
+from core.methods import table
 from core.records.arrays import Floats, Integers, read_only
 from core.scene import Texture
 
@@ -55,6 +57,11 @@ def mipmap_colors(
     -----
     A level's colours are those of ``bilinear`` in it. Where the coarser level has no share it is not read.
     """
+    rule = table.get("texture_filter", texture_filter).function
+    if isinstance(rule, ColorRule):
+        return rule.colors(
+            texture, finite_coordinates(uv), _choose(texture, slopes, texture_filter).lod, wrap
+        ).T
     color = np.empty((4, len(uv)))
     for start in range(0, len(uv), _BLOCK):
         part = slice(start, start + _BLOCK)

@@ -17,6 +17,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 from numpy.typing import NDArray
 
+from core.fragments.color_rule import ColorRule
 from core.methods import method, table
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.records.listing import RETURN
@@ -274,13 +275,12 @@ def sample_texture(
     uv = _checked_uv(uv)
     position = _position(uv, texture)
     footprint = _footprint(position, texture, texture_filter, wrap)
-    color = np.empty((4, len(uv)))
-    _mix(texture, footprint, color)
+    color = texture_colors(texture, uv, texture_filter, wrap).T
     channels = texture.pixels.shape[2]
     texels = np.stack([np.stack(pair, axis=1) for pair in _pairs(footprint)], axis=1)
     texel_colors = np.empty((*texels.shape[:2], 4))
     texel_colors[..., :channels] = texture.pixels[texels[..., 1], texels[..., 0]]
-    _fill_missing_channels(texel_colors, channels)
+    fill_missing_channels(texel_colors, channels)
     return TextureSamples(
         read_only(color.T),
         read_only(position.T),
@@ -296,6 +296,9 @@ def texture_colors(
 ) -> Floats:
     """Return the (F, 4) float64 colours of `sample_texture`, bit for bit, without the record: a view of four rows."""
     uv = _checked_uv(uv)
+    rule = table.get("texture_filter", texture_filter).function
+    if isinstance(rule, ColorRule):
+        return rule.colors(texture, finite_coordinates(uv), None, wrap).T
     color = np.empty((4, len(uv)))
     for start in range(0, len(uv), _BLOCK):
         part = slice(start, start + _BLOCK)
@@ -314,12 +317,18 @@ def _checked_uv(uv: Floats) -> Floats:
 def _position(uv: Floats, texture: Texture) -> Floats:
     """Return the (2, F) finite texel units of ``uv``."""
     height, width, _ = texture.pixels.shape
+    coordinates = finite_coordinates(uv)
+    coordinates *= np.array([[width], [height]])
+    return coordinates
+
+
+def finite_coordinates(uv: Floats) -> Floats:
+    """Return a copy of texture coordinates (F, 2) as (2, F); NaN is 0, what lies far outside `COORDINATE_LIMIT`."""
     coordinates = np.array(uv.T, order="C")
     smallest, largest = coordinates.min(initial=0), coordinates.max(initial=0)
     if not (smallest >= -COORDINATE_LIMIT and largest <= COORDINATE_LIMIT):
         coordinates[np.isnan(coordinates)] = 0.0
         np.clip(coordinates, -COORDINATE_LIMIT, COORDINATE_LIMIT, out=coordinates)
-    coordinates *= np.array([[width], [height]])
     return coordinates
 
 
@@ -347,7 +356,7 @@ def _mix(texture: Texture, footprint: Footprint, color: Floats) -> None:
             _mix_pair(values[0], values[1], left, right, values[0])
             _mix_pair(values[2], values[3], left, right, values[2])
             _mix_pair(values[0], values[2], bottom, top, mixed)
-    _fill_missing_channels(color.T, channels)
+    fill_missing_channels(color.T, channels)
 
 
 def _read(texture: Texture, row_start: Integers, column: Integers) -> Singles:
@@ -389,7 +398,7 @@ def _pairs(footprint: Footprint) -> list[tuple[Integers, Integers]]:
     return [(column, row) for row in footprint.rows for column in footprint.columns]
 
 
-def _fill_missing_channels(color: Floats, channels: int) -> None:
+def fill_missing_channels(color: Floats, channels: int) -> None:
     """Complete ``color`` (..., 4) of which the first 1, 3 or 4 channels are set: grey, then alpha 1."""
     if channels == 1:
         color[..., 1] = color[..., 2] = color[..., 0]

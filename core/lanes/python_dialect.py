@@ -15,6 +15,7 @@ from core.lanes.python_lists import ListFunctions
 from core.lanes.python_rules import TOO_LARGE, operator_rule
 from core.lanes.python_values import Log, Many, Range, is_flag, is_number, kind_of, number_kind
 from core.lanes.run import Run
+from core.lanes.tables import Table
 
 CHECKED_TURNS = 64
 """Rounds of a loop that a check on no lanes looks at."""
@@ -178,6 +179,8 @@ class PythonDialect:
             return value.seen(mask, place)
         if isinstance(value, list):
             return value
+        if isinstance(value, Table):
+            return self._elements_of_table(value, place, run)
         if isinstance(value, Range):
             if not value.is_uniform:
                 raise Problem(place, "this range is not the same in every lane: write a for loop")
@@ -189,6 +192,12 @@ class PythonDialect:
                 )
             return list(made)
         raise Problem(place, f"{kind_of(value)} has no elements")
+
+    def _elements_of_table(self, value: Table, place: Place, run: Run) -> list[Any]:
+        length = value.length
+        if np.ndim(length) or length > run.limits.numbers:
+            raise Problem(place, "this table is too long to be a list, or not as long in every lane")
+        return [value.part(k) for k in range(length)]
 
     def unpacked(self, value: Any, starred: Sequence[bool], mask: Some, place: Place, run: Run) -> list[Any]:
         """Return a value for each of several names; the mask is (L,)."""
@@ -266,6 +275,12 @@ class PythonDialect:
             raise Problem(place, f"an index must be a whole number, not {kind_of(index)}")
         if is_number(whole) or isinstance(whole, str) or whole is None:
             raise Problem(place, f"{kind_of(whole)} has no elements [ ]")
+        if isinstance(whole, Table):
+            is_alike = not np.ndim(index) and not np.ndim(whole.length)
+            if is_alike and -whole.length <= index < 0:
+                index += whole.length
+            check_inside(np.asarray(index), whole.length, mask, place)
+            return whole.part(whole.inside(index) if np.ndim(index) else index)
         parts = self.elements(whole, mask, place, run)
         if np.ndim(index):
             check_inside(index, len(parts), mask, place)
@@ -331,8 +346,9 @@ class PythonDialect:
 def check_inside(index: Any, count: Any, mask: Some, place: Place) -> None:
     """Refuse indices (L,) outside of 0 to ``count - 1``; the mask is (L,)."""
     is_outside = (index < 0) | (index >= count)
-    if (is_outside if mask is None else is_outside & mask).any() or np.max(count) == 0:
-        raise Problem(place, f"an index is outside of 0 to {np.max(count) - 1}")
+    most = int(np.max(count, initial=0))
+    if (is_outside if mask is None else is_outside & mask).any() or not (most or np.ndim(count)):
+        raise Problem(place, f"an index is outside of 0 to {most - 1}")
 
 
 def _length_of(numbers: range) -> str:

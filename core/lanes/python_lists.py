@@ -12,6 +12,7 @@ from core.lanes.problem import Place, Problem, counted
 from core.lanes.python_rules import operator_rule
 from core.lanes.python_values import Many, Range, is_number, kind_of, number_kind
 from core.lanes.run import Run
+from core.lanes.tables import Table
 
 ANY_COUNT = ("zip", "range", "slice of")
 """Functions of any number of values."""
@@ -66,6 +67,8 @@ class ListFunctions:
         return found
 
     def _length(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:
+        if isinstance(values[0], Table):
+            return values[0].length
         return len(self._dialect.elements(values[0], mask, place, run))
 
     def _listed(self, values: Sequence[Any], mask: Some, place: Place, run: Run, name: str) -> Any:

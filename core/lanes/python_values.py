@@ -11,6 +11,7 @@ import numpy as np
 
 from core.lanes.masks import Some
 from core.lanes.problem import Place, Problem
+from core.lanes.tables import Table
 from core.records.arrays import Integers
 
 KINDS = {"b": "true or false", "i": "a whole number", "f": "a number"}
@@ -91,6 +92,8 @@ def kind_of(value: Any) -> str:
         return "a range"
     if isinstance(value, str):
         return "a text"
+    if isinstance(value, Table):
+        return "a table"
     return "None" if value is None else "a list"
 
 
@@ -110,6 +113,8 @@ def at_lane(value: Any, lane: int) -> Any:
         return [at_lane(part, lane) for part in value]
     if isinstance(value, Range):
         return range(*(int(at_lane(part, lane)) for part in (value.start, value.stop, value.step)))
+    if isinstance(value, Table):
+        return str(value)
     if isinstance(value, np.ndarray | np.generic):
         one = value[lane] if isinstance(value, np.ndarray) and value.ndim else value
         return one if one.dtype == np.float32 else one.item()

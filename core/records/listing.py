@@ -6,8 +6,8 @@ A line of the function is named by a comment at its end, ``#: name``; a step say
 import ast
 import inspect
 import re
-from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from difflib import SequenceMatcher
 from functools import cache, lru_cache
 from textwrap import dedent
@@ -121,6 +121,8 @@ class EditedListing(Listing):
     """A listing that was edited; its labels stand on the lines that the old ones have become."""
 
     original: Listing
+    given: Mapping[str, Any] = field(default_factory=dict)
+    """What it takes beside the numbers of a row, as the texture: by name."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -111,17 +111,11 @@ def with_line_clipping(found: StageTrace, source: TraceSource) -> StageTrace:
         "window_end": whole.window[segment, 1],
         **own,
     }
-    constants: dict[str, Any] = {"line_clipping": source.settings.line_clipping}
     shown = listing(algorithm)
     if isinstance(shown, EditedListing):
         # What it is given: its steps are told by its own lines.
         columns = {**columns, "clip_row": np.arange(len(segment)) - np.searchsorted(segment, segment)}
-        window = clip.lines.window
-        constants |= {
-            "clip_corners": window.corners,
-            "clip_points": window.points,
-            "clip_normals": window.normals,
-        }
+        shown = replace(shown, given={"window": clip.lines.window})
     inserted = InsertedRows(
         before=np.searchsorted(pixel_segment, segment),
         group=segment,
@@ -137,7 +131,7 @@ def with_line_clipping(found: StageTrace, source: TraceSource) -> StageTrace:
         found,
         columns={**found.columns, "segment": pixel_segment},
         extra={**found.extra, "outline_clip": clip},
-        constants={**found.constants, **constants},
+        constants={**found.constants, "line_clipping": source.settings.line_clipping},
     )
     return insert_rows(numbered, pixel_segment, inserted)
 

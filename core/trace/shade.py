@@ -1,17 +1,19 @@
 """Trace of texturing and shading: texels, their mix, every light, and the colour of every fragment."""
 
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
+from core.fragments.color_rule import ColorRule
 from core.fragments.level_of_detail import level_of_detail
 from core.fragments.lighting import Lighting, blinn_phong, trace_lighting
 from core.fragments.shading import shaded_color, textured_albedo, unlit_color
 from core.fragments.textures import uses_mipmaps
 from core.methods import table
 from core.records.arrays import Floats, Integers
-from core.records.listing import RETURN, Listing, listing
+from core.records.listing import RETURN, EditedListing, Listing, listing
 from core.records.operation import Labels, Operation
 from core.records.steps import Steps, ends_of
 from core.scene import ClipScene, Scene, Texture
@@ -74,6 +76,8 @@ def _rows(source: TraceSource) -> StageRows:
         "color": surface.color,
         "primitive": fragments.primitive,
     }
+    if isinstance(table.get("texture_filter", source.settings.texture_filter).function, ColorRule):
+        columns["mesh"] = mesh  # Its steps take the texture of their mesh.
     layout, values = source.geometry.primitives.layout, source.interpolated[1]
     if "color" in layout:
         columns["vertex_color"] = values[:, layout["color"]]
@@ -183,6 +187,9 @@ def _listings(source: TraceSource, has_normals: bool) -> dict[str, Listing]:
     of_texture = table.get("texture_filter", texture_filter).listing
     assert of_texture is not None, f"{texture_filter} has no listing"
     texture, product = listing(of_texture), listing(shaded_color)
+    if isinstance(texture, EditedListing):
+        given = {"textures": _textures(source), "wrap": source.settings.wrap}
+        texture = replace(texture, given=given)
     light = listing(blinn_phong) if has_normals else product
     of_light = ("normal", "cosines", "power", "diffuse", "specular", "interpolated")
     of_operation = {**dict.fromkeys(of_light, light), "product": product}

@@ -5,6 +5,7 @@ from typing import Any
 
 import numpy as np
 
+from core.fragments.color_rule import ColorRule
 from core.fragments.edited_slopes import slopes_of_edit
 from core.fragments.mipmap_samples import LevelSamples, sample_mipmaps
 from core.fragments.textures import sample_texture
@@ -47,10 +48,23 @@ def texture_operations(texture_filter: str) -> tuple[Operation, ...]:
     return table.get("texture_filter", texture_filter).operations["texture"]
 
 
+COMPUTED = frozenset({"texel_position", "uv_slopes", "lengths", "lod", "texture_color"})
+"""What is known of a look-up by an edited listing, beside what its slopes are made from: it computes nothing else."""
+
+
 def sample_columns(
     source: TraceSource, texture: Texture, uv: Floats, chosen: Integers
 ) -> dict[str, np.ndarray]:
     """Return every number of the look-up of fragments ``chosen`` (C,) at ``uv`` (C, 2): name to (C, ...) array."""
+    found = _method_columns(source, texture, uv, chosen)
+    if isinstance(table.get("texture_filter", source.settings.texture_filter).function, ColorRule):
+        found = {name: values for name, values in found.items() if name in COMPUTED}
+    return found | ({} if source.uv_slopes is None else _slope_columns(source, chosen))
+
+
+def _method_columns(
+    source: TraceSource, texture: Texture, uv: Floats, chosen: Integers
+) -> dict[str, np.ndarray]:
     settings = source.settings
     if source.uv_slopes is not None:
         return _mipmap_columns(source, texture, uv, chosen)
@@ -86,7 +100,6 @@ def _mipmap_columns(
         **_level_columns("near", read.near),
         **(_level_columns("far", read.far) if reads_far else {}),
         "texture_color": read.color,
-        **_slope_columns(source, chosen),
     }
 
 

@@ -31,7 +31,16 @@ ASKED = "A's listing is hidden: it is asked for"
 KEPT = "The text that does not run is kept: Edit opens it again."
 LOADING = "The editor is being loaded."
 LATER_MS = 50
-EDITED_FAMILIES = ("line", "fill_rule", "fill", "interpolation", "depth", "blend")
+EDITED_FAMILIES = (
+    "line",
+    "line_clipping",
+    "fill_rule",
+    "fill",
+    "interpolation",
+    "texture_filter",
+    "depth",
+    "blend",
+)
 """Families whose listings can be edited, as `core.edits.EDITABLE` has them."""
 EDITED_STAGES = frozenset(FAMILIES[family].stage for family in EDITED_FAMILIES)
 DRAFT_KEPT = "Your text does not run"

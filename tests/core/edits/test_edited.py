@@ -29,16 +29,21 @@ from core.methods import table
 from core.pixel_history import why
 from core.records.listing import EditedListing
 from core.settings import families
-from lessons.mistakes import clipping, coverage, depths, fragments, lines
+from lessons.mistakes import clipping, coverage, depths, fragments, lines, textures
 from lessons.mistakes.twin import line_pixels
 from lessons.scenes import make_scene
 from lessons.small_scenes import pixel_segments
 
 TWINS = {
-    twin.name: twin for module in (clipping, coverage, depths, fragments, lines) for twin in module.TWINS
+    twin.name: twin
+    for module in (clipping, coverage, depths, fragments, lines, textures)
+    for twin in module.TWINS
 }
 DRAW = "pixels.append((y, x, D) if is_steep else (x, y, D))"
 ROW = "y0 + sy * (x - x0) * dy // max(dx, 1)"
+PLACE = "u * width, v * height"
+WIDE = "len(pixels[0])"
+ACROSS = f"u * {WIDE}"
 COLOR = "color[k] * alpha + destination[k] * (1 - alpha)"
 ALPHA = "result.append(alpha + destination[3] * (1 - alpha))"
 MISTAKES = {
@@ -68,6 +73,10 @@ MISTAKES = {
     "level-edges-always": ("fill_rule", "return b > 0", "return True"),
     "last-wins-ties": ("depth_test", "new < old", "new <= old"),
     "first-drawn-wins": ("depth_test", "new < old", "old == 1"),
+    "half-texel-missing": ("texture_filter", PLACE, f"{PLACE} + 0.5".replace(",", " + 0.5,")),
+    "half-texel-added": ("texture_filter", PLACE, f"{PLACE} + 1".replace(",", " + 1,")),
+    "texels-of-one-less": ("texture_filter", ACROSS, f"({ACROSS}) * (({WIDE} - 1) / {WIDE})", "nearest"),
+    "texel-rounded": ("texture_filter", ACROSS, f"{ACROSS} + 0.5", "nearest"),
     "weights-permuted": (
         "interpolation",
         "weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]",
@@ -88,6 +97,7 @@ OF = {
     "fill_rule": "shared-edge",
     "depth_test": "z-float32",
     "interpolation": "perspective",
+    "texture_filter": "bilinear",
     "blend": "over",
 }
 
