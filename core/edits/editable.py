@@ -4,8 +4,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from core.edits import coverage, framebuffer, interpolation, line_clipping, lines, textures
+from core.edits import coverage, framebuffer, interpolation, line_clipping, lines, shading, textures
 from core.edits.typed import Typed
+from core.fragments.lighting import blinn_phong
 from core.framebuffer.depth import depth_test
 from core.methods import Method, table
 from core.raster.edges.edge_functions import covers
@@ -56,8 +57,13 @@ def _depth_test_of(method: Method) -> Callable[..., Any]:
     return depth_test
 
 
+def _light_of(method: Method) -> Callable[..., Any]:
+    return blinn_phong
+
+
 _BLOCKS = "It takes or leaves whole blocks without testing their pixels: choose fill bounding-box."
 _SPANS = "It tests no pixel, but finds the spans of rows: choose fill bounding-box."
+_AT_VERTICES = "It lights vertices or faces before any step of a fragment: choose shading phong."
 _PLANAR = "It compares whole numbers that stand in integer planes, packed with the triangle's number."
 EDITABLE = {
     part.name: part
@@ -117,6 +123,19 @@ EDITABLE = {
             passed_over=interpolation.interpolation_is_passed_over,
         ),
         Part(
+            "shading",
+            "light",
+            "shading",
+            shading.check_shading,
+            shading.edited_shading,
+            function=_light_of,
+            refused={
+                "gouraud": _AT_VERTICES,
+                "flat": _AT_VERTICES,
+                "unlit": "Nothing is lit.",
+            },
+        ),
+        Part(
             "texture_filter",
             "listing",
             "texture_filter",
@@ -165,7 +184,6 @@ NOT_EDITABLE = {
     "pixel_center": _FIXED,
     "provoking": _FIXED,
     "wrap": "The listing of the texture filter calls it: edit that one, and write a wrap of your own below it.",
-    "shading": "Its listing takes materials and lights as records.",
     "visibility": "It orders triangles, or casts rays, for the whole picture at once.",
     "antialiasing": _FIXED,
     "resolve_filter": "Its listing takes all samples of a pixel.",

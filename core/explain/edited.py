@@ -30,6 +30,7 @@ from core.trace.stage_trace import KEPT_EXPLANATIONS, StageTrace
 GIVEN = {
     "interpolate": {"w": "corner_w", "corners": "corner_window"},
     "depth": {"new": "stored", "old": "before"},
+    "shade": {name: f"lit_{name}" for name in ("position", "normal", "eye", "material")},
     "blend": {"destination": "before"},
 }
 """Stage to parameters of its listings, where the column that they come from has another name."""
@@ -155,7 +156,7 @@ def _inputs(explanation: Explanation, listing: EditedListing) -> list[Any] | Non
     if "textures" in listing.given:
         return _filter_inputs(values, typed, listing.given)
     stage, _, operation = explanation.key.split(".", 2)
-    held: dict[str, Any] = {}
+    held: dict[str, Any] = {name: value for name, value in listing.given.items() if name in names}
     for name in names:
         column = GIVEN.get(stage, {}).get(name, name)
         if column in values:

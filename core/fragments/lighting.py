@@ -17,6 +17,7 @@ B. T. Phong, Illumination for computer generated pictures, 1975.
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import sqrt
+from typing import Any
 
 import numpy as np
 
@@ -317,51 +318,63 @@ def _unit(vectors: Planes) -> Planes:
     return x / length, y / length, z / length
 
 
-Vector = tuple[float, float, float]
+Vector = Sequence[float]
+PlainLight = Sequence[Any]
+"""Where a light is, or the direction to it; whether it is a point; its colour."""
+
+
+def plain_lights(lights: Sequence[Light]) -> list[PlainLight]:
+    """Return lights as the listing knows them."""
+    return [
+        [(-light.direction).tolist(), False, light.color.tolist()]
+        if isinstance(light, DirectionalLight)
+        else [light.position.tolist(), True, light.color.tolist()]
+        for light in lights
+    ]
+
+
+def plain_material(material: Surface) -> tuple[Any, Any, Any, Any]:
+    """Return a material as the listing knows it: four numbers, or (F,) each."""
+    return material.ambient, material.diffuse, material.specular, material.shininess
 
 
 def blinn_phong(
     position: Vector,
     normal: Vector,
     eye: Vector,
-    lights: Sequence[Light],
-    material: Material,
+    lights: Sequence[PlainLight],
+    material: tuple[float, float, float, float],
     two_sided: bool,
 ) -> tuple[list[float], list[float]]:
     """Return diffuse and specular light of one point (listing of the rule)."""
-    n, v = _scalar_unit(normal), _direction(position, eye)  #: normal
-    if two_sided and _scalar_dot(n, v) < 0:
-        n = (-n[0], -n[1], -n[2])
-    diffuse_light, specular_light = [material.ambient] * 3, [0.0] * 3  #: ambient
-    for light in lights:
-        to_light = _direction_to(light, position)
-        h = _halfway(to_light, v)
-        n_dot_l, n_dot_h = _scalar_dot(n, to_light), _scalar_dot(n, h)  #: cosines
-        power = max(n_dot_h, 0.0) ** material.shininess if n_dot_l > 0 else 0.0  #: power
-        for k, color in enumerate(light.color):
-            diffuse_light[k] += material.diffuse * max(n_dot_l, 0.0) * color  #: diffuse
-            specular_light[k] += material.specular * power * color  #: specular
+    ambient, diffuse, specular, shininess = material
+    n, v = unit(normal), towards(position, eye)  #: normal
+    if two_sided and inner(n, v) < 0:
+        n = [-n[0], -n[1], -n[2]]
+    diffuse_light, specular_light = [ambient, ambient, ambient], [0.0, 0.0, 0.0]  #: ambient
+    for place, is_point, color in lights:
+        to_light = towards(position, place) if is_point else unit(place)
+        h = unit([to_light[k] + v[k] for k in range(3)])
+        n_dot_l, n_dot_h = inner(n, to_light), inner(n, h)  #: cosines
+        power = pow(max(n_dot_h, 0.0), shininess) if n_dot_l > 0 else 0.0  #: power
+        for k in range(3):
+            diffuse_light[k] += diffuse * max(n_dot_l, 0.0) * color[k]  #: diffuse
+            specular_light[k] += specular * power * color[k]  #: specular
     return diffuse_light, specular_light
 
 
-def _scalar_dot(a: Vector, b: Vector) -> float:
+def inner(a: Vector, b: Vector) -> float:
+    """Return the dot product of two vectors."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-def _halfway(a: Vector, b: Vector) -> Vector:
-    return _scalar_unit((a[0] + b[0], a[1] + b[1], a[2] + b[2]))
+def unit(vector: Vector) -> list[float]:
+    """Return a vector at length 1; a zero vector stays zero."""
+    length = sqrt(inner(vector, vector))
+    length = 1.0 if length == 0 else length
+    return [vector[0] / length, vector[1] / length, vector[2] / length]
 
 
-def _direction(start: Vector, end: Vector) -> Vector:
-    return _scalar_unit((end[0] - start[0], end[1] - start[1], end[2] - start[2]))
-
-
-def _scalar_unit(vector: Vector) -> Vector:
-    length = sqrt(_scalar_dot(vector, vector)) or 1.0
-    return vector[0] / length, vector[1] / length, vector[2] / length
-
-
-def _direction_to(light: Light, position: Vector) -> Vector:
-    if isinstance(light, DirectionalLight):
-        return _scalar_unit((-light.direction).tolist())
-    return _direction(position, light.position.tolist())
+def towards(start: Vector, end: Vector) -> list[float]:
+    """Return the unit vector from one place to another."""
+    return unit([end[0] - start[0], end[1] - start[1], end[2] - start[2]])

@@ -80,6 +80,12 @@ def _scaled(mantissa: Any, exponent: Any) -> Any:
     return made if np.ndim(made) else float(made)
 
 
+def _power(base: Any, exponent: Any) -> Any:
+    """Return a power as floats: no whole number grows large, and a root of a negative number is NaN."""
+    made = np.float_power(base, exponent)
+    return made if np.ndim(made) else float(made)
+
+
 NATIVE = {
     "abs": Native(_absolute),
     "min": Native(_chosen(lambda value, found: value < found), 1, 9),
@@ -92,6 +98,7 @@ NATIVE = {
     "isfinite": Native(_of_floats(np.isfinite)),
     "frexp": Native(_parts_of_two),
     "ldexp": Native(_scaled, 2, 2),
+    "pow": Native(_power, 2, 2),
 }
 """Functions of numbers that give numbers."""
 

@@ -48,7 +48,9 @@ def shade_fragments(
         )  # Here and below: only what is lit, or textured, waits for this import.
 
         assert isinstance(scene, Scene)
-        diffuse, specular = light(scene, mesh, values[:, layout["position"]], values[:, layout["normal"]])
+        diffuse, specular = light(
+            scene, settings.shading, mesh, values[:, layout["position"]], values[:, layout["normal"]]
+        )
     elif "diffuse_light" in layout:
         diffuse, specular = values[:, layout["diffuse_light"]], values[:, layout["specular_light"]]
     else:

@@ -9,6 +9,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from core.fragments.light_rule import LightRule
 from core.fragments.lighting import Reflectance, dot, light_surface, reflectance
 from core.fragments.shading import centroids, outward_normals
 from core.geometry.matrices import camera_axes
@@ -129,7 +130,7 @@ def _shade_corners(
     """
 
     def light_at(at: Floats, facing: Floats, vertex: Integers) -> tuple[Floats, Floats]:
-        return light(scene, mesh[vertex], at, facing)
+        return light(scene, shading, mesh[vertex], at, facing)
 
     method = table.get("shading", shading).function
     shaded: dict[str, Floats] = method(position, normal, corners, behind, light_at)
@@ -181,10 +182,15 @@ def _given_values(meshes: tuple[Mesh, ...], vertex: Integers) -> dict[str, Float
     return parts
 
 
-def light(scene: Scene, mesh: Integers, position: Floats, normal: Floats) -> tuple[Floats, Floats]:
-    """Return diffuse and specular light (F, 3) at surface points of meshes (F,)."""
-    eye = viewpoint(scene.camera, position)
-    return light_surface(position, normal, eye, scene.lights, material_of(scene, mesh), two_sided=False)
+def light(
+    scene: Scene, shading: str, mesh: Integers, position: Floats, normal: Floats
+) -> tuple[Floats, Floats]:
+    """Return diffuse and specular light (F, 3) at surface points of meshes (F,), by the rule of a method of shading."""
+    eye, material = viewpoint(scene.camera, position), material_of(scene, mesh)
+    rule = table.get("shading", shading).function
+    if isinstance(rule, LightRule):
+        return rule.light(position, normal, eye, scene.lights, material)
+    return light_surface(position, normal, eye, scene.lights, material, two_sided=False)
 
 
 def material_of(scene: Scene, mesh: Integers) -> Material | Reflectance:

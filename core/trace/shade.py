@@ -8,11 +8,12 @@ import numpy as np
 
 from core.fragments.color_rule import ColorRule
 from core.fragments.level_of_detail import level_of_detail
-from core.fragments.lighting import Lighting, blinn_phong, trace_lighting
+from core.fragments.light_rule import LightRule
+from core.fragments.lighting import blinn_phong, plain_lights, plain_material, trace_lighting
 from core.fragments.shading import shaded_color, textured_albedo, unlit_color
 from core.fragments.textures import uses_mipmaps
 from core.methods import table
-from core.records.arrays import Floats, Integers
+from core.records.arrays import Integers
 from core.records.listing import RETURN, EditedListing, Listing, listing
 from core.records.operation import Labels, Operation
 from core.records.steps import Steps, ends_of
@@ -93,26 +94,8 @@ def _rows(source: TraceSource) -> StageRows:
             columns["uv"] = values[:, layout["uv"]]
     if surface.diffuse_light is not None and surface.specular_light is not None:
         columns["diffuse_light"], columns["specular_light"] = surface.diffuse_light, surface.specular_light
-    lighting = _lighting(source, mesh)
-    if lighting is not None:
-        assert isinstance(source.scene, Scene)
-        columns |= {
-            "normal": lighting.normal,
-            "to_light": np.moveaxis(lighting.to_light, 0, 1),
-            "half": np.moveaxis(lighting.half, 0, 1),
-            "ambient": np.broadcast_to(material_of(source.scene, mesh).ambient, count),
-            "diffuse": np.broadcast_to(material_of(source.scene, mesh).diffuse, count),
-            "specular": np.broadcast_to(material_of(source.scene, mesh).specular, count),
-            "shininess": np.broadcast_to(material_of(source.scene, mesh).shininess, count),
-            "light_colors": np.broadcast_to(
-                np.array([light.color for light in source.scene.lights]).reshape(-1, 3),
-                (count, len(source.scene.lights), 3),
-            ),
-            "to_eye": lighting.to_eye,
-            "n_dot_l": lighting.n_dot_l.T,
-            "n_dot_h": lighting.n_dot_h.T,
-            "power": lighting.power.T,
-        }
+    if "normal" in layout:
+        columns |= _light_columns(source, mesh)
     return StageRows(
         columns,
         textured + 2 * np.full(count, surface.diffuse_light is not None),
@@ -120,6 +103,37 @@ def _rows(source: TraceSource) -> StageRows:
         np.stack([fragments.column, fragments.row], axis=1),
         {"covered": np.ones(count, bool), "nan": np.any(np.isnan(surface.color), axis=1)},
     )
+
+
+def _light_columns(source: TraceSource, mesh: Integers) -> dict[str, np.ndarray]:
+    """Return every term of the light where fragments are lit; of an edited listing, what it is given."""
+    assert isinstance(source.scene, Scene)
+    layout, values = source.geometry.primitives.layout, source.interpolated[1]
+    position, normal = values[:, layout["position"]], values[:, layout["normal"]]
+    material, lights = material_of(source.scene, mesh), source.scene.lights
+    eye, count = viewpoint(source.scene.camera, position), len(mesh)
+    numbers = np.stack([np.broadcast_to(number, count) for number in plain_material(material)], axis=1)
+    colors = np.array([light.color for light in lights]).reshape(-1, 3)
+    found = {"light_colors": np.broadcast_to(colors, (count, len(lights), 3))}
+    if isinstance(table.get("shading", source.settings.shading).function, LightRule):
+        eyes = np.broadcast_to(eye, position.shape)
+        return found | {
+            "lit_position": position,
+            "lit_normal": normal,
+            "lit_eye": eyes,
+            "lit_material": numbers,
+        }
+    lighting = trace_lighting(position, normal, eye, lights, material, False)
+    return found | {
+        "normal": lighting.normal,
+        "to_light": np.moveaxis(lighting.to_light, 0, 1),
+        "half": np.moveaxis(lighting.half, 0, 1),
+        **dict(zip(("ambient", "diffuse", "specular", "shininess"), numbers.T, strict=True)),
+        "to_eye": lighting.to_eye,
+        "n_dot_l": lighting.n_dot_l.T,
+        "n_dot_h": lighting.n_dot_h.T,
+        "power": lighting.power.T,
+    }
 
 
 def _textures(source: TraceSource) -> list[Texture | None]:
@@ -138,23 +152,10 @@ def _add_columns(columns: dict[str, np.ndarray], chosen: Integers, found: dict[s
         columns[name][chosen] = values
 
 
-def _lighting(source: TraceSource, mesh: Integers) -> Lighting | None:
-    """Return every term of the light, where it is evaluated per fragment."""
-    layout = source.geometry.primitives.layout
-    if "normal" not in layout:
-        return None
-    assert isinstance(source.scene, Scene)
-    values = source.interpolated[1]
-    position: Floats = values[:, layout["position"]]
-    eye = viewpoint(source.scene.camera, position)
-    material = material_of(source.scene, mesh)
-    return trace_lighting(position, values[:, layout["normal"]], eye, source.scene.lights, material, False)
-
-
 def _of_lights(label: str, otherwise: str) -> Labels:
     """Return a line of the loop over the lights, and the one without lights."""
     return lambda columns, rows: np.full(
-        len(columns["n_dot_l"][rows]), label if columns["n_dot_l"].shape[1] else otherwise
+        len(columns["light_colors"][rows]), label if columns["light_colors"].shape[1] else otherwise
     )
 
 
@@ -190,7 +191,7 @@ def _listings(source: TraceSource, has_normals: bool) -> dict[str, Listing]:
     if isinstance(texture, EditedListing):
         given = {"textures": _textures(source), "wrap": source.settings.wrap}
         texture = replace(texture, given=given)
-    light = listing(blinn_phong) if has_normals else product
+    light = _light_listing(source) if has_normals else product
     of_light = ("normal", "cosines", "power", "diffuse", "specular", "interpolated")
     of_operation = {**dict.fromkeys(of_light, light), "product": product}
     unlit, albedo = listing(unlit_color), listing(textured_albedo)
@@ -203,6 +204,16 @@ def _listings(source: TraceSource, has_normals: bool) -> dict[str, Listing]:
     for kind in ("lit", "textured-lit"):
         found |= {f"{kind}.{name}": chosen for name, chosen in of_operation.items()}
     return found
+
+
+def _light_listing(source: TraceSource) -> Listing:
+    """Return the listing of the lighting rule: an edited one is given the lights."""
+    typed = table.get("shading", source.settings.shading).listing
+    light = listing(blinn_phong if typed is None else typed)
+    if not isinstance(light, EditedListing):
+        return light
+    assert isinstance(source.scene, Scene)
+    return replace(light, given={"lights": plain_lights(source.scene.lights), "two_sided": False})
 
 
 def _buffers(

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, Settings, render
-from core.fragments.lighting import blinn_phong
+from core.fragments.lighting import blinn_phong, plain_lights, plain_material
 from core.fragments.textures import sample_texture
 from core.geometry.matrices import projection, rotation, scaling, translation, viewport, world_to_camera
 from core.geometry.vertex_stage import world_normals
@@ -62,7 +62,9 @@ def test_light_and_normals_are_those_of_the_core() -> None:
     light = DirectionalLight(np.array([-2.0, -1.0, -2.0]))
     material = Material(ambient=0.25, diffuse=0.75, specular=1, shininess=4)
     normal, to_eye = (0.0, 3.0, 4.0), (-2.0, 2.0, 1.0)
-    diffuse, specular = blinn_phong((0, 0, 0), normal, to_eye, [light], material, False)
+    diffuse, specular = blinn_phong(
+        (0, 0, 0), normal, to_eye, plain_lights([light]), plain_material(material), False
+    )
     near(RULES["light-reversed"].right(0.25, normal, (2, 1, 2)), diffuse[:1])
     near(RULES["highlight-at-light"].right(normal, (2, 1, 2), to_eye, 4), specular[:1])
     positions = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]])

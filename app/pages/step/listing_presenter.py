@@ -37,6 +37,7 @@ EDITED_FAMILIES = (
     "fill_rule",
     "fill",
     "interpolation",
+    "shading",
     "texture_filter",
     "depth",
     "blend",

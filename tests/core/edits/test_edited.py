@@ -20,19 +20,22 @@ from core.edits import (
     refusal,
     without_edits,
 )
+from core.edits.typed import Typed
 from core.explain import formula
 from core.explain.steps import sentence
 from core.fragments.edited_slopes import slopes_of_edit
+from core.fragments.lighting import blinn_phong
 from core.framebuffer.display import to_display
 from core.lanes.problem import Problem
 from core.methods import table
 from core.pixel_history import why
 from core.records.listing import EditedListing
 from core.settings import families
-from lessons.mistakes import clipping, coverage, depths, fragments, lines, textures
+from lessons.mistakes import clipping, coverage, depths, fragments, lighting, lines, textures
 from lessons.mistakes.twin import line_pixels
 from lessons.scenes import make_scene
 from lessons.small_scenes import pixel_segments
+from tests.core.trace.trace_cases import lit_scene
 
 TWINS = {
     twin.name: twin
@@ -98,6 +101,7 @@ OF = {
     "depth_test": "z-float32",
     "interpolation": "perspective",
     "texture_filter": "bilinear",
+    "shading": "phong",
     "blend": "over",
 }
 
@@ -319,7 +323,7 @@ def test_every_method_of_an_editable_family_is_editable_or_says_why_not():
     with_part = {part.family for part in EDITABLE.values()}
     assert with_part | NOT_EDITABLE.keys() == set(families())
     assert not with_part & NOT_EDITABLE.keys()
-    assert refusal("shading", "phong") == NOT_EDITABLE["shading"]
+    assert refusal("wrap", "repeat") == NOT_EDITABLE["wrap"]
     assert refusal("shade", "phong").startswith("What can be edited")
 
 
@@ -341,6 +345,47 @@ def test_steps_of_a_clipper_tell_its_own_lines_border_by_border(of):
             assert f"t = {number:.4g}." in said
         if of == "cohen-sutherland":
             assert f"codes = ({stage.columns['code_start'][row]}, {stage.columns['code_end'][row]})" in said
+
+
+LIGHTS = {
+    "light-unclamped": ("max(n_dot_l, 0.0)", "n_dot_l"),
+    "normal-too-long": ("unit(normal), ", "normal, "),
+    "highlight-at-light": ("max(n_dot_h, 0.0)", "max(n_dot_l, 0.0)"),
+    "highlight-at-eye": ("inner(n, h)", "inner(n, v)"),
+    "light-reversed": ("else unit(place)", "else unit([-place[0], -place[1], -place[2]])"),
+}
+"""By wrong formula of the shelf: a line of the light, before and after."""
+
+
+@pytest.mark.parametrize("name", LIGHTS)
+def test_a_mistake_in_the_light_that_is_an_edit_of_a_line_is_its_formula(name):
+    rule = next(rule for rule in lighting.RULES if rule.name == name)
+    typed = Typed(blinn_phong, edit("shading", *LIGHTS[name]).text)
+    right = Typed(blinn_phong, original("shading", "phong").source)
+    for numbers in (rule.shows, rule.hides):
+        if name.startswith("highlight"):
+            normal, to_light, to_eye, shininess = numbers
+            material, which = (0.0, 0.0, 1.0, shininess), 1
+        else:
+            ambient, normal, to_light = numbers
+            material, to_eye, which = (ambient, 1 - ambient, 0.0, 1.0), (0, 0, 1), 0
+        given = (0.0, 0.0, 0.0), normal, to_eye, [(to_light, False, (1.0, 1.0, 1.0))], material, False
+        for text, formula_of in ((typed, rule.wrong), (right, rule.right)):
+            np.testing.assert_allclose(text(*map(_listed, given))[which], formula_of(*numbers)[0])
+
+
+def _listed(value):
+    return [_listed(part) for part in value] if isinstance(value, tuple | list) else value
+
+
+def test_steps_of_an_edited_light_tell_its_own_lines():
+    ours = apply_edit(Settings(), edit("shading", *LIGHTS["highlight-at-light"]))
+    stage = trace(lit_scene(), ours).stage("shade")
+    row = int(np.flatnonzero(np.isfinite(stage.columns["lit_normal"]).all(axis=1))[0])
+    first, end = stage.steps.starts[row : row + 2].tolist()
+    said = [sentence(stage.explain(k), -1, None) for k in range(first + 1, end + 1)]
+    assert any("n_dot_l = " in text for text in said)
+    assert not any("N·L" in text for text in said)
 
 
 def test_an_endless_loop_of_a_line_ends_with_its_line():

@@ -13,7 +13,7 @@ from core.lanes.limits import LISTING
 from core.lanes.problem import Problem
 from core.methods import table
 from lessons.small_scenes import triangle_scene
-from tests.core.trace.trace_cases import textured_clip_scene
+from tests.core.trace.trace_cases import lit_scene, textured_clip_scene
 
 MEMORY = 30_000_000
 """Bytes that a changed text and its picture may take at their peak."""
@@ -57,7 +57,7 @@ WORDS = (
 SCENE = triangle_scene(
     [[(1, 1), (7, 1), (7, 7)], [(1, 1), (7, 7), (1, 7)]], (8, 8), depth=[[0.5] * 3, [0.4, 0.5, 0.6]]
 )
-TEXTURED = textured_clip_scene()
+SCENES = {"texture_filter": textured_clip_scene(), "shading": lit_scene()}
 ENDS = np.array([[[0.5, 0.5], [6.5, 3.5]], [[6.5, 5.5], [1.5, 0.5]], [[2.5, 2.5], [2.5, 2.5]]])
 TEXTS = [
     (part.name, of, original(part.name, of).source)
@@ -109,7 +109,7 @@ def try_out(part: str, of: str, text: str) -> str:
         else:
             # Infinite and undefined values go through the later stages, as the command line reports them.
             with np.errstate(all="ignore"):
-                render(TEXTURED if part == "texture_filter" else SCENE, settings)
+                render(SCENES.get(part, SCENE), settings)
     except Problem as problem:
         return problem.sentence
     return ""

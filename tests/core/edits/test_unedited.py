@@ -15,7 +15,7 @@ from core.raster.lines.records import check_segments
 from core.stages.needs import refusal as refusal_of_scene
 from lessons.mistakes.twin import frame_bytes
 from lessons.scenes import make_scene, scene_names
-from tests.core.trace.trace_cases import textured_clip_scene
+from tests.core.trace.trace_cases import lit_scene, textured_clip_scene
 
 CASES = [
     (part.name, of)
@@ -27,12 +27,21 @@ SCENES = {name: scene for name in scene_names() if max((scene := make_scene(name
     "textured-clip": textured_clip_scene(),
     "textured-grey": replace(textured_clip_scene(), texture=Texture(np.linspace(0, 1, 12).reshape(3, 4, 1))),
     "textured-floor": replace(make_scene("textured-floor"), size=(32, 24)),
+    "lit": lit_scene(),
+    "lit-parallel": lit_scene("orthographic"),
 }
-TEXTURED = tuple(name for name in SCENES if name.startswith("textured"))
 OF_LINES = ("line", "line_clipping")
 """Parts of which only outlines are drawn."""
 FEW = ("intersecting", "near-plane", "fan")
 """Of the triangles, those whose outlines are drawn here."""
+
+
+SHOWN = {
+    **dict.fromkeys(OF_LINES, "clipped-segment"),
+    "texture_filter": "textured-clip",
+    "shading": "lit",
+}
+"""Scenes of which a stage is traced, where an edit does not run in the usual one."""
 
 
 def settings_for(part: str, of: str) -> Settings:
@@ -57,8 +66,6 @@ def test_draws_what_the_rule_draws_in_every_small_scene(part, of):
             continue
         if refusal_of_scene(EDITABLE[part].family, of, scene):
             continue
-        if part == "texture_filter" and name not in TEXTURED:
-            assert edit.passed_over(typed, scene)
         if edit.passed_over(typed, scene):
             with pytest.raises(ValueError, match="would not run"):
                 render(scene, typed)
@@ -71,14 +78,13 @@ def test_draws_what_the_rule_draws_in_every_small_scene(part, of):
 @pytest.mark.parametrize(("part", "of"), CASES)
 def test_the_trace_and_the_history_of_a_pixel_are_those_of_the_rule(part, of):
     plain, typed = settings_for(part, of), unedited(part, of)
-    shown = {"line": "clipped-segment", "line_clipping": "clipped-segment", "texture_filter": "textured-clip"}
-    stage, scene = EDITABLE[part].stage, SCENES[shown.get(part, "intersecting")]
+    stage, scene = EDITABLE[part].stage, SCENES[SHOWN.get(part, "intersecting")]
     right, ours = trace(scene, plain), trace(scene, typed)
     its = ours.stage(stage).columns
-    assert part == "texture_filter" or right.stage(stage).columns.keys() <= its.keys()
+    assert part in ("texture_filter", "shading") or right.stage(stage).columns.keys() <= its.keys()
     for name, column in right.stage(stage).columns.items():
         if name not in its:
-            continue  # Numbers of texels that the listing of a filter does not return.
+            continue  # Numbers of texels and lights that a listing does not return.
         if part != "line" or name not in left_open(of):
             np.testing.assert_array_equal(ours.stage(stage).columns[name], column, err_msg=name)
     its = ours.stage("edges" if part == "fill_rule" else stage)

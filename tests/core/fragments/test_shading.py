@@ -3,6 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from core.fragments.lighting import plain_lights, plain_material
 from core.fragments.shading import (
     blinn_phong,
     face_normals,
@@ -104,7 +105,8 @@ def test_listing_gives_the_same_bits(points, lamp, direction, shininess, two_sid
     batch = light_surface(position, normal, EYE, lights, material, two_sided)
     traced = trace_lighting(position, normal, EYE, lights, material, two_sided)
     for row, (place, direction_out) in enumerate(points):
-        scalar = blinn_phong(place, direction_out, tuple(EYE.tolist()), lights, material, two_sided)
+        known = plain_lights(lights), plain_material(material)
+        scalar = blinn_phong(place, direction_out, tuple(EYE.tolist()), *known, two_sided)
         assert [sums[row].tolist() for sums in batch] == [list(sums) for sums in scalar]
     assert np.array_equal(traced.diffuse_light[-1], batch[0])
     assert np.array_equal(traced.specular_light[-1], batch[1])

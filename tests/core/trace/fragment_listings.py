@@ -9,7 +9,7 @@ from core.fragments.barycentric import NO_AREA, WAYS
 from core.fragments.corrected_affine import interpolate_corrected_at
 from core.fragments.interpolation import interpolate_affine_at, interpolate_at, take_provoking_value
 from core.fragments.level_of_detail import level_of_detail, mipmap_color, nearest_mipmap_color
-from core.fragments.lighting import blinn_phong
+from core.fragments.lighting import blinn_phong, plain_lights, plain_material
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.shading import shaded_color, unlit_color
 from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
@@ -136,8 +136,8 @@ def check_light(traced: Trace, found: StageTrace) -> None:
                 tuple(position[0].tolist()),
                 tuple(normal.tolist()),
                 tuple(eye.tolist()),
-                scene.lights,
-                material,
+                plain_lights(scene.lights),
+                plain_material(material),
                 False,
             )
         check_marks(found, row, ran)

@@ -5,7 +5,7 @@ from math import sqrt, tan
 import numpy as np
 import pytest
 
-from core.fragments.lighting import blinn_phong
+from core.fragments.lighting import blinn_phong, plain_lights, plain_material
 from core.study.accuracy.workloads import sphere_scene
 from core.study.exact.sphere import sphere_picture
 
@@ -40,7 +40,12 @@ def test_pixels_are_lit_points_of_the_sphere() -> None:
                 along = towards - sqrt(1 - gap)
                 point = tuple(e + along * r for e, r in zip(eye, ray, strict=True))
                 diffuse, specular = blinn_phong(
-                    point, point, tuple(eye), scene.lights, scene.meshes[0].material, False
+                    point,
+                    point,
+                    tuple(eye),
+                    plain_lights(scene.lights),
+                    plain_material(scene.meshes[0].material),
+                    False,
                 )
                 expected = [d + s for d, s in zip(diffuse, specular, strict=True)]
                 assert color[row, column, :3] == pytest.approx(expected, abs=1e-9)
