@@ -16,7 +16,7 @@ from core.explain.digits import spoken
 from core.explain.formulas import formula_of
 from core.explain.records import Formula, Value, Variable
 from core.explain.typed_latex import stated
-from core.fragments.textures import finite_coordinates
+from core.fragments.coordinates import finite_coordinates
 from core.geometry.line_clipping.records import ClipWindow
 from core.lanes.limits import LISTING
 from core.lanes.nodes import Put

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from core.fragments.color_rule import ColorRule
+from core.fragments.coordinates import finite_coordinates
 from core.fragments.level_of_detail import LevelChoice, choose_levels
 from core.fragments.mipmaps import mipmap_levels
-from core.fragments.textures import TextureSamples, finite_coordinates, sample_texture, texture_colors
+from core.fragments.textures import TextureSamples, sample_texture, texture_colors
 from core.methods import table
 from core.records.arrays import Floats, Integers, read_only
 from core.scene import Texture

@@ -18,14 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core.fragments.color_rule import ColorRule
+from core.fragments.coordinates import finite_coordinates
 from core.methods import method, table
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.records.listing import RETURN
 from core.records.operation import Operation
 from core.scene import Texture
-
-COORDINATE_LIMIT = 2.0**32
-"""Coordinates beyond this are moved here: a whole number of repetitions, and indices fit int64."""
 
 _BLOCK = 8192
 """Fragments of a picture that are looked up at once, so that their numbers stay in the processor's cache."""
@@ -270,7 +268,7 @@ def sample_texture(
     -----
     As in OpenGL the texel *indices* are wrapped, not the coordinates: with ``repeat`` the bilinear filter
     mixes the last with the first texel at the seam, and nearest at u = 1 reads the first texel. NaN reads
-    as 0, a coordinate beyond ``COORDINATE_LIMIT`` as the limit.
+    as 0, a coordinate beyond `core.fragments.coordinates.COORDINATE_LIMIT` as the limit.
     """
     uv = _checked_uv(uv)
     position = _position(uv, texture)
@@ -319,16 +317,6 @@ def _position(uv: Floats, texture: Texture) -> Floats:
     height, width, _ = texture.pixels.shape
     coordinates = finite_coordinates(uv)
     coordinates *= np.array([[width], [height]])
-    return coordinates
-
-
-def finite_coordinates(uv: Floats) -> Floats:
-    """Return a copy of texture coordinates (F, 2) as (2, F); NaN is 0, what lies far outside `COORDINATE_LIMIT`."""
-    coordinates = np.array(uv.T, order="C")
-    smallest, largest = coordinates.min(initial=0), coordinates.max(initial=0)
-    if not (smallest >= -COORDINATE_LIMIT and largest <= COORDINATE_LIMIT):
-        coordinates[np.isnan(coordinates)] = 0.0
-        np.clip(coordinates, -COORDINATE_LIMIT, COORDINATE_LIMIT, out=coordinates)
     return coordinates
 
 

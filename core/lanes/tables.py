@@ -58,7 +58,7 @@ def _plain(value: Any) -> Any:
 
 
 def table_of(levels: Sequence[np.ndarray]) -> Table:
-    """Return the table of arrays (h, w, C), a level each."""
+    """Return the table of levels, an array (H, W, C) each."""
     sizes = np.array([level.shape[:2] for level in levels], np.int64).reshape(-1, 2)
     counts = sizes.prod(axis=1)
     numbers = np.concatenate([level.reshape(-1, level.shape[2]) for level in levels])
