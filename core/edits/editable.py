@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from core.edits import coverage, framebuffer, interpolation, line_clipping, lines, shading, textures
+from core.edits import coverage, culling, framebuffer, interpolation, line_clipping, lines, shading, textures
 from core.edits.typed import Typed
 from core.fragments.lighting import blinn_phong
 from core.framebuffer.depth import depth_test
@@ -63,6 +63,7 @@ def _light_of(method: Method) -> Callable[..., Any]:
 
 _BLOCKS = "It takes or leaves whole blocks without testing their pixels: choose fill bounding-box."
 _SPANS = "It tests no pixel, but finds the spans of rows: choose fill bounding-box."
+_BY_AREA = "The sign of the area decides, and its listing returns words: choose cull back-normal."
 _AT_VERTICES = "It lights vertices or faces before any step of a fragment: choose shading phong."
 _PLANAR = "It compares whole numbers that stand in integer planes, packed with the triangle's number."
 EDITABLE = {
@@ -77,6 +78,14 @@ EDITABLE = {
             refused={
                 "diamond-exit": "Its listing computes with fractions, which are not in the language of listings."
             },
+        ),
+        Part(
+            "cull",
+            "back-face test",
+            "cull",
+            culling.check_cull,
+            culling.edited_cull,
+            refused={"none": "No face is dropped.", "back": _BY_AREA, "front": _BY_AREA},
         ),
         Part(
             "line_clipping",
@@ -175,7 +184,6 @@ EDITABLE = {
 """By name, which the command line takes before ``=``."""
 _FIXED = "It chooses what is drawn, and has no listing."
 NOT_EDITABLE = {
-    "cull": "Its listing returns words, and facings are decided before any pixel.",
     "clipping": "Its listing builds polygons of any number of corners.",
     "coverage": "The edge functions of all triangles are set up together, in numbers of their own.",
     "polygon_mode": _FIXED,

@@ -28,6 +28,7 @@ from core.trace import Explanation
 from core.trace.stage_trace import KEPT_EXPLANATIONS, StageTrace
 
 GIVEN = {
+    "cull": {"corners": "eye_corners", "given": "object_corners"},
     "interpolate": {"w": "corner_w", "corners": "corner_window"},
     "depth": {"new": "stored", "old": "before"},
     "shade": {name: f"lit_{name}" for name in ("position", "normal", "eye", "material")},
@@ -161,6 +162,8 @@ def _inputs(explanation: Explanation, listing: EditedListing) -> list[Any] | Non
         column = GIVEN.get(stage, {}).get(name, name)
         if column in values:
             held[name] = _plain(values[column])
+    if stage == "cull" and "corner" in names:
+        held["corner"] = _plain(values["eye_corners"])[0]
     if stage == "interpolate":
         component = _component(explanation, operation)
         held["values"] = [row[component] for row in np.asarray(values["corner_values"], float).tolist()]

@@ -111,7 +111,9 @@ def cull(
     plane_count : int
         How many of ``PLANES`` are tested.
     """
-    drops = drops_facing(facing if sight is None else -sight.product)
+    drops = None if sight is None else sight.drops
+    if drops is None:
+        drops = drops_facing(facing if sight is None else -sight.product)
     shared = shared_bits(outcode, assembled.corner)
     if plane_count < len(PLANES):
         shared &= np.uint8(~PLANE_BITS & 0xFF | (1 << plane_count) - 1)

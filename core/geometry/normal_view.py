@@ -67,6 +67,8 @@ class NormalView:
     """(T,) float64, N . V: above 0 is turned away. Its sign is that of exact arithmetic on the corners."""
     is_parallel: bool
     """Whether V is the direction of the camera."""
+    drops: Flags | None = None
+    """(T,) bool, what an edited listing drops; ``None``: what has N . V above 0."""
 
 
 def eye_triangles(vertices: VertexStage, triangle: Integers) -> EyeTriangles:

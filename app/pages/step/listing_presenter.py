@@ -32,6 +32,7 @@ KEPT = "The text that does not run is kept: Edit opens it again."
 LOADING = "The editor is being loaded."
 LATER_MS = 50
 EDITED_FAMILIES = (
+    "cull",
     "line",
     "line_clipping",
     "fill_rule",

@@ -94,6 +94,7 @@ MISTAKES = {
 }
 """By twin: what is edited, and one line of it, before and after."""
 OF = {
+    "cull": "back-normal",
     "line": "bresenham-lecture",
     "line_clipping": "liang-barsky",
     "fill": "bounding-box",
@@ -345,6 +346,21 @@ def test_steps_of_a_clipper_tell_its_own_lines_border_by_border(of):
             assert f"t = {number:.4g}." in said
         if of == "cohen-sutherland":
             assert f"codes = ({stage.columns['code_start'][row]}, {stage.columns['code_end'][row]})" in said
+
+
+def test_the_classical_error_of_culling_is_an_edit_of_a_line():
+    scene = make_scene("cube")
+    text = edit("cull", "(0.0, 0.0, -1.0) if is_parallel else (ax, ay, az)", "(0.0, 0.0, -1.0)")
+    ours, wrong = apply_edit(Settings(), text), Settings(cull="back-axis")
+    found = trace(scene, ours).stage("cull")
+    np.testing.assert_array_equal(
+        found.extra["culled"].drops, trace(scene, wrong).stage("cull").extra["culled"].drops
+    )
+    turned = apply_edit(Settings(), edit("cull", "product > 0", "product < 0"))
+    right = trace(scene, Settings(cull="back-normal")).stage("cull").extra["culled"]
+    np.testing.assert_array_equal(trace(scene, turned).stage("cull").extra["culled"].drops, right.side > 0)
+    said = [sentence(found.explain(k), -1, None) for k in range(1, found.steps.count + 1)]
+    assert any(text.startswith("Line 7: product = ") for text in said)
 
 
 LIGHTS = {
