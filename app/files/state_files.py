@@ -213,12 +213,14 @@ def _settings_and_edits(document: Document) -> tuple[dict[str, str | int], list[
     if not document.edits and not document.settings.replacements:
         return settings_record(document.settings), []
     from app.session.edited_run import settings_of  # Few states need the evaluator.
+    from app.session.printed_run import without_printed
     from core.edits import edits_of, without_edits
 
     other = document.settings
     with suppress(ValueError):  # Where they run no more, A | B has said why.
         other = settings_of(document)[1]
-    return settings_record(without_edits(other)), [EditRecord(**vars(edit)) for edit in edits_of(other)]
+    plain = without_printed(without_edits(other))
+    return settings_record(plain), [EditRecord(**vars(edit)) for edit in edits_of(other)]
 
 
 def _edited(settings: Settings, edits: Sequence[EditRecord]) -> Settings:
@@ -265,7 +267,7 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
         from app.session.printed_run import settings_of  # Few states need the listings.
 
         with in_field("look.printed"):
-            settings_of(record.look.printed, document)
+            document = replace(document, settings=settings_of(record.look.printed, document)[0])
     with in_field("triangle and raster"):
         document.make_trace()
     position, bookmarks = record.position, tuple(record.bookmarks)

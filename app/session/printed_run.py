@@ -9,7 +9,7 @@ from core import Settings
 from core.settings import no_effect, with_method
 from core.trace import StageTrace
 from lessons.printed.catalogue import PRINTED, printed_listing
-from lessons.printed.records import PrintedListing
+from lessons.printed.records import ListedLines, PrintedListing
 
 SEGMENTS = "it draws segments: open one of the lecture's (File, Scenes of the lectures) or type one"
 
@@ -49,7 +49,9 @@ def settings_of(name: str, document: Document) -> tuple[Settings, Settings]:
     settings = document.settings
     if printed.family == "fill":
         settings = replace(settings, polygon_mode="fill")
-    mine = with_method(settings, printed.family, printed.beside or printed.right)
+    mine = with_method(settings, printed.family, printed.right)
+    if printed.beside is not None:
+        mine = printed.beside.settings(mine)
     reason = no_effect(mine, printed.family, document.scene)
     if printed.family == "line" and document.scene.corner_count != 2:
         reason = SEGMENTS
@@ -58,6 +60,14 @@ def settings_of(name: str, document: Document) -> tuple[Settings, Settings]:
     if printed.method is None:
         return mine, with_method(mine, printed.family, printed.registered)
     return mine, printed.settings(mine)
+
+
+def without_printed(settings: Settings) -> Settings:
+    """Return settings with methods of the table in place of listings that A runs beside one as printed."""
+    for family, method in settings.replacements.items():
+        if isinstance(method.function, ListedLines):
+            settings = with_method(settings, family, method.name)
+    return settings
 
 
 def first_other_pixel(right: StageTrace, printed: StageTrace) -> tuple[tuple[int, int], str] | None:

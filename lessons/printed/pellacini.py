@@ -87,12 +87,12 @@ def bresenham_tested_first(x0: float, y0: float, x1: float, y1: float, last_pixe
     d = m * (x + 1) + b - y  #: first-sum
     while x < floor(x1):
         pixels.append((x, y, chosen_by))  #: draw
-        x += 1
+        x += 1  #: next
         chosen_by = d
         if d > 0.5:  #: test
             y += 1  #: step
             d -= 1  #: correct
-        d += m
+        d += m  #: advance
     return pixels
 
 
@@ -174,22 +174,51 @@ while x < floor(x1)
     like="dda",
 )
 
-BRESENHAM = PrintedListing(
-    "pellacini-bresenham",
-    "Bresenham loop",
-    "Pellacini",
-    BRESENHAM_SLIDE,
-    """\
+_ADDED_FIRST = """\
+  d += m  #: advance
+  if d > 0.5  #: test
+    y += 1  #: step
+    d -= 1  #: correct"""
+_TESTED_FIRST = """\
+  if d > 0.5  #: test
+    y += 1  #: step
+    d -= 1  #: correct
+  d += m  #: advance"""
+_BRESENHAM = """\
 x = ceil(x0)  #: start
 y = round(m*x + b)  #: first-y
 d = m*(x+1)+b-y  #: first-sum
 while x < floor(x1)
   write(x, y, 1)  #: draw
   x += 1  #: next
-  d += m  #: advance
-  if d > 0.5  #: test
-    y += 1  #: step
-    d -= 1  #: correct""",
+"""
+_FIRST = (*_LINE, FIRST_COLUMN, Operation("first-y", "first-y", {"minor": "y"}), first_sum("d"), PLOT)
+
+TESTED_FIRST = PrintedListing(
+    "pellacini-bresenham-tested-first",
+    "Bresenham loop, tested before m is added",
+    "after Pellacini",
+    BRESENHAM_SLIDE,
+    _BRESENHAM + _TESTED_FIRST,
+    "line",
+    "midpoint",
+    {"tested before m is added": bresenham_tested_first},
+    rule=ListedLines(bresenham_tested_first, 0.5, takes_pixels=False),
+    rows=(
+        _FIRST,
+        (NEXT, TEST, advance("d"), PLOT),
+        (NEXT, TEST, STEP, correct("d"), advance("d"), PLOT),
+    ),
+    like="bresenham-float",
+)
+"""The loop with its lines in the order of the slide before it; no slide prints it."""
+
+BRESENHAM = PrintedListing(
+    "pellacini-bresenham",
+    "Bresenham loop",
+    "Pellacini",
+    BRESENHAM_SLIDE,
+    _BRESENHAM + _ADDED_FIRST,
     "line",
     "midpoint",
     {"as printed": bresenham, "tested before m is added": bresenham_tested_first},
@@ -222,12 +251,12 @@ while x < floor(x1)
     ),
     rule=ListedLines(bresenham, 0.5, takes_pixels=False),
     rows=(
-        (*_LINE, FIRST_COLUMN, Operation("first-y", "first-y", {"minor": "y"}), first_sum("d"), PLOT),
+        _FIRST,
         (NEXT, advance("d"), TEST, PLOT),
         (NEXT, advance("d"), TEST, STEP, correct("d"), PLOT),
     ),
     like="bresenham-float",
-    beside="bresenham-float",
+    beside=TESTED_FIRST,
 )
 
 ALL = (MIDPOINT, DDA, BRESENHAM)

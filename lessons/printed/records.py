@@ -154,8 +154,8 @@ class PrintedListing:
     """Of a line listing: what ``text`` prints, and how its first reading has it."""
     like: str = ""
     """Of a line listing: the method whose sentences its trace has."""
-    beside: str = ""
-    """Of a line listing: the method that runs beside it, where that is another one than ``right``."""
+    beside: "PrintedListing | None" = None
+    """Of a line listing: the listing that runs beside it; ``None``: the method ``right``."""
     registered: str = ""
     """Name of the method of the table that is this listing; empty: it is in no table."""
     method: Method | None = field(init=False, default=None)

@@ -147,7 +147,11 @@ def _record(document: Document, name: str, heading: str) -> Setting:
         choices = tuple(SettingChoice(number, declared.label.format(number)) for number in numbers)
         is_more = False
     else:
-        choices = tuple(_choice(document, name, method) for method in table.names(name))
+        # Where another function runs in place of a method, its name stands there.
+        runs = getattr(settings, name)
+        choices = tuple(
+            _choice(document, name, runs if method == current else method) for method in table.names(name)
+        )
         is_more = not FAMILIES[name].classical
     reason = no_effect(settings, name, document.scene)
     is_used = current != str(getattr(DEFAULTS, name))
@@ -161,5 +165,5 @@ def _choice(document: Document, family: str, name: str) -> SettingChoice:
     tooltip = f"{name}\nSource: {found.source}.\nExact for {found.exact_for}.{breaks}"
     reason = refusal(family, name, document.scene)
     return SettingChoice(
-        name, found.title, tooltip, reason and f"It {reason}.", name not in FAMILIES[family].classical
+        str(name), found.title, tooltip, reason and f"It {reason}.", name not in FAMILIES[family].classical
     )

@@ -34,9 +34,12 @@ def test_bresenham_as_printed_steps_up_one_column_early(window: MainWindow) -> N
     assert window.session.cursor.stage == "raster"
     assert "as printed: Bresenham loop (Pellacini)" in view.titles[1].text()
     assert said[-1].startswith("Step 2 is the first that differs: A draws (1, 0), B draws (1, 1).")
-    # The same loop with its two lines the other way round: test, then add.
-    assert re.search(r"if e \+ m > 0.5:.*e \+= m", view.listings[0].toPlainText(), re.DOTALL)
-    assert re.search(r"write\(x, y, 1\).*d \+= m.*if d > 0.5", view.listings[1].toPlainText(), re.DOTALL)
+    # The same loop, line by line, but that A tests before it adds.
+    texts = [listing.toPlainText() for listing in view.listings]
+    assert sorted(texts[0].splitlines()) == sorted(texts[1].splitlines())
+    assert re.search(r"if d > 0.5.*d \+= m", texts[0], re.DOTALL)
+    assert re.search(r"write\(x, y, 1\).*d \+= m.*if d > 0.5", texts[1], re.DOTALL)
+    assert "tested before m is added (after Pellacini)" in view.titles[0].text()
     assert all(listing._line for listing in view.listings)
     assert view.grids[2].isVisibleTo(view)
 
@@ -90,6 +93,8 @@ def test_a_state_keeps_its_name_and_a_wrong_one_is_refused(window: MainWindow, t
     )
     state, _ = load_state(file)
     assert state.look.printed == "pellacini-bresenham"
+    assert state.document.settings == session.document.settings
+    assert json.loads(file.read_text())["settings"]["line"] == "bresenham-float"
     window.page.comparing.set_differences({})
     show_look(window.page, state.look)
     assert window.page.comparing.printed == "pellacini-bresenham"
