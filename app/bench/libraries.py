@@ -15,14 +15,15 @@ from app.bench import (
     pillow_peer,
     skimage_peer,
     trimesh_peer,
+    typed_text,
     vtk_peer,
 )
 from app.bench.contender import Contender
-from app.bench.records import ColdStart, Work
+from app.bench.records import ColdStart, TypedPicture, Work
 
 LIBRARIES: tuple[ModuleType, ...] = (
     *(ours, ours_shared, ours_child, vtk_peer, opengl_peer, numba_peer, opencv_peer),
-    *(pillow_peer, skimage_peer, matplotlib_peer, trimesh_peer),
+    *(pillow_peer, skimage_peer, matplotlib_peer, trimesh_peer, typed_text),
 )
 """All of them, ours first. VTK ends every EGL context that was opened before its own: it must begin before OpenGL."""
 
@@ -31,6 +32,8 @@ def contender_of(library: ModuleType, work: Work) -> Contender | None:
     """Return a library drawing a workload, or ``None`` where it has no way to."""
     if isinstance(work, ColdStart):
         return cold_start.contender(library, work)
+    if isinstance(work, TypedPicture) and library not in (ours, typed_text):
+        return None
     found: Contender | None = library.contender(work)
     return found
 

@@ -6,8 +6,19 @@ import numpy as np
 
 from app.bench.contender import Contender, Prepared
 from app.bench.mesh_files import prepare_reading
-from app.bench.records import Bytes, Floats, Integers, Lines, MeshFile, ViewedMesh, WindowTriangles, Work
+from app.bench.records import (
+    Bytes,
+    Floats,
+    Integers,
+    Lines,
+    MeshFile,
+    TypedPicture,
+    ViewedMesh,
+    WindowTriangles,
+    Work,
+)
 from app.bench.scenes import clip_scene, lights_of, mesh_of, method_names, view_of
+from app.bench.typed_text import by_rule, prepare
 from app.files.mesh_files import LoadedMeshes, load_meshes
 from core import Picture, Settings, draw_picture
 
@@ -28,6 +39,8 @@ def contender(work: Work) -> Contender | None:
         return Contender(LIBRARY, "ours", lambda _: prepare_mesh(work))
     if isinstance(work, MeshFile):
         return Contender(LIBRARY, "ours", lambda stack: prepare_reading(work, stack, load_meshes, arrays_of))
+    if isinstance(work, TypedPicture):
+        return Contender(LIBRARY, "ours", lambda _: prepare(*by_rule(work)))
     return None
 
 

@@ -117,4 +117,13 @@ class MeshFile:
     """``.obj`` of plain text, ``.ply`` or ``.stl`` of little-endian binary numbers."""
 
 
-Work = WindowTriangles | ViewedMesh | Lines | ColdStart | MeshFile
+@dataclass(frozen=True, eq=False)
+class TypedPicture:
+    """A picture that the core draws by a rule of its own, and by a typed text in place of that rule."""
+
+    part: str
+    """What is typed: ``fill`` (the inside test), ``line``, or ``shaders`` (Phong)."""
+    size: tuple[int, int]
+
+
+Work = WindowTriangles | ViewedMesh | Lines | ColdStart | MeshFile | TypedPicture

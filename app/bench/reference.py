@@ -1,7 +1,7 @@
 """What every picture must be: exact coverage in whole numbers, one triangle at a time, from the definition.
 
 Nothing of the core is used here for coverage, except for a mesh that reaches behind the eye, where the core's plain
-fill, itself tested against rational arithmetic, is the reference.
+fill, itself tested against rational arithmetic, is the reference. A typed text is compared with the rule.
 """
 
 from collections.abc import Iterator
@@ -20,11 +20,13 @@ from app.bench.records import (
     Integers,
     Lines,
     MeshFile,
+    TypedPicture,
     ViewedMesh,
     WindowTriangles,
     Work,
 )
 from app.bench.scenes import lights_of, mesh_of, method_names, view_of
+from app.bench.typed_text import by_rule, pixels_of
 from core import Frame, Settings, render
 from core.records.arrays import Flags
 
@@ -74,6 +76,8 @@ def make_reference(work: Work) -> Reference:
         return Reference(np.asarray(corners.any(axis=2)), corners, len(corners), corners.size // 3)
     if isinstance(work, ViewedMesh):
         return _mesh_reference(work)
+    if isinstance(work, TypedPicture):
+        return _rule_reference(work)
     return _blended_reference(work) if work.is_blended else _nearest_reference(work)
 
 
@@ -155,6 +159,16 @@ def _mesh_reference(work: ViewedMesh) -> Reference:
         covered[cover.rows, cover.columns] = True
         fragment_count += len(cover.rows)
     return Reference(covered, colors, len(work.triangles), fragment_count)
+
+
+def _rule_reference(work: TypedPicture) -> Reference:
+    """Return the picture that the rules draw, which a text has to draw as well."""
+    scene, settings = by_rule(work)
+    frame = render(scene, settings)
+    covered = np.asarray(frame.primitive >= 0)
+    return Reference(
+        covered, pixels_of(frame), frame.statistics["transform"].incoming, int(frame.cover_count.sum())
+    )
 
 
 def _line_reference(work: Lines) -> Reference:

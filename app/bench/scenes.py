@@ -7,7 +7,7 @@ import numpy as np
 
 from app.bench.meshes import lit_sphere, sphere_file, textured_floor, textured_knot, unlike_sphere
 from app.bench.random_triangles import DARKEST, large_triangle, random_triangles
-from app.bench.records import ColdStart, Lines, ViewedMesh, WindowTriangles, Work
+from app.bench.records import ColdStart, Lines, TypedPicture, ViewedMesh, WindowTriangles, Work
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, Scene, Texture
 
 BLACK = np.array([0.0, 0.0, 0.0, 1.0])
@@ -106,5 +106,9 @@ WORKLOADS = (
     Workload("K1", "opening an OBJ file", lambda: sphere_file(".obj")),
     Workload("K2", "opening a binary PLY file", lambda: sphere_file(".ply")),
     Workload("K3", "opening a binary STL file", lambda: sphere_file(".stl")),
+    Workload("L1", "edited inside test, small raster", lambda: TypedPicture("fill", (64, 48))),
+    Workload("L2", "edited inside test", lambda: TypedPicture("fill", (512, 512))),
+    Workload("L3", "30 lines by an edited listing", lambda: TypedPicture("line", (512, 512))),
+    Workload("L4", "Phong as shaders in GLSL", lambda: TypedPicture("shaders", (512, 512))),
 )
 """All workloads, in the order in which they are run."""

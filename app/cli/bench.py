@@ -33,7 +33,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         metavar="NAME",
         nargs="+",
         default=[],
-        help="only these: A1 A2 B C D E F G H I J K1 K2 K3",
+        help="only these: A1 A2 B C D E F G H I J K1 K2 K3 L1 L2 L3 L4",
     )
     parser.add_argument(
         "--rounds", metavar="N", type=whole_number(1, MOST_ROUNDS), help=f"rounds of measurement ({ROUNDS})"

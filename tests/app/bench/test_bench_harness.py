@@ -18,6 +18,7 @@ from app.bench.harness import Result, run_workload
 from app.bench.libraries import LIBRARIES
 from app.bench.machine import this_machine
 from app.bench.random_triangles import random_triangles
+from app.bench.records import TypedPicture
 from app.bench.report import foot_text, result_text
 from app.bench.results_file import results_text
 from app.bench.scenes import WORKLOADS, Workload
@@ -152,6 +153,16 @@ def test_calls_take_turns_and_the_collector_rests() -> None:
     assert not any(collected)
     assert gc.isenabled()
     assert times["a"].count == 2 * SHORT_CALLS
+
+
+@pytest.mark.parametrize("part", ["fill", "line", "shaders"])
+def test_a_typed_text_draws_the_picture_of_the_rule(part: str) -> None:
+    workload = Workload("text", "a text", lambda: TypedPicture(part, (40, 30)))
+    result = run_workload(workload, LIBRARIES, 1, ignore)
+    assert [entry.contender.library for entry in result.entries] == ["Rasterscope", "Edited text"]
+    assert all(entry.difference.is_none for entry in result.entries)
+    assert result.counts.fragments > 100
+    assert not result.missing
 
 
 def test_goals_name_workloads_and_libraries_that_there_are() -> None:
