@@ -21,6 +21,8 @@ from core.geometry.line_clipping.records import ClipWindow
 from core.lanes.limits import LISTING
 from core.lanes.nodes import Put
 from core.lanes.notes import LaneStep, steps_until_problem
+from core.lanes.python_values import Range, at_lane
+from core.lanes.tables import Table
 from core.lanes.terms import equalities, in_symbols, shown
 from core.records.listing import EditedListing, moved_lines
 from core.records.words import counted, joined
@@ -260,12 +262,17 @@ def edited_account(explanation: Explanation, pixel_name: str = "") -> tuple[str,
         if not explanation.line:
             return f"{pixel_name}Your listing {listing.name} is given its numbers.", None
         return f"{pixel_name}{_line_said(listing, explanation.line)} It does not run here.", None
-    told = [each for each in step.steps if each.kind not in LOOPS and each.value != []] or list(step.steps)
+    # A list that is still empty tells nothing.
+    told = [each for each in step.steps if each.kind not in LOOPS and _has_value(each)] or list(step.steps)
     texts = [_said(each) for each in told[:SAID_LINES]]
     more = len(told) - SAID_LINES
     if more > 0:
         texts.append(f"{counted(more, 'more line')} {'runs' if more == 1 else 'run'}.")
     return pixel_name + " ".join(texts), _formula(step)
+
+
+def _has_value(step: LaneStep) -> bool:
+    return not isinstance(step.value, list) or bool(step.value)
 
 
 def _line_said(listing: EditedListing, line: int) -> str:
@@ -364,4 +371,5 @@ def _shown(name: str, value: Any, before: Any) -> list[Variable]:
 def _value(value: Any) -> Value:
     if isinstance(value, np.ndarray | np.generic):
         value = value.tolist()
-    return shown(value) if isinstance(value, list) else value
+    is_many = isinstance(value, list | range | Range | Table)
+    return shown(at_lane(value, 0)) if is_many else value

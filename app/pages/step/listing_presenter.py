@@ -218,10 +218,13 @@ class ListingPresenter(QObject):
             note, resets = changed_text(old, text), LISTING_CHANGES if text != old else ""
             typed = changed_lines(old, text)
             self._pane.editor.show_changed_lines(typed[B])
-            lines = typed if edit is None or edit.text == text else changed_lines(old, edit.text)
+            if edit is not None or self._pane.is_editing:
+                lines = typed if edit is None or edit.text == text else changed_lines(old, edit.text)
             if place in self._drafts and not self._pane.is_editing:
                 note = DRAFT_KEPT
-        elif document.edits:
+        if self._pane.message.text() == KEPT and place not in self._drafts:
+            self._pane.show_message("")
+        if not text and document.edits:
             note, resets = f"Edited: {self._last_edit(document)}", f"the edit of {self._last_edit(document)}"
         self._pane.listing.show_changed_lines(lines[self.side])
         is_shown = has_head or bool(document.edits)

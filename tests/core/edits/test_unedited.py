@@ -8,6 +8,7 @@ import pytest
 from core import Settings, Texture, draw_lines, render, trace
 from core.edits import EDITABLE, Edit, apply_edit, edits_of, original, place_of, refusal, without_edits
 from core.edits.typed import Typed
+from core.explain import variables
 from core.lanes.python_values import at_lane
 from core.methods import table
 from core.pixel_history import why
@@ -94,6 +95,9 @@ def test_the_trace_and_the_history_of_a_pixel_are_those_of_the_rule(part, of):
     if of == "bresenham-float":
         return  # Its decision is not in the listing, and stands in the history of a pixel.
     column, row = ours.stage("raster").pixel[-1].tolist()
+    for position in range(1, min(its.steps.count, 40) + 1):
+        for each in variables(its.explain(position)):
+            assert each.now is None or isinstance(each.now, bool | int | float | str | tuple), each
     found = str(why(ours.source, column, row)).replace("'is_edited': True", "'is_edited': False")
     assert found == str(why(right.source, column, row))
 
