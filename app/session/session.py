@@ -154,6 +154,11 @@ class Session(QObject):
         if document is not self.latest:
             self._put(document, gesture)
 
+    def edit_traced(self, document: Document, trace: Trace) -> None:
+        """Take over an edited document with its trace, see ``trace_now``."""
+        self.tracing.cancel()
+        self._take(document, "", trace)
+
     def drag(self, document: Document, gesture: str) -> None:
         """Take over a part of a gesture that changes the triangle in focus: until it rests, only that one is traced.
 

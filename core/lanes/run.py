@@ -17,13 +17,20 @@ UNSET = object()
 """The value of a call that has not returned."""
 
 Stop = Callable[[], bool]
-_bounds: ContextVar[tuple[float, Stop | None] | None] = ContextVar("bounds", default=None)
+_bounds: ContextVar[tuple[float, float, Stop | None] | None] = ContextVar("bounds", default=None)
+"""When runs end, the seconds that they may take, and what stops them before."""
 
 
 @contextmanager
 def bounded(seconds: float, stop: Stop | None = None) -> Iterator[None]:
-    """Let all runs in the block share one clock, and end them where ``stop()`` says so; see `Problem`."""
-    token = _bounds.set((perf_counter() + seconds, stop))
+    """Let all runs in the block share one clock, and end them where ``stop()`` says so; see `Problem`.
+
+    A block within another one ends no later than that, and where that is stopped.
+    """
+    outer, end = _bounds.get(), perf_counter() + seconds
+    if outer is not None:
+        (end, seconds), stop = min((end, seconds), outer[:2]), stop or outer[2]
+    token = _bounds.set((end, seconds, stop))
     try:
         yield
     finally:
@@ -56,9 +63,10 @@ class Run:
         self.dead: Mask = NOBODY
         """Lanes that were discarded."""
         bounds = _bounds.get()
-        self._end, self._stop = perf_counter() + limits.seconds, stop
+        self._end, self._seconds, self._stop = perf_counter() + limits.seconds, limits.seconds, stop
         if bounds is not None:
-            self._end, self._stop = min(self._end, bounds[0]), stop or bounds[1]
+            self._end, self._seconds = min((self._end, self._seconds), bounds[:2])
+            self._stop = stop or bounds[2]
         self._ticks, self._stored = 0, 0
 
     def tick(self, place: Place) -> None:
@@ -67,7 +75,7 @@ class Run:
         self._ticks += 1
         if not self._ticks & TICKS:
             if perf_counter() > self._end:
-                raise Problem(place, f"this takes longer than {self.limits.seconds:g} seconds: stopped here")
+                raise Problem(place, f"this takes longer than {self._seconds:g} seconds: stopped here")
             if self._stop is not None and self._stop():
                 raise Problem(place, "stopped")
 

@@ -102,8 +102,10 @@ def record_rows(lane_count: int, lanes: Integers, run: Callable[[Watch], object]
     result = np.full((len(lane), 4), np.nan)
     undefined = np.zeros(len(lane), bool)
     stored: dict[str, list[tuple[Integers, Any]]] = {}
+    by_number = np.argsort(number, kind="stable")
+    ends = np.searchsorted(number[by_number], np.arange(len(steps) + 1))
     for k, step in enumerate(steps):
-        rows = np.flatnonzero(number == k)
+        rows = by_number[ends[k] : ends[k + 1]]
         values = _components(step.value, lanes[lane[rows]])
         if values is not None:
             result[rows, : values.shape[1]] = values[:, :4]

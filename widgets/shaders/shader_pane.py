@@ -123,6 +123,7 @@ class ShaderPane(QWidget):
         self._uniforms.setWidget(content)
         self._tabs.addTab(self._uniforms, "Uniforms")
         self._shown_uniforms: tuple[ShownUniform, ...] = ()
+        self._fields: dict[str, QLineEdit] = {}
         layout = column_layout(self, 6, margins=(8, 8, 8, 8))
         for above, first, second in ((True, self._preset, self._dialect), (False, self._lanes, self._beside)):
             row = row_layout(spacing=6)
@@ -191,7 +192,16 @@ class ShaderPane(QWidget):
             editor.mark(0, 0, "")
 
     def _show_uniforms(self, uniforms: tuple[ShownUniform, ...]) -> None:
+        is_other = [(u.name, u.of) for u in uniforms] != [(u.name, u.of) for u in self._shown_uniforms]
         self._shown_uniforms = uniforms
+        if is_other:
+            self._make_fields(uniforms)
+        for uniform in uniforms:
+            field = self._fields[uniform.name]
+            field.setPlaceholderText(uniform.given)
+            field.setText(uniform.text)
+
+    def _make_fields(self, uniforms: tuple[ShownUniform, ...]) -> None:
         place = self._tabs.indexOf(self._uniforms)
         self._tabs.setTabText(place, f"Uniforms ({len(uniforms)})")
         self._tabs.setTabEnabled(place, bool(uniforms))
@@ -200,19 +210,21 @@ class ShaderPane(QWidget):
             if widget is not None:
                 widget.hide()
                 widget.deleteLater()
+        self._fields = {uniform.name: QLineEdit(self) for uniform in uniforms}
         for row, uniform in enumerate(uniforms):
-            label, field = QLabel(f"{uniform.name}  {uniform.of}", self), QLineEdit(uniform.text, self)
+            label, field = QLabel(f"{uniform.name}  {uniform.of}", self), self._fields[uniform.name]
             label.setBuddy(field)
-            field.setPlaceholderText(uniform.given)
-            field.setToolTip("Empty: the scene's light and material, or 0")
             field.setAccessibleName(f"Uniform {uniform.name}, {uniform.of}")
-            field.editingFinished.connect(partial(self._type_uniform, uniform, field))
+            field.setToolTip("Empty: the scene's light and material, or 0")
+            field.editingFinished.connect(partial(self._type_uniform, row))
             self._rows.addWidget(label, row, 0)
             self._rows.addWidget(field, row, 1)
 
-    def _type_uniform(self, uniform: ShownUniform, field: QLineEdit) -> None:
-        if field.text() != uniform.text:
-            self.uniform_typed.emit(uniform.name, field.text())
+    def _type_uniform(self, row: int) -> None:
+        uniform = self._shown_uniforms[row]
+        text = self._fields[uniform.name].text()
+        if text != uniform.text:
+            self.uniform_typed.emit(uniform.name, text)
 
     @staticmethod
     def _select(box: ChoiceBox, name: str) -> None:

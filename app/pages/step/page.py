@@ -377,7 +377,7 @@ class StepPage(Page):
                 break
             QThread.msleep(10)
         self.settle_layouts()
-        parts = (self.lessons, self.editing)
+        parts = (self.lessons, self.editing, self.shading)
         while self._is_drawing() or self.comparing.is_drawing or any(part.is_working for part in parts):
             QCoreApplication.processEvents()
             QThread.msleep(5)
@@ -421,6 +421,9 @@ class StepPage(Page):
         if self.comparing.is_drawing:
             self.editing.leave()
             return True
+        if self.shading.is_working:
+            self.shading.leave()
+            return True
         has_pin = self.session.pin is not None
         self.session.set_pin(None)
         return has_pin
@@ -438,6 +441,7 @@ class StepPage(Page):
         self.timeline.show_playing(False)
         self.comparing.stop()
         self.editing.stop()
+        self.shading.stop()
         self.lessons.stop()
         self.views.stop()
         self.navigation.stop()

@@ -5,12 +5,15 @@ What reads and runs shaders is imported when it is first needed: most windows op
 
 from collections.abc import Sequence
 from dataclasses import replace
+from functools import partial
 from math import isfinite
 
 import numpy as np
-from PySide6.QtCore import QEvent, QObject, Signal, Slot
+from PySide6.QtCore import QEvent, QObject, QTimer, Signal, Slot
 
+from app.background.workers import Job
 from app.pages.page_bar import Page
+from app.pages.step.shader_trial import Make, Tried, notes_of, try_shaders
 from app.session.moment import Moment
 from app.session.session import Session
 from core.records.steps import Level
@@ -20,12 +23,10 @@ from core.shaders.record import DIALECTS, ShaderProblem, ShaderProgram
 from core.shaders.scene_uniforms import scene_uniforms
 from widgets.shaders.shader_pane import OWN, ShaderPane, ShownProgram, ShownUniform
 
-TRIAL_SECONDS = 3.0
-"""Seconds that drawing may take before what was typed is taken over."""
-
-
-MOST_RECOGNISED = 96 * 72
-"""Pixels of a picture that is compared with those of the mistakes."""
+LATER_MS = 200
+"""After this long a trial is reported."""
+DRAWING = "Drawing with your shaders … Esc stops it."
+STOPPED = "Stopped. The picture is that of the last shaders that ran."
 
 
 def make_shader_pane(page: Page) -> ShaderPane:
@@ -51,11 +52,21 @@ class ShaderPresenter(QObject):
         pane.uniform_typed.connect(self._type_uniform)
         pane.comparison_chosen.connect(self._compare)
         pane.lanes_chosen.connect(self._choose_lanes)
-        pane.left.connect(page.setFocus)
+        pane.left.connect(self.leave)
+        self._job = Job(self)
+        self._job.succeeded.connect(self._take)
+        self._job.failed.connect(self._refuse)
+        self._make: Make | None = None
+        self._began_with: ShaderProgram | None = None
+        """The shaders of the scene when the trial began."""
+        self._later = QTimer(self, interval=LATER_MS, singleShot=True)
+        self._later.timeout.connect(self._tell_drawing)
         self.refresh(session.moment)
 
     def refresh(self, moment: Moment) -> None:
-        """Show the shaders while the pane is in sight."""
+        """Show the shaders while the pane is in sight; a trial ends where others came in between, as by undo."""
+        if self._program() is not self._began_with:
+            self._job.cancel()
         if self._pane.isVisible():
             self._show()
 
@@ -80,10 +91,11 @@ class ShaderPresenter(QObject):
         if not isinstance(scene, Scene):
             self._show()
             return
-        try:
-            self._edit(preset_program(preset, scene) if preset else None)
-        except ValueError as problem:
-            self._refuse(problem)
+        if preset:
+            self._edit(partial(preset_program, preset, scene))
+        else:
+            self._job.cancel()
+            self._session.edit(replace(self._session.latest, scene=replace(scene, program=None)))
 
     @Slot(str, str)
     def _type(self, stage: str, text: str) -> None:
@@ -94,20 +106,19 @@ class ShaderPresenter(QObject):
             stage: text
         }
         if (sources["vertex"], sources["fragment"]) == (program.vertex, program.fragment):
-            self._pane.show_accepted(self._accepted(program))
+            self._job.cancel()
+            self._pane.show_accepted(notes_of(program))
             return
-        self._try(program, sources)
+        scene = self._session.latest.scene
+        assert isinstance(scene, Scene)
+        self._edit(partial(retyped, program, scene, sources["vertex"], sources["fragment"]))
 
     @Slot(str)
     def _choose_dialect(self, dialect: str) -> None:
         program = self._program()
         if program is None or dialect == program.dialect:
             return
-        try:
-            self._edit(replace(program, dialect=dialect))
-        except ValueError as problem:
-            self._refuse(problem)
-            self._show()
+        self._edit(partial(replace, program, dialect=dialect))
 
     @Slot(str)
     def _choose_lanes(self, lanes: str) -> None:
@@ -132,7 +143,7 @@ class ShaderPresenter(QObject):
         assert isinstance(scene, Scene)
         others = {other: numbers for other, numbers in program.values.items() if other != name}
         if not text.strip() and name in scene_uniforms(scene):
-            self._edit(replace(program, uniforms=tuple(others.items())))
+            self._edit(partial(replace, program, uniforms=tuple(others.items())))
             return
         count = component_count(uniforms_of(program)[name])
         try:
@@ -143,10 +154,7 @@ class ShaderPresenter(QObject):
             numbers = "1 number" if count == 1 else f"{count} numbers, separated by commas"
             self._pane.show_problem("", 0, 0, f"{name} needs {numbers}, got {text or 'nothing'}.")
             return
-        try:
-            self._edit(replace(program, uniforms=(*others.items(), (name, values))))
-        except ValueError as problem:
-            self._refuse(problem)
+        self._edit(partial(replace, program, uniforms=(*others.items(), (name, values))))
 
     @Slot(str)
     def _compare(self, preset: str) -> None:
@@ -163,49 +171,57 @@ class ShaderPresenter(QObject):
         scene = self._session.latest.scene
         return scene.program if isinstance(scene, Scene) else None
 
-    def _try(self, program: ShaderProgram, sources: dict[str, str]) -> None:
-        scene = self._session.latest.scene
-        assert isinstance(scene, Scene)
-        try:
-            self._edit(retyped(program, scene, sources["vertex"], sources["fragment"]))
-        except ValueError as problem:
-            self._refuse(problem)
-
-    def _refuse(self, problem: ValueError) -> None:
+    @Slot(object)
+    def _refuse(self, problem: Exception) -> None:
         """Say what is wrong, at its place where it has one; the document keeps what it had."""
+        self._show()
         if isinstance(problem, ShaderProblem):
             self._pane.show_problem(problem.stage, problem.line, problem.column, ended(problem.sentence))
         else:
             self._pane.show_problem("", 0, 0, ended(str(problem)))
 
-    def _edit(self, program: ShaderProgram | None) -> None:
-        """Take the shaders over, once both pictures of the scene were drawn by them: an endless loop ends there."""
+    def _edit(self, make: Make) -> None:
+        """Take shaders over once they have run in the background; the newest count."""
         document = self._session.latest
         assert isinstance(document.scene, Scene)
-        edited = replace(document, scene=replace(document.scene, program=program))
-        if program is not None:
-            from core import render
-            from core.lanes.run import bounded
+        self._make, self._began_with = make, document.scene.program
+        run = partial(try_shaders, document, self._session.cursor.stage, self._session.trace, make)
+        self._job.start(lambda _progress, is_cancelled: run(is_cancelled))
+        self._later.start()
 
-            with bounded(TRIAL_SECONDS):
-                for scene in {id(scene): scene for scene in (edited.traced_scene, edited.scene)}.values():
-                    render(scene, edited.settings)
-        self._session.edit(edited)
-        if program is not None:
-            self._pane.show_accepted(self._accepted(program))
+    @Slot(object)
+    def _take(self, tried: Tried) -> None:
+        """Take over shaders that have run, unless something else is open by now: then they run on that."""
+        if tried.beside is not self._session.latest:
+            assert self._make is not None
+            self._edit(self._make)
+            return
+        self._session.edit_traced(tried.document, tried.trace)
+        self._pane.show_accepted(tried.said)
 
-    def _accepted(self, program: ShaderProgram) -> str:
-        """Return what is said of shaders that run: a mistake of the shelf that makes their picture, and notes."""
-        document = self._session.latest
-        scene = document.traced_scene
-        assert isinstance(scene, Scene)
-        mistake = None
-        if scene.size[0] * scene.size[1] <= MOST_RECOGNISED:
-            from lessons.shader_mistakes import recognised
+    @property
+    def is_working(self) -> bool:
+        """Whether shaders are being tried."""
+        return self._job.is_running
 
-            mistake = recognised(program, replace(scene, program=None), document.settings)
-        said = f"Both shaders run. {mistake.says}" if mistake is not None else ""
-        return f"{said} {notes_of(program)}".strip()
+    @Slot()
+    def leave(self) -> None:
+        """Stop a trial, or else give the keyboard back to the page."""
+        if self._job.is_running:
+            self._job.cancel()
+            self._pane.show_problem("", 0, 0, STOPPED)
+            self._show()
+        else:
+            self._page.setFocus()
+
+    def stop(self) -> None:
+        """End a trial, and wait for its thread."""
+        self._job.shut_down()
+
+    @Slot()
+    def _tell_drawing(self) -> None:
+        if self._job.is_running:
+            self._pane.show_problem("", 0, 0, DRAWING)
 
 
 def uniforms_of(program: ShaderProgram) -> dict[str, str]:
@@ -229,11 +245,6 @@ def ended(sentence: str) -> str:
 
 def _text_of(values: Sequence[float]) -> str:
     return ", ".join(f"{value:g}" for value in values)
-
-
-def notes_of(program: ShaderProgram) -> str:
-    """Return what is worth a sentence although both shaders run."""
-    return " ".join(note for shader in program.shaders for note in shader.notes)
 
 
 def shown_program(program: ShaderProgram, scene: Scene) -> ShownProgram:

@@ -40,12 +40,14 @@ def _type(window, qtbot, stage, text):
     cursor.select(QTextCursor.SelectionType.Document)
     with qtbot.waitSignal(window.page.shader_pane.source_settled, timeout=5000):
         cursor.insertText(text)
+    window.page.settle()
 
 
 def _choose(box, name):
     index = box.findData(name)
     box.setCurrentIndex(index)
     box.activated.emit(index)
+    box.window().page.settle()
 
 
 def test_what_is_typed_is_drawn_and_stepped(lab, qtbot):
@@ -94,9 +96,47 @@ def test_an_endless_loop_is_refused_in_a_sentence(lab, qtbot):
         lab.page.shader_pane.editor("fragment").setPlainText(
             TASK_FRAGMENT.replace("void main() {", "void main() { while (true) { }")
         )
+    lab.page.settle()
     said = lab.page.shader_pane.message
     assert said.startswith("Fragment shader, line 8: the loop goes on after 1,000 rounds"), said
     assert _program(lab) == program
+
+
+def test_a_trial_runs_in_the_background_and_escape_stops_it(lab, qtbot):
+    pane, program = lab.page.shader_pane, _program(lab)
+    editor = pane.editor("fragment")
+    with qtbot.waitSignal(pane.source_settled, timeout=5000):
+        editor.setPlainText(
+            TASK_FRAGMENT.replace(
+                "void main() {",
+                "float f() { for (int i = 0; i < 900; i++) { for (int j = 0; j < 900; j++) { } } return 1.0; }"
+                "void main() { if (f() < 0.0) discard;",
+            )
+        )
+    assert lab.page.shading.is_working
+    QTest.keyClick(editor, Qt.Key.Key_Escape)
+    assert not lab.page.shading.is_working
+    assert pane.message == "Stopped. The picture is that of the last shaders that ran."
+    assert _program(lab) is program
+
+    # What was typed stays, and another key tries it again; undo of the document ends the trial.
+    assert "900" in editor.toPlainText()
+    lab.session.set_setting("interpolation", "affine")
+    with qtbot.waitSignal(pane.source_settled, timeout=5000):
+        editor.insertPlainText(" ")
+    assert lab.page.shading.is_working
+    assert lab.page.dismiss()
+    assert not lab.page.shading.is_working
+
+
+def test_shaders_are_taken_over_beside_what_is_open_by_then(lab, qtbot):
+    changed = TASK_FRAGMENT.replace("vec4(vColor, 1.0)", "vec4(vColor.bgr, 1.0)")
+    with qtbot.waitSignal(lab.page.shader_pane.source_settled, timeout=5000):
+        lab.page.shader_pane.editor("fragment").setPlainText(changed)
+    lab.session.set_setting("interpolation", "affine")
+    lab.page.settle()
+    assert _program(lab).fragment == changed
+    assert lab.session.document.settings.interpolation == "affine"
 
 
 def test_a_preset_and_its_uniforms(lab, qtbot):

@@ -1,0 +1,90 @@
+"""A trial of shaders off the GUI thread: they are read, stepped and drawn before the document takes them over."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from app.session.document import Document
+from app.session.tracing import trace_now
+from core import Trace, render
+from core.records.arrays import Singles
+from core.scene import Scene
+from core.shaders.record import ShaderProgram
+
+TRIAL_SECONDS = 3.0
+"""Seconds that stepping and drawing may take before what was typed is taken over."""
+MOST_RECOGNISED = 96 * 72
+"""Pixels of a picture that is compared with those of the mistakes."""
+
+Make = Callable[[], ShaderProgram]
+"""Reads shaders; raises ValueError where they cannot be read."""
+
+
+@dataclass(frozen=True, eq=False)
+class Tried:
+    """Shaders that have run."""
+
+    beside: Document
+    """What was open when they were tried."""
+    document: Document
+    """The same with these shaders."""
+    trace: Trace
+    said: str
+    """What is said of them: a mistake of the shelf that makes their picture, and notes."""
+
+
+def try_shaders(
+    beside: Document, stage: str, earlier: Trace, make: Make, is_cancelled: Callable[[], bool]
+) -> Tried:
+    """Read shaders, step them as far as a stage, and draw both pictures of the scene by them.
+
+    Raises ValueError (`core.shaders.record.ShaderProblem` with a place) where they cannot be read, do not end, or are
+    too many to step.
+    """
+    from core.lanes.run import bounded
+
+    assert isinstance(beside.scene, Scene)
+    with bounded(TRIAL_SECONDS, is_cancelled):
+        program = make()
+        document = replace(beside, scene=replace(beside.scene, program=program))
+        trace = trace_now(document, stage, earlier)
+        if document.traced_scene is not document.scene:
+            render(document.scene, document.settings)
+    return Tried(
+        beside, document, trace, _accepted(document, program, trace.source.picture.color, is_cancelled)
+    )
+
+
+def _accepted(
+    document: Document, program: ShaderProgram, picture: Singles, is_cancelled: Callable[[], bool]
+) -> str:
+    """Return what is said of shaders that run."""
+    scene, said = document.traced_scene, ""
+    assert isinstance(scene, Scene)
+    if scene.size[0] * scene.size[1] <= MOST_RECOGNISED:
+        from core.lanes.problem import Problem
+        from core.lanes.run import bounded
+        from lessons.shader_mistakes import recognised
+
+        try:
+            with bounded(TRIAL_SECONDS, is_cancelled):
+                mistake = recognised(program, replace(scene, program=None), document.settings)
+        except Problem:
+            mistake = None  # A mistake takes too long to draw: none is named.
+        if (
+            mistake is not None
+            and mistake.wrong not in getattr(program, mistake.stage)
+            and _is_plain(picture)
+        ):
+            mistake = None  # Pictures of one colour are alike whatever made them.
+        said = f"Both shaders run. {mistake.says}" if mistake is not None else ""
+    return f"{said} {notes_of(program)}".strip()
+
+
+def _is_plain(picture: Singles) -> bool:
+    """Return whether a picture (H, W, 4) has one colour."""
+    return bool((picture == picture[0, 0]).all())
+
+
+def notes_of(program: ShaderProgram) -> str:
+    """Return what is worth a sentence although both shaders run."""
+    return " ".join(note for shader in program.shaders for note in shader.notes)
