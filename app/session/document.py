@@ -36,7 +36,8 @@ DRAWN_TRIANGLE, DRAWN_VERTEX = 1_200, 1_000
 TESTS_PER_SECOND = 2_000_000
 EXACT_TESTS_PER_SECOND = 250_000
 TRIANGLES_PER_SECOND = 600_000
-"""How fast pixels are traced and triangles transformed, roughly: what takes long is done off the GUI thread."""
+STATEMENTS_PER_SECOND = 400_000
+"""How fast pixels are traced, triangles transformed and shaders stepped, roughly: the slow runs off the GUI thread."""
 
 
 @dataclass(frozen=True)
@@ -128,7 +129,13 @@ class Document:
             drawn += self.triangle_count * self.raster.columns * self.raster.rows // 20
         is_exact = self.settings.coverage == "exact"
         tests_per_second = EXACT_TESTS_PER_SECOND if is_exact else TESTS_PER_SECOND
-        return drawn / TRIANGLES_PER_SECOND + self.most_tests / tests_per_second
+        program = self.scene.program
+        statements = 0 if program is None else self.most_tests * program.shaders[1].weight
+        return (
+            drawn / TRIANGLES_PER_SECOND
+            + self.most_tests / tests_per_second
+            + statements / STATEMENTS_PER_SECOND
+        )
 
     def check_length(self) -> None:
         """Refuse a run that has too many steps to be kept; ValueError with what to do about it."""

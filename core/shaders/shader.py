@@ -1,6 +1,6 @@
 """One shader, read and checked, and its run on lanes."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, cast
@@ -10,12 +10,24 @@ import numpy as np
 from core.lanes.dialect import Dialect
 from core.lanes.limits import SHADER, Limits
 from core.lanes.masks import NOBODY, Mask, Nobody, Some
-from core.lanes.nodes import Break, Call, Continue, Discard, Evaluate, Expression, Function, Node, Statement
+from core.lanes.nodes import (
+    Break,
+    Call,
+    Continue,
+    Discard,
+    Evaluate,
+    Expression,
+    Function,
+    Loop,
+    Node,
+    Statement,
+)
 from core.lanes.problem import Place, Problem
 from core.lanes.program import NOT_COMPUTED, Program
 from core.lanes.run import UNSET, Frame, Run, Stop, Watch
 from core.lanes.statements import Statements, Step
 from core.records.arrays import Flags
+from core.records.cached import cached_property
 from core.shaders.declared import declared_elsewhere, declared_for
 from core.shaders.dialect import GlslDialect
 from core.shaders.function_names import DERIVATIVES
@@ -30,6 +42,8 @@ NUMBERS = 1 << 22
 """Numbers that all variables of such lanes have together: 16 MB."""
 SECONDS = 5.0
 """Seconds that a shader may run for one picture."""
+ROUNDS = 16
+"""Rounds of a loop, for a guess."""
 LIMITS = replace(SHADER, seconds=SECONDS)
 
 
@@ -152,11 +166,22 @@ def _without(mask: Mask, dead: Mask, lanes: int) -> Mask:
 def walk(node: Any) -> Any:
     """Yield a node and all that are part of it."""
     yield node
+    for part in _parts(node):
+        yield from walk(part)
+
+
+def _parts(node: Any) -> Iterator[Node]:
     for name in type(node).__dataclass_fields__:
         value = getattr(node, name)
         for part in value if isinstance(value, tuple) and not isinstance(value, Place) else (value,):
             if isinstance(part, Node):
-                yield from walk(part)
+                yield part
+
+
+def _weight(node: Node) -> int:
+    """Return how many statements a node runs, roughly."""
+    inner = sum(map(_weight, _parts(node)))
+    return isinstance(node, Statement) + inner * (ROUNDS if isinstance(node, Loop) else 1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -211,6 +236,11 @@ class Shader:
         """How many lanes run at once: the more variables, the fewer."""
         numbers = sum(component_count(of) for of in self.syntax.types) or 1
         return max(1024, min(BLOCK, NUMBERS // numbers // 4 * 4))
+
+    @cached_property
+    def weight(self) -> int:
+        """How many statements a lane runs, roughly: a loop counts for `ROUNDS`."""
+        return sum(map(_weight, self.syntax.functions.values()))
 
     @property
     def discards(self) -> bool:
