@@ -118,7 +118,9 @@ def problem_of(error: SyntaxError, text: str) -> Problem:
         return Problem(Place(number, len(typed.rstrip()) + 1), "something is missing at the end of this line")
     if "perhaps you forgot a comma" in said.lower() or _begins_a_value(typed, place.column):
         return Problem(place, "an operator or a comma is missing here")
-    return Problem(place, "this cannot be read: something is missing here, or too much")
+    return Problem(
+        place, "this cannot be read: a bracket, comma or operator is missing here, or stands here twice"
+    )
 
 
 def _begins_a_value(line: str, column: int) -> bool:

@@ -16,6 +16,7 @@ from core.records.arrays import Flags, Integers
 from core.scene import AnyScene
 from core.settings import Settings
 from core.stages.declared import STAGES, stage_of
+from core.stages.vertex_program import has_program
 from core.trace import StageTrace, Trace, trace
 from core.trace.stage_trace import Value
 
@@ -39,6 +40,10 @@ class Divergence:
     """Columns that differ; empty where one of the traces has no row."""
     values: tuple[Mapping[str, Value], Mapping[str, Value]]
     """All variables of each row; empty where there is none."""
+    variable: str = ""
+    """The variable of two shaders that differs first, whose values are in ``values``; empty: none does."""
+    lines: tuple[int, int] = (0, 0)
+    """The lines, from 1, that store it."""
 
 
 def first_divergence(
@@ -69,11 +74,20 @@ def diverge(
     ``by_outcome``: as `stage_divergence`.
     """
     start = STAGES.index(since)
-    for stage in (*STAGES[start:], *STAGES[:start]):
+    stages = (*STAGES[start:], *STAGES[:start])
+    if by_outcome and has_one_shader(first, second):
+        # Behind these stages all numbers differ, by rounding.
+        stages = tuple(stage for stage in stages if stage in ("transform", "shade"))
+    for stage in stages:
         found = stage_divergence(first.stage(stage), second.stage(stage), by_outcome)
         if found is not None:
             return found
     return None
+
+
+def has_one_shader(first: Trace, second: Trace) -> bool:
+    """Return whether the scene of one trace has shaders, which compute in float32, and that of the other has none."""
+    return has_program(first.source.scene) != has_program(second.source.scene)
 
 
 def stage_divergence(first: StageTrace, second: StageTrace, by_outcome: bool = False) -> Divergence | None:
@@ -81,6 +95,10 @@ def stage_divergence(first: StageTrace, second: StageTrace, by_outcome: bool = F
 
     ``by_outcome``: in what comes of a pixel, where the stage is about pixels, and not in numbers on the way there.
     """
+    if by_outcome and any("statement" in stage.steps.kinds for stage in (first, second)):
+        from core.study.accuracy.shader_divergence import shader_divergence
+
+        return shader_divergence(first, second)
     if is_same_schedule(first, second):
         outcomes = stage_of(first.stage).outcomes if by_outcome else ()
         # A scene that enters the pipeline later has no columns in the stages before.

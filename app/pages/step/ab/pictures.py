@@ -31,6 +31,9 @@ NAMED = 3
 """Things in which A and B differ that a sentence names at most."""
 OTHER = "read them at a pixel, or choose a buffer that both share."
 ALIKE = "A and B do the same in every stage."
+ROUNDED = (
+    "A and B draw the same but for rounding: shaders compute with 32 bits, the built-in shading with 64."
+)
 REORDERED = "A and B give the same results; only the order of their steps differs."
 ORDERED_STAGES = ("bin", "raster", "depth")
 """Stages in which methods may do the same in another order."""
@@ -196,6 +199,7 @@ def _common_range(a: GridBuffer, b: GridBuffer) -> tuple[float, float] | None:
 
 
 DIFFERING = {
+    "color": "the colour",
     "covered": "coverage",
     "values": "the interpolated values",
     "passes": "the result of the depth test",
@@ -212,6 +216,7 @@ def _words_of(found: "Divergence", first: Trace) -> list[str]:
     assert row is not None
     done = run.explain(run.steps.position_after(row))
     shown = () if done is None else variables(done)
+    known = DIFFERING | ({"after": "the vertex's place in the window"} if found.stage == "transform" else {})
     words = []
     for name in found.names:
         ours, theirs = (np.atleast_1d(values[name]) for values in found.values)
@@ -221,22 +226,59 @@ def _words_of(found: "Divergence", first: Trace) -> list[str]:
             if each.column == name
             and (each.element is None or not np.array_equal(ours[each.element], theirs[each.element]))
         ]
-        words += [DIFFERING[name]] if name in DIFFERING else own
+        words += [known[name]] if name in known else own
     return list(dict.fromkeys(words))[:NAMED] or ["a number that the variables do not show"]
 
 
 def divergence_text(found: "Divergence | None", first: Trace, second: Trace) -> str:
     """Return in words where two runs differ first."""
-    from core.study.accuracy.divergence import is_same_schedule
+    from core.study.accuracy.divergence import has_one_shader, is_same_schedule
 
+    if found is None and has_one_shader(first, second):
+        return ROUNDED
     if found is None:
         is_same_order = all(
             is_same_schedule(first.stage(stage), second.stage(stage)) for stage in ORDERED_STAGES
         )
         return ALIKE if is_same_order else REORDERED
+    if found.variable:
+        return _shader_text(found, first, second)
     where = f"pixel {found.pixel}" if found.pixel is not None else f"triangle {found.triangle}"
     if None in found.rows:
         said = f"{'AB'[found.rows.index(None)]} has no step there"
     else:
         said = f"A and B differ in {joined(_words_of(found, first))}"
     return f"First divergence, at {where}: {said}. Ctrl+[ goes back."
+
+
+def _shader_text(found: "Divergence", first: Trace, second: Trace) -> str:
+    """Return in words which variable of two shaders differs first, and where a colour does."""
+    from core.lanes.terms import shown
+    from core.study.accuracy.divergence import stage_divergence
+
+    name = found.variable
+    texts = [shown(each[name]).replace("[", "(").replace("]", ")") for each in found.values]
+    if texts[0] == texts[1]:
+        texts = [
+            f"({', '.join(f'{float(part):.9g}' for part in np.ravel(each[name]))})".replace("-", "−")
+            for each in found.values
+        ]
+    values = " and ".join(
+        f"{text} in {side} (line {line})" for text, side, line in zip(texts, "AB", found.lines, strict=True)
+    )
+    shade = (
+        found
+        if found.stage == "shade"
+        else stage_divergence(first.stage("shade"), second.stage("shade"), True)
+    )
+    if shade is None:
+        color = "No colour differs."
+    else:
+        color = f"The colour differs first at pixel {shade.pixel}."
+    row = found.rows[0]
+    assert row is not None
+    vertex = first.stage(found.stage).columns.get("vertex")
+    where = "There" if vertex is None else f"At vertex {vertex[row]} of triangle {found.triangle}"
+    said = f"{where}, {name} is the first variable that differs: {values}."
+    parts = (color, said) if found.stage == "shade" else (said, color)
+    return f"{' '.join(parts)} Ctrl+[ goes back."
