@@ -122,7 +122,7 @@ class FileActions(QObject):
         page.timeline.show_playing(False)
         if state is None:
             place = opened.place
-            kept = session.document.edits
+            kept, shaders = session.document.edits, page.shading.kept
             document = edits_beside(opened.document)
             trace = (
                 trace_now(document, place.stage)
@@ -140,6 +140,7 @@ class FileActions(QObject):
             page.show_own_view()
             if document.edits and (refusal := page.editing.show_edited()):
                 page.tell(refusal)
+            page.shading.bring(shaders)
             page.views.look_from({})
             page.column.show_step()
             return

@@ -26,6 +26,10 @@ from widgets.shaders.shader_pane import OWN, ShaderPane, ShownProgram, ShownUnif
 LATER_MS = 200
 """After this long a trial is reported."""
 DRAWING = "Drawing with your shaders … Esc stops it."
+STAY = "Your shaders stay: they draw this scene, too. The pane Shaders (L) takes them off."
+SLEEP = "Your shaders sleep: a scene in clip space runs none. They come back with the next scene of meshes."
+PUT_ASIDE = "This scene has shaders of its own: yours are put aside. Undo leads back to them."
+REFUSED = "Your shaders sleep: they do not run on this scene, which is drawn without them: "
 STOPPED = "Stopped. The picture is that of the last shaders that ran."
 
 
@@ -57,6 +61,12 @@ class ShaderPresenter(QObject):
         self._job.succeeded.connect(self._take)
         self._job.failed.connect(self._refuse)
         self._make: Make | None = None
+        self._own: ShaderProgram | None = None
+        """The shaders that the user has typed or chosen last."""
+        self._refusing: Scene | None = None
+        """The scene on which they do not run: there they sleep."""
+        self._is_bringing = False
+        """Whether the trial is of shaders that another scene had."""
         self._began_with: ShaderProgram | None = None
         """The shaders of the scene when the trial began."""
         self._later = QTimer(self, interval=LATER_MS, singleShot=True)
@@ -95,6 +105,7 @@ class ShaderPresenter(QObject):
             self._edit(partial(preset_program, preset, scene))
         else:
             self._job.cancel()
+            self._own = None
             self._session.edit(replace(self._session.latest, scene=replace(scene, program=None)))
 
     @Slot(str, str)
@@ -175,13 +186,40 @@ class ShaderPresenter(QObject):
     def _refuse(self, problem: Exception) -> None:
         """Say what is wrong, at its place where it has one; the document keeps what it had."""
         self._show()
+        if self._is_bringing:
+            scene = self._session.latest.scene
+            self._refusing = scene if isinstance(scene, Scene) else None
+            self._page.tell(f"{REFUSED}{ended(str(problem))}")
         if isinstance(problem, ShaderProblem):
             self._pane.show_problem(problem.stage, problem.line, problem.column, ended(problem.sentence))
         else:
             self._pane.show_problem("", 0, 0, ended(str(problem)))
 
-    def _edit(self, make: Make) -> None:
+    @property
+    def kept(self) -> ShaderProgram | None:
+        """The shaders that the user has typed or chosen, unless the scene that is open has other ones."""
+        scene = self._session.document.scene
+        if not isinstance(scene, Scene) or scene is self._refusing or scene.program == self._own:
+            return self._own
+        return None
+
+    def bring(self, program: ShaderProgram | None) -> None:
+        """Let shaders of the scene before draw the one that was opened, if they run there, or say why not."""
+        scene = self._session.document.scene
+        self._own = program
+        if program is None:
+            return
+        if not isinstance(scene, Scene):
+            self._page.tell(SLEEP)
+        elif scene.program is not None:
+            self._own = None
+            self._page.tell(PUT_ASIDE)
+        else:
+            self._edit(lambda: program, is_bringing=True)
+
+    def _edit(self, make: Make, *, is_bringing: bool = False) -> None:
         """Take shaders over once they have run in the background; the newest count."""
+        self._is_bringing = is_bringing
         document = self._session.latest
         assert isinstance(document.scene, Scene)
         self._make, self._began_with = make, document.scene.program
@@ -194,10 +232,13 @@ class ShaderPresenter(QObject):
         """Take over shaders that have run, unless something else is open by now: then they run on that."""
         if tried.beside is not self._session.latest:
             assert self._make is not None
-            self._edit(self._make)
+            self._edit(self._make, is_bringing=self._is_bringing)
             return
         self._session.edit_traced(tried.document, tried.trace)
+        self._own = self._program()
         self._pane.show_accepted(tried.said)
+        if self._is_bringing:
+            self._page.tell(STAY)
 
     @property
     def is_working(self) -> bool:

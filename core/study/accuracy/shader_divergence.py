@@ -37,36 +37,36 @@ def shader_divergence(first: StageTrace, second: StageTrace) -> Divergence | Non
     if first.stage == "transform":
         return _first_vertex(first, second, lanes)
     keys = [_keys(stage, rows) for stage, rows in zip((first, second), lanes, strict=True)]
-    _, at_ours, at_theirs = np.intersect1d(*keys, return_indices=True)
+    _, at_ours, at_theirs = np.intersect1d(keys[0], keys[1], return_indices=True)
     ours, theirs = lanes[0][at_ours], lanes[1][at_theirs]
     close = 0.0 if runs_shader(first) and runs_shader(second) else CLOSE
     differs = _differ(first.columns["color"][ours], second.columns["color"][theirs], close)
-    candidates = [(int(a), (int(a), int(b))) for a, b in zip(ours[differs], theirs[differs], strict=True)]
-    candidates += [(int(row), (int(row), None)) for row in lanes[0][~np.isin(keys[0], keys[1])][:1]]
-    candidates += [(int(row), (None, int(row))) for row in lanes[1][~np.isin(keys[1], keys[0])][:1]]
+    candidates: list[tuple[int | None, int | None]] = [
+        *zip(ours[differs].tolist(), theirs[differs].tolist(), strict=True),
+        *((int(row), None) for row in lanes[0][~np.isin(keys[0], keys[1])][:1]),
+        *((None, int(row)) for row in lanes[1][~np.isin(keys[1], keys[0])][:1]),
+    ]
     if not candidates:
         return None
-    _, rows = min(candidates, key=lambda candidate: candidate[0])
+    rows = min(candidates, key=lambda rows: next(row for row in rows if row is not None))
     return _refined(first, second, rows, ("color",) if None not in rows else ())
 
 
 def _lanes(stage: StageTrace) -> Integers:
     """Return the last row (L,) of each lane, in their order."""
     if not runs_shader(stage):
-        return (
-            cast(Integers, stage.steps.group_ends[stage.steps.group_ends > 0] - 1)
-            if stage.stage == "transform"
-            else (np.arange(stage.steps.row_count))
-        )
+        ends = stage.steps.group_ends
+        return ends[ends > 0] - 1 if stage.stage == "transform" else np.arange(stage.steps.row_count)
     lane = stage.extra["corners"] if stage.stage == "transform" else stage.columns["lane"]
     _, before_end = np.unique(lane[::-1], return_index=True)
-    return cast(Integers, len(lane) - 1 - before_end)
+    return len(lane) - 1 - before_end
 
 
 def _keys(stage: StageTrace, rows: Integers) -> Integers:
     """Return one number (R,) for triangle and pixel of rows."""
     side = 1 << 16
-    return (stage.triangle[rows].astype(np.int64) * side + stage.pixel[rows, 1]) * side + stage.pixel[rows, 0]
+    keys: Integers = (stage.triangle[rows] * side + stage.pixel[rows, 1]) * side + stage.pixel[rows, 0]
+    return keys
 
 
 def _differ(ours: NDArray[Any], theirs: NDArray[Any], close: float) -> Flags:

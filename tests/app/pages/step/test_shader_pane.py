@@ -241,6 +241,53 @@ def test_shaders_beside_the_built_in_shading_and_beside_others(lab, qtbot):
     assert pane._beside.currentIndex() == 0
 
 
+def _open(window, name):
+    window.files.show_opened(open_any(name))
+    window.page.settle()
+    return window.statusBar().currentMessage()
+
+
+def test_shaders_stay_on_another_scene_or_say_why_not(lab, qtbot):
+    pane, session = lab.page.shader_pane, lab.session
+
+    # A scene's own shaders are not those of the user.
+    _open(lab, "cube")
+    assert _program(lab) is None
+    _choose(pane._preset, "toon")
+    toon = _program(lab)
+    assert _open(lab, "lit-floor").startswith("Your shaders stay")
+    assert _program(lab) == toon
+    assert session.document.title == "Lit floor"
+
+    # They sleep where none run, and come back.
+    assert _open(lab, "fan").startswith("Your shaders sleep")
+    assert _open(lab, "sphere").startswith("Your shaders stay")
+    assert _program(lab) == toon
+    assert _open(lab, "lmu-shaders").startswith("This scene has shaders of its own")
+    assert _program(lab).fragment == TASK_FRAGMENT
+    _open(lab, "cube")
+    assert _program(lab) is None
+
+    # What does not run there is said, and the scene is drawn without it.
+    _choose(pane._preset, "toon")
+    endless = _program(lab).fragment.replace("vec3 N =", "while (vUv == vec2(0.0)) { }\n   vec3 N =")
+    _type(lab, qtbot, "fragment", endless)
+    assert _program(lab).fragment == endless
+    said = _open(lab, "lit-floor")
+    assert said.startswith(
+        "Your shaders sleep: they do not run on this scene, which is drawn without them: fragment shader, "
+    )
+    assert "the loop goes on after 1,000 rounds" in said
+    assert _program(lab) is None
+
+    # Whoever takes shaders off has none on the next scene either.
+    _open(lab, "cube")
+    assert _program(lab).fragment == endless
+    _choose(pane._preset, "")
+    _open(lab, "sphere")
+    assert _program(lab) is None
+
+
 def test_a_mistake_of_the_shelf_is_named(lab, qtbot):
     swapped = (
         lab.page.shader_pane.editor("vertex")
