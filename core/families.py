@@ -78,6 +78,8 @@ def has_no_texture(settings: Any, scene: AnyScene | None) -> str:
 
 def has_no_light(settings: Any, scene: AnyScene | None) -> str:
     """Return why light does not matter."""
+    if scene is not None and scene.program is not None:
+        return "The scene's own shaders do it. The pane Shaders (L) takes them off."
     return "Typed triangles have no lights: they are unlit." if isinstance(scene, ClipScene) else ""
 
 

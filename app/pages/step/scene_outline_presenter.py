@@ -153,6 +153,8 @@ def _record(document: Document, name: str, heading: str) -> Setting:
             _choice(document, name, runs if method == current else method) for method in table.names(name)
         )
         is_more = not FAMILIES[name].classical
+    if name == "shading" and document.scene.program is not None:
+        choices, current = (SettingChoice("", "Your shader"), *choices), ""
     reason = no_effect(settings, name, document.scene)
     is_used = current != str(getattr(DEFAULTS, name))
     is_more = not is_used and (is_more or (isinstance(declared, WholeNumber) and bool(reason)))

@@ -203,6 +203,17 @@ def test_fragments_that_wait_or_were_discarded_are_marked(lab, qtbot):
     assert lines[min(lines)] == 1
 
 
+def test_methods_say_that_a_shader_lights_the_scene(lab):
+    lab.page.show_panes(("methods", "inspector"))
+    combo = lab.page.settings_panel.combo("shading")
+    assert combo.currentText() == "Your shader"
+    assert not combo.isEnabled()
+    assert "own shaders" in combo.toolTip()
+    _choose(lab.page.shader_pane._preset, "")
+    assert combo.currentData() == "phong"
+    assert combo.isEnabled()
+
+
 def test_raw_shader_material_declares_nothing(lab):
     pane = lab.page.shader_pane
     _choose(pane._dialect, "raw-shader-material")
