@@ -7,7 +7,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 
 from app.session.document import VIEWS
 from core import STAGES
-from core.lanes.limits import LISTING
+from core.lanes.limits import LISTING, SHADER
 from widgets.inspector.listing_pane import NAME_LENGTH
 from widgets.space.orbit import EXTENT_LIMITS
 
@@ -283,6 +283,10 @@ class Look(Record):
     """Names of the panes that are not folded away; ``None``: those of the window that opens it."""
     text_size: TextSize = 100
     """Percent; 0: as large as the desktop's text. A window with larger text keeps its own."""
+    shader_drafts: dict[
+        Literal["vertex", "fragment"], Annotated[str, Field(max_length=SHADER.characters)]
+    ] = {}
+    """Texts of shaders that do not run, as they stand in the editors."""
     event: str = "covered"
     """Kind of event that N runs to."""
     lesson: tuple[str, int] | None = None

@@ -146,6 +146,14 @@ class ShaderPane(QWidget):
         """Return the editor of ``vertex`` or ``fragment``."""
         return self._editors[stage]
 
+    def forget_typed(self) -> None:
+        """Show the document's texts next, whatever was typed since."""
+        self._from_document = {}
+
+    def shows(self, vertex: str, fragment: str) -> bool:
+        """Whether these are the texts that the editors had before the user typed."""
+        return self._from_document == {"vertex": vertex, "fragment": fragment}
+
     def show_program(self, program: ShownProgram | None, is_possible: bool) -> None:
         """Show the shaders of the document; ``None``: it has none, and ``is_possible``: it may have some."""
         self._select(self._preset, BUILT_IN if program is None else program.preset)

@@ -35,11 +35,18 @@ class SourceEditor(QPlainTextEdit):
         self._follow_theme()
 
     def set_source(self, text: str) -> None:
-        """Show a text that was not typed here; it is not emitted."""
+        """Show a text that was not typed here; it is not emitted. Undo leads back to the one before."""
         if text == self.toPlainText():
             return
+        is_first = self.document().isEmpty()
         self.blockSignals(True)
-        self.setPlainText(text)
+        if is_first:
+            self.setPlainText(text)
+        else:
+            cursor = QTextCursor(self.document())
+            cursor.select(QTextCursor.SelectionType.Document)
+            cursor.insertText(text)
+            self.moveCursor(QTextCursor.MoveOperation.Start)
         self.blockSignals(False)
         self._pause.stop()
 

@@ -52,6 +52,7 @@ def look_of(page: "StepPage", text_size: TextSize) -> Look:
         other_buffer=page.comparing.buffer,
         panes=page.desk_panes(),
         text_size=text_size,
+        shader_drafts=page.shading.drafts(),
         event=page.stepping.event_kind,
     )
 
@@ -71,5 +72,6 @@ def show_look(page: "StepPage", look: Look) -> None:
     page.grids.show_look(look.grid)
     page.views.look_from({name: Orbit(**dict(orbit)) for name, orbit in look.orbits.items()})
     page.show_view(look.view)
+    page.shading.show_drafts(look.shader_drafts)
     if look.lesson is not None:
         page.lessons.open(*look.lesson)

@@ -182,6 +182,7 @@ class StepPage(Page):
         self.compare_view.grids[0].fit()
         self.comparing.begin_anew(moment)
         self.editing.begin_anew()
+        self.shading.begin_anew()
 
     # Layout.
 

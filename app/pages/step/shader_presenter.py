@@ -3,10 +3,11 @@
 What reads and runs shaders is imported when it is first needed: most windows open without any.
 """
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from math import isfinite
+from typing import Literal
 
 import numpy as np
 from PySide6.QtCore import QEvent, QObject, QTimer, Signal, Slot
@@ -16,6 +17,7 @@ from app.pages.page_bar import Page
 from app.pages.step.shader_trial import Make, Tried, notes_of, try_shaders
 from app.session.moment import Moment
 from app.session.session import Session
+from core.lanes.limits import SHADER
 from core.records.steps import Level
 from core.scene import Scene
 from core.shaders.presets import PRESETS, preset_of, preset_program, retyped
@@ -73,6 +75,11 @@ class ShaderPresenter(QObject):
         self._later.timeout.connect(self._tell_drawing)
         self.refresh(session.moment)
 
+    def begin_anew(self) -> None:
+        """Forget what did not run: another scene was opened."""
+        self._job.cancel()
+        self._pane.forget_typed()
+
     def refresh(self, moment: Moment) -> None:
         """Show the shaders while the pane is in sight; a trial ends where others came in between, as by undo."""
         if self._program() is not self._began_with:
@@ -123,6 +130,30 @@ class ShaderPresenter(QObject):
         scene = self._session.latest.scene
         assert isinstance(scene, Scene)
         self._edit(partial(retyped, program, scene, sources["vertex"], sources["fragment"]))
+
+    def drafts(self) -> dict[Literal["vertex", "fragment"], str]:
+        """Return the texts in the editors that the document has not taken over."""
+        program = self._program()
+        if program is None or not self._pane.shows(program.vertex, program.fragment):
+            return {}
+        texts: dict[Literal["vertex", "fragment"], str] = {
+            "vertex": self._pane.editor("vertex").toPlainText(),
+            "fragment": self._pane.editor("fragment").toPlainText(),
+        }
+        return {
+            stage: text
+            for stage, text in texts.items()
+            if text != getattr(program, stage) and len(text) <= SHADER.characters
+        }
+
+    def show_drafts(self, drafts: Mapping[Literal["vertex", "fragment"], str]) -> None:
+        """Put texts that did not run back into the editors, and say again why they do not."""
+        if self._program() is None or not drafts:
+            return
+        self._show()
+        for stage, text in drafts.items():
+            self._pane.editor(stage).set_source(text)
+        self._type(*next(iter(drafts.items())))
 
     @Slot(str)
     def _choose_dialect(self, dialect: str) -> None:

@@ -7,7 +7,7 @@ from PySide6.QtGui import QTextCursor
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit
 
-from app.files.open_any import open_any
+from app.files.open_any import Opened, open_any
 from app.pages.step.grid_records import mask_overlays
 from app.session.document import focus_on
 from app.window.main_window import MainWindow
@@ -309,9 +309,35 @@ def test_a_mistake_of_the_shelf_is_named(lab, qtbot):
     assert lab.page.shader_pane.message.startswith("Both shaders run. vColor never gets the vertex's colour.")
 
 
+def test_a_text_that_does_not_run_is_kept_in_the_state(lab, qtbot):
+    wrong = TASK_FRAGMENT.replace("vec4(vColor", "vec4(vColr")
+    _type(lab, qtbot, "fragment", wrong)
+    pane, said, kept = lab.page.shader_pane, lab.page.shader_pane.message, lab.files.state()
+    assert kept.look.shader_drafts == {"fragment": wrong}
+    _type(lab, qtbot, "fragment", TASK_FRAGMENT)
+    assert lab.files.state().look.shader_drafts == {}
+    lab.files.show_opened(Opened(kept.document, state=kept))
+    lab.page.settle()
+    assert pane.editor("fragment").toPlainText() == wrong
+    assert pane.message == said == "Fragment shader, line 9: vColr is not declared: did you mean vColor?"
+    assert _program(lab).fragment == TASK_FRAGMENT
+
+
+def test_undo_in_the_editor_goes_back_over_a_preset(lab, qtbot):
+    pane, before = lab.page.shader_pane, _program(lab)
+    _choose(pane._preset, "toon")
+    assert _program(lab).fragment == pane.editor("fragment").toPlainText() != TASK_FRAGMENT
+    for stage in ("vertex", "fragment"):
+        pane.editor(stage).undo()
+    qtbot.waitUntil(
+        lambda: (_program(lab).vertex, _program(lab).fragment) == (before.vertex, before.fragment)
+    )
+
+
 def test_typing_has_an_undo_of_its_own(lab, qtbot):
     editor = lab.page.shader_pane.editor("fragment")
     editor.setFocus()
+    editor.moveCursor(QTextCursor.MoveOperation.Start)
     with qtbot.waitSignal(lab.page.shader_pane.source_settled, timeout=5000):
         QTest.keyClicks(editor, "xx")
     assert editor.toPlainText() == f"xx{TASK_FRAGMENT}"
