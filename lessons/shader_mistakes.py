@@ -30,6 +30,11 @@ class ShaderMistake:
     says: str
     """What went wrong, and what to write."""
 
+    @property
+    def sentence(self) -> str:
+        """The same, as all mistakes have it."""
+        return self.says
+
 
 SHELF = (
     ShaderMistake(
@@ -111,6 +116,22 @@ SHELF = (
         "position.y*0.5",
         "position.y*1.5",
         "All axes have the scale of x. The task has a factor of its own for each: 1.5, 0.5 and 2.0.",
+    ),
+    ShaderMistake(
+        "cosine-below-zero",
+        "phong",
+        "fragment",
+        "   if (cosine <= 0.0) return vec3(0.0);\n",
+        "",
+        "The cosine is below 0 where the surface is turned away, and takes light away there. Write max(..., 0.0).",
+    ),
+    ShaderMistake(
+        "threshold-reversed",
+        "alpha-test",
+        "fragment",
+        "alpha < threshold",
+        "alpha > threshold",
+        "The wrong fragments are discarded: those above the threshold. Discard where alpha < threshold.",
     ),
 )
 """All of them."""

@@ -28,7 +28,7 @@ from lessons.exercises.answer_parts import (
 from lessons.exercises.answers.answer import Answer, NotCheckedError
 from lessons.exercises.answers.cells import Dial, Entry
 from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
-from lessons.exercises.answers.code import MISSING, WRITE, CodeAnswer, head_alone, with_line
+from lessons.exercises.answers.code import CodeAnswer, head_alone, with_line
 from lessons.exercises.answers.fields import Column, NumberAnswer, TableAnswer
 from lessons.exercises.answers.listings import LineAnswer
 from lessons.exercises.answers.pixels import PixelAnswer, read_art
@@ -108,9 +108,9 @@ def code_answer(part: CodePart) -> CodeAnswer:
     if part.line is not None and not 2 <= part.line <= count:
         raise ValueError(f"expected a line from 2 to {count} of the listing of {task.name}, got {part.line}")
     if part.line is not None:
-        start = with_line(task, part.line, part.wrong or MISSING)
+        start = with_line(task, part.line, part.wrong)
     else:
-        start = head_alone(task, WRITE) if part.listing is None else part.listing.strip("\n").rstrip()
+        start = head_alone(task) if part.listing is None else part.listing.strip("\n").rstrip()
     try:
         return CodeAnswer(task, start)
     except NotCheckedError as problem:

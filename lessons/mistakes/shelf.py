@@ -2,6 +2,7 @@
 
 from difflib import get_close_matches
 
+from lessons import shader_mistakes
 from lessons.mistakes import (
     clipping,
     coverage,
@@ -15,6 +16,7 @@ from lessons.mistakes import (
     transforms,
 )
 from lessons.mistakes.twin import Twin, WrongRule
+from lessons.shader_mistakes import ShaderMistake
 
 SHELF: dict[str, Twin] = {
     twin.name: twin
@@ -30,7 +32,10 @@ RULES: dict[str, WrongRule] = {
 }
 """Wrong formulas, stage by stage."""
 
-MISTAKES: dict[str, Twin | WrongRule] = {**SHELF, **RULES}
+SHADERS: dict[str, ShaderMistake] = {mistake.name: mistake for mistake in shader_mistakes.SHELF}
+"""Wrong lines of shaders."""
+
+MISTAKES: dict[str, Twin | WrongRule | ShaderMistake] = {**SHELF, **RULES, **SHADERS}
 """All of them."""
 
 

@@ -17,7 +17,7 @@ from lessons.mistakes import (
     transforms,
 )
 from lessons.mistakes.clipping import ACROSS, segment
-from lessons.mistakes.shelf import MISTAKES, RULES, SHELF, twin_named
+from lessons.mistakes.shelf import MISTAKES, RULES, SHADERS, SHELF, twin_named
 from lessons.mistakes.twin import Twin, WrongRule, line_pixels, right_reading
 
 
@@ -41,7 +41,7 @@ def test_names_are_unique_and_unknown_ones_refused() -> None:
     runs = (clipping, coverage, depths, fills, fragments, lines, textures)
     formulas = (cutting, depths, fills, lighting, textures, transforms)
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
-    assert len(MISTAKES) == count
+    assert len(MISTAKES) == count + len(SHADERS)
     with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):
         twin_named("'; DROP TABLE twins")
 

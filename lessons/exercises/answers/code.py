@@ -20,7 +20,7 @@ NAMES_SHOWN = 3
 """Most classes of inputs that are named."""
 OPENED = 40
 """Most inputs that are drawn to find one whose pictures differ."""
-MISSING, WRITE = "# this line is missing", "# write the rest"
+MISSING, WRITE = "this line is missing", "write the rest"
 """What stands where a line, or a whole function, is to be written."""
 Found = TypeVar("Found")
 
@@ -102,12 +102,8 @@ class CodeAnswer(Answer):
     @cached_property
     def chance(self) -> float:
         """Mean score of listings that return something simple."""
-        scores = [self.check(guess).score for guess in self._guesses]
+        scores = [self.check(guess).score for guess in self.task.guessed]
         return sum(scores) / len(scores)
-
-    @property
-    def _guesses(self) -> list[str]:
-        return [f"{self.task.head}\n  return {guess}" for guess in self.task.guesses]
 
     @property
     def form(self) -> Form:
@@ -238,7 +234,7 @@ class CodeAnswer(Answer):
 
     def random(self, draws: Draws) -> str:
         """Return something simple."""
-        return draws.item(self._guesses)
+        return draws.item(self.task.guessed)
 
     def extremes(self) -> list[str]:
         """Change nothing, where that runs."""
@@ -258,14 +254,15 @@ def _differs(opened: Opened) -> bool:
     )
 
 
-def with_line(task: Task, number: int, line: str) -> str:
-    """Return the right listing with another line, from 1, at the same depth."""
+def with_line(task: Task, number: int, line: str | None) -> str:
+    """Return the right listing with another line, from 1, at the same depth; ``None``: without this one."""
     lines = task.text.split("\n")
     old = lines[number - 1]
-    lines[number - 1] = old[: len(old) - len(old.lstrip())] + line.strip()
+    new = f"{task.note} {MISSING}" if line is None else line.strip()
+    lines[number - 1] = old[: len(old) - len(old.lstrip())] + new
     return "\n".join(lines)
 
 
-def head_alone(task: Task, note: str) -> str:
+def head_alone(task: Task) -> str:
     """Return the head of the listing, and a note below it."""
-    return f"{task.head}\n  {note}"
+    return f"{task.head}\n  {task.note} {WRITE}{task.tail}"

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from math import isclose
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
@@ -110,10 +110,20 @@ class Task:
     draws_other: bool = False
     """Whether the right text draws something else than the method whose listing it stands for."""
 
+    note: ClassVar[str] = "#"
+    """Begins a note in a line."""
+    tail: ClassVar[str] = ""
+    """Ends a text."""
+
     @property
     def head(self) -> str:
         """First line of the listing."""
         return self.text.partition("\n")[0]
+
+    @property
+    def guessed(self) -> list[str]:
+        """Texts of somebody who guesses."""
+        return [f"{self.head}\n  return {guess}" for guess in self.guesses]
 
     @property
     def all_cases(self) -> list[tuple[str, Case]]:
@@ -133,7 +143,7 @@ class Task:
         """Return a text, compiled; `Problem` where it cannot be read."""
         return compile_listing(text, *(surroundings(self.of) if self.of is not None else ()))
 
-    def read(self, text: str) -> Program:
+    def read(self, text: str) -> Any:
         """Return a text, compiled, that takes what the task gives; nothing runs. `Problem` where it cannot."""
         program = self.program(text)
         self._check_head(program)
@@ -142,6 +152,21 @@ class Task:
     def check_text(self, text: str) -> None:
         """Raise `Problem` for a text that cannot run: it runs on no lanes, through all branches."""
         self._check_run(self.read(text))
+
+    def run(self, text: str) -> list[Any]:
+        """Return what a text returns for every hidden input; `Problem` where its run cannot go on."""
+        program, cases = self.read(text), self.all_cases
+        self._check_run(program)
+        value = program.run(
+            _columns([case.values for _, case in cases], len(cases)),
+            len(cases),
+            limits=LIMITS,
+            accept=lambda value, place: returned(value, self.shape, self.words, place),
+        )
+        try:
+            return list(map(self.plain, lane_values(value, len(cases))))
+        except ValueError as problem:
+            raise Problem(program.functions[program.name].place, str(problem)) from None
 
     def _check_run(self, program: Program) -> None:
         program.check(
@@ -198,19 +223,7 @@ def _parameters(task: Task) -> tuple[str, ...]:
 
 @lru_cache(maxsize=512)
 def _results(task: Task, text: str) -> tuple[Any, ...]:
-    program = task.read(text)
-    task._check_run(program)
-    cases = task.all_cases
-    value = program.run(
-        _columns([case.values for _, case in cases], len(cases)),
-        len(cases),
-        limits=LIMITS,
-        accept=lambda value, place: returned(value, task.shape, task.words, place),
-    )
-    try:
-        return tuple(map(task.plain, lane_values(value, len(cases))))
-    except ValueError as problem:
-        raise Problem(program.functions[program.name].place, str(problem)) from None
+    return tuple(task.run(text))
 
 
 def _columns(rows: Sequence[tuple[Any, ...]], lanes: int) -> list[Any]:

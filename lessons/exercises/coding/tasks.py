@@ -1,11 +1,19 @@
 """All tasks by name, as files name them."""
 
-from lessons.exercises.coding import interpolations, lines, pictures, pixels, triangles
+from lessons.exercises.coding import (
+    fragment_shaders,
+    interpolations,
+    lines,
+    pictures,
+    pixels,
+    triangles,
+    vertex_shaders,
+)
 from lessons.exercises.coding.task import Task
 
 TASKS: dict[str, Task] = {
     task.name: task
-    for module in (lines, triangles, interpolations, pixels, pictures)
+    for module in (lines, triangles, interpolations, pixels, pictures, vertex_shaders, fragment_shaders)
     for task in module.TASKS
 }
 

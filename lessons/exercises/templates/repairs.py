@@ -3,7 +3,7 @@
 from functools import partial
 
 from core.scene import ClipScene
-from lessons.exercises.answers.code import MISSING, WRITE, CodeAnswer, head_alone, with_line
+from lessons.exercises.answers.code import CodeAnswer, head_alone, with_line
 from lessons.exercises.coding.task import SIDE, Task
 from lessons.exercises.coding.tasks import TASKS
 from lessons.exercises.drawn_scene import frame_art
@@ -22,8 +22,22 @@ REPAIRED = (
     "affine",
     "depth-test",
     "over",
+    "vertex-shader",
+    "scaling-shader",
+    "diffuse-shader",
+    "highlight",
+    "texture-shader",
+    "alpha-test-shader",
 )
-COMPLETED = ("inside-test", "bresenham-lecture", "dda", "perspective", "over")
+COMPLETED = (
+    "inside-test",
+    "bresenham-lecture",
+    "dda",
+    "perspective",
+    "over",
+    "vertex-shader",
+    "diffuse-shader",
+)
 WRITTEN = (
     "edge-function",
     "tie-rule",
@@ -33,6 +47,10 @@ WRITTEN = (
     "bilinear",
     "depth-test",
     "over",
+    "clip-position",
+    "lambert",
+    "highlight",
+    "checker",
 )
 DRAWN = ("dashes", "open-ends", "thick-line", "stripes", "around")
 LINES = pixel_segments([((1, 1), (10, 4)), ((2, 10), (10, 7)), ((0, 4), (3, 10))], (SIDE, SIDE))
@@ -56,13 +74,13 @@ def draw_missing(task: Task, draws: Draws) -> Draft:
     """A listing without one of its lines."""
     lines = [line.strip() for line in task.text.split("\n")]
     asked = list(dict.fromkeys(fault.line for fault in task.faults))
-    start = with_line(task, lines.index(draws.item(asked)) + 1, MISSING)
+    start = with_line(task, lines.index(draws.item(asked)) + 1, None)
     return code_draft(task, f"{task.purpose} One line of this listing is missing. Write it.", start)
 
 
 def draw_function(task: Task, draws: Draws) -> Draft:
     """The head of a function."""
-    return code_draft(task, f"{task.purpose} Write the function.", head_alone(task, WRITE))
+    return code_draft(task, f"{task.purpose} Write the function.", head_alone(task))
 
 
 def draw_picture(task: Task, draws: Draws) -> Draft:

@@ -20,7 +20,7 @@ from lessons.exercises.question import Question, ask, judge
 from lessons.mistakes.lines import faulty_listing
 from lessons.mistakes.shelf import SHELF
 
-WRITTEN = CodeAnswer(LECTURE, head_alone(LECTURE, "# write the rest"))
+WRITTEN = CodeAnswer(LECTURE, head_alone(LECTURE))
 
 
 def changed(*changes: tuple[str, str]) -> str:
@@ -53,7 +53,7 @@ def test_lines_with_a_named_fault_have_the_pixels_of_the_mistake() -> None:
 def test_a_named_fault_draws_what_the_mistake_draws() -> None:
     compared = set()
     for task in TASKS.values():
-        answer = CodeAnswer(task, head_alone(task, "# write the rest"))
+        answer = CodeAnswer(task, head_alone(task))
         for name, text in answer.named_mistakes.items():
             opened = answer.opened(text)
             if opened is None or task.name == "bresenham":  # Its smallest input is a diagonal, see above.
@@ -152,7 +152,7 @@ CANNOT = {
 
 @pytest.mark.parametrize("line", CANNOT)
 def test_what_cannot_run_is_no_wrong_answer(line: str) -> None:
-    answer = CodeAnswer(INSIDE, head_alone(INSIDE, "# write the rest"))
+    answer = CodeAnswer(INSIDE, head_alone(INSIDE))
     with pytest.raises(CannotRunError, match=CANNOT[line].replace("(", ".")) as caught:
         answer.check(answer.read(f"{INSIDE.head}\n  {line}"))
     assert caught.value.place.line == 2

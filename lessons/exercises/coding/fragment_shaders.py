@@ -1,0 +1,295 @@
+"""Fragment shaders and functions of them: light, texture, and what is discarded, on hidden inputs of every class."""
+
+import numpy as np
+
+from core.scene import Texture
+from lessons.exercises.coding.shader_task import HEAD, cases_of, shader_task
+from lessons.exercises.coding.task import Fault
+
+UP, SIDE, SLANTED = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 0.6, 0.8)
+_LIGHT = (
+    ("vec3", "vNormal"),
+    ("vec3", "vColor"),
+    ("vec3", "lightDirection"),
+    ("float", "ambient"),
+    ("float", "diffuse"),
+)
+_RED, _GREY = (1.0, 0.5, 0.25), (0.5, 0.5, 0.5)
+_COSINE, _SURFACE = (
+    "float cosine = max(dot(N, L), 0.0);",
+    "outColor = vec4(vColor * (ambient + diffuse * cosine), 1.0);",
+)
+_UNIT, _TO_LIGHT = "vec3 N = normalize(vNormal);", "vec3 L = normalize(-lightDirection);"
+DIFFUSE = shader_task(
+    "diffuse-shader",
+    "shade",
+    "the diffuse light",
+    "This fragment shader lights a surface. vNormal is interpolated, so it may be shorter than 1. lightDirection is "
+    "the way the light travels; it may have any length. The colour is vColor times the light: ambient, and diffuse "
+    "times the cosine between the normal and the way to the light. What is turned away from the light has ambient "
+    "light alone. Alpha is 1.",
+    f"""{HEAD}in vec3 vNormal;
+in vec3 vColor;
+uniform vec3 lightDirection;
+uniform float ambient;
+uniform float diffuse;
+out vec4 outColor;
+void main() {{
+   {_UNIT}
+   {_TO_LIGHT}
+   {_COSINE}
+   {_SURFACE}
+}}""",
+    _LIGHT,
+    cases_of(
+        _LIGHT,
+        {
+            "light from the front": [
+                (UP, _RED, (0.0, 0.0, -1.0), 0.25, 0.75),
+                (SIDE, _GREY, (-1.0, 0.0, 0.0), 0.0, 1.0),
+            ],
+            "light at an angle": [
+                (SLANTED, _RED, (0.0, 0.0, -1.0), 0.25, 0.5),
+                (UP, _GREY, (0.0, -0.6, -0.8), 0.5, 0.5),
+            ],
+            "a short normal": [
+                ((0.0, 0.0, 0.5), _RED, (0.0, 0.0, -1.0), 0.25, 0.75),
+                ((0.0, 0.3, 0.4), _GREY, (0.0, 0.0, -1.0), 0.5, 0.5),
+            ],
+            "a long light direction": [
+                (UP, _RED, (0.0, 0.0, -2.0), 0.25, 0.75),
+                (SLANTED, _GREY, (0.0, 0.0, -4.0), 0.5, 0.5),
+            ],
+            "turned away from the light": [
+                (UP, _RED, (0.0, 0.0, 1.0), 0.25, 0.75),
+                (SLANTED, _GREY, (0.0, 0.6, 0.8), 0.5, 0.25),
+            ],
+            "light along the surface": [
+                (UP, _RED, SIDE, 0.25, 0.75),
+                (SIDE, _GREY, (0.0, 0.0, -1.0), 0.5, 0.5),
+            ],
+        },
+    ),
+    (
+        Fault(_UNIT, "vec3 N = vNormal;", "normal-not-unit"),
+        Fault(_TO_LIGHT, "vec3 L = normalize(lightDirection);", "light-turned-round"),
+        Fault(_TO_LIGHT, "vec3 L = -lightDirection;"),
+        Fault(_COSINE, "float cosine = dot(N, L);", "cosine-below-zero"),
+        Fault(_COSINE, "float cosine = abs(dot(N, L));"),
+        Fault(_SURFACE, "outColor = vec4(vColor * diffuse * cosine, 1.0);", "ambient-missing"),
+        Fault(_SURFACE, "outColor = vec4(vColor * (ambient + diffuse * cosine), 0.0);", "alpha-zero"),
+        Fault(_SURFACE, "outColor = vec4(vColor * ambient + diffuse * cosine, 1.0);"),
+    ),
+    (
+        "Take a surface that faces the light, one that is turned away, and one whose normal is shorter than 1.",
+        "dot(N, L) is the cosine only where both have length 1; below 0 it says that the surface is turned away.",
+        "With N = (0, 0, 1) and light that travels along (0, 0, -1), the cosine is 1: follow each line.",
+    ),
+    ("outColor = vec4(vColor, 1.0);", "outColor = vec4(0.0);", "outColor = vec4(vColor * ambient, 1.0);"),
+    ("outColor",),
+)
+_RAY = (("vec3", "normal"), ("vec3", "direction"))
+LAMBERT = shader_task(
+    "lambert",
+    "shade",
+    "the cosine of the light",
+    "lambert is given a normal and the direction in which the light travels, both of any length. It returns the cosine "
+    "of the angle between the normal and the way to the light, and 0 where that is below 0.",
+    """float lambert(vec3 normal, vec3 direction) {
+   vec3 N = normalize(normal);
+   vec3 L = normalize(-direction);
+   return max(dot(N, L), 0.0);
+}""",
+    _RAY,
+    cases_of(
+        _RAY,
+        {
+            "light from the front": [(UP, (0.0, 0.0, -1.0)), (SIDE, (-1.0, 0.0, 0.0))],
+            "light at an angle": [(SLANTED, (0.0, 0.0, -1.0)), (UP, (0.0, -0.6, -0.8))],
+            "a normal of another length": [
+                ((0.0, 0.0, 0.5), (0.0, 0.0, -1.0)),
+                ((0.0, 3.0, 4.0), (0.0, 0.0, -1.0)),
+            ],
+            "a direction of another length": [(UP, (0.0, 0.0, -2.0)), (SLANTED, (0.0, 0.0, -0.25))],
+            "turned away from the light": [(UP, (0.0, 0.0, 1.0)), (SLANTED, (0.0, 0.6, 0.8))],
+        },
+    ),
+    (
+        Fault("vec3 N = normalize(normal);", "vec3 N = normal;", "normal-not-unit"),
+        Fault("vec3 L = normalize(-direction);", "vec3 L = normalize(direction);", "light-turned-round"),
+        Fault("vec3 L = normalize(-direction);", "vec3 L = -direction;"),
+        Fault("return max(dot(N, L), 0.0);", "return dot(N, L);", "cosine-below-zero"),
+    ),
+    (
+        "What must come out where the light falls straight on the surface, and what where it comes from behind?",
+        "dot of two vectors of length 1 is the cosine between them.",
+        "For the normal (0, 0, 1) and light along (0, 0, -1), it is 1; for light along (0, 0, 1), it is 0.",
+    ),
+    ("return 1.0;", "return 0.0;", "return dot(normal, direction);"),
+    returns="float",
+)
+_MIRROR = (("vec3", "N"), ("vec3", "L"), ("vec3", "V"), ("float", "shininess"))
+HIGHLIGHT = shader_task(
+    "highlight",
+    "shade",
+    "the highlight",
+    "highlight is given three vectors of length 1: the normal N, L towards the light and V towards the eye. H, of "
+    "length 1, lies half-way between L and V. It returns the cosine between N and H, 0 where that is below 0, to the "
+    "power of shininess.",
+    """float highlight(vec3 N, vec3 L, vec3 V, float shininess) {
+   vec3 H = normalize(L + V);
+   float cosine = max(dot(N, H), 0.0);
+   return pow(cosine, shininess);
+}""",
+    _MIRROR,
+    cases_of(
+        _MIRROR,
+        {
+            "the light is mirrored": [(UP, UP, UP, 8.0), (UP, SLANTED, (0.0, -0.6, 0.8), 4.0)],
+            "beside the highlight": [(UP, SLANTED, UP, 2.0), (SLANTED, UP, UP, 4.0)],
+            "shininess 1": [(UP, SLANTED, UP, 1.0), (UP, SIDE, UP, 1.0)],
+            "light and eye far apart": [(UP, SIDE, UP, 4.0), (SLANTED, SIDE, UP, 2.0)],
+            "turned away from both": [((0.0, 0.0, -1.0), SLANTED, UP, 3.0), ((0.0, -0.6, -0.8), UP, UP, 2.0)],
+        },
+    ),
+    (
+        Fault("vec3 H = normalize(L + V);", "vec3 H = L + V;"),
+        Fault("vec3 H = normalize(L + V);", "vec3 H = normalize(V - L);"),
+        Fault("vec3 H = normalize(L + V);", "vec3 H = L;"),
+        Fault("float cosine = max(dot(N, H), 0.0);", "float cosine = abs(dot(N, H));"),
+        Fault("float cosine = max(dot(N, H), 0.0);", "float cosine = max(dot(L, H), 0.0);"),
+        Fault("return pow(cosine, shininess);", "return cosine * shininess;"),
+    ),
+    (
+        "Where N lies exactly between L and V, the result is 1, whatever the shininess.",
+        "L + V points half-way between L and V, but it is longer than 1.",
+        "With N = L = V = (0, 0, 1), H is (0, 0, 1), the cosine is 1, and 1 to any power is 1.",
+    ),
+    ("return 1.0;", "return 0.0;", "return shininess;"),
+    returns="float",
+)
+
+
+_TEXELS = Texture(np.array([[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[0.0, 0.0, 1.0], [1.0, 1.0, 0.0]]]))
+"""Red and green in the first row, blue and yellow in the second."""
+_UV = (("vec2", "vUv"),)
+_TEXEL, _OPAQUE = "vec4 texel = texture(map, vUv);", "outColor = vec4(texel.rgb, 1.0);"
+TEXTURE = shader_task(
+    "texture-shader",
+    "shade",
+    "the textured surface",
+    "This fragment shader colours a surface with the texture map. vUv is the place in the texture: (0, 0) is its lower "
+    "left corner, (1, 1) the upper right one. Alpha is 1.",
+    f"""{HEAD}in vec2 vUv;
+uniform sampler2D map;
+out vec4 outColor;
+void main() {{
+   {_TEXEL}
+   {_OPAQUE}
+}}""",
+    _UV,
+    cases_of(
+        _UV,
+        {
+            "the lower left quarter": [((0.25, 0.25),), ((0.1, 0.4),)],
+            "the lower right quarter": [((0.75, 0.25),), ((0.9, 0.1),)],
+            "the upper left quarter": [((0.25, 0.75),), ((0.4, 0.9),)],
+            "the upper right quarter": [((0.75, 0.75),), ((0.6, 0.9),)],
+        },
+    ),
+    (
+        Fault(_TEXEL, "vec4 texel = texture(map, vec2(vUv.x, 1.0 - vUv.y));"),
+        Fault(_TEXEL, "vec4 texel = texture(map, vec2(1.0 - vUv.x, vUv.y));"),
+        Fault(_TEXEL, "vec4 texel = texture(map, vUv.yx);"),
+        Fault(_TEXEL, "vec4 texel = texture(map, vUv * 0.5);"),
+        Fault(_OPAQUE, "outColor = vec4(texel.bgr, 1.0);"),
+        Fault(_OPAQUE, "outColor = vec4(texel.rgb, 0.0);", "alpha-zero"),
+    ),
+    (
+        "Which quarter of the texture has the wrong colour: is it turned over, exchanged, or only another colour?",
+        "u goes to the right and v upwards, in the texture as in vUv.",
+        "1.0 - v turns the picture over. Here (0, 0) must read the lower left texel and (1, 1) the upper right one.",
+    ),
+    ("outColor = vec4(0.0, 0.0, 0.0, 1.0);", "outColor = vec4(vUv, 0.0, 1.0);"),
+    ("outColor",),
+    textures={"map": _TEXELS},
+)
+_LEAF = (("vec4", "vColor"), ("float", "threshold"))
+_TEST = "if (vColor.a < threshold) discard;"
+ALPHA_TEST = shader_task(
+    "alpha-test-shader",
+    "shade",
+    "the alpha test",
+    "This fragment shader discards each fragment whose alpha lies below threshold. All others are written with their "
+    "colour and an alpha of 1, also those that lie exactly at the threshold.",
+    f"""{HEAD}in vec4 vColor;
+uniform float threshold;
+out vec4 outColor;
+void main() {{
+   {_TEST}
+   outColor = vec4(vColor.rgb, 1.0);
+}}""",
+    _LEAF,
+    cases_of(
+        _LEAF,
+        {
+            "alpha above the threshold": [((1.0, 0.5, 0.25, 0.75), 0.5), ((0.0, 1.0, 0.5, 1.0), 0.25)],
+            "alpha below the threshold": [((1.0, 0.5, 0.25, 0.25), 0.5), ((0.0, 1.0, 0.5, 0.0), 0.25)],
+            "alpha at the threshold": [((1.0, 0.5, 0.25, 0.5), 0.5), ((0.0, 1.0, 0.5, 1.0), 1.0)],
+            "a threshold of 0": [((1.0, 0.5, 0.25, 0.0), 0.0), ((0.0, 1.0, 0.5, 0.5), 0.0)],
+        },
+    ),
+    (
+        Fault(_TEST, "if (vColor.a > threshold) discard;", "threshold-reversed"),
+        Fault(_TEST, "if (vColor.a <= threshold) discard;"),
+        Fault(_TEST, "if (vColor.r < threshold) discard;"),
+        Fault(_TEST, "if (threshold < 0.0) discard;"),
+        Fault("outColor = vec4(vColor.rgb, 1.0);", "outColor = vec4(vColor.rgb, 0.0);", "alpha-zero"),
+        Fault("outColor = vec4(vColor.rgb, 1.0);", "outColor = vColor;"),
+    ),
+    (
+        "Take a fragment above the threshold, one below and one exactly at it: which of them is wrong?",
+        "discard ends the fragment. What is left must be opaque.",
+        "With a threshold of 0.0 nothing is below it; with alpha 1.0 nothing may be discarded.",
+    ),
+    ("outColor = vColor;", "discard;", "outColor = vec4(0.0);"),
+    ("outColor",),
+)
+_BOARD = (("vec2", "uv"), ("float", "squares"))
+CHECKER = shader_task(
+    "checker",
+    "shade",
+    "a checkerboard",
+    "checker is given a place uv and the number of squares on a length of 1. It returns 0 on the square that begins at "
+    "(0, 0), 1 on its four neighbours, and so on in turn, also where u or v is below 0.",
+    """float checker(vec2 uv, float squares) {
+   vec2 square = floor(uv * squares);
+   return mod(square.x + square.y, 2.0);
+}""",
+    _BOARD,
+    cases_of(
+        _BOARD,
+        {
+            "the first square": [((0.1, 0.1), 4.0), ((0.2, 0.05), 2.0)],
+            "a neighbour": [((0.3, 0.1), 4.0), ((0.1, 0.6), 2.0)],
+            "on the diagonal": [((0.3, 0.3), 4.0), ((0.9, 0.9), 4.0)],
+            "below 0": [((-0.1, 0.1), 4.0), ((-0.1, -0.1), 4.0), ((-0.3, 0.1), 4.0)],
+            "beyond 1": [((1.1, 0.1), 4.0), ((1.3, 0.1), 4.0)],
+        },
+    ),
+    (
+        Fault("vec2 square = floor(uv * squares);", "vec2 square = uv * squares;"),
+        Fault("vec2 square = floor(uv * squares);", "vec2 square = floor(uv);"),
+        Fault("vec2 square = floor(uv * squares);", "vec2 square = trunc(uv * squares);"),
+        Fault("return mod(square.x + square.y, 2.0);", "return mod(square.x, 2.0);"),
+        Fault("return mod(square.x + square.y, 2.0);", "return mod(square.x * square.y, 2.0);"),
+    ),
+    (
+        "Number the squares: which column and which row does a place lie in?",
+        "Columns and rows are whole numbers. Their sum is even on the first square and odd on its neighbours.",
+        "mod(x, 2.0) is 0 for even and 1 for odd numbers, also below 0.",
+    ),
+    ("return 0.0;", "return 1.0;", "return uv.x;"),
+    returns="float",
+)
+TASKS = (DIFFUSE, LAMBERT, HIGHLIGHT, TEXTURE, ALPHA_TEST, CHECKER)
