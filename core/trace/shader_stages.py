@@ -133,7 +133,7 @@ def trace_fragment_shader(source: TraceSource) -> StageTrace:
     lanes = lanes_of(shader, geometry, source.raster, fragments, source.interpolated[1])
     mesh = geometry.primitives.mesh[fragments.primitive]
     parts = []
-    for number in np.unique(mesh):
+    for number in np.unique(mesh) if len(mesh) else (0,):  # Without fragments it runs on no lanes.
         at = np.flatnonzero(mesh == number)
         chosen = np.flatnonzero(geometry.primitives.mesh[lanes.primitive] == number)
         place = np.searchsorted(chosen, lanes.lane[at])

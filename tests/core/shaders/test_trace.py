@@ -1,5 +1,6 @@
 """Shaders stepped: the rows of Transform and Shade, their words and variables, and buffers of any variable."""
 
+from dataclasses import replace
 from importlib import import_module
 
 import numpy as np
@@ -29,6 +30,14 @@ c.r *= dFdx(r) + 0.5;
 
 def _sentences(stage, rows, column=0, line=0):
     return [sentence(stage.explain(int(stage.steps.starts[row]) + 1), 0, (column, line)) for row in rows]
+
+
+def test_a_triangle_out_of_sight_has_a_stage_without_rows():
+    scene = tutorial_scene(size=(24, 18))
+    vertex = scene.program.vertex.replace("projectionMatrix * ", "")
+    scene = replace(scene, program=replace(scene.program, vertex=vertex))
+    assert not render(scene).cover_count.any()
+    assert trace(scene, Settings()).stage("shade").steps.row_count == 0
 
 
 def test_folding_all_rows_gives_the_picture():
