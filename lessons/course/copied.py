@@ -8,12 +8,14 @@ from typing import Any
 import numpy as np
 
 from core import Settings, Trace
+from core.edits import Edit
 from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene, PointLight, Scene
 from core.settings import settings_from_texts, settings_record
 from core.trace import StageTrace
 from core.trace.run_to import END
 from lessons.course.quoted import flags_of
+from lessons.course.texts import changes_of_edits, shaders_of
 from lessons.exercises.record import PRIMITIVE_LIMIT
 from lessons.scene_edits import WINDOW_NAMES, window_of_clip
 from lessons.slides.scenes import ALL_SCENES
@@ -37,6 +39,7 @@ def state_text(
     view: str = "pixels",
     other: Mapping[str, object] | None = None,
     printed: str = "",
+    edits: Sequence[Edit] = (),
 ) -> str:
     """Return the line ``state = {...}`` of a step.
 
@@ -46,6 +49,8 @@ def state_text(
         Of the scene that is open under the ``title``, with the ``settings``.
     other : mapping, optional
         What B does otherwise, by family, where A | B is shown.
+    edits : sequence of Edit
+        Listings that are edited.
 
     Raises
     ------
@@ -67,7 +72,9 @@ def state_text(
         state["buffer"] = buffer
     if view not in ("pixels", "compare"):
         state["view"] = view
-    if printed:
+    if changes := changes_of_edits(edits):
+        state["edit"] = [*state.get("edit", ()), *changes]
+    elif printed:
         state["printed"] = printed
     elif other:
         state["other"] = {family: str(method) for family, method in other.items()}
@@ -108,6 +115,8 @@ def _scene_table(scene: AnyScene, title: str) -> tuple[dict[str, Any], Mapping[s
         changes = _changes(scene, base)
         if changes is not None:
             size = {} if scene.size == base.size else {"size": list(scene.size)}
+            preset, edit = shaders_of(scene, base)
+            changes |= ({"shaders": preset} if preset else {}) | ({"edit": edit} if edit else {})
             return {"scene": known.name, **size, **changes}, known.settings
     return {"scene": _typed(scene)}, {}
 

@@ -7,7 +7,7 @@ from core import Settings
 from core.edits import EDITABLE, Edit, edited_settings, original, refusal
 from core.methods import ReplacedName
 from core.scene import AnyScene, Scene
-from core.shaders.presets import preset_program, retyped
+from core.shaders.presets import PRESETS, preset_program, retyped
 from core.shaders.shader import STAGES
 
 Change = Sequence[str]
@@ -19,6 +19,57 @@ def is_of_shader(change: Change) -> bool:
     return change[0] in STAGES
 
 
+def change_between(part: str, old: str, new: str) -> list[Change]:
+    """Return the change that makes one text of another: whole lines that stand once; none where both are the same."""
+    if old == new:
+        return []
+    before, after = old.splitlines(keepends=True), new.splitlines(keepends=True)
+    first = next(
+        (k for k, (one, other) in enumerate(zip(before, after, strict=False)) if one != other),
+        min(len(before), len(after)),
+    )
+    last = 0
+    while last < min(len(before), len(after)) - first and before[-1 - last] == after[-1 - last]:
+        last += 1
+    while True:
+        lines = (each[first : len(each) - last] for each in (before, after))
+        changed, by = map("".join, lines)
+        if old.count(changed) == 1:
+            return [[part, changed, by]]
+        first, last = max(first - 1, 0), max(last - 1, 0)
+
+
+def changes_of_edits(edits: Sequence[Edit]) -> list[Change]:
+    """Return the changes that make edits of the listings of their methods."""
+    found: list[Change] = []
+    for edit in edits:
+        found += change_between(edit.part, original(edit.part, edit.of).source, edit.text)
+    return found
+
+
+def shaders_of(scene: AnyScene, base: AnyScene) -> tuple[str, list[Change]]:
+    """Return the preset that the shaders of a scene began with, and the changes since; empty: those of the base.
+
+    Raises ValueError where a state cannot say them.
+    """
+    program = scene.program if isinstance(scene, Scene) else None
+    its = base.program if isinstance(base, Scene) else None
+    if program == its:
+        return "", []
+    if program is None or not isinstance(scene, Scene):
+        raise ValueError("a state of this scene keeps its shaders")
+    preset = next((name for name, known in PRESETS.items() if known.title == program.name), "")
+    if not preset:
+        raise ValueError("only shaders that began with a preset can stand in a lesson")
+    known = preset_program(preset, replace(scene, program=None))
+    if (program.uniforms, program.dialect) != (known.uniforms, known.dialect):
+        raise ValueError("uniforms and the dialect of shaders can only be those of their preset in a lesson")
+    changes: list[Change] = []
+    for stage in STAGES:
+        changes += change_between(stage, getattr(known, stage), getattr(program, stage))
+    return ("" if its == known else preset), changes
+
+
 def with_shaders(scene: AnyScene, preset: str) -> Scene:
     """Return a scene that a preset's shaders draw; ValueError where it has no meshes."""
     if not isinstance(scene, Scene):
@@ -28,14 +79,16 @@ def with_shaders(scene: AnyScene, preset: str) -> Scene:
 
 def with_changed_shaders(scene: AnyScene, changes: Sequence[Change]) -> AnyScene:
     """Return a scene with the changes that are in its shaders; ValueError where it has none, or they do not run."""
-    for part, old, new in filter(is_of_shader, changes):
-        program = scene.program if isinstance(scene, Scene) else None
-        if not isinstance(scene, Scene) or program is None:
-            raise ValueError("expected a scene with shaders where one is changed")
-        sources = {stage: getattr(program, stage) for stage in STAGES}
+    wanted = list(filter(is_of_shader, changes))
+    if not wanted:
+        return scene
+    program = scene.program if isinstance(scene, Scene) else None
+    if not isinstance(scene, Scene) or program is None:
+        raise ValueError("expected a scene with shaders where one is changed")
+    sources = {stage: getattr(program, stage) for stage in STAGES}
+    for part, old, new in wanted:
         sources[part] = _replaced(sources[part], old, new, f"the {part} shader")
-        scene = replace(scene, program=retyped(program, scene, **sources))
-    return scene
+    return replace(scene, program=retyped(program, scene, **sources))
 
 
 def with_changed_listings(

@@ -30,8 +30,9 @@ def copy_state(page: "StepPage") -> None:
             triangle=document.triangle,
             buffer=page.grids.look().buffers.get(cursor.stage, ""),
             view=page.current_view(),
-            other=comparing.differences if is_compared else None,
+            other=comparing.differences if is_compared and not document.edits else None,
             printed=comparing.printed if is_compared else "",
+            edits=document.edits,
         )
     except ValueError as problem:
         page.tell(f"This cannot be copied: {problem}.")

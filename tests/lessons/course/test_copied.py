@@ -7,10 +7,13 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
+from core.edits import Edit, original
 from core.scene import ClipScene, Scene
+from core.shaders.presets import preset_program
 from lessons.course.copied import state_text
 from lessons.course.lesson_file import read_lesson
 from lessons.course.state import States
+from lessons.course.texts import changes_of_edits
 from lessons.scene_edits import move_corner, set_value
 from lessons.slides.scenes import ALL_SCENES
 from lessons.small_scenes import triangle_scene
@@ -76,3 +79,33 @@ def test_what_no_lesson_can_name_is_refused() -> None:
         scene = ALL_SCENES[name].make()
         with pytest.raises(ValueError, match="only a built-in scene, or up to 64 triangles"):
             state_text(trace(replace(scene, size=(8, 6))), Settings(), "another title", "raster", 0)
+
+
+def test_edited_listings_and_shaders_are_copied(tmp_path: Path) -> None:
+    square = triangle_scene([[(0.5, 0.5), (4.5, 0.5), (4.5, 4.5)]], (6, 6))
+    settings = Settings(fill="bounding-box")
+    right = original("fill", "bounding-box").source
+    for text in (
+        right.replace("value > 0 or", "value >= 0 or"),
+        right.replace("inside = []", ""),
+        "def f(" + right,
+    ):
+        edits = (Edit("fill", "bounding-box", text),)
+        (row,) = changes_of_edits(edits)
+        assert right.replace(*row[1:]) == text
+    edits = (Edit("fill", "bounding-box", right.replace("value > 0 or", "value >= 0 or")),)
+    line = state_text(trace(square, settings), settings, "typed", "raster", 0, edits=edits)
+    assert reopened(tmp_path, line).edits == edits
+    sphere = replace(ALL_SCENES["sphere"].make(), size=(24, 16))
+    program = preset_program("toon", sphere)
+    for text in (program.fragment, program.fragment.replace("0.8 * band", "0.7 * band")):
+        scene = replace(sphere, program=replace(program, fragment=text))
+        line = state_text(trace(scene, Settings()), Settings(), "Sphere", "shade", 0)
+        state = reopened(tmp_path, line)
+        assert np.array_equal(render(state.scene).color, render(scene).color)
+    for strange, said in (
+        (replace(program, name=""), "only shaders that began with a preset"),
+        (replace(program, uniforms=(("steps", (5.0,)),)), "uniforms"),
+    ):
+        with pytest.raises(ValueError, match=said):
+            state_text(trace(replace(sphere, program=strange)), Settings(), "Sphere", "shade", 0)
