@@ -9,6 +9,7 @@ from core.methods import ReplacedName
 from core.scene import AnyScene, Scene
 from core.shaders.presets import PRESETS, preset_program, retyped
 from core.shaders.shader import STAGES
+from lessons.course.record import StepPart
 
 Change = Sequence[str]
 """Part, old text, new text: the part is one of `core.edits.EDITABLE`, or one of two shaders."""
@@ -68,6 +69,12 @@ def shaders_of(scene: AnyScene, base: AnyScene) -> tuple[str, list[Change]]:
     for stage in STAGES:
         changes += change_between(stage, getattr(known, stage), getattr(program, stage))
     return ("" if its == known else preset), changes
+
+
+def edited_shader(step: StepPart) -> str:
+    """Return which shader the solution of a step changes first; empty: none."""
+    changes = step.solution.edit if step.solution is not None else ()
+    return next((change[0] for change in changes if is_of_shader(change)), "")
 
 
 def with_shaders(scene: AnyScene, preset: str) -> Scene:

@@ -137,6 +137,10 @@ class ShaderPane(QWidget):
                 layout.addWidget(self._message)
         self.show_program(None, is_possible=True)
 
+    def show_source(self, stage: str) -> None:
+        """Bring a shader's tab to the front."""
+        self._tabs.setCurrentWidget(self._editors[stage])
+
     @property
     def message(self) -> str:
         """What stands below the sources."""

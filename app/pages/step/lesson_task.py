@@ -15,6 +15,7 @@ from app.session.moment import Change
 from core import STAGES
 from lessons.course.record import StepPart
 from lessons.course.state import States
+from lessons.course.texts import edited_shader
 from lessons.exercises.scene_digest import scene_digest
 from widgets.basics.focus_order import give_focus, tab_stops
 from widgets.exercises.mark_grid import MarkGrid
@@ -110,6 +111,8 @@ class LessonTask(QObject):
             page.show_desk_panes(kept)  # What goes need not show the new state first.
         self._show(shown, is_hidden=is_hidden)
         page.show_desk_panes(panes)
+        if stage := "" if part is None else edited_shader(part):
+            page.shader_pane.show_source(stage)
         page.column.fold_listing("listing" not in shown.state.panes)
         self.scroll.keep_in_sight(None)
         self.view.show_step(record, None if asked is None else asked.question.draft.answer.form)

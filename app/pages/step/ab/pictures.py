@@ -37,6 +37,8 @@ ROUNDED = (
 REORDERED = "A and B give the same results; only the order of their steps differs."
 ORDERED_STAGES = ("bin", "raster", "depth")
 """Stages in which methods may do the same in another order."""
+SHOWS_MORE = {"coverage": "overdraw"}
+"""By buffer, another one that shows the same difference, and pixels that are drawn again."""
 SHOWN_MARKS = ("rejected", "tie", "nan", "failed", *LANE_MARKS)
 """Marks of rows done that lie over the pictures."""
 
@@ -73,20 +75,27 @@ def _first_comparable(buffers: Sequence[Mapping[str, GridBuffer]]) -> str:
 
 
 def differing_buffer(first: Step, second: Step) -> str:
-    """Return the name of the first buffer that differs once the stage is done; empty: none does."""
+    """Return the name of the first buffer that differs once the stage is done, or one that shows more; empty: none."""
     ends = (replace(each, cursor=replace(each.cursor, position=each.steps.count)) for each in (first, second))
     mine, theirs = ({buffer.name: buffer for buffer in buffers_of(end)} for end in ends)
-    for name, buffer in mine.items():
-        if name in theirs and _hold_the_same(buffer, theirs[name]) and not _is_equal(buffer, theirs[name]):
-            return name
-    return ""
+    counts = {
+        name: _unlike_count(buffer, theirs[name])
+        for name, buffer in mine.items()
+        if name in theirs and _hold_the_same(buffer, theirs[name])
+    }
+    found = next((name for name, count in counts.items() if count), "")
+    more = SHOWS_MORE.get(found, "")
+    return more if counts.get(more, 0) > counts.get(found, 0) else found
 
 
-def _is_equal(a: GridBuffer, b: GridBuffer) -> bool:
+def _unlike_count(a: GridBuffer, b: GridBuffer) -> int:
     # What one of both has not reached is no number there.
     mine, theirs = (each.values.astype(float) for each in (a, b))
     mine[~_known(a)] = theirs[~_known(b)] = np.nan
-    return np.array_equal(mine, theirs, equal_nan=True)
+    if mine.shape != theirs.shape:
+        return 0
+    differs = (mine != theirs) & ~(np.isnan(mine) & np.isnan(theirs))
+    return int(np.count_nonzero(differs.reshape(*differs.shape[:2], -1).any(axis=2)))
 
 
 def _hold_the_same(a: GridBuffer, b: GridBuffer) -> bool:

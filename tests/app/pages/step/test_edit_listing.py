@@ -330,6 +330,8 @@ def test_an_edit_that_is_a_mistake_of_the_shelf_is_named(window: MainWindow) -> 
     assert "“all edges inclusive”" in message.text()
     assert 'href="lesson/shared-edges/' in message.text()
     assert 'href="exercise/' in message.text()
+    # Most pixels that differ are covered by both, and drawn twice by one.
+    assert window.page.compare_view.buffer_box.currentData() == "overdraw"
 
 
 def test_one_that_draws_the_same_is_said_to(window: MainWindow) -> None:

@@ -38,6 +38,21 @@ def test_a_listing_that_is_edited_is_a_task(window: MainWindow, qtbot: QtBot, tm
     assert (window.page.current_view(), box.currentData()) == ("compare", "overdraw")
 
 
+def test_a_shader_that_is_typed_is_a_task(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    walk = opened(window, qtbot, tmp_path, 2, lesson_text("write-a-shader"))
+    pane = window.page.shader_pane
+    editor = pane.editor("vertex")
+    assert editor.isVisible()
+    right = editor.toPlainText().replace("= modelView", "= projectionMatrix * modelView")
+    for text in (right.replace("1.0)", "1.0"), right):
+        assert walk.standings[2] is Standing.OPEN
+        editor.setPlainText(text)
+        editor.text_settled.emit(text)
+        settled(window, qtbot)
+    qtbot.waitUntil(lambda: walk.standings[2] is Standing.DONE)
+    assert walk.view.feedback.text().startswith("Done.")
+
+
 def test_a_step_names_the_buffer_of_a_and_b(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     walk = opened(window, qtbot, tmp_path, 0, lesson_text("three-signs"))
     walk.go(0)
