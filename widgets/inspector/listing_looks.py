@@ -14,7 +14,9 @@ from widgets.basics.theme import current_theme
 
 _VERTEX_NAME = re.compile(r"^[A-Za-z]+_?([012])$")
 KINDS_OF_VECTORS = ("vec", "ivec", "bvec", "mat")
-_GLSL = re.compile(r"^\s*#version|\bvoid\s+main\s*\(", re.MULTILINE)
+_GLSL = re.compile(
+    r"^\s*#version|^\s*(?:void|float|int|bool|[bi]?vec[2-4]|mat[2-4])\s+\w+\s*\(", re.MULTILINE
+)
 _GLSL_TOKEN = re.compile(
     r"(?P<comment>//[^\n]*|/\*.*?\*/|#[^\n]*)|(?P<number>\b\d[\w.]*|\.\d\w*)|(?P<word>[A-Za-z_]\w*)",
     re.DOTALL,

@@ -61,6 +61,9 @@ def test_tokens_of_a_shader():
     assert (2, 11, 2, 18, "comment") in found
     assert (4, 14, 4, 17, "number") in found
     assert not [token for token in found if token[0] == 4 and token[1] == 9]
+    # A function alone is one, too; the same word begins nothing in a listing.
+    assert token_formats("float f(vec3 n) {\n")[0] == (1, 0, 1, 5, "keyword")
+    assert token_formats("float(x)\n") == ()
 
 
 def test_a_click_on_a_line_asks_to_run_to_it(qtbot, view) -> None:
