@@ -135,7 +135,7 @@ def key_fields(key: int) -> tuple[str, str]:
 
 
 def component_names(attribute: str, count: int) -> Sequence[str]:
-    """Return what the components of an interpolated attribute are called."""
-    if attribute == "uv":
-        return ("u", "v")
+    """Return what the components of an interpolated attribute are called; one number alone is no colour but ``u``."""
+    if attribute == "uv" or count == 1:
+        return ("u", "v")[:count]
     return AXES[:count] if attribute in ("position", "normal") else CHANNELS[:count]

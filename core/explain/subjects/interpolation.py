@@ -132,7 +132,7 @@ def _value(step: StepValues, how: str) -> str:
     name = step.operation.removeprefix("value-")
     values = step.vector(name)
     shown = spoken(values[0]) if len(values) == 1 else vector_text(values)
-    title = ATTRIBUTE_NAMES.get(name, name.replace("_", " "))
+    title = "u" if len(values) == 1 else ATTRIBUTE_NAMES.get(name, name.replace("_", " "))
     verb = "are" if name == "uv" else "is"
     return f"{step.fragment_name}: its {title} {verb} {shown}, {how}{remainder_note(values)}."
 

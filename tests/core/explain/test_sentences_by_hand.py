@@ -452,3 +452,16 @@ def test_the_albedo_of_corners_without_a_colour_is_that_of_the_texture() -> None
     made = formula(explanation)
     assert made is not None
     assert "colour" not in made.substituted
+
+
+def test_one_value_alone_is_u_and_no_colour() -> None:
+    clip, values = [[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], np.array([[[0.0], [1.0], [0.0]]])
+    stepped = trace(ClipScene(clip, values, (4, 4)), Settings()).stage("interpolate")
+    explained = map(stepped.explain, range(1, stepped.steps.count + 1))
+    value = next(each for each in explained if each and each.key == "interpolate.perspective.value-color")
+    assert sentence(value, 0, (0, 0)) == (
+        "Pixel (0, 0) of triangle 0: its u is 0.125, the weighted sum of the corners' values."
+    )
+    shown = formula(value)
+    assert shown is not None
+    assert shown.symbolic.startswith("u")
