@@ -130,7 +130,6 @@ class LessonStates(QObject):
                     shown.document, shown.trace, shown.cursor, pin=state.pixel, is_predicting=is_hidden
                 )
                 page.stepping.set_places()
-                page.grid.fit()
                 page.views.look_from({})
             page.grids.focus_on(max(session.moment.triangle, 0))
             if session.moment is before:
