@@ -119,21 +119,18 @@ def draw_inverse(draws: Draws) -> Draft | None:
         "These fragments are drawn in order. What does the buffer hold at the pixel of each right after it was tested? "
         "It stores 1/w, begins at 0, and keeps the larger value."
     )
-    given = "\n".join(
-        f"Fragment {k}: pixel {pixel}, w = {1 / value}" for k, (pixel, value) in enumerate(fragments)
-    )
     hints = (
         "Is a surface with a larger 1/w nearer or farther?",
         "Follow one pixel at a time.",
         f"Fragment 0 leaves 1/{1 / fragments[0][1]} at its pixel: only a larger 1/w replaces it there.",
     )
-    labels = [f"pixel {pixel}, w = {1 / value}" for pixel, value in fragments]
+    labels = [f"fragment {k}: pixel {pixel}, w = {1 / value}" for k, (pixel, value) in enumerate(fragments)]
     wrong = {"farther-wins": stored(min), "no-depth-test": [[value] for _, value in fragments]}
     follow = follow_nearest(fragments)
     settings = Settings(depth="inverse-w")
     # 1/19 and 1/20 are 0.0026 apart.
     right = stored(max)
-    return table(text, given, ("1/w",), labels, right, hints, wrong, follow, None, settings, None, 0.001)
+    return table(text, "", ("1/w",), labels, right, hints, wrong, follow, None, settings, None, 0.001)
 
 
 GRID = 4

@@ -144,7 +144,7 @@ def depth_table(fragments: Sequence[Fragment]) -> TableAnswer:
         before = [stored for (stored,), (its, _) in zip(own, fragments, strict=False) if its == pixel]
         return min((Fraction(z), *before[-1:]))
 
-    labels = tuple(f"pixel {pixel}, z = {z}" for pixel, z in fragments)
+    labels = tuple(f"fragment {k}: pixel {pixel}, z = {z}" for k, (pixel, z) in enumerate(fragments))
     return TableAnswer((Column("stored"),), labels, stored_depths(fragments), follow)
 
 
@@ -158,13 +158,12 @@ def draw_depths(draws: Draws) -> Draft | None:
         "These fragments are drawn in order. What does the z-buffer hold at the pixel of each right after it was "
         "tested? Smaller is nearer, the buffer begins at infinity, and a tie keeps what is there."
     )
-    given = "\n".join(f"Fragment {k}: pixel {pixel}, z = {z}" for k, (pixel, z) in enumerate(fragments))
     hints = (
         "Follow one pixel at a time.",
         "A fragment passes only where its z is smaller than what its pixel holds.",
         f"{again_text(fragments)} After one that fails, the pixel holds what it held.",
     )
-    return Draft(text, given, depth_table(fragments), hints, wrong, card_scene(fragments))
+    return Draft(text, "", depth_table(fragments), hints, wrong, card_scene(fragments))
 
 
 COLORS = {"red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1), "yellow": (1, 1, 0), "white": (1, 1, 1)}
