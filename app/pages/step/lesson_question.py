@@ -48,6 +48,11 @@ class LessonQuestion:
             return size_of(self.question.draft) is not None
         return self.question.draft.answer.kind in ("pixels", "spot", "places", "break")
 
+    @property
+    def is_typed(self) -> bool:
+        """Whether a listing is the answer."""
+        return self.question.draft.answer.kind == "code"
+
     def outcome(self, response: Response) -> Outcome:
         """Judge an answer that was read."""
         if self.number < 0:

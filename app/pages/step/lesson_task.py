@@ -179,9 +179,19 @@ class LessonTask(QObject):
         """Say whether the learner has left where the step began, and show a step where there is one."""
         home, session = self._home, self._session
         shows_listing = home is not None and "listing" in home.state.panes
-        self._page.side.set_idle(session.cursor.position == 0 and not shows_listing)
+        self._page.side.set_idle(not (shows_listing or self._is_about_a_step()))
         is_there = home is not None and session.document is home.document and session.cursor == home.cursor
         self.view.show_away(not is_there)
+
+    def _is_about_a_step(self) -> bool:
+        """Return whether the step that is done is to be read: not before the first, nor beside a listing that is typed.
+
+        At the end of the run the whole picture is what is looked at, not the byte that was written last.
+        """
+        cursor, asked = self._session.cursor, None if self._home is None else self._home.asked
+        if cursor.position == 0 or (asked is not None and asked.is_typed):
+            return False
+        return cursor.stage != STAGES[-1] or cursor.position < self._session.stage_trace.steps.count
 
     # What the learner does.
 

@@ -10,7 +10,7 @@ from widgets.basics.theme import current_theme
 from widgets.lessons.lesson_scroll import LessonScroll
 
 INSPECTOR_LINES = 9
-"""Least height of the inspector under a lesson, in lines of text: sentence and formula."""
+"""Height that the inspector keeps under a lesson, in lines of text, where sentence and formula need no less."""
 
 
 class SideColumn(QWidget):
@@ -72,11 +72,11 @@ class SideColumn(QWidget):
             self._below.show()
             self._inspector.show_formula_alone(False)
             return
-        least = round(INSPECTOR_LINES * 1.5 * current_theme().text_px)
+        whole, formula = self._inspector.step_heights()
+        least = min(whole, round(INSPECTOR_LINES * 1.5 * current_theme().text_px))
         room = self.height() - self._lesson.height_for(self.width()) - self._layout.spacing()
         is_alone, has_room = False, room >= least
         if self._is_presenting:
-            whole, formula = self._inspector.step_heights()
             is_alone, has_room = room < whole, room >= formula
         gives_way = self._gives_way or self._is_presenting
         is_wanted = not (self._inspector.isHidden() or self._is_idle)

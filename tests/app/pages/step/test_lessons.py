@@ -429,6 +429,21 @@ def test_the_exercise_that_closes_a_lesson_leads_back_to_it(
     assert back.isHidden()
 
 
+def test_no_step_stands_beside_a_whole_picture_and_a_listing_that_is_typed(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    column = window.page.column
+    window.page.lessons.open("who-is-in-front", 0)
+    settled(window, qtbot)
+    assert not column.isVisible()
+    window.run_action("step_back")
+    assert column.isVisible()
+    window.page.lessons.open("repair-a-listing", 2)
+    assert settled(window, qtbot).number == 2
+    assert window.session.cursor.position > 0
+    assert not column.isVisible()
+
+
 # In front of a class, and what is refused.
 
 
