@@ -10,14 +10,14 @@ from PySide6.QtWidgets import QSizePolicy, QWidget
 
 from core.records.alike import is_alike
 from widgets.basics.key_claim import FocusRing
-from widgets.basics.theme import Theme, current_theme, theme_notifier
+from widgets.basics.theme import current_theme, theme_notifier
 from widgets.grid.buffer import NO_VALUE, GridBuffer
 from widgets.grid.canvas import GridCanvas
 from widgets.grid.geometry import GridGeometry, NameBox, name_boxes, paint_focus
 from widgets.grid.marks import StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
 from widgets.grid.outline_layer import OutlineLayer
 from widgets.grid.overlay import CenterOverlay, Overlay
-from widgets.grid.paint import number_boxes, paint_ruler_pixel, ruler_areas, ruler_size
+from widgets.grid.paint import is_on_numbers, number_boxes, paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid.sample_dots import SampleDots
 from widgets.grid.view import FIT, GridPlacement, GridView, clamped, place
 
@@ -37,7 +37,7 @@ class GridDisplay(QWidget):
         self._corner = 0.0
         # What is made again only where what it is made from differs.
         self._placed: tuple[tuple[object, ...], GridPlacement] | None = None
-        self._names: tuple[tuple[GridPlacement, GridGeometry | None, Theme], list[NameBox]] | None = None
+        self._names: tuple[tuple[object, ...], list[NameBox]] | None = None
         self._hover: tuple[int, int] | None = None
         self._pin: tuple[int, int] | None = None
         self._step = StepMark()
@@ -230,39 +230,61 @@ class GridDisplay(QWidget):
             self._paint_geometry(painter, placement, self._geometry)
         paint_step_mark(painter, placement, self._step, theme, self._written(placement))
         if self._pin is not None and self._is_inside(self._pin):
-            paint_pin(painter, placement, self._pin)
+            self._paint_pin(painter, placement, self._pin)
         if self._hover is not None and self._is_inside(self._hover):
             paint_hover(painter, placement, self._hover)
         painter.restore()
         if self._hover is not None and not self._compact and self._is_inside(self._hover):
             paint_ruler_pixel(painter, placement, self.rect(), theme, self._hover)
 
+    def _paint_pin(self, painter: QPainter, placement: GridPlacement, pixel: tuple[int, int]) -> None:
+        """Mark the pinned pixel, beside names."""
+        painter.save()
+        free = QRegion(painter.clipRegion())
+        for box, _, _ in self.names():
+            free -= box.toAlignedRect()
+        painter.setClipRegion(free)
+        paint_pin(painter, placement, pixel)
+        painter.restore()
+
     def _paint_geometry(self, painter: QPainter, placement: GridPlacement, geometry: GridGeometry) -> None:
         """Paint the triangle in focus, on the screen from a kept picture: smooth lines are slow to draw."""
         theme = current_theme()
         # Outlines may go beside the numbers of the rulers; a thumbnail has neither these nor names.
         free = None if self._compact else self._canvas.rulers(placement, self.rect(), theme).beside
-        shown = placement, geometry, theme, self._vertex, free, self._name_boxes(placement)
+        shown = placement, geometry, theme, self._vertex, free, self.names()
         if painter.device() is self:
             self._canvas.outlines.paint_focus(painter, self.rect(), *shown)
         else:
             paint_focus(painter, *shown)
 
-    def _name_boxes(self, placement: GridPlacement) -> list[NameBox]:
+    def names(self) -> list[NameBox]:
         """Return the names of the vertices and edges of the triangle in focus, and where they are written."""
-        made_from = placement, self._geometry, current_theme()
+        placement, theme = self.placement(), current_theme()
         if self._compact or self._geometry is None:
             return []
+        made_from = placement, self._geometry, theme, self._canvas.writing(placement, theme)
         if self._names is None or self._names[0] != made_from:
-            self._names = made_from, name_boxes(placement, self._geometry, current_theme())
+            self._names = made_from, name_boxes(placement, self._geometry, theme, self._is_unwritten)
         return self._names[1]
+
+    def _is_unwritten(self, box: QRectF) -> bool:
+        """Return whether neither a cell nor a ruler writes a number into a box."""
+        placement, theme, buffer = self.placement(), current_theme(), self._canvas.buffer
+        writing = self._canvas.writing(placement, theme)
+        rulers = self._canvas.rulers(placement, self.rect(), theme).beside
+        if not QRegion(box.toAlignedRect()).subtracted(rulers).isEmpty():
+            return False
+        return (
+            buffer is None or writing is None or not is_on_numbers(placement, writing, buffer.channels, box)
+        )
 
     def _written(self, placement: GridPlacement) -> QRegion:
         """Return what names and the numbers below the step's mark take."""
         region, buffer = QRegion(), self._canvas.buffer
         if self._compact or buffer is None:
             return region
-        for box, _, _ in self._name_boxes(placement):
+        for box, _, _ in self.names():
             region += box.toAlignedRect()
         writing = self._canvas.writing(placement, current_theme())
         if writing is not None:

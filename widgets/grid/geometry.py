@@ -1,5 +1,6 @@
 """Primitives over a pixel grid: exact thin outlines, handles at the vertices, and the snapped positions."""
 
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -33,6 +34,8 @@ _NAMED_LENGTH = 7.0
 """Least length of an edge that is named, in heights of the text."""
 NameBox = tuple[QRectF, str, str]
 """Where a name is written, the name and its colour."""
+_ALONG = (0.5, 0.4, 0.6, 0.3, 0.7)
+"""Places along an edge at which its name may stand, the best first."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -264,8 +267,20 @@ def _paint_snapped(
             painter.drawPolygon(diamond)
 
 
-def name_boxes(placement: GridPlacement, geometry: GridGeometry, theme: Theme) -> list[NameBox]:
-    """Return the boxes, texts and colours of the names of the vertices and edges of the primitive in focus."""
+def _everywhere(box: QRectF) -> bool:
+    return True
+
+
+def name_boxes(
+    placement: GridPlacement,
+    geometry: GridGeometry,
+    theme: Theme,
+    is_free: Callable[[QRectF], bool] = _everywhere,
+) -> list[NameBox]:
+    """Return the boxes, texts and colours of the names of the vertices and edges of the primitive in focus.
+
+    Names of edges stand where the place ``is_free``, if there is such a place beside the edge.
+    """
     if not geometry.focus_vertices:
         return []
     metrics = QFontMetrics(_name_font(theme))
@@ -275,7 +290,7 @@ def name_boxes(placement: GridPlacement, geometry: GridGeometry, theme: Theme) -
             geometry.edges(geometry.triangles[geometry.focus][geometry.sides]), placement
         )
         names += _edge_names(
-            placement, geometry, list(zip(lines, source.tolist(), strict=True)), theme, metrics
+            placement, geometry, list(zip(lines, source.tolist(), strict=True)), theme, metrics, is_free
         )
     return names
 
@@ -320,8 +335,9 @@ def _edge_names(
     edges: list[tuple[QLineF, int]],
     theme: Theme,
     metrics: QFontMetrics,
+    is_free: Callable[[QRectF], bool],
 ) -> list[NameBox]:
-    """Return the name of each edge function beside its edge, outside of the triangle."""
+    """Return the name of each edge function beside its edge: outside of the triangle, or inside for want of room."""
     names = []
     owner = f" {geometry.owner}" if geometry.owner else ""
     width, height = metrics.horizontalAdvance(f"E0{owner}") + 6, metrics.height()
@@ -336,9 +352,12 @@ def _edge_names(
         right, up = _facing(geometry, geometry.focus_vertices[edge], placement.to_window(middle))
         if away.x() * right - away.y() * up > 0:
             away = -away
+        reach = away * (RIM + abs(away.x()) * width / 2 + abs(away.y()) * height / 2)
+        places = [line.pointAt(part) + side for side in (reach, -reach) for part in _ALONG]
         box = QRectF(0, 0, width, height)
-        box.moveCenter(middle + away * (RIM + abs(away.x()) * width / 2 + abs(away.y()) * height / 2))
-        names.append((moved_inside(box, viewport), f"E{edge}{owner}", theme.vertex_text[edge]))
+        boxes = [moved_inside(box.translated(place - box.center()), viewport) for place in places]
+        chosen = next(filter(is_free, boxes), boxes[0])
+        names.append((chosen, f"E{edge}{owner}", theme.vertex_text[edge]))
     return names
 
 

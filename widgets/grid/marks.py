@@ -138,7 +138,10 @@ def paint_hover(painter: QPainter, placement: GridPlacement, pixel: tuple[int, i
 
 def paint_pin(painter: QPainter, placement: GridPlacement, pixel: tuple[int, int]) -> None:
     """Mark the pinned pixel with four corner brackets around it."""
-    rect = marked_rect(placement, pixel).adjusted(-2, -2, 2, 2)
+    rect, seen = marked_rect(placement, pixel).adjusted(-2, -2, 2, 2), QRectF(placement.viewport)
+    if seen.adjusted(-4, -4, 4, 4).contains(rect):
+        # Whole at the border of the picture, too.
+        rect = rect.intersected(seen.adjusted(1, 1, -1, -1))
     reach = max(min(rect.width() * 0.3, 12.0), 3.0)
     lines = []
     for corner, right, down in (

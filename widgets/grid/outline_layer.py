@@ -62,7 +62,7 @@ class OutlineLayer:
                 inner.translate(-area.topLeft())
                 paint_focus(inner, placement, geometry, theme, held, free, names)
 
-        self._paint(painter, area, ("focus", placement), (geometry, theme, held, free), draw)
+        self._paint(painter, area, ("focus", placement), (geometry, theme, held, free, names), draw)
 
     def _paint(
         self,

@@ -265,6 +265,18 @@ def number_boxes(
     return region
 
 
+def is_on_numbers(placement: GridPlacement, writing: Writing, line_count: int, box: QRectF) -> bool:
+    """Return whether a box reaches into where the cells below it write their values, of so many lines each."""
+    (left, top), (right, bottom) = map(placement.to_window, (box.topLeft(), box.bottomRight()))
+    for column in range(max(int(left), 0), min(int(right) + 1, placement.columns)):
+        for row in range(max(int(bottom), 0), min(int(top) + 1, placement.rows)):
+            cell = placement.cells_rect(column, row)
+            first = cell.center().y() + writing.top
+            if box.intersects(QRectF(cell.left(), first, cell.width(), line_count * writing.height)):
+                return True
+    return False
+
+
 def _is_light(color: QColor, backdrop: QColor) -> bool:
     """Return whether black text is seen better than white on a colour that lies on a backdrop."""
     alpha = color.alphaF()

@@ -455,6 +455,43 @@ def test_no_mark_of_a_step_strikes_out_what_is_written(qtbot) -> None:
         assert after.copy(box) == before.copy(box)
 
 
+def test_names_of_edges_stand_beside_numbers_and_the_pin_beside_names(qtbot) -> None:
+    widget = PixelGrid()
+    qtbot.addWidget(widget)
+    widget.resize(500, 500)
+    geometry = GridGeometry(np.array([[0.5, 0.5], [6.5, 0.5], [0.5, 6.5]]), np.array([[0, 1, 2]]))
+    widget.show_geometry(geometry)
+    widget.show_buffer(GridBuffer("1/w", np.full((7, 7), 0.53125)))
+    theme, placement, buffer = current_theme(), widget.placement(), widget.buffer()
+    assert buffer is not None
+    writing = number_writing(placement, buffer, theme)
+    assert writing is not None
+    numbers = number_boxes(placement, buffer, writing, {(x, y) for x in range(7) for y in range(7)})
+    assert numbers.intersects(name_boxes(placement, geometry, theme)[5][0].toRect())
+    edges = [box.toRect() for box, name, _ in widget.names() if name.startswith("E")]
+    assert len(edges) == 3
+    assert not any(numbers.intersects(box) for box in edges)
+    before = picture(widget)
+    widget.show_pin((3, 0))
+    after = picture(widget)
+    assert after != before
+    assert all(after.copy(box) == before.copy(box) for box in edges)
+
+
+def test_the_pin_of_a_pixel_at_the_border_is_whole(qtbot) -> None:
+    widget = PixelGrid()
+    qtbot.addWidget(widget)
+    widget.resize(700, 400)  # The raster is as high as the view.
+    widget.show_buffer(GridBuffer("coverage", np.zeros((1, 1), bool)))
+    widget.show_pin((0, 0))
+    image, bottom = picture(widget), round(widget.placement().bottom)
+    black = [
+        sum(image.pixelColor(x, y).lightness() < 32 for x in range(700))
+        for y in range(bottom - 8, bottom + 2)
+    ]
+    assert max(black) >= 20, "two brackets"
+
+
 def test_nothing_is_written_where_a_picture_is_cleared(qtbot) -> None:
     widget = PixelGrid()
     qtbot.addWidget(widget)
