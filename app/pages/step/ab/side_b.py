@@ -1,6 +1,6 @@
 """What B is beside A: the same run with other settings, a listing as printed or edited, or a run with a mistake."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -25,7 +25,7 @@ FIRST_CHOICES = {
     "transform": (("depth", "reversed-z"),),
     "edges": (("coverage", "float32"),),
     "bin": (("fill", "hierarchy"), ("fill", "blocks")),
-    "raster": (("line", "dda"), ("fill", "scanline"), ("fill_rule", "inclusive")),
+    "raster": (("line", "midpoint"), ("fill", "scanline"), ("fill_rule", "inclusive")),
     "interpolate": (("interpolation", "affine"),),
     "depth": (("visibility", "last-drawn"), ("visibility", "z-buffer"), ("depth", "z-16")),
     "blend": (("blend", "over"), ("blend", "additive")),
@@ -36,6 +36,24 @@ BY_OUTCOME = frozenset({"depth"})
 """Stages in which other steps to the same result are no difference: where no triangle is hidden, B keeps the test."""
 ANYWHERE = (("interpolation", "affine"), ("depth", "z-16"), ("fill", "scanline"))
 """What is tried where no method of the stage makes a difference."""
+
+
+LINES = ("line_clipping", "line")
+"""Families of which a scene that chooses a method itself is about that method."""
+AS_PRINTED = "-lecture"
+"""What the names of methods as printed end in, behind the name of the right one."""
+
+
+def counterparts(settings: Settings, stage: str) -> Iterator[tuple[str, str]]:
+    """Yield families and methods that stand against what is chosen at a stage: the right one against one as printed."""
+    chosen = {
+        name: of for name, of in Settings().differences(settings).items() if FAMILIES[name].stage == stage
+    }
+    for family, method in chosen.items():
+        if isinstance(method, str) and method.endswith(AS_PRINTED):
+            yield family, method.removesuffix(AS_PRINTED)
+    for family in filter(chosen.__contains__, LINES):
+        yield from ((family, method) for method in FAMILIES[family].classical)
 
 
 def first_difference(
@@ -50,7 +68,8 @@ def first_difference(
 
     drawn: dict[str, str | int] = {}
     own = [(name, method) for name, of in FAMILIES.items() if of.stage == stage for method in of.classical]
-    for family, method in (*shown.items(), *FIRST_CHOICES.get(stage, ()), *own, *ANYWHERE):
+    against = counterparts(document.settings, stage)
+    for family, method in (*shown.items(), *against, *FIRST_CHOICES.get(stage, ()), *own, *ANYWHERE):
         settings = replace(document.settings, **{family: method})  # type: ignore[arg-type]
         other = replace(document, settings=settings)
         if settings == document.settings or no_effect(settings, family, document.scene):

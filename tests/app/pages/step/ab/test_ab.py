@@ -10,6 +10,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.files.open_any import open_any
 from app.pages.step.ab.pictures import compare
 from app.pages.step.ab.side_b import first_difference, settings_difference
 from app.session.document import open_document
@@ -80,6 +81,23 @@ def test_b_hides_other_pixels_where_any_method_of_the_depth_stage_does(
 ) -> None:
     document = open_document(make_scene(name), name)
     assert first_difference(document, document.make_trace(document.settings), "depth", {}) == expected
+
+
+@pytest.mark.parametrize(
+    ("name", "expected"),
+    [
+        ("segment", {"line": "midpoint"}),
+        ("pellacini-rectangle", {"line": "bresenham"}),
+        ("lmu-line", {"line": "bresenham"}),
+        ("jubair-parallel", {"line_clipping": "cyrus-beck"}),
+        ("lmu-clipped", {"line_clipping": "cohen-sutherland"}),
+    ],
+)
+def test_b_stands_against_the_method_that_a_scene_of_lines_is_about(
+    name: str, expected: dict[str, str]
+) -> None:
+    document = open_any(name).document
+    assert first_difference(document, document.make_trace(document.settings), "raster", {}) == expected
 
 
 def test_two_depth_formats_are_compared_in_what_both_hold(window: MainWindow) -> None:
