@@ -159,7 +159,7 @@ def _pane(pane: Pane) -> Row[ActionWindow]:
     )
 
 
-def _page(name: str, keys: str, title: str, ends_group: bool = False) -> Row[ActionWindow]:
+def _page(name: str, keys: str, title: str) -> Row[ActionWindow]:
     """Return what shows a page."""
     return Row(
         f"page_{name}",
@@ -167,7 +167,6 @@ def _page(name: str, keys: str, title: str, ends_group: bool = False) -> Row[Act
         title,
         lambda w: w.pages.show_page(name),
         lambda w: w.pages.current_name == name,
-        ends_group,
     )
 
 
@@ -419,7 +418,9 @@ ACTIONS: tuple[Action, ...] = (
     *_rows("step", VIEWING, "View", _window)(
         Row("edit_line", "F2", "Edit the line of the listing", lambda w: w.page.editing.edit_chosen_line()),
         Row("divergence", "D", "First divergence of A and B", lambda w: w.page.comparing.go_to_divergence()),
-        *map(_pane, PANES),
+    ),
+    *_rows("step", VIEWING, "View/Panes", _window)(*map(_pane, PANES)),
+    *_rows("step", VIEWING, "View", _window)(
         Row(
             "predict",
             "P",
@@ -442,16 +443,16 @@ ACTIONS: tuple[Action, ...] = (
     *_rows("start", STEPPING, "", _window)(
         Row("begin_stepping", "Right", "Step what is open", lambda w: w.start.step_on())
     ),
-    *_rows("", PAGES, "View", _window)(
+    *_rows("", PAGES, "View/Pages", _window)(
         _page("step", "Alt+1", "Step page"),
         _page("compare", "Alt+2", "Compare page"),
         _page("stability", "Alt+3", "Stability page"),
         _page("plan", "Alt+4", "Plan page"),
-        _page("exercises", "Alt+5", "Exercises page", ends_group=True),
+        _page("exercises", "Alt+5", "Exercises page"),
+    ),
+    *_rows("", PAGES, "View/Panes", _window)(
         Row("next_pane", "F6", "Next pane", lambda w: w.focus_walk.go_pane(1)),
-        Row(
-            "previous_pane", "Shift+F6", "Previous pane", lambda w: w.focus_walk.go_pane(-1), ends_group=True
-        ),
+        Row("previous_pane", "Shift+F6", "Previous pane", lambda w: w.focus_walk.go_pane(-1)),
     ),
     *_rows("", PAGES, "", lambda w: w.pages)(
         Row("next_page", "Ctrl+Tab", "Next page", lambda p: p.show_next(1)),

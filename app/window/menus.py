@@ -32,8 +32,11 @@ MENUS = (
     "Plan",
     "Exercises",
     "View",
+    "View/Panes",
+    "View/Pages",
     "Help",
 )
+"""Menus, and after a stroke those within one: each stands where its first entry would."""
 
 
 class Menus(QObject):
@@ -70,13 +73,17 @@ class Menus(QObject):
         self.scale_group = QActionGroup(self)
         self.bookmark_menu = QMenu("Boo&kmarks", window)
         self.theme_group, self.text_size_group = QActionGroup(self), QActionGroup(self)
-        menus = {title: window.menuBar().addMenu(f"&{title}") for title in MENUS}
+        bar, outer = window.menuBar(), [title for title in MENUS if "/" not in title]
+        menus = {title: bar.addMenu(f"&{title}") for title in outer}
         self._menus = menus
         for entry in self._table:
             made = self._make_action(entry, window)
             # Its key works while the menu bar is out of sight, too.
             window.addAction(made)
             if entry.menu:
+                if entry.menu not in menus:
+                    parent, title = entry.menu.split("/")
+                    menus[entry.menu] = menus[parent].addMenu(title)
                 menus[entry.menu].addAction(made)
             if entry.name == "open_file":
                 menus["File"].addMenu(self.recent_menu)
