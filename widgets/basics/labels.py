@@ -1,6 +1,8 @@
 """Labels: text that is cut to its width, text that scrolls, and a role that the style sheet knows."""
 
-from PySide6.QtCore import QSize, Qt
+from bisect import bisect_left
+
+from PySide6.QtCore import QRect, QSize, Qt
 from PySide6.QtGui import QPainter, QPaintEvent, QTextDocumentFragment
 from PySide6.QtWidgets import QLabel, QScrollArea, QSizePolicy, QWidget
 
@@ -50,6 +52,44 @@ class ElidedLabel(QLabel):
             flags = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter)
             self.style().drawItemText(
                 painter, self.rect(), flags, self.palette(), self.isEnabled(), text, self.foregroundRole()
+            )
+
+
+class CutLabel(QLabel):
+    """A label of plain text in several lines, which ends in an ellipsis where it is higher than its place."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setTextFormat(Qt.TextFormat.PlainText)
+        self.setWordWrap(True)
+
+    def seen_text(self) -> str:
+        """Return as much of the text as has room, up to a whole word."""
+        text, area = self.text(), self.contentsRect()
+
+        def has_room(part: str) -> bool:
+            flags = int(Qt.TextFlag.TextWordWrap)
+            wanted = self.fontMetrics().boundingRect(QRect(0, 0, area.width(), 1), flags, part)
+            return wanted.height() <= area.height()
+
+        if has_room(text):
+            return text
+        ends = [place for place, letter in enumerate(text) if letter.isspace()]
+        count = bisect_left(ends, True, key=lambda end: not has_room(f"{text[:end]} …"))
+        return f"{text[: ends[count - 1]]} …" if count else text
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Write what has room."""
+        with QPainter(self) as painter:
+            flags = int(self.alignment() | Qt.TextFlag.TextWordWrap)
+            self.style().drawItemText(
+                painter,
+                self.contentsRect(),
+                flags,
+                self.palette(),
+                self.isEnabled(),
+                self.seen_text(),
+                self.foregroundRole(),
             )
 
 

@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QBoxLayout, QGraphicsOpacityEffect, QLabel, QPushB
 
 from widgets.basics.choice_box import ChoiceBox
 from widgets.basics.controls import button_with_tip, column_layout, row_layout
-from widgets.basics.labels import text_label
+from widgets.basics.labels import CutLabel
 from widgets.basics.settings_panel import Setting
 from widgets.basics.theme import theme_notifier
 from widgets.grid.buffer import GridBuffer
@@ -97,7 +97,7 @@ class CompareView(QWidget):
         )
         self.listings = (ListingView(self.figure), ListingView(self.figure))
         """Those of A and B, where what runs is compared line by line."""
-        self.notes = tuple(text_label("", self.figure, role="muted", wraps=True) for _ in self.grids)
+        self.notes = tuple(CutLabel(self.figure) for _ in self.grids)
         self._settings: tuple[Setting, ...] = ()
         self._sides: tuple[Side, ...] = ()
         self._is_flipped = False
@@ -159,6 +159,7 @@ class CompareView(QWidget):
         self._notes_layout = QBoxLayout(QBoxLayout.Direction.LeftToRight, self._notes)
         self._notes_layout.setContentsMargins(0, 0, 0, 0)
         for note in self.notes:
+            note.setProperty("role", "muted")
             note.setAlignment(Qt.AlignmentFlag.AlignTop)
             self._notes_layout.addWidget(note, 1)
         self._notes_layout.addStretch(0)

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 
 from PySide6.QtCore import QSize, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QGridLayout, QLabel, QWidget
+from PySide6.QtWidgets import QGridLayout, QWidget
 
 from widgets.basics.accessible import announce
 from widgets.basics.controls import closing_button
-from widgets.basics.labels import text_label
+from widgets.basics.labels import CutLabel, text_label
 from widgets.basics.theme import current_theme
 from widgets.grid.buffer import GridBuffer
 from widgets.grid.pixel_grid import PixelGrid
@@ -32,7 +32,7 @@ class LinkedGrids(QWidget):
         super().__init__(parent)
         self._names = tuple(names)
         self.grids = tuple(PixelGrid(self) for _ in names)
-        self.titles = tuple(QLabel(self) for _ in names)
+        self.titles = tuple(CutLabel(self) for _ in names)
         self._rest: QWidget | None = None
         self._layout = layout = QGridLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
@@ -43,7 +43,6 @@ class LinkedGrids(QWidget):
             grid.pixel_left.connect(self.pixel_left)
             grid.pixel_clicked.connect(self.pixel_clicked)
             grid.view_changed.connect(self._link_views)
-            title.setWordWrap(True)
             title.setAlignment(Qt.AlignmentFlag.AlignBottom)
             title.setProperty("role", "muted")
         self._place(len(self.grids))

@@ -1,0 +1,18 @@
+"""Text that is longer than its place."""
+
+from widgets.basics.labels import CutLabel
+
+
+def test_a_text_ends_with_a_whole_word_and_an_ellipsis_where_it_has_no_room(qtbot) -> None:
+    label = CutLabel()
+    qtbot.addWidget(label)
+    label.setText(
+        "Pixel (3, 2) is drawn: its centre is at t = 0.5 of the segment, half a pixel above the line."
+    )
+    label.setFixedSize(160, 3 * label.fontMetrics().lineSpacing() + 4)
+    words = label.seen_text().removesuffix(" …").split()
+    assert label.seen_text().endswith(" …")
+    assert words == label.text().split()[: len(words)]
+    assert len(words) > 4
+    label.setFixedHeight(400)
+    assert label.seen_text() == label.text()
