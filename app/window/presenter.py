@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
+from PySide6.QtCore import QEvent, QObject, QPoint, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QAbstractSpinBox,
@@ -216,9 +216,11 @@ class Presenter(QObject):
         self._place_hint()
 
     def _place_hint(self) -> None:
-        """Lie over the lower left corner: nothing moves for it."""
+        """Lie at the bottom, beside the picture where there is something beside it: nothing moves for it."""
         if self.hint.isVisible():
-            room = self._window.rect().adjusted(16, 16, -16, -16)
+            room, side = self._window.rect().adjusted(16, 16, -16, -16), self._window.page.side
+            if side.isVisible():
+                room.setLeft(side.mapTo(self._window, QPoint(0, 0)).x())
             line = self.hint.fontMetrics().horizontalAdvance(self.hint.text()) + HINT_ROOM
             self.hint.setFixedWidth(min(line, room.width()))
             self.hint.setFixedHeight(self.hint.heightForWidth(self.hint.width()))

@@ -245,6 +245,8 @@ TEXT_CAPITALS, CODE_CAPITALS = 0.022, 0.018
 """Least height of a presenter's capitals, of text and of listings, as a part of the screen's height."""
 
 
+SMALL_PART = 0.9
+"""Size of a presenter's numbers on axes and in cells relative to the text."""
 FORMULA_SCALE = 1.14
 """Size of a presenter's formulas relative to the text: their capitals are lower."""
 
@@ -256,7 +258,7 @@ def for_screen(theme: Theme, height: int) -> Theme:
     return replace(
         theme,
         text_px=text,
-        small_px=round(0.8 * text),
+        small_px=round(SMALL_PART * text),
         title_px=round(1.25 * text),
         code_px=size_of_capitals(code, CODE_CAPITALS * height),
         formula_scale=FORMULA_SCALE,

@@ -26,6 +26,8 @@ CENTRE_CELL = 12.0
 """Side from which sample centres are drawn."""
 NUMBER_CELL = 40.0
 """Side from which values are written into the cells, if they fit."""
+NUMBER_PART = 0.45
+"""Size of small whole numbers relative to their cells."""
 _GAP = 5.0
 """Between the sample centre and the value below it, which else would read as an i."""
 TALLNESS = 0.8
@@ -141,7 +143,7 @@ def _number_size(
     """Return the text size of the values in logical pixels, or None where cells are too small, or full of dots."""
     cell, least = placement.cell, round(0.73 * theme.small_px)
     if cell >= NUMBER_CELL and samples is None and _has_small_wholes(buffer):
-        return int(min(0.45 * cell, 2 * theme.text_px))
+        return int(min(NUMBER_PART * cell, 2 * theme.text_px))
     room = (cell - 6) / (1.25 * buffer.channels)
     if cell < NUMBER_CELL or room < least + (buffer.channels > 1):
         return None

@@ -20,6 +20,7 @@ from widgets.grid.buffer import GridBuffer
 from widgets.grid.buffer_choice import BufferChoice
 from widgets.grid.buffer_strip import BufferStrip
 from widgets.grid.compare_view import CompareView
+from widgets.grid.paint import NUMBER_PART
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.range_button import RangeButton
 from widgets.grid.range_control import RangeControl
@@ -27,7 +28,9 @@ from widgets.grid.range_control import RangeControl
 LEAST_ROOM_OF_BOTH = 34
 """Heights of the text below which the area shows one side of a stage only."""
 STACKED_GAIN = 1.05
-"""How much larger two pictures alike must be one above the other to lie so."""
+"""How much larger two pictures alike, or a picture with a table, must be one above the other to lie so."""
+AXES = 2.5
+"""Room of the axes beside a picture, in heights of their numbers."""
 TABLE_AT_MOST, PRESENTED_AT_MOST = 0.44, 0.6
 """Largest part of the height that a table below the picture takes: it scrolls, but not while presenting."""
 CHOICES_WIDTH, LEAST_CHOICE = 24, 7
@@ -47,7 +50,7 @@ class MainArea(QWidget):
     def __init__(self, session: Session, views: StageViews, parent: QWidget) -> None:
         super().__init__(parent)
         self._views = views
-        self._table_at_most = TABLE_AT_MOST
+        self._table_at_most, self._is_presenting = TABLE_AT_MOST, False
         self.grid, self.strip = PixelGrid(self), BufferStrip(self)
         self.compare_view = CompareView(self)
         self.ranges, self.buffer_choice = RangeControl(self), BufferChoice(self)
@@ -135,6 +138,7 @@ class MainArea(QWidget):
 
     def set_presenting(self, is_presenting: bool) -> None:
         """Leave out the row of views and buffers, or bring it back."""
+        self._is_presenting = is_presenting
         self._row.setVisible(not is_presenting)
         self._table_at_most = PRESENTED_AT_MOST if is_presenting else TABLE_AT_MOST
         self._views.show_figures(not is_presenting)
@@ -198,8 +202,22 @@ class MainArea(QWidget):
         is_own = self.current_view() == self._own_view(stage)
         if companion is None or not is_own or not companion.is_wanted(self._moment):
             return False
+        if companion.is_alike and self._needs_all_the_room():
+            return False
         room = max(self.width(), self.height()) if self._are_stacked(companion) else self.width()
         return room >= LEAST_ROOM_OF_BOTH * current_theme().text_px
+
+    def _needs_all_the_room(self) -> bool:
+        """Return whether a hall can read the values in the cells only where the picture stands alone."""
+        raster, small = self._moment.document.raster, current_theme().small_px
+        across, up = self.rows.width(), self.rows.height()
+
+        def cell(width: float, height: float) -> float:
+            around = AXES * small
+            return min((width - around) / raster.columns, (height - around) / raster.rows)
+
+        beside = max(cell(across / 2, up), cell(across, up / 2))
+        return self._is_presenting and NUMBER_PART * beside < small <= NUMBER_PART * cell(across, up)
 
     def _are_stacked(self, companion: Companion) -> bool:
         """Return whether both sides are larger one above the other, or can only be read so."""
@@ -207,7 +225,17 @@ class MainArea(QWidget):
             return True
         raster = self._moment.document.raster
         width, height = self.rows.width() / raster.columns, self.rows.height() / raster.rows
-        return companion.is_alike and min(width, height / 2) > STACKED_GAIN * min(width / 2, height)
+        below = 0.5
+        if not companion.is_alike:
+            if self.current_view() != "pixels" or not (table := self._height_below(companion)):
+                return False
+            below = table / self.rows.height()
+        return min(width, (1 - below) * height) > STACKED_GAIN * min(width / 2, height)
+
+    def _height_below(self, companion: Companion) -> int:
+        """Return the height that a table gets below the picture; 0: it needs none."""
+        wanted = companion.wanted_size(self._moment, self.rows.width())[1]
+        return min(wanted, round(self._table_at_most * self.rows.height()))
 
     def refresh_beside(self, moment: Moment) -> None:
         """Show the other side of a stage beside its own view: the space entered, the texture, the new depths."""
@@ -227,9 +255,8 @@ class MainArea(QWidget):
         )
         shares = (1, 1)
         if is_stacked and not companion.is_alike:
-            width, height = self.rows.width(), self.rows.height()
-            below = min(companion.wanted_size(self._moment, width)[1], round(self._table_at_most * height))
-            shares = (height - below, below)
+            below = self._height_below(companion)
+            shares = (self.rows.height() - below, below)
         for side, share in enumerate(shares):
             self._sides.setStretch(side, share)
         self._main_title.setVisible(companion.is_alike)

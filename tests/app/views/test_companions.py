@@ -151,11 +151,18 @@ def test_a_clipper_fills_its_table_beside_the_pixels(window: MainWindow) -> None
 
 
 @pytest.mark.own_window
-@pytest.mark.parametrize(("scene", "is_below"), [("jubair-cyrus-beck", True), ("lmu-clipped", False)])
-def test_a_table_too_wide_for_half_the_area_stands_below(
-    window: MainWindow, scene: str, is_below: bool
+@pytest.mark.parametrize(
+    ("scene", "size", "is_below"),
+    [
+        ("jubair-cyrus-beck", (1366, 800), True),
+        ("lmu-clipped", (1366, 800), True),
+        ("lmu-clipped", (1900, 700), False),
+    ],
+)
+def test_a_table_stands_where_it_can_be_read_and_the_picture_is_larger(
+    window: MainWindow, scene: str, size: tuple[int, int], is_below: bool
 ) -> None:
-    window.resize(1366, 800)
+    window.resize(*size)
     row = ALL_SCENES[scene]
     window.session.open(open_document(row.make(), row.title, settings=settings_from_texts(row.settings)))
     session, area = window.session, window.page.main_area

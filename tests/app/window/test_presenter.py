@@ -9,12 +9,15 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.files.open_any import Opened, open_any
+from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES
 from core.explain.records import Formula
+from lessons.slides.scenes import ALL_SCENES
 from tests.covering import in_turns
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.message_bar import Message, MessageKind
+from widgets.basics.theme import current_theme
 from widgets.space.scene_view import SceneView
 from widgets.tables.step_table_view import StepTableView
 
@@ -171,6 +174,18 @@ def test_hints_are_seen_although_their_bar_is_not(window: MainWindow) -> None:
     assert window.presenter.hint.isVisible()
     assert window.presenter.hint.text() == "Pin a pixel first: click it."
     assert window.page.main_view().geometry() == picture
+    side = window.page.side
+    assert window.presenter.hint.x() >= side.mapTo(window, QPoint(0, 0)).x(), "beside the picture"
+
+
+def test_a_table_of_depths_has_large_numbers_or_stands_alone(window: MainWindow) -> None:
+    scene = ALL_SCENES["jubair-z-buffer"]
+    window.session.open(open_document(scene.make(), scene.title))
+    window.session.set_stage("depth")
+    assert window.page.main_area.beside.isVisible()
+    present(window, (1280, 720))
+    assert not window.page.main_area.beside.isVisible()
+    assert current_theme().small_px >= 0.9 * current_theme().text_px
 
 
 def test_a_b_has_the_whole_width(window: MainWindow) -> None:
