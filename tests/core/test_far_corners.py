@@ -14,7 +14,7 @@ from core import ClipScene, Settings, render, trace
 from core.methods import table
 from core.raster.lines.records import STEP_LIMIT
 from tests.core.strategies import clip_of_window
-from tests.core.trace.trace_cases import CHOICES, name_of
+from tests.core.trace.trace_cases import CHOICES, EACH_METHOD, name_of
 
 SIZE = (7, 12)
 DISTANCES = (6e4, 1e6, 1e15)
@@ -96,7 +96,8 @@ def check(choice: dict[str, Any], run: Callable[[Settings], Any]) -> None:
 
 
 def test_pictures():
-    for choice in [*CHOICES, *({"polygon_mode": "wireframe", "line": line} for line in table.names("line"))]:
+    lines = ({"polygon_mode": "wireframe", "line": line} for line in table.names("line"))
+    for choice in [*EACH_METHOD, *lines]:
         check(choice, lambda chosen: render(FAR, chosen))
 
 

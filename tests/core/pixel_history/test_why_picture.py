@@ -17,7 +17,7 @@ from core.trace import scene_triangle_count
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
-from tests.core.trace.trace_cases import CASES, CHOICES, MIXES, SCENES, name_of, settings_of, small_scene
+from tests.core.trace.trace_cases import CASES, EACH_METHOD, MIXES, SCENES, name_of, settings_of, small_scene
 from tests.covering import in_turn, is_everything
 
 PIXEL_LIMIT = 6
@@ -93,7 +93,7 @@ def test_smoothed_lines_under_ray_casting(line):
 
 @pytest.mark.parametrize(
     ("name", "choice"),
-    CASES if is_everything() else in_turn(SCENES, [*CHOICES, *MIXES]),
+    CASES if is_everything() else in_turn(SCENES, EACH_METHOD),
     ids=name_of,
 )
 def test_history_ends_in_the_picture(name, choice):
@@ -164,7 +164,7 @@ def test_any_triangle_at_any_pixel(case, data):
 
 
 @pytest.mark.parametrize(
-    ("name", "choice"), in_turn(["clip", "lit", "textured-clip"], [*CHOICES, *MIXES]), ids=name_of
+    ("name", "choice"), in_turn(["clip", "lit", "textured-clip"], EACH_METHOD), ids=name_of
 )
 def test_numbers_are_those_of_the_traces(name, choice):
     scene = SCENES[name]

@@ -15,8 +15,7 @@ from core.trace.source import TraceSource
 from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES
 from tests.core.trace.trace_cases import (
     CASES,
-    CHOICES,
-    MIXES,
+    EACH_METHOD,
     SCENES,
     clip_scene,
     name_of,
@@ -127,14 +126,14 @@ def check_one_triangle(scene: ClipScene, settings: Settings, triangle: int) -> N
         assert np.array_equal(count, first.cover_count), before
 
 
-@pytest.mark.parametrize(("triangle", "choice"), in_turn([0, 2, 4, 5, 9], [*CHOICES, *MIXES]), ids=name_of)
+@pytest.mark.parametrize(("triangle", "choice"), in_turn([0, 2, 4, 5, 9], EACH_METHOD), ids=name_of)
 def test_one_triangle_continues_the_picture_of_the_earlier_ones(triangle, choice):
     check_one_triangle(clip_scene(), Settings(**choice), triangle)
 
 
 def test_one_triangle_of_a_lit_scene_gives_the_picture_when_it_is_the_last():
     scene = SCENES["lit"]
-    for choice in (*CHOICES, *MIXES):
+    for choice in EACH_METHOD:
         settings = Settings(**choice)
         last = int(TraceSource(scene, settings).order[-1])
         check_frame(trace(scene, settings, last), render(scene, settings))

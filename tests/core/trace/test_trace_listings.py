@@ -24,7 +24,7 @@ from tests.core.trace.executed_rows import equal, rows_of_kind
 from tests.core.trace.fragment_listings import check_interpolate, check_shade
 from tests.core.trace.geometry_listings import check_clip, check_cull, check_edges, check_transform
 from tests.core.trace.raster_listings import check_bin, check_raster
-from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
+from tests.core.trace.trace_cases import EACH_METHOD, SCENES, name_of, settings_of, small_region
 from tests.covering import in_turn
 
 
@@ -116,7 +116,7 @@ def check_all(traced: Trace) -> None:
 
 @pytest.mark.parametrize(
     ("name", "choice"),
-    in_turn(["clip", "lit", "orthographic", "textured-clip"], [*CHOICES, *MIXES]),
+    in_turn(["clip", "lit", "orthographic", "textured-clip"], EACH_METHOD),
     ids=name_of,
 )
 def test_listings_of_all_stages(name, choice):

@@ -13,7 +13,7 @@ from core.records.operation import Operation
 from core.records.steps import Level, Steps, ends_of
 from core.trace import StageTrace
 from core.trace.stage_trace import MARKS
-from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
+from tests.core.trace.trace_cases import EACH_METHOD, SCENES, name_of, settings_of, small_region
 from tests.covering import in_turn
 
 LEVELS = list(Level)
@@ -100,7 +100,7 @@ def check_rows(steps: Steps, position: int) -> None:
 
 @pytest.mark.parametrize(
     ("name", "choice"),
-    in_turn(["clip", "lit", "textured-clip", "near-plane"], [*CHOICES, *MIXES]),
+    in_turn(["clip", "lit", "textured-clip", "near-plane"], EACH_METHOD),
     ids=name_of,
 )
 def test_every_stage_steps_both_ways_and_is_explained(name, choice):

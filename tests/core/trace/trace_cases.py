@@ -167,6 +167,24 @@ MIXES = [
 Choice = dict[str, str | int]
 
 
+def _together(choices: Sequence[Choice], count: int) -> list[Choice]:
+    """Return so many choices that make those of different families together, each of them once."""
+    return [
+        {family: name for choice in choices[k::count] for family, name in choice.items()}
+        for k in range(count)
+    ]
+
+
+_WIREFRAME: Choice = {"polygon_mode": "wireframe"}
+"""It fills nothing, so it stands alone."""
+EACH_METHOD: list[Choice] = (
+    [*CHOICES, *MIXES]
+    if is_everything()
+    else [{}, _WIREFRAME, *_together([each for each in CHOICES[1:] if each != _WIREFRAME], 20), *MIXES]
+)
+"""Every method of triangles, and choices that meet each other: two or three at a time, with --all one by one too."""
+
+
 def _met(families: set[str], scenes: Sequence[str], **numbers: tuple[int, ...]) -> list[tuple[str, Choice]]:
     """Return cases of a scene's name and a choice in which every two methods of some families meet."""
     methods = {family: table.names(family) for family in table.families if family in families}

@@ -19,7 +19,7 @@ from core.trace import Trace, source
 from core.trace.incremental.draft import Draft, draft
 from core.trace.incremental.retrace import Retrace
 from tests.core.strategies import ANY_TRIANGLES
-from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of, small_region
+from tests.core.trace.trace_cases import EACH_METHOD, SCENES, name_of, settings_of, small_region
 from tests.covering import in_turn
 
 MIXED = [SCENES[name] for name in ("clip", "textured-clip", "lit", "orthographic", "shared-edge")]
@@ -152,7 +152,7 @@ def test_any_edit_of_a_scene_gives_the_trace_made_from_nothing(scene, choice, ed
 
 
 @pytest.mark.parametrize(
-    ("name", "choice"), in_turn(["clip", "lit", "textured-clip"], [*CHOICES, *MIXES]), ids=name_of
+    ("name", "choice"), in_turn(["clip", "lit", "textured-clip"], EACH_METHOD), ids=name_of
 )
 def test_a_moved_corner_with_every_method(name, choice):
     scene = SCENES[name]
