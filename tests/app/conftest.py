@@ -15,6 +15,7 @@ from app.files.open_any import Opened
 from app.files.state_files import State
 from app.session.document import open_document
 from app.window.main_window import MainWindow
+from core import Trace
 from lessons.scenes import built_in_scene
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import LIGHT, current_theme
@@ -34,7 +35,10 @@ def shown_window(application: QApplication) -> Iterator[MainWindow]:
     made.activateWindow()
     assert QTest.qWaitForWindowActive(made)
     yield made
-    made.close()
+    with pytest.MonkeyPatch.context() as patch:
+        # Who closes while presenting comes back to the desk first, and a window that goes need not be styled for it.
+        patch.setattr("app.window.appearance.apply_theme", lambda application, theme: None)
+        made.close()
     made.deleteLater()
     # At once: the windows of earlier tests would be styled and painted with the next one.
     application.sendPostedEvents(made, QEvent.Type.DeferredDelete)
@@ -65,29 +69,29 @@ def new_window(
 @pytest.fixture(scope="module")
 def window_of_module(
     qapp: QApplication, tmp_path_factory: pytest.TempPathFactory
-) -> Iterator[tuple[MainWindow, State]]:
-    """Return a shown window and what it shows."""
+) -> Iterator[tuple[MainWindow, State, Trace]]:
+    """Return a shown window, what it shows, and the trace of that."""
     with pytest.MonkeyPatch.context() as patch, shown_window(qapp) as made:
         patch.setenv("RASTERSCOPE_CONFIG", str(tmp_path_factory.mktemp("config")))
-        yield made, made.files.state()
+        yield made, made.files.state(), made.session.trace
 
 
 @pytest.fixture
-def kept_window(window_of_module: tuple[MainWindow, State], qtbot: QtBot) -> Iterator[MainWindow]:
+def kept_window(window_of_module: tuple[MainWindow, State, Trace], qtbot: QtBot) -> Iterator[MainWindow]:
     """Return the module's window, and bring it back to where it was but for what can be undone.
 
     It is shown while a test runs only: it would be styled and painted with the windows of other tests.
     """
-    made, before = window_of_module
+    made, before, trace = window_of_module
     made.show()
     made.activateWindow()
     assert QTest.qWaitForWindowActive(made)
     yield made
     made.hide()
-    put_back(made, before)
+    put_back(made, before, trace)
 
 
-def put_back(window: MainWindow, before: State) -> None:
+def put_back(window: MainWindow, before: State, trace: Trace) -> None:
     """Bring a window back to what it showed, as a user would: nothing lies over it, the saved state is opened."""
     while window.overlays.close_top():
         pass
@@ -99,7 +103,7 @@ def put_back(window: MainWindow, before: State) -> None:
         window.appearance.set_text_size(100)
         window.appearance.set_theme("light")
     window.pages.show_page("step")
-    window.files.show_opened(Opened(before.document, state=before))
+    window.files.show_opened(Opened(before.document, state=before), trace)
     window.messages.clear()
     window.statusBar().clearMessage()
     window.resize(1280, 800)

@@ -14,7 +14,7 @@ from app.window.main_window import MainWindow
 from core import STAGES
 from core.explain.records import Formula
 from lessons.slides.scenes import ALL_SCENES
-from tests.covering import in_turns
+from tests.covering import in_turns, is_everything
 from widgets.basics.key_claim import KeyClaim
 from widgets.basics.message_bar import Message, MessageKind
 from widgets.basics.theme import current_theme
@@ -369,7 +369,7 @@ def test_tables_are_seen_whole(window: MainWindow, size: tuple[int, int], table:
     page.settle()
     view = page.main_area.companions[stage].widget
     assert isinstance(view, StepTableView)
-    for position in np.linspace(0, session.cursor.position, 6).astype(int).tolist():
+    for position in np.linspace(0, session.cursor.position, 6 if is_everything() else 3).astype(int).tolist():
         session.go_to(position)
         page.settle()
         assert view.isVisible()

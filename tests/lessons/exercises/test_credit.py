@@ -13,11 +13,11 @@ from lessons.exercises.selftest import RULE_NUMBERS, numbers_in
 from tests.covering import is_everything
 from tests.lessons.exercises.first_questions import first_question
 
-FIRST = {name: first_question(name) for name in TEMPLATES}
-
 
 def test_a_known_mistake_earns_at_most_half_of_a_pixel_question() -> None:
-    asked = [question for question in FIRST.values() if question.draft.answer.kind == "pixels"]
+    asked = [
+        question for question in map(first_question, TEMPLATES) if question.draft.answer.kind == "pixels"
+    ]
     assert len(asked) > 20
     for question in asked:
         assert "a known mistake gives earns at most half" in question.draft.answer.credit
@@ -26,7 +26,7 @@ def test_a_known_mistake_earns_at_most_half_of_a_pixel_question() -> None:
             assert name in judgement.mistakes
             assert judgement.points <= question.template.points / 2, question.mark
     # Other wrong answers keep their share.
-    coverage = FIRST["triangle-coverage"]
+    coverage = first_question("triangle-coverage")
     right = coverage.draft.answer.reference
     slip = judge(coverage, right | {(11, 0)})
     assert slip.verdict.score > 0.9
@@ -35,13 +35,13 @@ def test_a_known_mistake_earns_at_most_half_of_a_pixel_question() -> None:
 
 def test_what_credit_says_never_depends_on_the_answer() -> None:
     for name, template in TEMPLATES.items():
-        if FIRST[name].draft.answer.kind in ("pixels", "choice", "spot"):
+        if first_question(name).draft.answer.kind in ("pixels", "choice", "spot"):
             assert len({ask(template, seed).draft.answer.credit for seed in range(3)}) == 1, name
-            assert not any(letter.isdigit() for letter in FIRST[name].draft.answer.credit), name
+            assert not any(letter.isdigit() for letter in first_question(name).draft.answer.credit), name
 
 
 def test_a_wrong_choice_of_one_is_given_a_reason_and_the_right_one_is_not_marked() -> None:
-    for name, question in FIRST.items():
+    for name, question in ((name, first_question(name)) for name in TEMPLATES):
         answer = question.draft.answer
         if answer.kind != "choice" or answer.is_several:
             continue
@@ -57,7 +57,7 @@ def test_a_wrong_choice_of_one_is_given_a_reason_and_the_right_one_is_not_marked
 
 def test_a_slip_is_said_in_the_words_of_its_answer() -> None:
     """`All but one is right` beside `0 of 1 right` contradicts itself."""
-    for question in FIRST.values():
+    for question in map(first_question, TEMPLATES):
         answer = question.draft.answer
         if isinstance(answer, NumberAnswer) and len(answer.reference) == 1:
             minus = judge(question, (-answer.reference[0],))
@@ -68,7 +68,7 @@ def test_a_slip_is_said_in_the_words_of_its_answer() -> None:
 
 @pytest.mark.parametrize("turn", [1, 2])
 def test_weights_moved_on_by_one_vertex_earn_a_third_in_both_directions(turn: int) -> None:
-    question = FIRST["barycentric-weights"]
+    question = first_question("barycentric-weights")
     right = question.draft.answer.reference
     judgement = judge(question, (*right[turn:], *right[:turn]))
     assert judgement.points == question.template.points / 3
@@ -117,7 +117,7 @@ ONE_ANSWER: dict[str, str] = {}
 def test_the_right_choice_or_order_varies_with_the_seed() -> None:
     """A question whose right answer never changes is answered once and for all."""
     for name, template in TEMPLATES.items():
-        if FIRST[name].draft.answer.kind not in ("choice", "order"):
+        if first_question(name).draft.answer.kind not in ("choice", "order"):
             continue
         asked = [ask(template, seed).draft.answer for seed in range(30 if is_everything() else 12)]
         right = {answer.text(answer.reference) for answer in asked}
@@ -132,7 +132,7 @@ def test_the_right_choice_or_order_varies_with_the_seed() -> None:
 def test_no_question_gives_the_count_of_what_must_be_marked_or_chosen() -> None:
     """Neither in its text nor beside it: at some of the seeds no number there, but those of rules, is the count."""
     for name, template in TEMPLATES.items():
-        answer = FIRST[name].draft.answer
+        answer = first_question(name).draft.answer
         if answer.kind != "pixels" and not (answer.kind == "choice" and answer.is_several):
             continue
         drafts = [ask(template, seed).draft for seed in range(6)]

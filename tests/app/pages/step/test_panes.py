@@ -71,10 +71,20 @@ def test_what_every_pane_owes(window: MainWindow, tmp_path: Path, pane: Pane) ->
     look = load_state(file)[0].look
     assert look.panes is not None
     assert pane.name in look.panes
-    # The presenter puts it aside, unless it is what is presented, and leaving brings it back.
-    page.show_panes(["inspector", pane.name])
-    before = page.shown_panes()
-    window.presenter.arrange()
-    assert page.shown_panes() == ["inspector"]
-    window.presenter.leave()
-    assert page.shown_panes() == before
+
+
+def test_the_presenter_puts_every_pane_aside_and_leaving_brings_them_back(window: MainWindow) -> None:
+    """Unless one is what is presented."""
+    page, names = window.page, {pane.name for pane in PANES}
+    page.show_panes([pane.name for pane in PANES])
+    together = page.shown_panes()
+    # Of those at the side one is seen at a time.
+    assert names - {*together} <= {pane.name for pane in SIDE_PANES}
+    for shown in [together, *([*PANES_AT_FIRST, name] for name in sorted(names - {*together}))]:
+        page.show_panes(shown)
+        before = page.shown_panes()
+        assert {*shown} <= {*before}
+        window.presenter.arrange()
+        assert page.shown_panes() == ["inspector"]
+        window.presenter.leave()
+        assert page.shown_panes() == before

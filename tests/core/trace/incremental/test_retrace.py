@@ -7,8 +7,7 @@ from weakref import ref
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given
-from hypothesis import settings as effort
+from hypothesis import given
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Material, PointLight, Settings, trace
@@ -127,7 +126,6 @@ LOOKED_AT = st.lists(st.sampled_from(STAGES), min_size=1, max_size=4, unique=Tru
 
 
 @given(ANY_TRIANGLES, any_settings(), st.sampled_from(list(EDITS)), LOOKED_AT, st.integers(0, 1 << 20))
-@effort(suppress_health_check=[HealthCheck.too_slow])
 def test_any_edit_of_any_triangles_gives_the_trace_made_from_nothing(drawn, choice, edit, looked_at, seed):
     clip, size = drawn
     generator = np.random.default_rng(seed)
@@ -141,7 +139,6 @@ def test_any_edit_of_any_triangles_gives_the_trace_made_from_nothing(drawn, choi
 @given(
     st.sampled_from(MIXED), any_settings(), st.sampled_from(list(EDITS)), LOOKED_AT, st.integers(0, 1 << 20)
 )
-@effort(suppress_health_check=[HealthCheck.too_slow])
 def test_any_edit_of_a_scene_gives_the_trace_made_from_nothing(scene, choice, edit, looked_at, seed):
     earlier = prepared(scene, choice, looked_at, region=small_region(scene))
     edited = EDITS[edit](scene, np.random.default_rng(seed))
