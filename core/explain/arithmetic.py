@@ -13,7 +13,7 @@ from fractions import Fraction
 import numpy as np
 
 from core.explain.digits import MARK
-from core.records.terms import Applied, Leaf, ListOf, Operation, Prefix, Term
+from core.records.terms import Applied, Colored, Leaf, ListOf, Operation, Prefix, Term
 
 Number = Fraction | float
 """A finite number without error, or a float where it is not rational: a root, a logarithm, infinite, NaN."""
@@ -72,6 +72,11 @@ def numbers_in(term: Term) -> set[float]:
     return {float(value) for value in values if math.isfinite(value)}
 
 
+def numbers_are_finite(term: Term) -> bool:
+    """Return whether no number of a term is infinite or NaN."""
+    return all(math.isfinite(part.value) for part in term.every() if isinstance(part, Leaf))
+
+
 def in_full(value: float) -> Number:
     """Return a number without error; infinities and NaN as they are."""
     return Fraction(value) if math.isfinite(value) else value
@@ -100,6 +105,8 @@ def _name(term: Term) -> str:
         return term.operator
     if isinstance(term, Prefix) and term.operator == "-":
         return "negative"
+    if isinstance(term, Colored):
+        return "colored"
     return term.function if isinstance(term, Applied) else ""
 
 
@@ -261,7 +268,7 @@ _OPERATIONS: dict[str, Callable[..., Number]] = {
     "negative": lambda a: -a,
     "sum": lambda *values: sum(values),
     "abs": abs,
-    **dict.fromkeys(("int", "bool"), lambda a: a),
+    **dict.fromkeys(("int", "bool", "colored"), lambda a: a),
     "floor": math.floor,
     "ceil": math.ceil,
     "round": round,

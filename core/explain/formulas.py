@@ -23,16 +23,20 @@ class Named(Leaf):
     """A number with the symbol that formulas have for it; in a sentence it is the number."""
 
     def __str__(self) -> str:
-        return number_latex(self.value)
+        return number_latex(float(self.value))
 
     def equals(self, *others: Term | float) -> "Chain":
         """Return the statement that it equals the others."""
         return Chain((self, *map(term, others)), ("=",) * len(others))
 
-    def compared(self, wanted: str, limit: Leaf | float = 0) -> "Chain":
-        """Return what is asked of it in symbols, over what holds in numbers: ``E_0 > 0`` over ``-3 < 0``."""
+    def compared(self, wanted: str = "", limit: Leaf | float = 0) -> Chain:
+        """Return what is asked of it in symbols, over what holds in numbers: ``E_0 > 0`` over ``-3 < 0``.
+
+        Without a relation that is wanted, what holds stands in both lines.
+        """
         limit = limit if isinstance(limit, Leaf) else named("", limit)
-        return Chain((self, limit), ((wanted, relation(self.value, limit.value)),))
+        holds = relation(self.value, limit.value)
+        return Chain((self, limit), ((wanted or holds, holds),))
 
     def of_vertex(self, k: int | None) -> "Named":
         """Return it with its symbol in the colour of a corner."""
@@ -120,6 +124,16 @@ def named(symbol: str, value: float | list[float]) -> Named:
     return Named(symbol, value)
 
 
+def limited(bound: str, wanted: Term, nominal: float, limit: str, value: float) -> Term:
+    """Return what is wanted, or the limit that holds in its place: ``bound`` is ``min`` or ``max``.
+
+    ``nominal`` is the whole number that is wanted, which stands in the numbers beside that of the limit.
+    """
+    if value == nominal:
+        return wanted
+    return call(bound, named(TermLatex(False).text(wanted), nominal), named(upright(limit), value))
+
+
 def upright(word: str) -> str:
     """Write a word as a symbol."""
     return rf"\mathrm{{{word}}}"
@@ -133,9 +147,9 @@ def call(function: str, *arguments: Term | float) -> Applied:
 HALF = term(1) / 2
 
 
-def on_grid(symbol: str, value: float) -> Leaf:
+def on_grid(symbol: str, value: float) -> Named:
     """Return a position on the 1/256-pixel grid, written exactly: as a short decimal or a mixed fraction."""
-    return Leaf(symbol, Fraction(value)) if "/" in position_text([value]) else named(symbol, value)
+    return Named(symbol, Fraction(value)) if "/" in position_text([value]) else named(symbol, value)
 
 
 def relation(value: float, limit: float = 0.0) -> str:

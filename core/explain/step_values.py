@@ -72,6 +72,15 @@ class StepValues:
         """Return a number whose symbol is its name, in upright letters."""
         return self.named(name, upright(name))
 
+    @property
+    def centre(self) -> tuple[Named, Named]:
+        """X and y of the pixel's centre."""
+        return self.named("x", "x"), self.named("y", "y")
+
+    def plane(self, k: int) -> list[Named]:
+        """Return a, b and c of edge ``k``."""
+        return [Named(f"{name}_{k}", self.vector(name)[k]) for name in "abc"]
+
     def whole(self, name: str) -> int:
         """Return a whole number."""
         return int(np.asarray(self.explanation.values[name]).item())

@@ -18,6 +18,7 @@ from core.records.terms import (
     TIGHTNESS,
     Applied,
     Choice,
+    Colored,
     Joined,
     Leaf,
     ListOf,
@@ -59,19 +60,8 @@ class Written(Term):
     """What is written out by hand, in symbols and with its numbers: it is no arithmetic."""
 
     symbols: str
-    numbers: str
-
-
-@dataclass(frozen=True)
-class Colored(Term):
-    """A term in the colour of a corner."""
-
-    corner: int
-    term: Term
-
-    def inside(self) -> tuple[Term, ...]:
-        """Return the term."""
-        return (self.term,)
+    numbers: str = ""
+    """Empty: the same as the symbols."""
 
 
 def exact_latex(value: Fraction | int) -> str:
@@ -143,7 +133,7 @@ class TermLatex:
             case Leaf():
                 return self._leaf(term, is_first)
             case Written(symbols, numbers):
-                return in_latex(numbers, self.digits) if self.puts_in else symbols
+                return in_latex(numbers, self.digits) if self.puts_in and numbers else symbols
             case Colored(corner, inner):
                 text = self._printed(inner, is_first)
                 return text if self.puts_in else rf"\vertex{{{corner}}}{{{text}}}"

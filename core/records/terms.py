@@ -162,6 +162,18 @@ class Gathered(Term):
         return self.written
 
 
+@dataclass(frozen=True)
+class Colored(Term):
+    """A term in the colour of a corner."""
+
+    corner: int
+    term: Term
+
+    def inside(self) -> tuple[Term, ...]:
+        """Return the term."""
+        return (self.term,)
+
+
 def term(value: Number) -> Term:
     """Return a term as it is, and a plain number as a constant."""
     return value if isinstance(value, Term) else Leaf("", value)

@@ -2,30 +2,24 @@
 
 import math
 
-from core.explain.digits import number_latex, spoken
-from core.explain.equation import (
-    Part,
-    all_of,
-    beside,
-    comparison,
-    conclusion,
-    equation,
-    linear_parts,
-    vector_latex,
-)
+from core.explain.digits import spoken
+from core.explain.formulas import call, concludes, formula_of, limited, named, upright
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
-from core.explain.subjects.number_formats import equals
+from core.explain.subjects.number_formats import in_format
+from core.explain.term_latex import TermLatex, Written
 from core.explain.variable_text import COEFFICIENTS, VariableText, given, hides, shows
+from core.records.terms import Term, term
 from core.records.words import counted, joined, numbered
 
 
 @explains("bin.box|outer-box.low")
 def box_low(step: StepValues) -> Said:
     """The first column and row of the box."""
-    is_outer, center = step.kind == "outer-box", step.number("center")
-    sides: list[list[Part]] = []
+    is_outer, center = step.kind == "outer-box", step.named("center", "c")
+    sides: list[Chain] = []
     least: list[float] = []
     is_limited = False
     for name, axis, values in zip(
@@ -33,19 +27,13 @@ def box_low(step: StepValues) -> Said:
     ):
         first, low = step.whole(name), min(values)
         least.append(low)
-        corners = ", ".join(rf"\vertex{{{k}}}{{{axis}_{k}}}" for k in range(3))
-        minimum = rf"\min({corners})"
-        symbols = rf"\lceil {minimum} - c \rceil"
-        numbers = rf"\lceil \min{vector_latex(values)} - {number_latex(center)} \rceil"
+        minimum: Term = call("min", *(named(f"{axis}_{k}", at).of_vertex(k) for k, at in enumerate(values)))
         if is_outer:
             low = float(math.floor(low))
-            symbols = rf"\lceil \lfloor {minimum} \rfloor - c \rceil"
-            numbers = rf"\lceil {number_latex(low)} - {number_latex(center)} \rceil"
-        nominal = math.ceil(low - center)
-        if first != nominal:
-            is_limited = True
-            symbols, numbers = rf"\max({symbols}, \mathrm{{first}})", rf"\max({nominal}, {first})"
-        sides.append([(rf"\mathrm{{{name}}}", float(first)), "=", (symbols, numbers)])
+            minimum = named(rf"\lfloor {TermLatex(False).text(minimum)} \rfloor", low)
+        pixel, nominal = call("ceil", minimum - center), math.ceil(low - center.value)
+        is_limited |= first != nominal
+        sides.append(named(upright(name), first).equals(limited("max", pixel, nominal, "first", first)))
     text = f"The box of triangle {step.triangle} begins at column {step.whole('column')} and row {step.whole('row')}: "
     x, y = map(spoken, least)
     if is_outer:
@@ -53,7 +41,7 @@ def box_low(step: StepValues) -> Said:
     else:
         centre = f"the first pixel centre{' of the raster' if is_limited else ''}"
         text += f"{centre} at or beyond its least x, {x}, and its least y, {y}."
-    return text, equation(*beside(*sides))
+    return text, formula_of(*sides)
 
 
 def _box_size(step: StepValues) -> tuple[int, int]:
@@ -74,25 +62,21 @@ def box_high(step: StepValues) -> Said:
             f"The box ends with column {step.whole('column_end') - 1} and row {step.whole('row_end') - 1}, so "
             f"{_product(columns, rows)} may be covered."
         )
-    sides: list[list[Part]] = [
-        [
-            (axis, float(count)),
-            "=",
-            (rf"\mathrm{{{name}}}_{{\mathrm{{end}}}}", step.number(f"{name}_end")),
-            "-",
-            (rf"\mathrm{{{name}}}", step.number(name)),
-        ]
+    sides = (
+        named(axis, count).equals(
+            step.named(f"{name}_end", rf"{upright(name)}_{{\mathrm{{end}}}}") - step.upright(name)
+        )
         for name, axis, count in (("column", "n_x", columns), ("row", "n_y", rows))
-    ]
-    return text, equation(*beside(*sides))
+    )
+    return text, formula_of(*sides)
 
 
 @explains("bin.behind.drop")
 def behind(step: StepValues) -> Said:
     """No corner in front of the eye."""
     text = f"Triangle {step.triangle} is behind the eye, as no corner has w above 0, and no pixel is tested."
-    tests: list[list[Part]] = [[f"w_{k}", r"\le", "0"] for k in range(3)]
-    return text, all_of(tests, *conclusion("nothing to draw", "nothing to draw"))
+    tests = (Chain((Written(f"w_{k}"), term(0)), (r"\le",)) for k in range(3))
+    return text, formula_of(concludes("nothing to draw", "nothing to draw", *tests))
 
 
 @explains("bin.whole-image.keep")
@@ -138,16 +122,15 @@ def _bound(step: StepValues, name: str, extreme: str) -> Formula:
     """Return the value of the deciding edge at the corner of the block where it is greatest or least."""
     values, rejected = step.vector(name), step.whole("rejected_by")
     k = rejected if name == "high" and rejected >= 0 else min(range(3), key=lambda k: values[k])
-    a, b, c = (step.vector(coefficient)[k] for coefficient in "abc")
-    low_x, low_y = (step.whole(place) + step.number("center") for place in ("column", "row"))
+    a, b, c = step.plane(k)
     reach = step.whole("size") - 1
-    x = low_x + (reach if (a > 0) == (name == "high") else 0)
-    y = low_y + (reach if (b > 0) == (name == "high") else 0)
-    coefficients = [(f"a_{k}", a), (f"b_{k}", b), (f"c_{k}", c)]
-    symbol, units = rf"E_{k}^{{{extreme}}}", (("x", x), ("y", y))
-    sign, rest = equals(step, values[k], [[a, x], [b, y], [c]])
-    _, _, *summands = linear_parts(symbol, values[k], coefficients, *units)
-    return equation((symbol, values[k]), sign, *summands, *rest)
+    x, y = (
+        named(
+            axis, step.whole(place) + step.number("center") + reach * ((slope.value > 0) == (name == "high"))
+        )
+        for axis, place, slope in (("x", "column", a), ("y", "row", b))
+    )
+    return formula_of(in_format(step, named(rf"E_{k}^{{{extreme}}}", values[k]), a * x + b * y + c))
 
 
 def verdict(step: StepValues) -> Asked:
@@ -166,13 +149,12 @@ def block_verdict(step: StepValues) -> Said:
     name, found, edge = _block(step), step.text("verdict"), step.whole("rejected_by")
     low = step.vector("low")
     if found == "outside":
-        high = step.vector("high")[edge]
+        high = named(rf"E_{edge}^{{\max}}", step.vector("high")[edge])
         text = (
             f"The {name} is rejected by edge {edge} of triangle {step.triangle}: even its greatest E{edge} "
-            f"there, {spoken(high)}, is outside."
+            f"there, {high}, is outside."
         )
-        compared = comparison(rf"E_{edge}^{{\max}}", "<", high)
-        return text, equation(*compared, *conclusion("outside", "outside"))
+        return text, formula_of(concludes("outside", "outside", high.compared("<")))
     crossing = [k for k in range(3) if not low[k] > 0]
     edges = (
         f"{numbered('edge', crossing)} of triangle {step.triangle} may cross it" if crossing else "unclear"
@@ -191,8 +173,8 @@ def block_verdict(step: StepValues) -> Said:
             "test its pixels",
         ),
     }[found]
-    least = [comparison(rf"E_{k}^{{\min}}", ">", value) for k, value in enumerate(low)]
-    return text, all_of(least, *conclusion("inside", verdict))
+    least = (named(rf"E_{k}^{{\min}}", value).compared(">") for k, value in enumerate(low))
+    return text, formula_of(concludes("inside", verdict, *least))
 
 
 shows(

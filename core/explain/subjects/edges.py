@@ -2,26 +2,19 @@
 
 import math
 
-from core.explain.digits import number_latex, signed_latex, spoken, vector_text
-from core.explain.equation import (
-    Part,
-    all_of,
-    beside,
-    comparison,
-    conclusion,
-    difference,
-    equation,
-    fraction,
-    grid_latex,
-)
+from core.explain.digits import spoken, vector_text
+from core.explain.formulas import Named, call, concludes, formula_of, named, on_grid
 from core.explain.number_text import position_text
 from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
-from core.explain.subjects.number_formats import DETERMINANT, equals
+from core.explain.subjects.number_formats import DETERMINANT, in_format, matrix
+from core.explain.term_latex import TermLatex, Written
 from core.explain.variable_text import VariableText, given, hides, shows
 from core.methods import ReplacedName
 from core.raster.edges.snapping import SNAP_LIMIT, SUBPIXELS
+from core.records.terms import Colored, Operation, term
 
 ROUNDING = 1e-9
 """Pixels below which a corner counts as unmoved."""
@@ -34,16 +27,22 @@ def _corner(step: StepValues) -> str:
 @explains("edges.snapped.window")
 def projected(step: StepValues) -> Said:
     """A corner divided by its w, before snapping."""
-    (x, y, w), window, k = step.vector("homogeneous"), step.vector("window"), step.whole("corner")
-    text = (
-        f"{_corner(step)} is at {vector_text(window)} in the window: {spoken(x)} and {spoken(y)}, "
-        f"each divided by w = {spoken(w)}."
+    (x, y, w), window = map(named, "xyw", step.vector("homogeneous")), step.vector("window")
+    k = step.whole("corner")
+    text = f"{_corner(step)} is at {vector_text(window)} in the window: {x} and {y}, each divided by w = {w}."
+    places = _in_window(step)
+    return text, formula_of(
+        *(place.equals(Colored(k, at / w)) for place, at in zip(places, (x, y), strict=True))
     )
-    quotients: list[list[Part]] = [
-        [(rf"\vertex{{{k}}}{{{axis}_{{\mathrm{{window}}}}}}", at), "=", fraction((axis, value), ("w", w), k)]
-        for axis, at, value in zip("xy", window, (x, y), strict=True)
+
+
+def _in_window(step: StepValues) -> list[Named]:
+    """Return x and y of a corner before snapping."""
+    k, window = step.whole("corner"), step.vector("window")
+    return [
+        named(rf"{axis}_{{\mathrm{{window}}}}", at).of_vertex(k)
+        for axis, at in zip("xy", window, strict=True)
     ]
-    return text, equation(*beside(*quotients))
 
 
 @explains("edges.snapped.snap")
@@ -55,19 +54,11 @@ def snapped(step: StepValues) -> Said:
     text = f"is snapped to the nearest 1/256 pixel, {place}, which moves it by {spoken(moved)} px."
     if moved < ROUNDING:
         text = f"stays at {place}, which is on the 1/256-pixel grid."
-    rounded: list[list[Part]] = [
-        [
-            (rf"\vertex{{{k}}}{{{axis}_{k}}}", grid_latex(after)),
-            "=",
-            (_rounded(rf"\vertex{{{k}}}{{{axis}_{{\mathrm{{window}}}}}}"), _rounded(signed_latex(before))),
-        ]
-        for axis, before, after in zip("xy", window, grid, strict=True)
-    ]
-    return f"{_corner(step)} {text}", equation(*beside(*rounded))
-
-
-def _rounded(position: str) -> str:
-    return rf"\frac{{\mathrm{{round}}({SUBPIXELS} \cdot {position})}}{{{SUBPIXELS}}}"
+    rounded = (
+        on_grid(f"{axis}_{k}", after).of_vertex(k).equals(call("round", SUBPIXELS * before) / SUBPIXELS)
+        for axis, before, after in zip("xy", _in_window(step), grid, strict=True)
+    )
+    return f"{_corner(step)} {text}", formula_of(*rounded)
 
 
 @explains("edges.homogeneous.keep")
@@ -114,26 +105,22 @@ def orientation(step: StepValues) -> Said:
         return text, _area(step, [first, start[:2], finish[:2]])
     if step.text("rounding") == "wrapped":
         # The format cannot represent a corner and counts the area as 0.
-        return text, equation((DETERMINANT, value))
-    rows = (step.vector("homogeneous"), start, finish)
-    matrix = r" \\ ".join(" & ".join(map(number_latex, row)) for row in rows)
-    return text, equation(
-        ("D", value), "=", (DETERMINANT, rf"\det \begin{{pmatrix}} {matrix} \end{{pmatrix}}")
-    )
+        return text, formula_of(named(DETERMINANT, value))
+    rows = [[named("", at) for at in row] for row in (step.vector("homogeneous"), start, finish)]
+    determinant = Written(DETERMINANT, rf"\det {matrix(rows).numbers}")
+    return text, formula_of(named("D", value).equals(determinant))
 
 
 def _area(step: StepValues, corners: list[list[float]]) -> Formula:
     """Return twice the area of snapped corners as a cross product."""
-    value, ((x0, y0), (x1, y1), (x2, y2)) = step.number("doubled_area"), corners
+    (x0, y0), (x1, y1), (x2, y2) = (_named_corner(k, corner) for k, corner in enumerate(corners))
+    area = step.named("doubled_area", "2A")
+    return formula_of(in_format(step, area, (x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0)))
 
-    def side(axis: int, corner: int) -> Part:
-        end, origin = ((rf"\vertex{{{k}}}{{{'xy'[axis]}_{k}}}", corners[k][axis]) for k in (corner, 0))
-        symbols, numbers = difference(end, origin)
-        return f"({symbols})", f"({numbers})"
 
-    sign, rest = equals(step, value, [[x1 - x0, y2 - y0], [-(x2 - x0), y1 - y0]])
-    first, second = (side(0, 1), r"\cdot", side(1, 2)), (side(0, 2), r"\cdot", side(1, 1))
-    return equation(("2A", value), sign, *first, "-", *second, *rest)
+def _named_corner(k: int, place: list[float]) -> list[Named]:
+    """Return x and y of a corner, and w where it has one, with their symbols."""
+    return [named(f"{axis}_{k}", at).of_vertex(k) for axis, at in zip("xyw", place, strict=False)]
 
 
 def coefficients(step: StepValues) -> Asked | None:
@@ -148,21 +135,17 @@ def coefficients(step: StepValues) -> Asked | None:
 def coefficient(step: StepValues) -> Said:
     """One component of the cross product of an edge's ends."""
     name, k = step.operation, step.whole("edge")
-    i, j, value = (k + 1) % 3, (k + 2) % 3, step.number(step.operation)
-    first = dict(zip("xyw", step.vector("start"), strict=True))
-    second = dict(zip("xyw", step.vector("finish"), strict=True))
-    sign = _sign(step.number("doubled_area"))
-    one, other = {"a": ("y", "w"), "b": ("w", "x"), "c": ("x", "y")}[name]
-    products = [[sign, first[one], second[other]], [-sign, first[other], second[one]]]
-    relation, rest = equals(step, value, products, 16 if name == "c" else 8)
-    cross = (
-        rf"(\vertex{{{i}}}{{{one}_{i}}} \vertex{{{j}}}{{{other}_{j}}} "
-        rf"- \vertex{{{i}}}{{{other}_{i}}} \vertex{{{j}}}{{{one}_{j}}})",
-        rf"({number_latex(first[one])} \cdot {signed_latex(second[other])} "
-        rf"- {signed_latex(first[other])} \cdot {signed_latex(second[one])})",
-    )
-    made = equation((f"{name}_{k}", value), relation, ("s", sign), r"\cdot", cross, *rest)
-    return _coefficient_text(step), made
+    sign, value = named("s", _sign(step.number("doubled_area"))), step.named(name, f"{name}_{k}")
+    made = in_format(step, value, sign * _cross(step), 16 if name == "c" else 8)
+    return _coefficient_text(step), formula_of(made)
+
+
+def _cross(step: StepValues) -> Operation:
+    """Return a coefficient of an edge as a component of the cross product of its ends."""
+    k, (one, other) = step.whole("edge"), {"a": (1, 2), "b": (2, 0), "c": (0, 1)}[step.operation]
+    start = _named_corner((k + 1) % 3, step.vector("start"))
+    finish = _named_corner((k + 2) % 3, step.vector("finish"))
+    return start[one] @ finish[other] - start[other] @ finish[one]
 
 
 @explains("edges.anchored-edge.a|b|c", asks=coefficients)
@@ -170,28 +153,15 @@ def anchored_coefficient(step: StepValues) -> Said:
     """One coefficient of an edge with one snapped end: its direction in whole numbers, exactly through that end."""
     name, k, is_forward = step.operation, step.whole("edge"), step.whole("anchor") > 0
     i, j = (k + 1) % 3, (k + 2) % 3
-    value, text = (f"{name}_{k}", step.number(name)), _coefficient_text(step)
+    a, b, c = (step.named(letter, f"{letter}_{k}") for letter in "abc")
+    text = _coefficient_text(step)
     if name == "c":
-        corner, (x, y, _) = (i, step.vector("start")) if is_forward else (j, step.vector("finish"))
-        terms = [
-            (
-                "-",
-                (f"{slope}_{k}", step.number(slope)),
-                r"\cdot",
-                (rf"\vertex{{{corner}}}{{{axis}_{corner}}}", at),
-            )
-            for slope, axis, at in (("a", "x", x), ("b", "y", y))
-        ]
-        return text, equation(value, "=", *terms[0], *terms[1])
-    one, other = {"a": ("y", "w"), "b": ("w", "x")}[name]
-    symbols = (
-        rf"\vertex{{{i}}}{{{one}_{i}}} \vertex{{{j}}}{{{other}_{j}}} "
-        rf"- \vertex{{{i}}}{{{other}_{i}}} \vertex{{{j}}}{{{one}_{j}}}"
-    )
-    given = number_latex(step.vector("direction")["ab".index(name)])
+        x, y, _ = _named_corner(*((i, step.vector("start")) if is_forward else (j, step.vector("finish"))))
+        return text, formula_of(c.equals(-(a * x) - b * y))
+    direction = named(TermLatex(False).text(_cross(step)), step.vector("direction")["ab".index(name)])
     text = f"{text.removesuffix('.')}, in whole numbers that keep the edge's direction before snapping."
-    whole = (rf"\mathrm{{whole}}({symbols})", rf"\mathrm{{whole}}({given})")
-    return text, equation(value, "=", ("s", _sign(step.number("doubled_area"))), r"\cdot", whole)
+    sign = named("s", _sign(step.number("doubled_area")))
+    return text, formula_of(step.named(name, f"{name}_{k}").equals(sign * call("whole", direction)))
 
 
 @explains("edges.left-out-edge.leave-out")
@@ -204,7 +174,7 @@ def left_out(step: StepValues) -> Said:
         "not inside the opposite edge: "
         f"E{k} is {spoken(c)} everywhere."
     )
-    return text, equation(*beside(*([(f"{name}_{k}", step.number(name))] for name in "abc")))
+    return text, formula_of(*(step.named(name, f"{name}_{k}") for name in "abc"))
 
 
 def _sign(value: float) -> float:
@@ -259,17 +229,17 @@ def on_own_edges(step: StepValues) -> str:
 @explains("edges.edge|anchored-edge|inverse-edge.tie")
 def tie(step: StepValues) -> Said:
     """Whether the triangle owns the pixel centres on an edge."""
-    k, a, b, owns = step.whole("edge"), step.number("a"), step.number("b"), step.flag("owns_tie")
+    k, owns = step.whole("edge"), step.flag("owns_tie")
+    a, b = step.named("a", f"a_{k}"), step.named("b", f"b_{k}")
     rule, found = step.fill_rule(0), "owned" if owns else "not owned"
     verb = "belongs" if owns else "does not belong"
-    reason = tie_reason(a, b, owns, rule)
+    reason = tie_reason(a.value, b.value, owns, rule)
     text = f"A pixel centre exactly on edge {k} {verb} to triangle {step.triangle}: {reason}."
     if rule != "shared-edge":
-        return text, equation(f"E_{k}", EVEN_HANDED_RULES[rule][1], "0", *conclusion("inside", "inside"))
-    tests = [comparison(f"a_{k}", ">", a)]
-    if a == 0:
-        tests = [comparison(f"a_{k}", "=", a), comparison(f"b_{k}", ">", b)]
-    return text, all_of(tests, *conclusion("owned", found))
+        wanted = Chain((Written(f"E_{k}"), term(0)), (EVEN_HANDED_RULES[rule][1],))
+        return text, formula_of(concludes("inside", "inside", wanted))
+    tests = [a.compared(">")] if a.value else [a.compared("="), b.compared(">")]
+    return text, formula_of(concludes("owned", found, *tests))
 
 
 shows(

@@ -5,22 +5,13 @@ from functools import partial
 
 import numpy as np
 
-from core.explain.digits import is_remainder, number_latex, signed_latex, spoken, vector_text
-from core.explain.equation import (
-    Part,
-    all_of,
-    comparison,
-    conclusion,
-    equation,
-    linear,
-    linear_parts,
-    relation,
-)
+from core.explain.digits import is_remainder, spoken
+from core.explain.formulas import concludes, formula_of, named
 from core.explain.records import Asked, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.edges import on_edge, on_own_edges
-from core.explain.subjects.number_formats import equals, number_format
+from core.explain.subjects.number_formats import in_format, number_format
 from core.explain.subjects.spans import OF_LANE, OF_PASS, OF_SPANS
 from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given, hides, shows
 from core.raster.edges.edge_functions import is_inside
@@ -54,9 +45,9 @@ def _away(step: StepValues, edge: int) -> str:
 @explains("raster.test.edge")
 def edge_value(step: StepValues) -> Said:
     """One edge function at a pixel's centre."""
-    k, x, y = step.edge, step.number("x"), step.number("y")
+    k, (x, y), (a, b, c) = step.edge, step.centre, step.plane(step.edge)
     value, away = step.number(f"value_{k}"), _away(step, k)
-    text = f"{step.pixel_name}: E{k} of triangle {step.triangle} is {spoken(value)} at its centre {vector_text([x, y])}"
+    text = f"{step.pixel_name}: E{k} of triangle {step.triangle} is {spoken(value)} at its centre ({x}, {y})"
     if math.isnan(value):
         text += f", which is not a number, so it is outside edge {k}."
     elif value == 0:
@@ -65,12 +56,7 @@ def edge_value(step: StepValues) -> Said:
         text += f", so it is inside edge {k}{f', {away} away' if away else ''}{_scale(step, k)}."
     else:
         text += f", so it is outside edge {k}{f' ({away})' if away else ''}{_scale(step, k)}."
-    terms = [(f"{name}_{k}", step.vector(name)[k]) for name in "abc"]
-    units = ("x", x), ("y", y)
-    (_, a), (_, b), (_, c) = terms
-    sign, rest = equals(step, value, [[a, x], [b, y], [c]])
-    _, _, *summands = linear_parts(f"E_{k}", value, terms, *units)
-    return text, equation((f"E_{k}", value), sign, *summands, *rest)
+    return text, formula_of(in_format(step, named(f"E_{k}", value), a * x + b * y + c))
 
 
 def _scale(step: StepValues, k: int) -> str:
@@ -85,13 +71,12 @@ def _scale(step: StepValues, k: int) -> str:
 def added_value(step: StepValues) -> Said:
     """One edge function as the neighbour's and a coefficient."""
     k, is_right = step.edge, step.kind == "step"
-    value, before = step.number(f"value_{k}"), step.number(f"before_{k}")
     slope, where, neighbour = ("a", "to the left", "left") if is_right else ("b", "below", "below")
-    added = step.vector(slope)[k]
+    value, before = step.number(f"value_{k}"), step.named(f"before_{k}", rf"E_{k}^{{\mathrm{{{neighbour}}}}}")
+    added = named(f"{slope}_{k}", step.vector(slope)[k])
     text = (
-        f"{step.pixel_name}: E{k} of triangle {step.triangle} is {spoken(value)}, from {spoken(before)} at "
-        f"the pixel {where} and "
-        f"{slope}{k} = {spoken(added)}"
+        f"{step.pixel_name}: E{k} of triangle {step.triangle} is {spoken(value)}, from {before} at "
+        f"the pixel {where} and {slope}{k} = {added}"
     )
     if math.isnan(value):
         text += f", which is not a number, so it is outside edge {k}."
@@ -99,9 +84,7 @@ def added_value(step: StepValues) -> Said:
         text += f": it lies exactly on edge {k}."
     else:
         text += f", so it is {'inside' if value > 0 else 'outside'} edge {k}."
-    sign, rest = equals(step, value, [[before], [added]])
-    start: Part = (rf"E_{k}^{{\mathrm{{{neighbour}}}}}", before)
-    return text, equation((f"E_{k}", value), sign, start, "+", (f"{slope}_{k}", added), *rest)
+    return text, formula_of(in_format(step, named(f"E_{k}", value), before + added))
 
 
 @explains("raster.test|step|climb.decide", asks=covered)
@@ -114,11 +97,12 @@ def decision(step: StepValues) -> Said:
         for k in differing
     ]
     reason = _why_covered(step, values) if step.flag("covered") else _why_outside(step, values, owns)
-    compared = [comparison(f"E_{k}", r"\ge" if owns[k] else ">", values[k]) for k in range(3)]
-    parts = conclusion("covered", "covered" if step.flag("covered") else "outside")
-    for k in differing:
-        parts += [r"\quad", (rf"\lambda_{k}", weights[k]), relation(weights[k]), "0"]
-    return f"{step.pixel_name} is {reason}{f'; {joined(notes)}' if notes else ''}.", all_of(compared, *parts)
+    tests = (named(f"E_{k}", values[k]).compared(r"\ge" if owns[k] else ">") for k in range(3))
+    found = concludes("covered", "covered" if step.flag("covered") else "outside", *tests)
+    of_weights = (named(rf"\lambda_{k}", weights[k]).compared() for k in differing)
+    return f"{step.pixel_name} is {reason}{f'; {joined(notes)}' if notes else ''}.", formula_of(
+        found, *of_weights
+    )
 
 
 def _disagreeing(values: list[float], weights: list[float], distance: list[float]) -> list[int]:
@@ -183,26 +167,23 @@ def accepted(step: StepValues) -> Said:
 @explains("raster.span.edge")
 def span_edge(step: StepValues) -> Said:
     """Where a row crosses an edge."""
-    k, y, row = step.edge, step.number("y"), step.whole("row")
-    a, b, c = (step.vector(name)[k] for name in "abc")
-    if a == 0:
-        value = b * y + c
+    k, (a, b, c), y, row = step.edge, step.plane(step.edge), step.named("y", "y"), step.whole("row")
+    if a.value == 0:
+        value = b.value * y.value + c.value
         is_row_inside = is_inside(np.array(value), np.array(step.flags("owns_tie")[k]))
         text = (
             f"Row {row} of triangle {step.triangle} runs along edge {k}, and all of it is "
             f"{'inside' if is_row_inside else 'outside'} "
             f"(E{k} = {spoken(value)})."
         )
-        return text, linear(f"E_{k}", value, [(f"b_{k}", b), (f"c_{k}", c)], ("y", y))
-    verb, limit = ("enters", "begins") if a > 0 else ("leaves", "ends")
-    crossing = step.number(f"crossing_{k}")
+        return text, formula_of(named(f"E_{k}", value).equals(b * y + c))
+    verb, limit = ("enters", "begins") if a.value > 0 else ("leaves", "ends")
+    x = step.named(f"crossing_{k}", "x")
     text = (
-        f"Row {row} of triangle {step.triangle} {verb} through edge {k} at x = {spoken(crossing)}: the "
+        f"Row {row} of triangle {step.triangle} {verb} through edge {k} at x = {x}: the "
         f"span {limit} there, or farther inside."
     )
-    symbols = rf"-\frac{{b_{k} \cdot y + c_{k}}}{{a_{k}}}"
-    numbers = rf"\frac{{{number_latex(b)} \cdot {signed_latex(y)} + {signed_latex(c)}}}{{{number_latex(a)}}}"
-    return text, equation(("x", crossing), "=", (symbols, f"-{numbers}"))
+    return text, formula_of(x.equals(-((b * y + c) / a)))
 
 
 def columns_text(start: int, stop: int) -> str:
@@ -221,8 +202,7 @@ def span(step: StepValues) -> Said:
     text = f"{name} has no pixel centre inside all three edges."
     if stop > start:
         text = f"{name} is covered in {columns_text(start, stop)}: {counted(stop - start, 'pixel')}."
-    end: Part = (r"\mathrm{stop}", float(stop))
-    return text, equation(("n", float(stop - start)), "=", end, "-", (r"\mathrm{start}", float(start)))
+    return text, formula_of(named("n", stop - start).equals(step.upright("stop") - step.upright("start")))
 
 
 def _crossing_label(step: StepValues, k: int) -> str:
