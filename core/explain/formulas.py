@@ -5,7 +5,7 @@ corners and edges 0, 1, 2 get their colours from `FormulaView`, which knows them
 ``\vertex{k}{...}``.
 """
 
-from collections.abc import Container, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isnan
@@ -137,6 +137,25 @@ def limited(bound: str, wanted: Term, nominal: float, limit: str, value: float) 
 def upright(word: str) -> str:
     """Write a word as a symbol."""
     return rf"\mathrm{{{word}}}"
+
+
+def below(symbol: str, word: str) -> str:
+    """Write a symbol with a word below it."""
+    return rf"{symbol}_{{{upright(word)}}}"
+
+
+def total(terms: Iterable[Term]) -> Term:
+    """Return the sum of terms."""
+    first, *others = terms
+    for other in others:
+        first = first + other
+    return first
+
+
+def first_of(summands: Sequence[Term], most: int) -> Term:
+    """Return a sum of which at most so many summands are written out."""
+    dots = [Written(r"\dots")] if len(summands) > most else []
+    return total([*summands[:most], *dots])
 
 
 def call(function: str, *arguments: Term | float) -> Applied:

@@ -142,7 +142,9 @@ class TermLatex:
             case Operation("//", left, right):
                 return rf"\lfloor \frac{{{self._inner(left)}}}{{{self._inner(right)}}} \rfloor"
             case Operation("**", left, right):
-                return f"{{{self._inner(left, LEAF, False)}}}^{{{self._inner(right)}}}"
+                base, exponent = self._inner(left, LEAF, False), self._inner(right)
+                base = f"{{{base}}}" if base[0] not in "({" and any(sign in base for sign in "\\_") else base
+                return f"{base}^{exponent}" if len(exponent) == 1 else f"{base}^{{{exponent}}}"
             case Operation("@", left, right):
                 sign = r"\cdot " if self.puts_in else ""
                 tight = TIGHTNESS["@"]

@@ -4,10 +4,12 @@ from itertools import pairwise
 from math import isnan
 
 from core.explain.digits import spoken
-from core.explain.equation import Part, comparison, conclusion, difference, equation, fraction, linear
+from core.explain.formulas import below, concludes, first_of, formula_of, named
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows
+from core.records.terms import term
 
 MOST = 3
 """Cross products that are written out."""
@@ -33,9 +35,9 @@ def distances(step: StepValues) -> Said:
         verb = "lies" if outside == 1 else "lie"
         text = f"{step.pixel_name}: {outside} of {len(values)} corners {verb} beyond {name}, where it is negative."
     worst = min(range(len(corners)), key=lambda k: values[k])
-    coefficients = [(name, step.number(key)) for name, key in (("a", "a"), ("b", "b"), ("E_c", "value"))]
-    x, y = corners[worst]
-    return text, linear(f"E_{edge}", values[worst], coefficients, ("x", x), ("y", y))
+    a, b, centre = (step.named(key, symbol) for key, symbol in (("a", "a"), ("b", "b"), ("value", "E_c")))
+    x, y = map(named, "xy", corners[worst])
+    return text, formula_of(named(f"E_{edge}", values[worst]).equals(a * x + b * y + centre))
 
 
 @explains("resolve.cut.cut")
@@ -47,13 +49,12 @@ def cut(step: StepValues) -> Said:
     distance = step.vector("corner_distance")[: len(_corners(step, "before"))]
     for here, there in zip(distance, [*distance[1:], *distance[:1]], strict=True):
         if here > 0 > there:
-            start = (r"E_{\mathrm{start}}", here)
-            quotient = fraction(start, difference(start, (r"E_{\mathrm{end}}", there)))
-            return text, equation(("t", here / (here - there)), "=", quotient)
-    compared = comparison(r"E_{\mathrm{least}}", r"\ge", min(distance)), "all stays"
+            start, end = named(below("E", "start"), here), named(below("E", "end"), there)
+            return text, formula_of(named("t", here / (here - there)).equals(start / (start - end)))
+    test, found = named(below("E", "least"), min(distance)).compared(r"\ge"), "all stays"
     if min(distance) < 0:
-        compared = comparison(r"E_{\mathrm{greatest}}", r"\le", max(distance)), "nothing stays"
-    return text, equation(*compared[0], *conclusion(compared[1], compared[1]))
+        test, found = named(below("E", "greatest"), max(distance)).compared(r"\le"), "nothing stays"
+    return text, formula_of(concludes(found, found, test))
 
 
 @explains("resolve.piece.area")
@@ -69,15 +70,11 @@ def area(step: StepValues) -> Said:
         text += f"covers {SHAPES[count]} of it, and half the sum of the cross products is its area, {spoken(value)}."
     corners = _corners(step, "polygon")
     if not corners:
-        return text, equation(("A", 0.0), "=", "0")
+        return text, formula_of(named("A", 0).equals(0))
     x0, y0 = corners[0]
     cross = [(x1 - x0) * (y2 - y0) - (x2 - x0) * (y1 - y0) for (x1, y1), (x2, y2) in pairwise(corners[1:])]
-    parts: list[Part] = [(r"2 A", 2 * value), "="]
-    for place, product in enumerate(cross[:MOST]):
-        parts += ["+"] if place else []
-        parts.append((rf"d_{place + 1} \times d_{place + 2}", product))
-    parts += ["+", (r"\dots", r"\dots")] if len(cross) > MOST else []
-    return text, equation(*parts)
+    products = [named(rf"d_{place + 1} \times d_{place + 2}", product) for place, product in enumerate(cross)]
+    return text, formula_of(named("2 A", 2 * value).equals(first_of(products, MOST)))
 
 
 @explains("resolve.piece.seen")
@@ -89,9 +86,8 @@ def seen(step: StepValues) -> Said:
         text = "is hidden: it is in front of nothing here."
     elif front >= whole * FULL:
         text = f"is in front of all earlier triangles, and shows {spoken(front)} of the pixel."
-    return f"{step.pixel_name}: triangle {step.triangle} {text}", equation(
-        (r"A_{\mathrm{front}}", front), r"\le", ("A", max(whole, front))
-    )
+    seen_of = Chain((named(below("A", "front"), front), named("A", max(whole, front))), (r"\le",))
+    return f"{step.pixel_name}: triangle {step.triangle} {text}", formula_of(seen_of)
 
 
 @explains("resolve.piece.cover")
@@ -104,8 +100,8 @@ def cover(step: StepValues) -> Said:
     if value >= FULL:
         text = f"{step.pixel_name}: triangles cover all of it."
     covered = min(value, 1.0)
-    background = (r"A_{\mathrm{background}}", 1 - covered)
-    return text, equation((r"A_{\mathrm{covered}}", covered), "+", background, "=", "1")
+    both = named(below("A", "covered"), covered) + named(below("A", "background"), 1 - covered)
+    return text, formula_of(Chain((both, term(1)), ("=",)))
 
 
 shows(

@@ -2,13 +2,17 @@
 
 import math
 
-from core.explain.digits import number_latex, signed_latex, spoken
-from core.explain.equation import Part, beside, conclusion, difference, equation, fraction, relation
+from core.explain.digits import spoken
+from core.explain.formulas import below, call, concludes, formula_of, named, relation, upright
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
+from core.explain.term_latex import Written
 from core.explain.variable_text import PIXEL, VariableText, given, hides, shows
+from core.records.terms import term
 
+_SHIFT = r"\frac{\Delta x}{\Delta y}"
 _TABLE = "table-edge|table-level"
 _ACTIVE = "active-leave|active-advance|active-enter"
 _INTERVALS = "active-interval|active-inside"
@@ -24,6 +28,7 @@ def rows_of_edge(step: StepValues) -> Said:
     """In which rows an edge is active."""
     first, end = step.whole("row_first"), step.whole("row_end")
     lower, upper, center = step.vector("lower")[1], step.vector("upper")[1], step.number("center")
+    c = named("", center)
     rows = f"rows {first} to {end - 1}" if end - first > 1 else f"row {first}"
     lies = f"the centres of {rows} lie on it" if end > first else "the centre of no row lies on it"
     way = "up" if step.whole("direction") > 0 else "down"
@@ -31,20 +36,13 @@ def rows_of_edge(step: StepValues) -> Said:
         f"{edge_name(step).capitalize()} runs {way}, from y = {spoken(lower)} to y = {spoken(upper)} at its ends: "
         f"{lies}."
     )
-    parts = [
-        found
-        for symbol, row, y in ((r"\mathrm{first}", first, lower), (r"\mathrm{end}", end, upper))
-        if (found := _row_of(symbol, row, y, center))
+    # The first row whose centre is not below y; nothing where the raster's border takes its place.
+    made = [
+        named(upright(name), row).equals(call("ceil", named("y", y) - c))
+        for name, row, y in (("first", first, lower), ("end", end, upper))
+        if math.ceil(y - center) == row
     ]
-    return (text, equation(*beside(*parts))) if parts else text
-
-
-def _row_of(symbol: str, row: int, y: float, center: float) -> list[Part]:
-    """Return the first row whose centre is not below y; nothing where the raster's border takes its place."""
-    if math.ceil(y - center) != row:
-        return []
-    numbers = rf"\lceil {number_latex(y)} - {number_latex(center)} \rceil"
-    return [(symbol, row), "=", (rf"\lceil y - {number_latex(center)} \rceil", numbers)]
+    return (text, formula_of(*made)) if made else text
 
 
 @explains("raster.table-level.skip")
@@ -58,28 +56,28 @@ def level_edge(step: StepValues) -> Said:
 @explains("raster.table-edge.crossing")
 def first_crossing(step: StepValues) -> Said:
     """Where an edge crosses its first row."""
-    return f"It crosses row {step.whole('row_first')} at x = {spoken(step.number('crossing'))}.", _crossing(
-        step
-    )
+    text = f"It crosses row {step.whole('row_first')} at x = {spoken(step.number('crossing'))}."
+    return text, _crossing(step)
 
 
 @explains("raster.table-edge.shift")
 def shift_of_edge(step: StepValues) -> Said:
     """How far an edge moves from row to row."""
-    shift, (x0, y0), (x1, y1) = step.number("shift"), step.vector("lower"), step.vector("upper")
-    above, below = difference(("x_1", x1), ("x_0", x0)), difference(("y_1", y1), ("y_0", y0))
-    text = f"From row to row it moves by {spoken(shift)} to the right."
-    return text, equation((r"\frac{\Delta x}{\Delta y}", shift), "=", fraction(above, below))
+    (x0, y0), (x1, y1) = (
+        (named(f"x_{k}", x), named(f"y_{k}", y))
+        for k, (x, y) in enumerate(map(step.vector, ("lower", "upper")))
+    )
+    shift = step.named("shift", _SHIFT)
+    return f"From row to row it moves by {shift} to the right.", formula_of(
+        shift.equals((x1 - x0) / (y1 - y0))
+    )
 
 
 def _crossing(step: StepValues) -> Formula:
     """Return where an edge crosses its first row."""
-    row, x, shift = step.whole("row_first"), step.number("crossing"), step.number("shift")
-    (x0, y0), center = step.vector("lower"), step.number("center")
-    symbols = r"x_0 + (y_{\mathrm{row}} - y_0) \cdot \frac{\Delta x}{\Delta y}"
-    height = f"({number_latex(row + center)} - {signed_latex(y0)})"
-    numbers = rf"{number_latex(x0)} + {height} \cdot {signed_latex(shift)}"
-    return equation(("x", x), "=", (symbols, numbers))
+    x0, y0 = map(named, ("x_0", "y_0"), step.vector("lower"))
+    y = named(below("y", "row"), step.whole("row_first") + step.number("center"))
+    return formula_of(step.named("crossing", "x").equals(x0 + (y - y0) * step.named("shift", _SHIFT)))
 
 
 @explains("raster.table-edge.bucket")
@@ -104,11 +102,9 @@ def leaves(step: StepValues) -> Said:
 @explains("raster.active-advance.advance")
 def advances(step: StepValues) -> Said:
     """An active edge in the next row."""
-    x, before, slope = step.number("crossing"), step.number("crossing_before"), step.number("shift")
-    text = f"Row {step.whole('row')}: {edge_name(step)} moves on, from x = {spoken(before)} to {spoken(x)}."
-    return text, equation(
-        ("x", x), "=", (r"x^{\mathrm{before}}", before), "+", (r"\frac{\Delta x}{\Delta y}", slope)
-    )
+    x, before = step.named("crossing", "x"), step.named("crossing_before", r"x^{\mathrm{before}}")
+    text = f"Row {step.whole('row')}: {edge_name(step)} moves on, from x = {before} to {x}."
+    return text, formula_of(x.equals(before + step.named("shift", _SHIFT)))
 
 
 @explains("raster.active-enter.enter")
@@ -158,53 +154,40 @@ def decides(step: StepValues) -> Said:
     """Whether an interval is inside."""
     found = "inside" if step.flag("is_inside") else "outside"
     if step.text("polygon_fill") == "non-zero":
-        winding = step.whole("winding")
-        parts: list[Part] = [(r"\mathrm{winding}", winding), (r"\ne", r"\ne" if winding else "="), "0"]
+        winding = step.upright("winding")
+        test = Chain((winding, term(0)), ((r"\ne", r"\ne" if winding.value else "="),))
     else:
-        crossed = step.whole("crossed")
-        remainder = r"\; \mathrm{mod} \; 2"
-        parts = [(rf"\mathrm{{crossed}} {remainder}", f"{crossed} {remainder}"), "=", ("1", crossed % 2)]
+        crossed, remainder = step.whole("crossed"), r"\; \mathrm{mod} \; 2"
+        of_two = Written(rf"\mathrm{{crossed}} {remainder}", f"{crossed} {remainder}")
+        test = Chain((of_two, named("1", crossed % 2)), ("=",))
     left, right = step.number("interval_left"), step.number("interval_right")
     between = f"from x = {spoken(left)} to {spoken(right)}"
     text = f"Row {step.whole('row')} is {found} {between}, since {_reason(step)}."
-    return text, equation(*parts, *conclusion("inside", found))
+    return text, formula_of(concludes("inside", found, test))
 
 
 @explains("raster.active-inside.span")
 def columns_inside(step: StepValues) -> Said:
     """The pixels of an interval."""
-    start, stop, center = step.whole("start"), step.whole("stop"), step.number("center")
+    start, stop, center = step.whole("start"), step.whole("stop"), step.named("center", "c")
     columns = f"columns {start} to {stop - 1}" if stop - start > 1 else f"column {start}"
     text = f"The centres of {columns} lie there." if stop > start else "No centre lies there."
-    made: list[list[Part]] = [
-        [
-            (rf"\mathrm{{{name}}}", float(column)),
-            "=",
-            (
-                rf"\lceil x_{{\mathrm{{{side}}}}} - c \rceil",
-                rf"\lceil {number_latex(x)} - {number_latex(center)} \rceil",
-            ),
-        ]
-        for name, column, side, x in (
-            ("start", start, "left", step.number("interval_left")),
-            ("stop", stop, "right", step.number("interval_right")),
-        )
-    ]
-    return text, equation(*beside(*made))
+    made = (
+        step.upright(name).equals(call("ceil", step.named(f"interval_{side}", below("x", side)) - center))
+        for name, side in (("start", "left"), ("stop", "right"))
+    )
+    return text, formula_of(*made)
 
 
 @explains("raster.active-pixel.draw")
 def draws(step: StepValues) -> Said:
     """A pixel of a span."""
-    left, right, x = (
-        step.number("interval_left"),
-        step.number("interval_right"),
-        step.pixel[0] + step.number("center"),
-    )
-    tie = ", exactly on the left edge, which owns it" if x == left else ""
-    text = f"{step.pixel_name} is covered: its centre x = {spoken(x)} lies from {spoken(left)} to {spoken(right)}{tie}."
-    ends = (r"x_{\mathrm{left}}", left), (r"x_{\mathrm{right}}", right)
-    return text, equation(ends[0], (r"\le", relation(left, x)), ("x", x), (r"<", relation(x, right)), ends[1])
+    left, right = (step.named(f"interval_{side}", below("x", side)) for side in ("left", "right"))
+    x = named("x", step.pixel[0] + step.number("center"))
+    tie = ", exactly on the left edge, which owns it" if x.value == left.value else ""
+    text = f"{step.pixel_name} is covered: its centre x = {x} lies from {left} to {right}{tie}."
+    relations = (r"\le", relation(left.value, x.value)), ("<", relation(x.value, right.value))
+    return text, formula_of(Chain((left, x, right), relations))
 
 
 shows(

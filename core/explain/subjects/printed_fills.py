@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 
-from core.explain.digits import number_latex, signed_latex, spoken, vector_text
-from core.explain.equation import Part, beside, equation, fraction
+from core.explain.formulas import HALF, below, call, formula_of, named, upright
 from core.explain.rows import REMARKS, Said, explains
 from core.explain.step_values import StepValues
 from core.explain.subjects.fills import SIDES, columns_text
@@ -26,44 +25,41 @@ def _is_upper(step: StepValues) -> bool:
 def side_slope(step: StepValues) -> Said:
     """How far a side of the printed scanline fill goes to the right from row to row."""
     k = int(step.operation[-1])
-    slope, width, height = (step.number(f"{name}_{k}") for name in ("slope", "width", "height"))
+    slope = step.named(f"slope_{k}", f"m_{k + 1}")
+    width, height = (
+        step.named(f"width_{k}", rf"\Delta x_{k + 1}"),
+        step.named(f"height_{k}", rf"\Delta y_{k + 1}"),
+    )
     part = "above" if _is_upper(step) else "below"
-    text = f"In the part {part} a level side, the {SIDES[k]} side moves by {spoken(slope)} with each row upwards."
-    if height == 0:
+    text = f"In the part {part} a level side, the {SIDES[k]} side moves by {slope} with each row upwards."
+    if height.value == 0:
         text = f"The {SIDES[k]} side has no height: its slope is taken as 0, where the printed program divides by 0."
-        return text, equation((f"m_{k + 1}", slope))
-    quotient = fraction((rf"\Delta x_{k + 1}", width), (rf"\Delta y_{k + 1}", height))
-    return text, equation((f"m_{k + 1}", slope), "=", quotient)
+        return text, formula_of(slope)
+    return text, formula_of(slope.equals(width / height))
 
 
 @explains("raster.top-first|bottom-first.ends")
 def first_sides(step: StepValues) -> Said:
     """Where both sides of a part are in its first row."""
-    row, x, y = step.whole("row"), step.number("part_x"), step.number("part_y")
-    first, second = (step.number(f"crossing_{k}") for k in range(2))
+    row, x, y = step.upright("row"), step.named("part_x", "x"), step.named("part_y", "y")
+    sides = [step.named(f"crossing_{k}", f"x_{k + 1}") for k in range(2)]
     text = (
-        f"Row {row}: the part begins at its corner {vector_text([x, y])}, so here the sides are at "
-        f"x = {spoken(first)} and {spoken(second)}."
+        f"Row {step.whole('row')}: the part begins at its corner ({x}, {y}), so here the sides are at "
+        f"x = {sides[0]} and {sides[1]}."
     )
-    height: Part = (r"(\mathrm{row} - y)", f"({row} - {signed_latex(y)})")
-    sides: list[list[Part]] = []
-    for k, at in enumerate((first, second)):
-        slope = (f"m_{k + 1}", step.number(f"slope_{k}"))
-        sides.append([(f"x_{k + 1}", at), "=", ("x", x), "+", slope, r"\cdot", height])
-    return text, equation(*beside(*sides))
+    slopes = (step.named(f"slope_{k}", f"m_{k + 1}") for k in range(2))
+    made = (side.equals(x + slope * (row - y)) for side, slope in zip(sides, slopes, strict=True))
+    return text, formula_of(*made)
 
 
 @explains("raster.top|bottom.next-0|next-1")
 def next_side(step: StepValues) -> Said:
     """One side in the next row: x of the row before and the slope."""
     k = int(step.operation[-1])
-    x, before, slope = (step.number(f"{name}_{k}") for name in ("crossing", "crossing_before", "slope"))
-    sign = "-" if _is_upper(step) else "+"
-    text = f"Row {step.whole('row')}: the {SIDES[k]} side moves on, from x = {spoken(before)} to {spoken(x)}."
-    name = f"x_{k + 1}"
-    return text, equation(
-        (name, x), "=", (rf"{name}^{{\mathrm{{before}}}}", before), sign, (f"m_{k + 1}", slope)
-    )
+    x, slope = step.named(f"crossing_{k}", f"x_{k + 1}"), step.named(f"slope_{k}", f"m_{k + 1}")
+    before = step.named(f"crossing_before_{k}", rf"x_{k + 1}^{{\mathrm{{before}}}}")
+    text = f"Row {step.whole('row')}: the {SIDES[k]} side moves on, from x = {before} to {x}."
+    return text, formula_of(x.equals(before - slope if _is_upper(step) else before + slope))
 
 
 def _is_wrong(columns: Columns, rows: Integers) -> Flags:
@@ -107,11 +103,9 @@ def line_rounded(step: StepValues) -> Said:
         columns = f"{columns_text(start, stop)}: {counted(stop - start, 'pixel')}"
         text = f"Row {row}: the sides are rounded and both ends drawn, {columns}."
     text = text.removesuffix(".") + f"{_right_of_printed(step)}."
-    sides: list[list[Part]] = []
-    for k, name in enumerate(SIDES):
-        crossing = step.number(f"crossing_{k}")
-        symbols = rf"\lfloor x_{k + 1} + \frac{{1}}{{2}} \rfloor"
-        numbers = rf"\lfloor {number_latex(crossing)} + \frac{{1}}{{2}} \rfloor"
-        column = rf"\mathrm{{column}}_{{\mathrm{{{name}}}}}"
-        sides.append([(column, float(math.floor(crossing + 0.5))), "=", (symbols, numbers)])
-    return text, equation(*beside(*sides))
+    crossings = [step.named(f"crossing_{k}", f"x_{k + 1}") for k in range(2)]
+    made = (
+        named(below(upright("column"), name), math.floor(x.value + 0.5)).equals(call("floor", x + HALF))
+        for name, x in zip(SIDES, crossings, strict=True)
+    )
+    return text, formula_of(*made)

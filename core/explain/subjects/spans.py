@@ -2,16 +2,16 @@
 
 import math
 
-from core.explain.digits import number_latex, spoken
-from core.explain.equation import Part, beside, comparison, conclusion, equation, fraction, vector_latex
+from core.explain.digits import spoken
+from core.explain.formulas import below, call, concludes, formula_of, limited, named, upright
 from core.explain.number_text import pair_text
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
 from core.explain.subjects.edges import on_own_edges
 from core.explain.variable_text import VariableText, given, shows
+from core.records.terms import Term, term
 from core.records.words import counted
-
-GUARD_LATEX = "2^{-35}"
 
 
 @explains("raster.lane.first")
@@ -19,13 +19,12 @@ def first_lane_row(step: StepValues) -> Said:
     """The first row of a triangle."""
     heights, center, first = step.vector("corner_y"), step.number("center"), step.whole("first_row")
     nominal, where = math.ceil(min(heights) - center), "whose centre lies above that"
-    symbols = r"\lceil \min(\vertex{0}{y_0}, \vertex{1}{y_1}, \vertex{2}{y_2}) - c \rceil"
-    numbers = rf"\lceil \min{vector_latex(heights)} - {number_latex(center)} \rceil"
+    corners = (named(f"y_{k}", y).of_vertex(k) for k, y in enumerate(heights))
+    row = limited("max", call("ceil", call("min", *corners) - named("c", center)), nominal, "bottom", first)
     if nominal != first:
-        symbols, numbers = rf"\max({symbols}, \mathrm{{bottom}})", rf"\max({nominal}, {first})"
         where = "of the raster"
     text = f"Triangle {step.triangle} begins at y = {spoken(min(heights))}: row {first} is the first {where}."
-    return text, equation((r"\mathrm{first}", float(first)), "=", (symbols, numbers))
+    return text, formula_of(named(upright("first"), first).equals(row))
 
 
 @explains("raster.lane.rows")
@@ -39,8 +38,8 @@ def lane_rows(step: StepValues) -> Said:
         f"Triangle {step.triangle} reaches from y = {low} to {high}, and of the raster the centres of {rows} "
         f"lie between: {counted(count, 'row')}."
     )
-    end: Part = (r"\mathrm{end}", float(first + count))
-    return text, equation((r"\mathrm{count}", float(count)), "=", end, "-", (r"\mathrm{first}", float(first)))
+    end = named(upright("end"), first + count)
+    return text, formula_of(named(upright("count"), count).equals(end - named(upright("first"), first)))
 
 
 @explains("raster.lane.lane")
@@ -55,7 +54,7 @@ def lane_place(step: StepValues) -> Said:
         f"With {counted(count, 'row')} triangle {step.triangle} gets lane {lane} of {lanes}: "
         f"lanes are sorted tallest first, and {before}."
     )
-    return text, equation((r"\mathrm{lane}", float(lane)), "<", (r"\mathrm{lanes}", float(lanes)))
+    return text, formula_of(Chain((named(upright("lane"), lane), named(upright("lanes"), lanes)), ("<",)))
 
 
 @explains("raster.lane-row.edge")
@@ -65,18 +64,16 @@ def row_edge(step: StepValues) -> Said:
     dx, dy = step.vector("dx")[k], step.vector("dy")[k]
     if dy == 0:
         text = f"Row {row} of triangle {step.triangle}: edge {k} is level, so it bounds no row."
-        return text, equation(*comparison(f"dy_{k}", "=", 0.0), *conclusion("level", "level"))
-    numerator, quotient = step.number(f"numerator_{k}"), step.number(f"quotient_{k}")
+        return text, formula_of(concludes("level", "level", named(f"dy_{k}", 0.0).compared("=")))
+    n, q = step.named(f"numerator_{k}", f"N_{k}"), step.named(f"quotient_{k}", f"q_{k}")
     text = (
         f"Row {row} (level {step.whole('level')}) crosses edge {k} of triangle {step.triangle}, on the "
         f"{'left' if dy < 0 else 'right'}, at column "
-        f"{spoken(quotient)}: the fraction {spoken(numerator)} / {spoken(dy)}, of which only the division is rounded."
+        f"{q}: the fraction {n} / {spoken(dy)}, of which only the division is rounded."
     )
-    first = numerator - level * dx
-    start: Part = (rf"N_{k}^{{\mathrm{{first}}}}", first)
-    grown: list[Part] = [(f"N_{k}", numerator), "=", start, "+", ("r", level), r"\cdot", (f"dx_{k}", dx)]
-    over = fraction((f"N_{k}", number_latex(numerator)), (f"dy_{k}", dy))
-    return text, equation(*beside(grown, [(f"q_{k}", quotient), "=", over]))
+    first = named(rf"N_{k}^{{\mathrm{{first}}}}", n.value - level * dx)
+    grown = n.equals(first + named("r", level) * named(f"dx_{k}", dx))
+    return text, formula_of(grown, q.equals(n / named(f"dy_{k}", dy)))
 
 
 def _guard(guard: float, owns: bool) -> str:
@@ -85,27 +82,25 @@ def _guard(guard: float, owns: bool) -> str:
     return f"a guard of {sign}2⁻³⁵ {'includes' if owns else 'excludes'} a centre exactly on it"
 
 
-def _next_column(step: StepValues, side: str) -> tuple[int, str, str]:
-    """Return the next column after a crossing, and how it is computed in symbols and numbers."""
-    crossing, guard = step.number(side), step.number(f"{side}_guard")
-    rest = rf" + 1 {'-' if guard < 0 else '+'} {GUARD_LATEX} \rfloor"
-    symbols = rf"\lfloor q_{{\mathrm{{{side}}}}}{rest}"
-    return math.floor(crossing + (1 + guard)), symbols, rf"\lfloor {number_latex(crossing)}{rest}"
+def _next_column(step: StepValues, side: str) -> tuple[int, Term]:
+    """Return the next column after a crossing, and how it is computed."""
+    crossing, guard = step.named(side, below("q", side)), step.number(f"{side}_guard")
+    small = term(2) ** -35
+    beyond = crossing + 1 - small if guard < 0 else crossing + 1 + small
+    return math.floor(crossing.value + (1 + guard)), call("floor", beyond)
 
 
 @explains("raster.lane-row.start")
 def row_start(step: StepValues) -> Said:
     """The first column of a row, right of the left crossing."""
     start, guard = step.whole("start"), step.number("left_guard")
-    nominal, symbols, numbers = _next_column(step, "left")
+    nominal, column = _next_column(step, "left")
     limit = ", where the raster begins" if nominal < start else ""
-    if nominal != start:
-        symbols, numbers = rf"\max({symbols}, \mathrm{{first}})", rf"\max({nominal}, {start})"
     text = (
         f"Row {step.whole('row')} starts at column {start}{limit}: the left bound is {spoken(step.number('left'))}, "
         f"and {_guard(guard, guard < 0)}."
     )
-    return text, equation((r"\mathrm{start}", float(start)), "=", (symbols, numbers))
+    return text, formula_of(step.upright("start").equals(limited("max", column, nominal, "first", start)))
 
 
 @explains("raster.lane-row.stop")
@@ -113,17 +108,14 @@ def row_stop(step: StepValues) -> Said:
     """The end of a row, right of the right crossing."""
     row, start, stop, guard = (*map(step.whole, ("row", "start", "stop")), step.number("right_guard"))
     left, right = (spoken(step.number(side)) for side in ("left", "right"))
-    nominal, symbols, numbers = _next_column(step, "right")
+    nominal, column = _next_column(step, "right")
     limit = ", where the raster ends" if nominal > stop else ""
-    if nominal > stop:
-        symbols, numbers = rf"\min({symbols}, \mathrm{{end}})", rf"\min({nominal}, {stop})"
-    elif nominal < stop:
-        symbols, numbers = rf"\max({symbols}, \mathrm{{start}})", rf"\max({nominal}, {stop})"
+    bound = ("min", "end") if nominal > stop else ("max", "start")
     text = f"Row {row} stops where it starts: no centre lies between the bounds {left} and {right}."
     if stop > start:
         text = f"Row {row} stops before column {stop}{limit}: the right bound is {right}"
         text += f", and {_guard(guard, guard > 0)}."
-    return text, equation((r"\mathrm{stop}", float(stop)), "=", (symbols, numbers))
+    return text, formula_of(step.upright("stop").equals(limited(bound[0], column, nominal, bound[1], stop)))
 
 
 @explains("raster.lane-row.place")
@@ -131,17 +123,17 @@ def row_place(step: StepValues) -> Said:
     """The length of a span, which decides its place among all."""
     row, length, start, place = map(step.whole, ("row", "length", "start", "place"))
     spans, name = step.whole("span_count"), f"Row {row} of triangle {step.triangle}"
-    stop: Part = (r"\mathrm{stop}", float(start + length))
-    made: list[Part] = [("n", float(length)), "=", stop, "-", (r"\mathrm{start}", float(start))]
+    stop = named(upright("stop"), start + length)
+    made = step.named("length", "n").equals(stop - step.upright("start"))
     if length == 0:
-        return f"{name} has no pixel centre inside, so it has no span.", equation(*made)
+        return f"{name} has no pixel centre inside, so it has no span.", formula_of(made)
     columns = f"column {start}" if length == 1 else f"columns {start} to {start + length - 1}"
     text = (
         f"{name} is covered in {columns}: {counted(length, 'pixel')}, which makes it span {place} of {spans}, "
         "sorted longest first."
     )
-    order: list[Part] = [(r"\mathrm{place}", float(place)), "<", (r"\mathrm{spans}", float(spans))]
-    return text, equation(*beside(made, order))
+    order = Chain((step.upright("place"), step.named("span_count", upright("spans"))), ("<",))
+    return text, formula_of(made, order)
 
 
 @explains("raster.pass.pass")
@@ -154,13 +146,8 @@ def pixel_pass(step: StepValues) -> Said:
         together = (
             f"together with one of each of {size - 1:,} others" if size > 2 else "with one of another span"
         )
-    return f"{step.pixel_name} {at}, so pass {number} draws it, {together}.", equation(
-        ("k", float(number)),
-        "=",
-        (r"\mathrm{column}", step.number("column")),
-        "-",
-        (r"\mathrm{start}", step.number("start")),
-    )
+    made = step.named("pass_number", "k").equals(step.upright("column") - step.upright("start"))
+    return f"{step.pixel_name} {at}, so pass {number} draws it, {together}.", formula_of(made)
 
 
 @explains("raster.pass.draw")
@@ -172,8 +159,8 @@ def pixel_drawn(step: StepValues) -> Said:
         f"{counted(before, 'pixel')} of earlier passes and {counted(place, 'pixel')} of this one are drawn before it"
         f"{on_own_edges(step)}."
     )
-    terms = (r"\mathrm{before}_k", float(before)), "+", (r"\mathrm{place}", float(place))
-    return text, equation((r"\mathrm{rank}", float(rank)), "=", *terms)
+    earlier = step.named("drawn_before", r"\mathrm{before}_k")
+    return text, formula_of(step.upright("rank").equals(earlier + step.upright("place")))
 
 
 OF_LANE = frozenset({"corner_y", "first_row", "row_count", "lane", "lane_count"})
