@@ -32,6 +32,7 @@ LONGEST_LIST = 4
 """Elements of a list that are written out."""
 SIGNS = {
     "*": r"\cdot",
+    "×": r"\times",
     "<=": r"\le",
     ">=": r"\ge",
     "==": "=",
@@ -96,7 +97,7 @@ class TermLatex:
         match term:
             case Applied("bool", (condition,)):
                 return self.cells(condition, is_first=is_first)
-            case Operation("+" | "-" | "*" as operator, left, right):
+            case Operation("+" | "-" | "*" | "×" as operator, left, right):
                 tight = TIGHTNESS[operator]
                 sign = SIGNS.get(operator, operator)
                 return [

@@ -1,7 +1,7 @@
 """Clipping triangles: edges against planes, new corners in either order, and division before clipping."""
 
 from core.explain.digits import spoken, vector_text
-from core.explain.equation import Part, beside, comparison, conclusion, difference, equation, fraction
+from core.explain.formulas import below, concludes, formula_of, named
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import AXES, StepValues
@@ -41,17 +41,11 @@ def distances(step: StepValues) -> Said:
         f"Triangle {step.triangle}, {step.text('plane')} plane (w {'+' if sign > 0 else '−'} {axis} = 0), "
         f"edge {step.whole('edge')}: its start is {_side(start)}, its end is {_side(end)}."
     )
-    sums: list[list[Part]] = [
-        [
-            (rf"d_{{\mathrm{{{name}}}}}", value),
-            "=",
-            (rf"w_{{\mathrm{{{name}}}}}", at[3]),
-            "+" if sign > 0 else "-",
-            (rf"{axis}_{{\mathrm{{{name}}}}}", at[place]),
-        ]
-        for name, (value, at) in ends.items()
-    ]
-    return text, equation(*beside(*sums))
+    made = []
+    for name, (value, at) in ends.items():
+        w, coordinate = named(below("w", name), at[3]), named(below(axis, name), at[place])
+        made.append(named(below("d", name), value).equals(w + coordinate if sign > 0 else w - coordinate))
+    return text, formula_of(*made)
 
 
 @explains("clip.in-in.keep")
@@ -68,23 +62,20 @@ def both_outside(step: StepValues) -> Said:
 
 def _crossing(step: StepValues, names: tuple[str, str], ends: tuple[str, str]) -> Formula:
     first, second = (
-        (rf"d_{{\mathrm{{{name}}}}}", step.number(f"{end}_distance"))
-        for name, end in zip(names, ends, strict=True)
+        step.named(f"{end}_distance", below("d", name)) for name, end in zip(names, ends, strict=True)
     )
-    return equation(("t", step.number("t")), "=", fraction(first, difference(first, second)))
+    return formula_of(step.named("t", "t").equals(first / (first - second)))
 
 
 def _corner(step: StepValues, names: tuple[str, str], ends: tuple[str, str]) -> Formula:
     """The new corner, in the component that changes most."""
     first, second = (step.vector(end) for end in ends)
     place = max(range(4), key=lambda k: abs(second[k] - first[k]))
-    axis, t, value = AXES[place], step.number("t"), step.vector("corner")[place]
+    axis, value = AXES[place], step.vector("corner")[place]
     start, end = (
-        (rf"{axis}_{{\mathrm{{{name}}}}}", at[place]) for name, at in zip(names, (first, second), strict=True)
+        named(below(axis, name), at[place]) for name, at in zip(names, (first, second), strict=True)
     )
-    symbols, numbers = difference(end, start)
-    span = (f"({symbols})", f"({numbers})")
-    return equation((axis, value), "=", start, "+", ("t", t), r"\cdot", span)
+    return formula_of(named(axis, value).equals(start + step.named("t", "t") * (end - start)))
 
 
 def _inner_and_outer(step: StepValues) -> tuple[str, str]:
@@ -148,34 +139,35 @@ def divided(step: StepValues) -> Said:
         f"Triangle {step.triangle}, corner {step.whole('number')}: x, y and z over w = {spoken(clip[3])} are "
         f"{vector_text(ndc)}."
     )
-    quotients: list[list[Part]] = [
-        [(rf"{axis}_{{\mathrm{{ndc}}}}", value), "=", fraction((axis, above), ("w", clip[3]))]
+    w = named("w", clip[3])
+    quotients = (
+        named(below(axis, "ndc"), value).equals(named(axis, above) / w)
         for axis, value, above in zip(AXES, ndc, clip, strict=False)
-    ]
-    return text, equation(*beside(*quotients))
+    )
+    return text, formula_of(*quotients)
 
 
 @explains("clip.mirrored.sign")
 def mirrored(step: StepValues) -> Said:
     """A corner behind the eye that now looks like one in front of it."""
-    w = step.vector("clip")[3]
+    w = named("w", step.vector("clip")[3])
     text = (
-        f"Triangle {step.triangle}, corner {step.whole('number')} is behind the eye (w = {spoken(w)}), so "
+        f"Triangle {step.triangle}, corner {step.whole('number')} is behind the eye (w = {w}), so "
         "the division has mirrored it: its NDC "
         "position no longer shows this, and the edges to it run the wrong way around."
     )
-    return text, equation(*comparison("w", ">", w), *conclusion("in front", "mirrored"))
+    return text, formula_of(concludes("in front", "mirrored", w.compared(">")))
 
 
 @explains("clip.undefined.drop")
 def undefined(step: StepValues) -> Said:
     """A triangle that cannot be divided."""
-    w = step.vector("clip")[3]
+    w = named("w", step.vector("clip")[3])
     text = (
-        f"Triangle {step.triangle}, corner {step.whole('number')} has w = {spoken(w)}: it cannot be "
+        f"Triangle {step.triangle}, corner {step.whole('number')} has w = {w}: it cannot be "
         "divided by w, and the triangle is dropped."
     )
-    return text, equation(*comparison("w", r"\ne", w), *conclusion("divide", "drop the triangle"))
+    return text, formula_of(concludes("divide", "drop the triangle", w.compared(r"\ne")))
 
 
 shows(

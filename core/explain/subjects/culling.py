@@ -1,8 +1,9 @@
 """Culling: the tests that drop a whole triangle."""
 
 from core.explain.digits import spoken
-from core.explain.equation import Part, all_of, comparison, conclusion, equation
+from core.explain.formulas import Conclusion, concludes, formula_of, named
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows
 from core.records.words import counted, joined, numbered
@@ -15,16 +16,18 @@ def _listed(values: list[float]) -> str:
     return joined([spoken(value) for value in values])
 
 
-def _dropped(step: StepValues) -> list[Part]:
-    return conclusion("dropped", "dropped" if step.flag("applies") else "kept")
+def _dropped(step: StepValues, *tests: Chain) -> Conclusion:
+    return concludes("dropped", "dropped" if step.flag("applies") else "kept", *tests)
 
 
-def _each(symbol: str, name: str, relation: str, values: list[float]) -> tuple[str, list[list[Part]]]:
+def _each(symbol: str, name: str, relation: str, values: list[float]) -> tuple[str, list[Chain]]:
     """Return the numbers of all corners and a comparison of each, or of the largest where they are many."""
     if len(values) > MOST_CORNERS:
-        largest = max(values)
-        return f"largest {name} {spoken(largest)}", [comparison(rf"\max_k {symbol}_k", relation, largest)]
-    return _listed(values), [comparison(f"{symbol}_{k}", relation, value) for k, value in enumerate(values)]
+        largest = named(rf"\max_k {symbol}_k", max(values))
+        return f"largest {name} {largest}", [largest.compared(relation)]
+    return _listed(values), [
+        named(f"{symbol}_{k}", value).compared(relation) for k, value in enumerate(values)
+    ]
 
 
 @explains("cull.behind.test")
@@ -41,7 +44,7 @@ def behind(step: StepValues) -> Said:
         verb = "have" if len(in_front) > 1 else "has"
         corners = counted(len(in_front), "corner") if has_many else numbered("corner", in_front)
         text = f"{name} is not behind the eye: {corners} {verb} {found}."
-    return text, all_of(compared, *_dropped(step))
+    return text, formula_of(_dropped(step, *compared))
 
 
 @explains("cull.plane.test")
@@ -60,7 +63,7 @@ def plane(step: StepValues) -> Said:
         verdict = f"is dropped: all its corners are outside the {name} plane"
     listed = numbers if len(distances) > MOST_CORNERS else f"distances {numbers}"
     text = f"Triangle {step.triangle} {verdict} ({listed})."
-    return text, all_of(compared, *_dropped(step))
+    return text, formula_of(_dropped(step, *compared))
 
 
 def decisive_area(step: StepValues) -> tuple[str, str]:
@@ -74,12 +77,12 @@ def decisive_area(step: StepValues) -> tuple[str, str]:
 @explains("cull.degenerate.test")
 def degenerate(step: StepValues) -> Said:
     """Whether the triangle has an area."""
-    (name, symbol), value = decisive_area(step), step.number("facing")
-    text = f"is not degenerate: {name} is {spoken(value)}, not 0."
+    name, symbol = decisive_area(step)
+    value = step.named("facing", symbol)
+    text = f"is not degenerate: {name} is {value}, not 0."
     if step.flag("applies"):
         text = f"is degenerate and dropped: {name} is 0."
-    made = equation(*comparison(symbol, "=", value), *_dropped(step))
-    return f"Triangle {step.triangle} {text}", made
+    return f"Triangle {step.triangle} {text}", formula_of(_dropped(step, value.compared("=")))
 
 
 @explains("cull.facing.test")
@@ -92,7 +95,7 @@ def facing(step: StepValues) -> Said:
         f"Triangle {step.triangle} is {verdict}: {name} is {spoken(value)}, {sign} 0, "
         f"so we see its {side}, which the cull setting {does}."
     )
-    return text, equation(*comparison(symbol, ">", value), *conclusion("front", side))
+    return text, formula_of(concludes("front", side, named(symbol, value).compared(">")))
 
 
 @explains("cull.kept.verdict")

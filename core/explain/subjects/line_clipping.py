@@ -2,22 +2,13 @@
 
 from collections.abc import Callable
 
-from core.explain.digits import number_latex, signed_latex, spoken, vector_text
-from core.explain.equation import (
-    Part,
-    all_of,
-    beside,
-    comparison,
-    conclusion,
-    difference,
-    equation,
-    fraction,
-    relation,
-    vector_latex,
-)
+from core.explain.digits import spoken, vector_text
+from core.explain.formulas import call, concludes, formula_of, named, upright
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import REMARKS, Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
+from core.explain.term_latex import Written
 from core.explain.variable_text import PIXEL, VariableText, hides, shows
 from core.geometry.line_clipping.records import RECTANGLE_EDGES
 from core.records.words import joined
@@ -25,13 +16,6 @@ from core.trace.line_clipping import CLIP_KINDS
 
 CODE_BITS = len(RECTANGLE_EDGES)
 """Digits of an outcode."""
-_P_AND_Q = {
-    "left": ("-(x_1 - x_0)", r"x_0 - x_{\min}"),
-    "right": ("x_1 - x_0", r"x_{\max} - x_0"),
-    "bottom": ("-(y_1 - y_0)", r"y_0 - y_{\min}"),
-    "top": ("y_1 - y_0", r"y_{\max} - y_0"),
-}
-"""Liang-Barsky's p and q of each border."""
 _FROM_BORDER = r"N \cdot (P_0 - P_E)"
 
 
@@ -97,24 +81,23 @@ def room(step: StepValues) -> Said:
             f"{beginning}: N · D = {spoken(along)}, so it is {way}, "
             f"and N · (P₀ − Pₑ) = {spoken(-distance)} shows that it starts {side}."
         )
-        normal = ("N", vector_latex(step.vector("normal")))
-        reach = ("D", vector_latex([b - a for a, b in zip(start, end, strict=True)]))
-        offset = (r"(P_0 - P_E)", vector_latex([a - b for a, b in zip(start, point, strict=True)]))
-        approach: list[Part] = [(r"N \cdot D", along), "=", normal, r"\cdot", reach]
-        return text, equation(*beside(approach, [(_FROM_BORDER, -distance), "=", normal, r"\cdot", offset]))
+        normal = named("N", step.vector("normal"))
+        reach = named("D", [b - a for a, b in zip(start, end, strict=True)])
+        offset = named("(P_0 - P_E)", [a - b for a, b in zip(start, point, strict=True)])
+        approach = named(r"N \cdot D", along).equals(normal * reach)
+        return text, formula_of(approach, named(_FROM_BORDER, -distance).equals(normal * offset))
     way = "runs inwards" if along < 0 else "runs outwards" if along > 0 else "runs parallel"
     way = "is a point" if is_point(step) else way
     text = (
         f"{beginning}: p = {spoken(along)}, so it {way}, "
         f"and q = {spoken(distance)} shows that it starts {side}."
     )
-    axis = 0 if border in ("left", "right") else 1
-    p = f"{number_latex(end[axis])} - {signed_latex(start[axis])}"
-    q = f"{number_latex(point[axis])} - {signed_latex(start[axis])}"
-    if border in ("left", "bottom"):
-        p, q = f"-({p})", f"{number_latex(start[axis])} - {signed_latex(point[axis])}"
-    of_p, of_q = _P_AND_Q[border]
-    return text, equation(*beside([("p", along), "=", (of_p, p)], [("q", distance), "=", (of_q, q)]))
+    k, is_low = int(border in ("bottom", "top")), border in ("left", "bottom")
+    axis, bound = "xy"[k], "min" if is_low else "max"
+    first, last = named(f"{axis}_0", start[k]), named(f"{axis}_1", end[k])
+    limit = named(rf"{axis}_{{\{bound}}}", point[k])
+    p = named("p", along).equals(-(last - first) if is_low else last - first)
+    return text, formula_of(p, named("q", distance).equals(first - limit if is_low else limit - first))
 
 
 @explains("raster.clip-enter|clip-leave.crossing")
@@ -123,20 +106,19 @@ def crossing(step: StepValues) -> Said:
     along, distance, t = step.number("approach"), step.number("room"), step.number("crossing_t")
     where = "before its first end" if t < 0 else "after its second end" if t > 1 else "between its ends"
     where = {0.0: "at its first end", 1.0: "at its second end"}.get(t, where)
-    quotient, made = "q/p", fraction(("q", distance), ("p", along))
+    quotient, made = "q/p", named("q", distance) / named("p", along)
     if uses_normals(step):
         quotient = "N · (P₀ − Pₑ) / (−N · D)"
-        made = fraction((_FROM_BORDER, -distance), (r"-N \cdot D", -along))
+        made = named(_FROM_BORDER, -distance) / named(r"-N \cdot D", -along)
     text = (
         f"The edge crosses the {step.text('border')} border's line at t = {quotient} = {spoken(t)}, {where}."
     )
-    return text, equation(("t", t), "=", made)
+    return text, formula_of(named("t", t).equals(made))
 
 
 @explains("raster.clip-enter|clip-leave.narrow")
 def narrow(step: StepValues) -> Said:
     """The latest entry or the earliest exit so far."""
-    before, t = step.number("bound_before"), step.number("crossing_t")
     name, kind, extreme, order, lost, symbol, rule = (
         "t_leave",
         "exit",
@@ -144,28 +126,36 @@ def narrow(step: StepValues) -> Said:
         "before",
         "after",
         "t_L",
-        r"\min",
+        "min",
     )
     if step.kind == "clip-enter":
         name, kind, extreme, order, lost, symbol, rule = (
-            *("t_enter", "entry", "latest", "after", "before"),
-            *("t_E", r"\max"),
+            "t_enter",
+            "entry",
+            "latest",
+            "after",
+            "before",
+            "t_E",
+            "max",
         )
-    now = step.number(name)
-    text = f"This is the {extreme} {kind} so far: the part {lost} t = {spoken(now)} is outside."
+    before, t, now = (
+        step.named("bound_before", symbol),
+        step.named("crossing_t", "t"),
+        step.named(name, symbol),
+    )
+    text = f"This is the {extreme} {kind} so far: the part {lost} t = {now} is outside."
     if now == before:
-        text = f"This {kind} changes nothing: t = {spoken(t)} is not {order} the {kind} at {spoken(before)}."
-    numbers = f"{rule}({number_latex(before)}, {number_latex(t)})"
-    return text, equation((symbol, now), "=", (rf"{rule}({symbol}, t)", numbers))
+        text = f"This {kind} changes nothing: t = {t} is not {order} the {kind} at {before}."
+    return text, formula_of(now.equals(call(rule, before, t)))
 
 
 def _side(step: StepValues) -> Formula:
     """On which side of its parallel border an edge lies."""
     distance = step.number("room")
-    compared = comparison("q", r"\ge", distance)
+    test = named("q", distance).compared(r"\ge")
     if uses_normals(step):
-        compared = comparison(_FROM_BORDER, r"\le", -distance)
-    return equation(*compared, *conclusion("inside", "outside" if distance < 0 else "inside"))
+        test = named(_FROM_BORDER, -distance).compared(r"\le")
+    return formula_of(concludes("inside", "outside" if distance < 0 else "inside", test))
 
 
 @explains("raster.clip-parallel.side")
@@ -197,21 +187,19 @@ def outside(step: StepValues) -> Said:
 @explains("raster.clip-kept.ends", "raster.clip-empty.drop")
 def kept(step: StepValues) -> Said:
     """The part between the last entry and the first exit, if there is one."""
-    enter, leave = step.number("t_enter"), step.number("t_leave")
+    enter, leave = step.named("t_enter", "t_E"), step.named("t_leave", "t_L")
     if step.kind == "clip-empty":
         text = (
-            f"The edge would leave at t = {spoken(leave)} before it enters at {spoken(enter)}: "
+            f"The edge would leave at t = {leave} before it enters at {enter}: "
             "it misses the clip window, and nothing of it is drawn."
         )
-    elif (enter, leave) == (0.0, 1.0):
+    elif (enter.value, leave.value) == (0.0, 1.0):
         text = "No border cuts the edge: all of it is drawn."
     else:
         ends = f"{vector_text(step.vector('kept_start'))} to {vector_text(step.vector('kept_end'))}"
-        text = f"From t = {spoken(enter)} to {spoken(leave)} the edge is inside: it is drawn from {ends}."
-    found = "nothing" if enter > leave else "draw"
-    return text, equation(
-        ("t_E", enter), (r"\le", relation(enter, leave)), ("t_L", leave), *conclusion("draw", found)
-    )
+        text = f"From t = {enter} to {leave} the edge is inside: it is drawn from {ends}."
+    found = "nothing" if enter.value > leave.value else "draw"
+    return text, formula_of(concludes("draw", found, enter.compared(r"\le", leave)))
 
 
 def borders_of(code: int) -> str:
@@ -251,20 +239,20 @@ def codes(step: StepValues) -> Said:
         f"({f'outside {borders_of(code)}' if code else 'inside'})"
         for code, point in ((first, "pass_start"), (second, "pass_end"))
     ]
-    shown: list[list[Part]] = [
-        [(symbol, rf"\mathrm{{{code_text(code)}}}")]
+    shown = (
+        Written(symbol, upright(code_text(code)))
         for symbol, code in (("c_0", first), ("c_1", second), (r"c_0 \land c_1", first & second))
-    ]
-    return f"{edge_name(step).capitalize()}: {', '.join(ends)}.", equation(*beside(*shown))
+    )
+    return f"{edge_name(step).capitalize()}: {', '.join(ends)}.", formula_of(*shown)
 
 
 @explains("raster.outcodes-accept.ends")
 def accept(step: StepValues) -> Said:
     """Both ends inside."""
     start, end = (vector_text(step.vector(name)) for name in ("kept_start", "kept_end"))
-    compared = [comparison(f"c_{k}", "=", float(code)) for k, code in enumerate(_codes(step))]
+    tests = (named(f"c_{k}", code).compared("=") for k, code in enumerate(_codes(step)))
     text = f"Both outcodes are 0000: the edge is drawn from {start} to {end}."
-    return text, all_of(compared, *conclusion("draw", "draw"))
+    return text, formula_of(concludes("draw", "draw", *tests))
 
 
 @explains("raster.outcodes-reject.drop")
@@ -275,8 +263,8 @@ def reject(step: StepValues) -> Said:
         f"Both outcodes have {code_text(first & second)} in common: the edge lies outside "
         f"{borders_of(first & second)}, and nothing of it is drawn."
     )
-    compared = comparison(r"c_0 \land c_1", r"\ne", float(first & second))
-    return text, equation(*compared, *conclusion("drop", "drop"))
+    test = named(r"c_0 \land c_1", first & second).compared(r"\ne")
+    return text, formula_of(concludes("drop", "drop", test))
 
 
 @explains("raster.outcodes-cut.end")
@@ -284,9 +272,8 @@ def chosen_end(step: StepValues) -> Said:
     """The end that moves: the first one, unless it is inside."""
     k = step.whole("moved_end")
     text = f"{('The first', 'Only the second')[k]} end is outside, so it moves."
-    return text, equation(
-        *comparison(f"c_{k}", r"\ne", float(_codes(step)[k])), *conclusion("moves", "moves")
-    )
+    test = named(f"c_{k}", _codes(step)[k]).compared(r"\ne")
+    return text, formula_of(concludes("moves", "moves", test))
 
 
 @explains("raster.outcodes-cut.edge")
@@ -294,8 +281,8 @@ def chosen_border(step: StepValues) -> Said:
     """The border that is cut at: the lowest bit of the outcode names it."""
     k, border = step.whole("moved_end"), step.text("border")
     text = f"Of the borders that its outcode names, {border} is the first."
-    code = rf"\mathrm{{{code_text(_codes(step)[k])}}}"
-    return text, equation((f"c_{k}", code), *conclusion("lowest bit", border))
+    code = Chain((Written(f"c_{k}", upright(code_text(_codes(step)[k]))),))
+    return text, formula_of(concludes("lowest bit", border, code))
 
 
 @explains("raster.outcodes-cut.move")
@@ -304,13 +291,10 @@ def move(step: StepValues) -> Said:
     start, end, point = (step.vector(name) for name in ("window_start", "window_end", "moved_to"))
     border, moved = step.text("border"), ("first", "second")[step.whole("moved_end")]
     text = f"The {moved} end moves to {vector_text(point)}, where the edge crosses the {border} border."
-    u, v = (0, 1) if border in ("left", "right") else (1, 0)
-    a, b = "xy"[u], "xy"[v]
-    above = difference((a, point[u]), (f"{a}_0", start[u]))
-    part, part_numbers = fraction(above, difference((f"{a}_1", end[u]), (f"{a}_0", start[u])))
-    rise, rise_numbers = difference((f"{b}_1", end[v]), (f"{b}_0", start[v]))
-    made = (rf"{b}_0 + ({rise}) {part}", rf"{number_latex(start[v])} + ({rise_numbers}) {part_numbers}")
-    return text, equation(*beside([(a, point[u])], [(b, point[v]), "=", made]))
+    ends = zip("xy", point, start, end, strict=True)
+    places = [(named(a, at), named(f"{a}_0", first), named(f"{a}_1", last)) for a, at, first, last in ends]
+    (a, a0, a1), (b, b0, b1) = places if border in ("left", "right") else places[::-1]
+    return text, formula_of(a, b.equals(b0 + (b1 - b0) @ ((a - a0) / (a1 - a0))))
 
 
 def _either(normals: str, p_and_q: str) -> Callable[[StepValues], str]:

@@ -1,11 +1,16 @@
 """Culling by N . V: the face normal, the vector to the face, their product."""
 
-from core.explain.digits import remainder_note, signed_latex, spoken, vector_text
-from core.explain.equation import Part, comparison, conclusion, equation, vector_latex
+from collections.abc import Sequence
+
+from core.explain.digits import remainder_note, spoken, vector_text
+from core.explain.formulas import concludes, formula_of, named, total
 from core.explain.rows import REMARKS, Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
 from core.explain.subjects.culling import decisive_area
+from core.explain.term_latex import Written
 from core.explain.variable_text import VariableText, shows
+from core.records.terms import Operation, Term
 
 
 def _sides(step: StepValues, corners: str) -> tuple[list[float], list[float]]:
@@ -14,9 +19,9 @@ def _sides(step: StepValues, corners: str) -> tuple[list[float], list[float]]:
     return [y - x for x, y in zip(a, b, strict=True)], [y - x for x, y in zip(a, c, strict=True)]
 
 
-def _cross(name: str, value: list[float], sides: tuple[list[float], list[float]], point: str) -> list[Part]:
-    first, second = ((f"({point}_{k} - {point}_0)", vector_latex(sides[k - 1])) for k in (1, 2))
-    return [(name, vector_latex(value)), "=", first, r"\times", second]
+def _cross(name: str, value: list[float], sides: tuple[list[float], list[float]], point: str) -> Chain:
+    first, second = (named(f"({point}_{k} - {point}_0)", side) for k, side in enumerate(sides, 1))
+    return named(name, value).equals(Operation("×", first, second))
 
 
 @explains("cull.back-normal|back-axis.normal")
@@ -27,7 +32,7 @@ def normal(step: StepValues) -> Said:
         f"Triangle {step.triangle}: its normal is N = {vector_text(value)}, the cross product of two of its sides in "
         f"camera space, on the side from which the corners run counter-clockwise{remainder_note(value)}."
     )
-    return text, equation(*_cross("N", value, _sides(step, "eye_corners"), "p"))
+    return text, formula_of(_cross("N", value, _sides(step, "eye_corners"), "p"))
 
 
 @explains("cull.back-stored-normal.stored")
@@ -38,7 +43,7 @@ def stored(step: StepValues) -> Said:
         f"Triangle {step.triangle}: its normal in object space is n = {vector_text(value)}, as the mesh may keep "
         f"it{remainder_note(value)}."
     )
-    return text, equation(*_cross("n", value, _sides(step, "object_corners"), "o"))
+    return text, formula_of(_cross("n", value, _sides(step, "object_corners"), "o"))
 
 
 @explains("cull.back-stored-normal.determinant")
@@ -50,7 +55,7 @@ def determinant(step: StepValues) -> Said:
         text += ", below 0: it mirrors"
     elif value == 0:
         text += ": it has no inverse"
-    return f"{text}.", equation((r"\det A", value))
+    return f"{text}.", formula_of(named(r"\det A", value))
 
 
 @explains("cull.back-stored-normal.carried")
@@ -65,8 +70,8 @@ def carried(step: StepValues) -> Said:
         text += "; this matrix mirrors, which turns the corners around but not this normal"
     elif determinant == 0:
         text += ", since it has no inverse"
-    made = equation(("N", vector_latex(value)), "=", r"A^{-T}", ("n", vector_latex(step.vector("stored"))))
-    return f"{text}{remainder_note(value)}.", made
+    stored = Operation("@", Written("A^{-T}"), named("n", step.vector("stored")))
+    return f"{text}{remainder_note(value)}.", formula_of(named("N", value).equals(stored))
 
 
 @explains("cull.back-normal|back-axis|back-stored-normal.view")
@@ -78,9 +83,9 @@ def view(step: StepValues) -> Said:
             "for every face" if step.kind == "back-axis" else "as rays of an orthographic camera are parallel"
         )
         text = f"Triangle {step.triangle}: V = {vector_text(value)} is the direction of the camera, {rest}."
-        return text, equation(("V", vector_latex(value)))
+        return text, formula_of(named("V", value))
     text = f"Triangle {step.triangle}: V = {vector_text(value)} leads from the eye, at 0, to corner 0."
-    return text, equation(("V", vector_latex(value)), "=", ("p_0", vector_latex(step.rows("eye_corners")[0])))
+    return text, formula_of(named("V", value).equals(named("p_0", step.rows("eye_corners")[0])))
 
 
 @explains("cull.back-normal|back-axis|back-stored-normal.product")
@@ -89,11 +94,16 @@ def product(step: StepValues) -> Said:
     value = step.number("product")
     n, v = step.vector("normal"), step.vector("view")
     side = "along V" if value > 0 else "against V" if value < 0 else "at a right angle to V"
-    made: list[Part] = [(r"N \cdot V", value), "="]
-    for k, axis in enumerate("xyz"):
-        made += ["+"] if k else []
-        made.append((rf"N_{axis} V_{axis}", rf"{signed_latex(n[k])} \cdot {signed_latex(v[k])}"))
-    return f"Triangle {step.triangle}: N · V is {spoken(value)}, so N points {side}.", equation(*made)
+    made = named(r"N \cdot V", value).equals(by_axes("N", n, "V", v))
+    return f"Triangle {step.triangle}: N · V is {spoken(value)}, so N points {side}.", formula_of(made)
+
+
+def by_axes(first: str, one: Sequence[float], second: str, other: Sequence[float]) -> Term:
+    """Return the product of two vectors, axis by axis: a long line breaks between them."""
+    return total(
+        named(f"{first}_{axis}", a) @ named(f"{second}_{axis}", b)
+        for axis, a, b in zip("xyz", one, other, strict=True)
+    )
 
 
 @explains("cull.back-normal|back-axis|back-stored-normal.test")
@@ -111,7 +121,7 @@ def turned_away(step: StepValues) -> Said:
     if value * facing > 0:
         text += f"; {decisive_area(step)[0]}, {spoken(facing)}, says the other side"
     side = "back" if value > 0 else "front"
-    return f"{text}.", equation(*comparison(r"N \cdot V", ">", value), *conclusion("back", side))
+    return f"{text}.", formula_of(concludes("back", side, named(r"N \cdot V", value).compared(">")))
 
 
 REMARKS["cull.back-normal|back-axis|back-stored-normal.test"] = lambda columns, rows: (

@@ -1,9 +1,10 @@
 """Polygon clipping in the window: the crossings and walks of Weiler-Atherton, the sides of Sutherland-Hodgman."""
 
-from core.explain.digits import number_latex, signed_latex, spoken, vector_text
-from core.explain.equation import Part, beside, difference, equation, fraction
+from core.explain.digits import spoken, vector_text
+from core.explain.formulas import formula_of, named
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, hides, shows
 
@@ -34,12 +35,12 @@ def turn(step: StepValues) -> Said:
 @explains("clip.wa-crossing.place")
 def crossing(step: StepValues) -> Said:
     """Where two sides cross."""
+    t, u = step.named("t", "t"), step.named("region_t", "u")
     text = (
         f"Edge {step.whole('edge')} of ring {step.whole('ring')} crosses edge {step.whole('region_edge')} of ring "
-        f"{step.whole('region_ring')} of the clip window: at t = {spoken(step.number('t'))} of its length, and at "
-        f"u = {spoken(step.number('region_t'))} of the window's."
+        f"{step.whole('region_ring')} of the clip window: at t = {t} of its length, and at u = {u} of the window's."
     )
-    return text, equation(*beside([("t", step.number("t"))], [("u", step.number("region_t"))]))
+    return text, formula_of(t, u)
 
 
 @explains("clip.wa-crossing.point")
@@ -50,16 +51,11 @@ def crossing_point(step: StepValues) -> Said:
 
 def _on_edge(step: StepValues) -> Formula:
     """Return the place at t of the edge of a step."""
-    (x0, y0), (x1, y1) = step.vector("start"), step.vector("end")
-    point, t = step.vector("point"), step.number("t")
-    parts: list[list[Part]] = []
-    for name, value, first, last in zip("xy", point, (x0, y0), (x1, y1), strict=True):
-        symbols = rf"{name}_0 + t \cdot ({name}_1 - {name}_0)"
-        along = f"({number_latex(last)} - {signed_latex(first)})"
-        parts.append(
-            [(name, value), "=", (symbols, rf"{number_latex(first)} + {number_latex(t)} \cdot {along}")]
-        )
-    return equation(*beside(*parts))
+    t, made = step.named("t", "t"), []
+    for axis, *places in zip("xy", *map(step.vector, ("point", "start", "end")), strict=True):
+        place, first, last = map(named, (axis, f"{axis}_0", f"{axis}_1"), places)
+        made.append(place.equals(first + t * (last - first)))
+    return formula_of(*made)
 
 
 def entering(step: StepValues) -> Asked:
@@ -159,16 +155,17 @@ def sides(step: StepValues) -> Said:
         f"window: its start is {where[0]} (d0 = {spoken(first)}), its end {where[1]} (d1 = {spoken(last)})."
     )
     a, b = step.vector("region_start"), step.vector("region_end")
-    found = [_side("d_0", first, a, b, step.vector("start")), _side("d_1", last, a, b, step.vector("end"))]
-    return text, equation(*beside(*found))
+    return text, formula_of(
+        _side("d_0", first, a, b, step.vector("start")), _side("d_1", last, a, b, step.vector("end"))
+    )
 
 
-def _side(symbol: str, value: float, a: list[float], b: list[float], place: list[float]) -> list[Part]:
+def _side(symbol: str, value: float, a: list[float], b: list[float], place: list[float]) -> Chain:
     """Return the cross product that says on which side of the line from a to b a place lies."""
-    symbols = r"(x_b - x_a) \cdot (y - y_a) - (y_b - y_a) \cdot (x - x_a)"
-    one, other = (f"({number_latex(b[k])} - {signed_latex(a[k])})" for k in (0, 1))
-    across, along = (f"({number_latex(place[k])} - {signed_latex(a[k])})" for k in (1, 0))
-    return [(symbol, value), "=", (symbols, rf"{one} \cdot {across} - {other} \cdot {along}")]
+    (xa, ya), (xb, yb), (x, y) = (
+        map(named, (f"x{end}", f"y{end}"), at) for end, at in (("_a", a), ("_b", b), ("", place))
+    )
+    return named(symbol, value).equals((xb - xa) * (y - ya) - (yb - ya) * (x - xa))
 
 
 @explains("clip.sh-in-out|sh-out-in.crossing")
@@ -180,10 +177,9 @@ def corner(step: StepValues) -> Said:
 @explains("clip.sh-in-out|sh-out-in.t")
 def crosses(step: StepValues) -> Said:
     """Where an edge crosses the line of the window's edge."""
-    first, last, t = step.number("start_side"), step.number("end_side"), step.number("t")
+    first, last, t = step.named("start_side", "d_0"), step.named("end_side", "d_1"), step.named("t", "t")
     verb = "leaves" if step.kind == "sh-in-out" else "enters"
-    text = f"It {verb} at t = d0 / (d0 − d1) = {spoken(t)}."
-    return text, equation(("t", t), "=", fraction(("d_0", first), difference(("d_0", first), ("d_1", last))))
+    return f"It {verb} at t = d0 / (d0 − d1) = {t}.", formula_of(t.equals(first / (first - last)))
 
 
 @explains("clip.sh-in-in|sh-out-out|sh-out-in.keep")

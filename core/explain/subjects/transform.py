@@ -2,12 +2,13 @@
 
 from functools import partial
 
-from core.explain.digits import number_latex, spoken
-from core.explain.equation import equation, fraction, linear
+from core.explain.digits import spoken
+from core.explain.formulas import HALF, Named, below, formula_of, named, total
 from core.explain.records import Asked, number
 from core.explain.rows import REMARKS, Said, explains
 from core.explain.step_values import AXES, StepValues
 from core.explain.variable_text import VariableText, given, shows
+from core.records.terms import Colored, Term
 
 ORDINALS = {"x": "first", "y": "second", "z": "third", "w": "fourth"}
 MATRICES = {
@@ -28,9 +29,9 @@ def _vertex(step: StepValues) -> str:
     return f"Vertex {corner} of triangle {step.triangle}{of_scene}"
 
 
-def _symbol(step: StepValues, axis: str, space: str) -> str:
-    symbol, corner = rf"{axis}_{{\mathrm{{{space}}}}}", _colored(step)
-    return symbol if corner is None else rf"\vertex{{{corner}}}{{{symbol}}}"
+def _in_space(step: StepValues, axis: str, space: str, value: float) -> Named:
+    """Return a component of the position in a space, with its symbol."""
+    return named(below(axis, space), value).of_vertex(_colored(step))
 
 
 def _colored(step: StepValues) -> int | None:
@@ -58,9 +59,11 @@ def transformed(step: StepValues) -> Said:
     if after == "clip" and axis == "w" and step.rows("matrix")[3] != [0.0, 0.0, 0.0, 1.0]:
         text += f"; w {'above 0 means' if value > 0 else 'of 0 or less means not'} in front of the eye"
     row, place = AXES.index(axis), step.vector("before")
-    elements = [(f"m_{{{row + 1}{k + 1}}}", step.rows("matrix")[row][k]) for k in range(4)]
-    units = [(_symbol(step, axis, before), place[k]) for k, axis in enumerate(AXES)]
-    return f"{text}.", linear(_symbol(step, axis, after), value, elements, *units)
+    products = (
+        named(f"m_{{{row + 1}{k + 1}}}", step.rows("matrix")[row][k]) * _in_space(step, of, before, place[k])
+        for k, of in enumerate(AXES)
+    )
+    return f"{text}.", formula_of(_in_space(step, axis, after, value).equals(total(products)))
 
 
 @explains("transform.divide.x|y|z", asks=position)
@@ -76,8 +79,9 @@ def divided(step: StepValues) -> Said:
         text += "; as w is below 0 it lies behind the eye, and the division mirrors it"
     elif abs(after) > 1:
         text += f"; not between −1 and 1, so it lies beyond the {BEYOND[axis, 1 if after > 0 else -1]} plane"
-    quotient = fraction((rf"{axis}_{{\mathrm{{clip}}}}", before), ("w", w), _colored(step))
-    return f"{text}.", equation((_symbol(step, axis, "ndc"), after), "=", quotient)
+    quotient, corner = named(below(axis, "clip"), before) / named("w", w), _colored(step)
+    shown = quotient if corner is None else Colored(corner, quotient)
+    return f"{text}.", formula_of(_in_space(step, axis, "ndc", after).equals(shown))
 
 
 REMARKS["transform.divide.z"] = lambda columns, rows: columns["before_w"][rows] <= 0
@@ -88,7 +92,7 @@ def placed(step: StepValues) -> Said:
     """One component from NDC to the window."""
     axis = step.operation
     before, after = step.number(f"before_{axis}"), step.number(f"after_{axis}")
-    half: tuple[str, float | str] = (r"\frac{1}{2}", r"\frac{1}{2}")
+    half: Term = HALF
     text = f"its depth is {spoken(after)}: NDC z is {spoken(before)}, and −1 to 1 becomes 0 to 1"
     if axis != "z":
         side, name, size = (
@@ -96,15 +100,13 @@ def placed(step: StepValues) -> Said:
             if axis == "x"
             else ("the bottom", "H", step.whole("height"))
         )
-        half = (rf"\frac{{{name}}}{{2}}", rf"\frac{{{size}}}{{2}}")
+        half = named(name, size) / 2
         text = (
             f"its window {axis} is {spoken(after)} pixels from {side}: "
             f"NDC {axis} is {spoken(before)}, and −1 to 1 becomes 0 to {size}"
         )
-    moved = (rf"({_symbol(step, axis, 'ndc')} + 1)", f"({number_latex(before)} + 1)")
-    return f"{_vertex(step)}: {text}.", equation(
-        (_symbol(step, axis, "window"), after), "=", moved, r"\cdot", half
-    )
+    made = _in_space(step, axis, "window", after).equals((_in_space(step, axis, "ndc", before) + 1) * half)
+    return f"{_vertex(step)}: {text}.", formula_of(made)
 
 
 SPACES = {"divide": "ndc", "viewport": "window"}
