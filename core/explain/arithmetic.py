@@ -262,7 +262,7 @@ _OPERATIONS: dict[str, Callable[..., Number]] = {
     "-": lambda a, b: a - b,
     "*": lambda a, b: a * b,
     "@": lambda a, b: a * b,
-    "/": lambda a, b: a / b,
+    **dict.fromkeys("/÷", lambda a, b: a / b),
     "//": lambda a, b: math.floor(a / b),
     "**": _power,
     "negative": lambda a: -a,

@@ -15,7 +15,7 @@ from core.explain.number_text import position_text
 from core.explain.records import Formula
 from core.explain.statements import Chain, about_equal, checkable_digits
 from core.explain.term_latex import TermLatex, Written
-from core.records.terms import Applied, Leaf, Term, term
+from core.records.terms import Applied, Leaf, Operation, Term, term
 
 
 @dataclass(frozen=True)
@@ -156,6 +156,11 @@ def first_of(summands: Sequence[Term], most: int) -> Term:
     """Return a sum of which at most so many summands are written out."""
     dots = [Written(r"\dots")] if len(summands) > most else []
     return total([*summands[:most], *dots])
+
+
+def slash(above: Term | float, under: Term | float) -> Operation:
+    """Return a fraction in one line: ``a / b``."""
+    return Operation("÷", term(above), term(under))
 
 
 def call(function: str, *arguments: Term | float) -> Applied:

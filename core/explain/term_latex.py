@@ -33,6 +33,7 @@ LONGEST_LIST = 4
 SIGNS = {
     "*": r"\cdot",
     "×": r"\times",
+    "÷": "/",
     "<=": r"\le",
     ">=": r"\ge",
     "==": "=",
@@ -144,7 +145,7 @@ class TermLatex:
                 return rf"\lfloor \frac{{{self._inner(left)}}}{{{self._inner(right)}}} \rfloor"
             case Operation("**", left, right):
                 base, exponent = self._inner(left, LEAF, False), self._inner(right)
-                base = f"{{{base}}}" if base[0] not in "({" and any(sign in base for sign in "\\_") else base
+                base = f"{{{base}}}" if base.startswith("\\") else base
                 return f"{base}^{exponent}" if len(exponent) == 1 else f"{base}^{{{exponent}}}"
             case Operation("@", left, right):
                 sign = r"\cdot " if self.puts_in else ""

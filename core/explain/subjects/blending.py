@@ -1,13 +1,21 @@
 """Blending: how a fragment's colour enters the colour buffer. Formulas have the channel that changes most."""
 
-from core.explain.digits import is_remainder, remainder_note, signed_latex, spoken, vector_text
-from core.explain.equation import Part, channel_symbol, equation, outstanding
-from core.explain.records import Asked, number
+from core.explain.channels import in_channel, outstanding
+from core.explain.digits import is_remainder, remainder_note, spoken, vector_text
+from core.explain.formulas import Named, below, formula_of, named
+from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows
+from core.records.terms import Term
 
-_ALPHA = r"a_{\mathrm{source}}"
+
+def _alpha(step: StepValues) -> Named:
+    return named(below("a", "source"), step.vector("source")[3])
+
+
+def _of(step: StepValues, name: str, column: str, channel: int) -> Named:
+    return in_channel(name, step.vector(column), channel)
 
 
 def red(step: StepValues) -> Asked | None:
@@ -21,27 +29,25 @@ def opaque(step: StepValues) -> Said:
     """A colour that replaces another."""
     after, before = (vector_text(step.vector(name)) for name in ("after", "before"))
     channel = _channel(step)
-    new = (channel_symbol("new", channel), step.vector("after")[channel])
-    source = (channel_symbol("source", channel), step.vector("source")[channel])
     text = f"{step.pixel_name}: the fragment's colour {after} replaces {before}{remainder_note(step.vector('after'))}."
-    return text, equation(new, "=", source)
+    return text, formula_of(_of(step, "new", "after", channel).equals(_of(step, "source", "source", channel)))
 
 
 @explains("blend.over|line-over.source")
 def over_source(step: StepValues) -> Said:
     """What of the buffer shows through."""
-    alpha = step.vector("source")[3]
-    before = vector_text(step.vector("before"))
+    alpha = _alpha(step)
+    s, before = named("s", 1 - alpha.value), vector_text(step.vector("before"))
     text = (
-        f"{step.pixel_name}: the fragment's alpha is {spoken(alpha)}, "
-        f"so {spoken(1 - alpha)} of the buffer's colour, {before}, shows through."
+        f"{step.pixel_name}: the fragment's alpha is {alpha}, "
+        f"so {s} of the buffer's colour, {before}, shows through."
     )
-    if is_remainder(1 - alpha):
+    if is_remainder(s.value):
         text = (
-            f"{step.pixel_name}: the fragment's alpha is 1 up to rounding, which leaves s = {spoken(1 - alpha)}, "
+            f"{step.pixel_name}: the fragment's alpha is 1 up to rounding, which leaves s = {s}, "
             f"so the buffer's colour, {before}, does not show through."
         )
-    return text, equation(("s", 1 - alpha), "=", "1", "-", (_ALPHA, alpha))
+    return text, formula_of(s.equals(1 - alpha))
 
 
 def _channel(step: StepValues) -> int:
@@ -49,27 +55,20 @@ def _channel(step: StepValues) -> int:
     return outstanding([after[k] - before[k] for k in range(3)])
 
 
-def _sum(step: StepValues) -> tuple[Part, ...]:
-    """Return the new colour as the fragment's times its alpha, plus the buffer's."""
-    source, channel = step.vector("source"), _channel(step)
-    return (
-        (channel_symbol("new", channel), step.vector("after")[channel]),
-        "=",
-        (channel_symbol("source", channel), source[channel]),
-        r"\cdot",
-        (_ALPHA, source[3]),
-        "+",
-        (channel_symbol("buffer", channel), step.vector("before")[channel]),
-    )
+def _mixed(step: StepValues, share: Term | None = None) -> Formula:
+    """Return the new colour as the fragment's times its alpha, plus a share of the buffer's, or all of it."""
+    channel = _channel(step)
+    buffer = _of(step, "buffer", "before", channel)
+    added = _of(step, "source", "source", channel) * _alpha(step) + (buffer * share if share else buffer)
+    return formula_of(_of(step, "new", "after", channel).equals(added))
 
 
 @explains("blend.over|line-over.color")
 def over_color(step: StepValues) -> Said:
     """Fragment over buffer."""
-    after, alpha = step.vector("after"), step.vector("source")[3]
+    after = step.vector("after")
     text = f"{step.pixel_name}: fragment over buffer gives {vector_text(after)}{remainder_note(after)}."
-    left = (rf"(1 - {_ALPHA})", f"(1 - {signed_latex(alpha)})")
-    return text, equation(*_sum(step), r"\cdot", left)
+    return text, _mixed(step, 1 - _alpha(step))
 
 
 @explains("blend.additive|line-additive.source")
@@ -81,8 +80,8 @@ def additive_source(step: StepValues) -> Said:
         f"{step.pixel_name}: the fragment's colour is scaled by its alpha, {spoken(source[3])}, "
         f"and all of the buffer's colour, {before}, stays."
     )
-    color = (channel_symbol("source", channel), source[channel])
-    return text, equation(("s", source[channel] * source[3]), "=", color, r"\cdot", (_ALPHA, source[3]))
+    light = named("s", source[channel] * source[3])
+    return text, formula_of(light.equals(in_channel("source", source, channel) * _alpha(step)))
 
 
 @explains("blend.additive|line-additive.color")
@@ -93,7 +92,7 @@ def additive_color(step: StepValues) -> Said:
     text = (
         f"{step.pixel_name}: fragment plus buffer gives {vector_text(after)}{above}{remainder_note(after)}."
     )
-    return text, equation(*_sum(step))
+    return text, _mixed(step)
 
 
 @explains("blend.*.write", asks=red)

@@ -5,8 +5,9 @@ Of many samples those of equal colour are one summand; of more than `MOST` colou
 
 import math
 
-from core.explain.digits import number_latex, remainder_note, spoken, vector_text
-from core.explain.equation import CHANNEL_LETTERS, Part, equation, fraction, outstanding
+from core.explain.channels import CHANNEL_LETTERS, in_channel, letter_of, outstanding
+from core.explain.digits import remainder_note, spoken, vector_text
+from core.explain.formulas import HALF, call, first_of, formula_of, named, slash
 from core.explain.records import Asked, Formula, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
@@ -37,24 +38,17 @@ def _weights(step: StepValues) -> list[tuple[float, float]]:
     channel = _channel(step)
     for row, weight in zip(step.rows("samples"), step.vector("sample_weights"), strict=True):
         if weight > 0:
-            value = row[channel]
-            known = found.get(number_latex(value), (0.0, value))
-            found[number_latex(value)] = (known[0] + weight, known[1])
+            value = row[channel] + 0.0
+            known = found.get(repr(value), (0.0, value))
+            found[repr(value)] = (known[0] + weight, known[1])
     return sorted(found.values(), key=lambda known: -known[0])
-
-
-def _sum(symbol: str, value: float, summands: list[list[Part]]) -> Formula:
-    parts: list[Part] = [(symbol, value), "="]
-    for place, summand in enumerate(summands[:MOST]):
-        parts += ["+", *summand] if place else summand
-    parts += ["+", (r"\dots", r"\dots")] if len(summands) > MOST else []
-    return equation(*parts)
 
 
 def _together(step: StepValues, whole: str, part: str) -> Formula:
     """Return the sum of weights, or of areas."""
     weights = [weight for weight, _ in _weights(step)]
-    return _sum(whole, sum(weights), [[(f"{part}_{{{NAMES[k % 26]}}}", w)] for k, w in enumerate(weights)])
+    parts = [named(f"{part}_{{{NAMES[k % 26]}}}", weight) for k, weight in enumerate(weights)]
+    return formula_of(named(whole, sum(weights)).equals(first_of(parts, MOST)))
 
 
 @explains("resolve.average.samples")
@@ -81,12 +75,12 @@ def averaged(step: StepValues) -> Said:
     channel, color, weights = _channel(step), step.vector("linear"), _weights(step)
     text = f"{step.pixel_name}: the weighted mean of its samples is {vector_text(color)}, in linear light"
     text += f"{remainder_note(color)}."
-    letter, total = CHANNEL_LETTERS[channel], sum(weight for weight, _ in weights)
-    terms: list[list[Part]] = [
-        [fraction((f"w_{name}", weight), ("W", total)), r"\cdot", (f"{letter}_{name}", value)]
+    letter, whole = CHANNEL_LETTERS[channel], named("W", sum(weight for weight, _ in weights))
+    terms = [
+        named(f"w_{name}", weight) / whole * named(f"{letter}_{name}", value)
         for name, (weight, value) in zip(NAMES, weights, strict=False)
     ]
-    return text, _sum(letter, color[channel], terms)
+    return text, formula_of(letter_of(color, channel).equals(first_of(terms, MOST)))
 
 
 @explains("resolve.areas.samples")
@@ -111,11 +105,11 @@ def summed(step: StepValues) -> Said:
         "in linear light."
     )
     letter = CHANNEL_LETTERS[channel]
-    terms: list[list[Part]] = [
-        [(f"A_{name}", area), r"\cdot", (f"{letter}_{name}", value)]
+    terms = [
+        named(f"A_{name}", area) * named(f"{letter}_{name}", value)
         for name, (area, value) in zip(NAMES, _weights(step), strict=False)
     ]
-    return text, _sum(letter, color[channel], terms)
+    return text, formula_of(letter_of(color, channel).equals(first_of(terms, MOST)))
 
 
 @explains("resolve.*.clip")
@@ -129,11 +123,9 @@ def clipped(step: StepValues) -> Said:
     elif min(linear[:3]) < 0 or max(linear[:3]) > 1:
         text = f"the colour {shown} is clamped to 0 to 1: {result}"
     channel = outstanding(clamped)
-    letter = CHANNEL_LETTERS[channel]
-    numbers = rf"\min(\max({number_latex(linear[channel])}, 0), 1)"
-    return f"{step.pixel_name}: {text}{remainder_note(clamped)}.", equation(
-        (f"c_{letter}", clamped[channel]), "=", (rf"\min(\max({letter}, 0), 1)", numbers)
-    )
+    limited = call("min", call("max", letter_of(linear, channel), 0), 1)
+    made = named(f"c_{CHANNEL_LETTERS[channel]}", clamped[channel]).equals(limited)
+    return f"{step.pixel_name}: {text}{remainder_note(clamped)}.", formula_of(made)
 
 
 @explains("resolve.*.encode")
@@ -143,12 +135,11 @@ def encoded(step: StepValues) -> Said:
     text = f"{step.pixel_name}: the sRGB curve turns the linear colour into {vector_text(color)}"
     text += f"{remainder_note(color)}."
     channel = outstanding(clamped)
-    letter, value = CHANNEL_LETTERS[channel], clamped[channel]
-    result: list[Part] = [(f"s_{letter}", color[channel]), "="]
-    if value <= SRGB_LIMIT:
-        return text, equation(*result, str(SRGB_SLOPE), r"\cdot", (f"c_{letter}", value))
-    power = (f"c_{letter}^{{1/2.4}}", f"{number_latex(value)}^{{1/2.4}}")
-    return text, equation(*result, str(SRGB_SCALE), r"\cdot", power, "-", str(SRGB_OFFSET))
+    letter = CHANNEL_LETTERS[channel]
+    s, c = named(f"s_{letter}", color[channel]), named(f"c_{letter}", clamped[channel])
+    if c.value <= SRGB_LIMIT:
+        return text, formula_of(s.equals(SRGB_SLOPE * c))
+    return text, formula_of(s.equals(SRGB_SCALE * c ** slash(1, 2.4) - SRGB_OFFSET))
 
 
 def red_byte(step: StepValues) -> Asked | None:
@@ -163,13 +154,8 @@ def rounded(step: StepValues) -> Said:
     *color, alpha = stored = step.vector("bytes")
     text = f"{step.pixel_name} is displayed as the bytes {vector_text(color)}, with alpha {spoken(alpha)}."
     channel = outstanding(step.vector("clipped"))
-    letter = CHANNEL_LETTERS[channel]
-    value = number_latex(step.vector("encoded")[channel])
-    law = (
-        rf"\lfloor 255 \cdot s_{letter} + \frac{{1}}{{2}} \rfloor",
-        rf"\lfloor 255 \cdot {value} + \frac{{1}}{{2}} \rfloor",
-    )
-    return text, equation((rf"\mathrm{{byte}}_{{{letter}}}", stored[channel]), "=", law)
+    s = named(f"s_{CHANNEL_LETTERS[channel]}", step.vector("encoded")[channel])
+    return text, formula_of(in_channel("byte", stored, channel).equals(call("floor", 255 * s + HALF)))
 
 
 shows(

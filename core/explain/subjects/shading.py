@@ -3,21 +3,13 @@
 Formulas of colours have the channel that is strongest; the other channels follow the same law.
 """
 
-from collections.abc import Sequence
-
-from core.explain.digits import number_latex, signed_latex, spoken, vector_text
-from core.explain.equation import (
-    CHANNEL_LETTERS,
-    Part,
-    beside,
-    channel_symbol,
-    equation,
-    outstanding,
-    vector_latex,
-)
+from core.explain.channels import CHANNEL_LETTERS, in_channel, outstanding
+from core.explain.digits import spoken, vector_text
+from core.explain.formulas import Named, below, formula_of, named, total
 from core.explain.records import Formula
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
+from core.explain.subjects.normal_view import by_axes
 from core.explain.variable_text import VariableText, shows
 from core.records.words import joined, noun_of
 
@@ -40,11 +32,7 @@ def _without_light(step: StepValues) -> Formula:
     """Return the colour that is the albedo."""
     color, albedo = step.vector("color"), step.vector("albedo")
     channel = outstanding(color[:3])
-    return equation(
-        (channel_symbol("colour", channel), color[channel]),
-        "=",
-        (channel_symbol("albedo", channel), albedo[channel]),
-    )
+    return formula_of(in_channel("colour", color, channel).equals(in_channel("albedo", albedo, channel)))
 
 
 @explains("shade.lit.albedo")
@@ -63,9 +51,7 @@ def interpolated_light(step: StepValues) -> Said:
     )
     channel = outstanding(diffuse)
     lights = (("diffuse", diffuse), ("specular", specular))
-    return text, equation(
-        *beside(*([(channel_symbol(name, channel), light[channel])] for name, light in lights))
-    )
+    return text, formula_of(*(in_channel(name, light, channel) for name, light in lights))
 
 
 @explains("shade.*.normal")
@@ -76,18 +62,7 @@ def normal(step: StepValues) -> Said:
         f"{step.pixel_name}: made unit length, the normal N is {vector_text(n)} and the direction to the eye V is "
         f"{vector_text(v)}."
     )
-    return text, equation(*beside([(r"N = \frac{n}{|n|}", vector_latex(n))], [("V", vector_latex(v))]))
-
-
-def _dot(other: str, value: float, first: Sequence[float], second: Sequence[float]) -> list[Part]:
-    """Return a product of two directions, term by term: a long line breaks between them."""
-    parts: list[Part] = [(rf"N \cdot {other}", value), "="]
-    for k, axis in enumerate("xyz"):
-        parts += ["+"] if k else []
-        parts.append(
-            (rf"N_{axis} {other}_{axis}", rf"{number_latex(first[k])} \cdot {signed_latex(second[k])}")
-        )
-    return parts
+    return text, formula_of(named(r"N = \frac{n}{|n|}", n), named("V", v))
 
 
 @explains("shade.*.cosines")
@@ -102,8 +77,11 @@ def cosines(step: StepValues) -> Said:
         side = "" if of_light > 0 else ", so it does not reach this side"
         texts.append(f"light {number} has N·L = {spoken(of_light)} and N·H = {spoken(of_half)}{side}")
         if number == highest:
-            products = _dot("L", of_light, n, to_light), _dot("H", of_half, n, half)
-    return f"{step.pixel_name}: {'; '.join(texts)}.", equation(*beside(*products))
+            products = (
+                named(rf"N \cdot {letter}", cosine).equals(by_axes("N", n, letter, direction))
+                for letter, cosine, direction in (("L", of_light, to_light), ("H", of_half, half))
+            )
+    return f"{step.pixel_name}: {'; '.join(texts)}.", formula_of(*products)
 
 
 @explains("shade.*.power")
@@ -115,13 +93,11 @@ def highlight(step: StepValues) -> Said:
     listed = joined([f"{spoken(power)} (light {k})" for k, power in enumerate(powers)])
     text = f"{step.pixel_name}: {noun_of(len(powers), 'highlight')} {listed}, from N·H and the shininess."
     k = max(range(len(powers)), key=powers.__getitem__)
+    p = named("p", powers[k])
     if not n_dot_l[k] > 0:
-        return text, equation(("p", powers[k]))
-    base = (
-        r"\max(N \cdot H, 0)^s",
-        rf"{number_latex(max(n_dot_h[k], 0.0))}^{{{number_latex(step.number('shininess'))}}}",
-    )
-    return text, equation(("p", powers[k]), "=", base)
+        return text, formula_of(p)
+    cosine = named(r"\max(N \cdot H, 0)", max(n_dot_h[k], 0.0))
+    return text, formula_of(p.equals(cosine ** step.named("shininess", "s")))
 
 
 @explains("shade.*.specular")
@@ -130,16 +106,19 @@ def specular_sum(step: StepValues) -> Said:
     specular, powers = step.vector("specular_light"), step.vector("power")
     text = f"{step.pixel_name}: the specular light is {vector_text(specular)}."
     channel = outstanding(specular)
-    parts: list[Part] = [(channel_symbol("specular", channel), specular[channel])]
-    for light, power in enumerate(powers):
-        parts += [
-            "+" if light else "=",
-            (r"k_{\mathrm{specular}}", step.number("specular")),
-            r"\cdot",
-            ("p", power),
-        ]
-        parts += [r"\cdot", (rf"l_{{{CHANNEL_LETTERS[channel]}}}", step.rows("light_colors")[light][channel])]
-    return text, equation(*parts)
+    light, k = in_channel("specular", specular, channel), step.named("specular", below("k", "specular"))
+    products = [
+        k * named("p", power) * of_light
+        for power, of_light in zip(powers, _lights(step, channel), strict=True)
+    ]
+    return text, formula_of(light.equals(total(products)) if products else light)
+
+
+def _lights(step: StepValues, channel: int) -> list[Named]:
+    """Return one channel of the colours of all lights."""
+    return [
+        named(rf"l_{{{CHANNEL_LETTERS[channel]}}}", color[channel]) for color in step.rows("light_colors")
+    ]
 
 
 @explains("shade.*.diffuse")
@@ -150,14 +129,12 @@ def diffuse_sum(step: StepValues) -> Said:
     if n_dot_l:
         text = f"{step.pixel_name}: over all lights the diffuse light is {vector_text(diffuse)}, ambient included."
     channel = outstanding(diffuse)
-    parts: list[Part] = [(channel_symbol("diffuse", channel), diffuse[channel]), "="]
-    parts.append((r"k_{\mathrm{ambient}}", step.number("ambient")))
-    for light, cosine in enumerate(n_dot_l):
-        colour = step.rows("light_colors")[light][channel]
-        parts += ["+", (r"k_{\mathrm{diffuse}}", step.number("diffuse")), r"\cdot"]
-        parts += [(r"\max(N \cdot L, 0)", max(cosine, 0.0)), r"\cdot"]
-        parts.append((rf"l_{{{CHANNEL_LETTERS[channel]}}}", colour))
-    return text, equation(*parts)
+    ambient, k = (step.named(name, below("k", name)) for name in ("ambient", "diffuse"))
+    products = (
+        k * named(r"\max(N \cdot L, 0)", max(cosine, 0.0)) * light
+        for cosine, light in zip(n_dot_l, _lights(step, channel), strict=False)
+    )
+    return text, formula_of(in_channel("diffuse", diffuse, channel).equals(total([ambient, *products])))
 
 
 @explains("shade.*.product")
@@ -167,12 +144,10 @@ def product(step: StepValues) -> Said:
     text = f"{step.pixel_name}: its colour is {vector_text(color)}, albedo times diffuse light plus specular light."
     channel = outstanding(color[:3])
     base, diffuse, specular = (
-        (channel_symbol(name.removesuffix("_light"), channel), step.vector(name)[channel])
+        in_channel(name.removesuffix("_light"), step.vector(name), channel)
         for name in ("albedo", "diffuse_light", "specular_light")
     )
-    return text, equation(
-        (channel_symbol("colour", channel), color[channel]), "=", base, r"\cdot", diffuse, "+", specular
-    )
+    return text, formula_of(in_channel("colour", color, channel).equals(base * diffuse + specular))
 
 
 shows(

@@ -6,30 +6,22 @@ Formulas of colours have the channel that is strongest; the other channels follo
 import math
 from collections.abc import Sequence
 
-from core.explain.digits import number_latex, signed_latex, spoken, vector_text
-from core.explain.equation import (
-    CHANNEL_LETTERS,
-    Part,
-    beside,
-    channel_symbol,
-    difference,
-    equation,
-    fraction,
-    linear,
-    outstanding,
-)
+from core.explain.channels import in_channel, letter_of, outstanding
+from core.explain.digits import spoken, vector_text
+from core.explain.formulas import HALF, below, call, formula_of, named, total
 from core.explain.records import Formula
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
+from core.explain.term_latex import Written
 from core.explain.variable_text import VariableText, given, shows
+from core.records.terms import Term
 from core.records.words import joined
 
 TEXELS = {"bl": "bottom left", "br": "bottom right", "tl": "top left", "tr": "top right"}
 """The four texels of bilinear filtering, in order."""
 SLOPES = ("u_x", "v_x", "u_y", "v_y")
 """u_x is the change of u per pixel to the right."""
-_LOGARITHM = r"\log_{{2}}"
-"""In double brackets, since a single 2 below a symbol has the colour of corner 2."""
 
 
 def _weighted(
@@ -37,13 +29,11 @@ def _weighted(
 ) -> Formula:
     """Return the sum of the four texels times their weights."""
     channel = outstanding(color[:3])
-    letter = CHANNEL_LETTERS[channel]
-    terms = [(rf"s_{{\mathrm{{{name}}}}}", weight) for name, weight in zip(TEXELS, weights, strict=True)]
-    units = [
-        (rf"{letter}_{{\mathrm{{{name}}}}}", texel[channel])
-        for name, texel in zip(TEXELS, colors, strict=True)
-    ]
-    return linear(rf"{letter}_{{\mathrm{{{which}}}}}" if which else letter, color[channel], terms, *units)
+    products = (
+        named(below("s", name), weight) * letter_of(texel, channel, name)
+        for name, weight, texel in zip(TEXELS, weights, colors, strict=True)
+    )
+    return formula_of(letter_of(color, channel, which).equals(total(products)))
 
 
 def _listed(weights: Sequence[float]) -> str:
@@ -53,14 +43,15 @@ def _listed(weights: Sequence[float]) -> str:
 @explains("shade.*.position")
 def position(step: StepValues) -> Said:
     """Texture coordinates times the size of the texture."""
-    (x, y), (u, v) = step.vector("texel_position"), step.vector("uv")
-    width, height = step.vector("texture_size")
-    text = (
-        f"{step.pixel_name}: (u, v) = {vector_text([u, v])} is the place {vector_text([x, y])} in the texture of "
-        f"{spoken(width)} × {spoken(height)} texels."
+    (x, y), (u, v), (width, height) = (
+        map(named, symbols, step.vector(name))
+        for symbols, name in (("xy", "texel_position"), ("uv", "uv"), ("WH", "texture_size"))
     )
-    across: list[Part] = [("x", x), "=", ("u", u), r"\cdot", ("W", width)]
-    return text, equation(*beside(across, [("y", y), "=", ("v", v), r"\cdot", ("H", height)]))
+    text = (
+        f"{step.pixel_name}: (u, v) = ({u}, {v}) is the place ({x}, {y}) in the texture of "
+        f"{width} × {height} texels."
+    )
+    return text, formula_of(x.equals(u * width), y.equals(v * height))
 
 
 @explains("shade.*.texels")
@@ -72,19 +63,13 @@ def texels(step: StepValues) -> Said:
     if len(found) == 1:
         color = vector_text(step.rows("texel_colors")[0])
         text = f"{step.pixel_name}: the place is in texel {names[0]}, whose colour is {color}."
-    half = r" - \frac{1}{2}" if len(found) > 1 else ""
-    indices: list[list[Part]] = [
-        [
-            (name, found[0][k]),
-            "=",
-            (
-                rf"\mathrm{{wrap}} \lfloor {axis}{half} \rfloor",
-                rf"\mathrm{{wrap}} \lfloor {number_latex(place[k])}{half} \rfloor",
-            ),
-        ]
-        for k, (name, axis) in enumerate((("i", "x"), ("j", "y")))
-    ]
-    return text, equation(*beside(*indices))
+    x, y = map(named, "xy", place)
+    i, j = map(named, "ij", found[0])
+    indices = (
+        index.equals(call("wrap", call("floor", at - HALF if len(found) > 1 else at)))
+        for index, at in ((i, x), (j, y))
+    )
+    return text, formula_of(*indices)
 
 
 @explains("shade.*.fractions")
@@ -95,12 +80,11 @@ def fractions(step: StepValues) -> Said:
         f"{step.pixel_name}: from the left to the right texels it is {spoken(shares[0])} of the way, from the lower to "
         f"the upper ones {spoken(shares[1])}."
     )
-    found: list[list[Part]] = []
+    made = []
     for axis, letter, at, share in zip("xy", "uv", place, shares, strict=True):
-        centre = rf"{axis} - \frac{{1}}{{2}}"
-        numbers = rf"{number_latex(at)} - \frac{{1}}{{2}} - ({number_latex(math.floor(at - 0.5))})"
-        found.append([(f"w_{letter}", share), "=", (rf"{centre} - \lfloor {centre} \rfloor", numbers)])
-    return text, equation(*beside(*found))
+        lower = named(rf"\lfloor {axis} - \frac{{1}}{{2}} \rfloor", math.floor(at - 0.5))
+        made.append(named(f"w_{letter}", share).equals(named(axis, at) - HALF - lower))
+    return text, formula_of(*made)
 
 
 @explains("shade.*.filter")
@@ -112,10 +96,7 @@ def filtered(step: StepValues) -> Said:
         return text, _weighted(color, weights, colors, "")
     text = f"{step.pixel_name}: the nearest texel alone gives the texture's colour, {vector_text(color)}."
     channel = outstanding(color[:3])
-    letter = CHANNEL_LETTERS[channel]
-    return text, equation(
-        (letter, color[channel]), "=", (rf"{letter}_{{\mathrm{{texel}}}}", colors[0][channel])
-    )
+    return text, formula_of(letter_of(color, channel).equals(letter_of(colors[0], channel, "texel")))
 
 
 @explains("shade.*.slopes")
@@ -131,16 +112,17 @@ def slopes(step: StepValues) -> Said:
         return _edited_slopes(step, k)
     if not step.has("slope_n"):
         text = "u and v are those of one corner everywhere, so they change neither to the right nor upwards."
-        return f"{step.pixel_name}: {text}", equation(*beside(*([(name, 0.0)] for name in SLOPES)))
+        return f"{step.pixel_name}: {text}", formula_of(*(named(name, 0.0) for name in SLOPES))
     text = f"{step.pixel_name}: per pixel to the right (u, v) change by {right}, per pixel upwards by {up}."
-    letter, coefficient, here = "uv"[k % 2], "a" if k < 2 else "b", step.vector("uv")[k % 2]
-    rises, corners = step.vector(f"slope_{coefficient}"), [row[k % 2] for row in step.rows("corner_uv")]
-    symbols = " + ".join(rf"{coefficient}_{i} ({letter}_{i} - {letter})" for i in range(3))
-    numbers = " + ".join(
-        rf"{signed_latex(rises[i])} ({number_latex(corners[i])} - {signed_latex(here)})" for i in range(3)
+    letter, coefficient = "uv"[k % 2], "a" if k < 2 else "b"
+    here, rises = named(letter, step.vector("uv")[k % 2]), step.vector(f"slope_{coefficient}")
+    changes = total(
+        named(f"{coefficient}_{i}", rises[i]) @ (named(f"{letter}_{i}", row[k % 2]) - here)
+        for i, row in enumerate(step.rows("corner_uv"))
     )
-    quotient = fraction((symbols, numbers), ("n", sum(step.vector("slope_n"))))
-    return text, equation((SLOPES[k], values[k]), "=", quotient)
+    return text, formula_of(
+        named(SLOPES[k], values[k]).equals(changes / named("n", sum(step.vector("slope_n"))))
+    )
 
 
 def _edited_slopes(step: StepValues, k: int) -> Said:
@@ -163,16 +145,20 @@ def _edited_slopes(step: StepValues, k: int) -> Said:
 
 def _line_slope(step: StepValues, k: int) -> Formula:
     """Return the slope along a line: change of the value over length, corrected where w changes."""
-    letter, (start, end) = "uv"[k % 2], (row[k % 2] for row in step.rows("end_uv"))
-    above = difference((rf"{letter}_{{\mathrm{{end}}}}", end), (rf"{letter}_{{\mathrm{{start}}}}", start))
-    below, below_numbers = "L", number_latex(step.number("length"))
+    letter, ends = "uv"[k % 2], [row[k % 2] for row in step.rows("end_uv")]
+    start, end = (named(below(letter, name), at) for name, at in zip(("start", "end"), ends, strict=True))
+    length: Term = step.named("length", "L")
     if step.has("end_w"):
         t, (first, second) = step.number("t"), step.vector("end_w")
-        total = (1 - t) / first + t / second
-        below += r" \, w_{\mathrm{start}} w_{\mathrm{end}} / w^2"
-        factors = (first, second, total, total)
-        below_numbers += "".join(rf" \cdot {signed_latex(value)}" for value in factors)
-    return equation((SLOPES[k], step.vector("uv_slopes")[k]), "=", fraction(above, (below, below_numbers)))
+        inverse_w = named(r"\frac{1}{w}", (1 - t) / first + t / second)
+        length = (
+            length
+            @ named(below("w", "start"), first)
+            @ named(below("w", "end"), second)
+            @ inverse_w
+            @ inverse_w
+        )
+    return formula_of(named(SLOPES[k], step.vector("uv_slopes")[k]).equals((end - start) / length))
 
 
 @explains("shade.*.lengths")
@@ -182,11 +168,11 @@ def pixel_lengths(step: StepValues) -> Said:
     text = f"{step.pixel_name}: a pixel to the right is {spoken(lengths[0])} texels long, one up {spoken(lengths[1])}."
     longer = 1 if lengths[1] > lengths[0] else 0
     name = "xy"[longer]
-    terms = [
-        rf"({signed_latex(slope[2 * longer + axis])} \cdot {number_latex(size[axis])})^2" for axis in range(2)
-    ]
-    root: Part = (rf"\sqrt{{(u_{name} W)^2 + (v_{name} H)^2}}", rf"\sqrt{{{' + '.join(terms)}}}")
-    return text, equation((rf"\rho_{name}", lengths[longer]), "=", root)
+    across, up = (
+        (named(f"{letter}_{name}", change) @ named(side, texels)) ** 2
+        for letter, side, change, texels in zip("uv", "WH", slope[2 * longer :], size, strict=False)
+    )
+    return text, formula_of(named(rf"\rho_{name}", lengths[longer]).equals(call("sqrt", across + up)))
 
 
 @explains("shade.*.lod")
@@ -200,13 +186,10 @@ def level_of_detail(step: StepValues) -> Said:
         text = f"{step.pixel_name}: the level of detail λ is −∞: the place stays the same"
     elif lod <= 0:
         text += ": a pixel is no larger than a texel"
-    logarithm: Part = (
-        rf"{_LOGARITHM} \max(\rho_x, \rho_y)",
-        rf"{_LOGARITHM} \max({', '.join(map(number_latex, lengths))})",
-    )
+    logarithm = call("log2", call("max", *map(named, (r"\rho_x", r"\rho_y"), lengths)))
     # Of a place that stays the same, 0 texels long, the logarithm has no value.
-    sign: Part = ("=", r"\to") if lod == -math.inf else "="
-    return f"{text}.", equation((r"\lambda", lod), sign, logarithm)
+    sign = ("=", r"\to") if lod == -math.inf else "="
+    return f"{text}.", formula_of(Chain((named(r"\lambda", lod), logarithm), (sign,)))
 
 
 def _level_name(step: StepValues, place: int) -> str:
@@ -224,9 +207,8 @@ def clamped_level(step: StepValues) -> Said:
         text = f"{step.pixel_name}: the texture is not reduced here, so l = {spoken(level)}."
     elif lod > level:
         text = f"{step.pixel_name}: λ = {spoken(lod)} is beyond the last level, so l = {spoken(level)}."
-    symbol = r"\mathrm{clamp}(\lambda)"
-    of_lod = rf"\mathrm{{clamp}}({number_latex(lod)})" if math.isfinite(lod) else symbol
-    return text, equation(("l", level), "=", (symbol, of_lod))
+    clamped = call("clamp", named(r"\lambda", lod) if math.isfinite(lod) else Written(r"\lambda"))
+    return text, formula_of(named("l", level).equals(clamped))
 
 
 @explains("shade.*.levels")
@@ -245,23 +227,17 @@ def levels(step: StepValues) -> Said:
         text = f"λ = {spoken(lod)} is {name} exactly"
     else:
         text = f"λ = {spoken(lod)} is between {name} and {_level_name(step, 1)}"
-    shown, first = number_latex(level), ("k", near)
-    if not has_two:
-        rounded: Part = (
-            r"\lceil l + \frac{1}{2} \rceil - 1",
-            rf"\lceil {shown} + \frac{{1}}{{2}} \rceil - 1",
-        )
-        return f"{step.pixel_name}: {text}.", equation(first, "=", rounded)
-    floor: Part = (r"\lfloor l \rfloor", rf"\lfloor {shown} \rfloor")
-    return f"{step.pixel_name}: {text}.", equation(first, "=", floor)
+    of_level = named("l", level)
+    chosen = call("floor", of_level) if has_two else call("ceil", of_level + HALF) - 1
+    return f"{step.pixel_name}: {text}.", formula_of(named("k", near).equals(chosen))
 
 
 @explains("shade.*.fraction")
 def level_share(step: StepValues) -> Said:
     """How much of the coarser level is mixed in."""
-    part, level, near = step.number("level_fraction"), step.number("level"), step.vector("levels")[0]
-    text = f"{step.pixel_name}: the coarser level has weight {spoken(part)}."
-    return text, equation(("f", part), "=", ("l", level), "-", ("k", near))
+    part, near = step.named("level_fraction", "f"), named("k", step.vector("levels")[0])
+    text = f"{step.pixel_name}: the coarser level has weight {part}."
+    return text, formula_of(part.equals(step.named("level", "l") - near))
 
 
 @explains("shade.*.near|far")
@@ -287,12 +263,9 @@ def mix(step: StepValues) -> Said:
         mixed = f"that of level {first} alone"
     text = f"{step.pixel_name}: the texture's colour is {vector_text(color)}, {mixed}."
     channel = outstanding(color[:3])
-    letter = CHANNEL_LETTERS[channel]
-    units = [
-        (rf"{letter}_{{\mathrm{{{name}}}}}", step.vector(f"{name}_color")[channel])
-        for name in ("near", "far")
-    ]
-    return text, linear(letter, color[channel], [("(1 - f)", 1 - part), ("f", part)], *units)
+    near, far = (letter_of(step.vector(f"{name}_color"), channel, name) for name in ("near", "far"))
+    mixed_in = named("(1 - f)", 1 - part) * near + named("f", part) * far
+    return text, formula_of(letter_of(color, channel).equals(mixed_in))
 
 
 @explains("shade.textured|textured-lit.albedo")
@@ -302,11 +275,10 @@ def albedo(step: StepValues) -> Said:
     channel, has_color = outstanding(values[:3]), step.has("vertex_color")
     times = " times the interpolated one" if has_color else ""
     text = f"{step.pixel_name}: its albedo is {vector_text(values)}, the texture's colour{times}."
-    made: list[Part] = [(channel_symbol("albedo", channel), values[channel]), "="]
-    made.append((channel_symbol("texture", channel), texture[channel]))
+    made: Term = in_channel("texture", texture, channel)
     if has_color:
-        made += [r"\cdot", (channel_symbol("colour", channel), step.vector("vertex_color")[channel])]
-    return text, equation(*made)
+        made = made * in_channel("colour", step.vector("vertex_color"), channel)
+    return text, formula_of(in_channel("albedo", values, channel).equals(made))
 
 
 def _level_variables(name: str, which: str) -> dict[str, VariableText]:
