@@ -1,12 +1,14 @@
 """Barycentric coordinates three ways: two equations, areas, distances from the edges."""
 
-from core.explain.digits import number_latex, remainder_note, signed_latex, spoken
-from core.explain.equation import Part, beside, difference, equation, fraction, linear_parts
-from core.explain.records import Formula
+from core.explain.digits import remainder_note, spoken
+from core.explain.formulas import Named, formula_of, named
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
-from core.explain.subjects.interpolation import below_zero, first_weight
+from core.explain.subjects.interpolation import below_zero, first_weight, quotients
+from core.explain.term_latex import Written
 from core.explain.variable_text import GIVEN, VariableText, hides, shows
+from core.records.terms import Colored, Operation
 from core.records.words import joined
 
 
@@ -14,14 +16,11 @@ def _listed(values: list[float]) -> str:
     return joined([spoken(value) for value in values])
 
 
-def _row(names: tuple[str, str, str], values: list[float]) -> list[Part]:
+def _row(names: tuple[str, str, str], values: list[float]) -> Chain:
     """Return one of the two equations, as p1 l1 + p2 l2 = p."""
-    first, second, right = names
-    unknown = r"\cdot \vertex{{{k}}}{{\lambda_{k}}}"
-    return [
-        *((first, values[0]), unknown.format(k=1), "+"),
-        *((second, values[1]), unknown.format(k=2), "=", (right, values[2])),
-    ]
+    first, second, right = map(named, names, values)
+    one, other = (Written(rf"\vertex{{{k}}}{{\lambda_{k}}}") for k in (1, 2))
+    return Chain((first * one + second * other, right), ("=",))
 
 
 @explains("interpolate.affine-equations.system")
@@ -35,7 +34,7 @@ def system(step: StepValues) -> Said:
     )
     names = [(f"{axis}_1 - {axis}_0", f"{axis}_2 - {axis}_0", f"{axis} - {axis}_0") for axis in "xy"]
     names = [(f"({first})", f"({second})", right) for first, second, right in names]
-    return text, equation(*beside(*(_row(names[k], rows[k]) for k in range(2))))
+    return text, formula_of(*map(_row, names, rows))
 
 
 @explains("interpolate.affine-equations.pivot")
@@ -47,54 +46,58 @@ def pivot(step: StepValues) -> Said:
         f"{step.fragment_name}: the equation for {first} comes first, as its factor of λ1 is not the smaller one: "
         f"{spoken(abs(chosen[0]))} against {spoken(abs(other[0]))} for {second}."
     )
-    return text, equation(*beside(_row(("p_1", "p_2", "p"), chosen), _row(("q_1", "q_2", "q"), other)))
+    return text, formula_of(_row(("p_1", "p_2", "p"), chosen), _row(("q_1", "q_2", "q"), other))
 
 
 @explains("interpolate.affine-equations.factor")
 def factor(step: StepValues) -> Said:
     """How often the first equation is subtracted from the second."""
-    f, p, q = step.number("factor"), step.vector("chosen"), step.vector("other")
-    text = f"{step.fragment_name}: the second equation has {spoken(f)} times as much of λ1 as the first."
-    return text, equation(("f", f), "=", fraction(("q_1", q[0]), ("p_1", p[0])))
+    f, (p1, *_), (q1, *_) = step.named("factor", "f"), *_equations(step)
+    text = f"{step.fragment_name}: the second equation has {f} times as much of λ1 as the first."
+    return text, formula_of(f.equals(q1 / p1))
+
+
+def _equations(step: StepValues) -> tuple[list[Named], list[Named]]:
+    """Return the numbers of both equations, p_1, p_2 and p, and q_1, q_2 and q."""
+    p, q = (
+        [
+            named(symbol, value)
+            for symbol, value in zip((f"{letter}_1", f"{letter}_2", letter), step.vector(name), strict=True)
+        ]
+        for letter, name in (("p", "chosen"), ("q", "other"))
+    )
+    return p, q
 
 
 @explains("interpolate.affine-equations.eliminate")
 def eliminate(step: StepValues) -> Said:
     """The first equation is subtracted so often that the first unknown leaves the second."""
-    p, q, f, (e2, e) = (
-        step.vector("chosen"),
-        step.vector("other"),
-        step.number("factor"),
-        step.vector("reduced"),
-    )
+    ((_, p2, p), (_, q2, q)), f = _equations(step), step.named("factor", "f")
+    e2, e = map(named, ("e_2", "e"), step.vector("reduced"))
     text = (
-        f"{step.fragment_name}: with {spoken(f)} times the first equation subtracted from the second, λ1 disappears "
-        f"and {spoken(e2)} λ2 = {spoken(e)} is left."
+        f"{step.fragment_name}: with {f} times the first equation subtracted from the second, λ1 disappears "
+        f"and {e2} λ2 = {e} is left."
     )
-    made: list[list[Part]] = []
-    for name, value, above, below in (("e_2", e2, q[1], p[1]), ("e", e, q[2], p[2])):
-        q_name, p_name = name.replace("e", "q"), name.replace("e", "p")
-        made.append([(name, value), "=", (q_name, above), "-", ("f", f), r"\cdot", (p_name, below)])
-    return text, equation(*beside(*made))
+    return text, formula_of(e2.equals(q2 - f * p2), e.equals(q - f * p))
 
 
 @explains("interpolate.affine-equations.last")
 def last_unknown(step: StepValues) -> Said:
     """The weight of corner 2."""
-    e2, e = step.vector("reduced")
-    value = step.number("weight_2")
-    text = f"{step.fragment_name}: corner 2 has weight {spoken(value)}."
-    return text, equation((r"\lambda_2", value), "=", fraction(("e", e), ("e_2", e2), 2))
+    e2, e = map(named, ("e_2", "e"), step.vector("reduced"))
+    weight = step.named("weight_2", r"\lambda_2")
+    return f"{step.fragment_name}: corner 2 has weight {weight}.", formula_of(
+        weight.equals(Colored(2, e / e2))
+    )
 
 
 @explains("interpolate.affine-equations.first")
 def first_unknown(step: StepValues) -> Said:
     """The weight of corner 1, from the first equation."""
-    p, second, value = step.vector("chosen"), step.number("weight_2"), step.number("weight_1")
-    text = f"{step.fragment_name}: with λ2 in the first equation, corner 1 has weight {spoken(value)}."
-    above = rf"{number_latex(p[2])} - {signed_latex(p[1])} \cdot {signed_latex(second)}"
-    quotient = fraction((r"p - p_2 \cdot \lambda_2", above), ("p_1", p[0]), 1)
-    return text, equation((r"\lambda_1", value), "=", quotient)
+    (p1, p2, p), _ = _equations(step)
+    first, second = (step.named(f"weight_{k}", rf"\lambda_{k}") for k in (1, 2))
+    text = f"{step.fragment_name}: with λ2 in the first equation, corner 1 has weight {first}."
+    return text, formula_of(first.equals(Colored(1, (p - p2 * second) / p1)))
 
 
 @explains("interpolate.affine-equations.weights", asks=first_weight, decides=True)
@@ -105,70 +108,54 @@ def rest_of_one(step: StepValues) -> Said:
         f"{step.fragment_name}: corner 0 has the rest of 1, so corners 0, 1 and 2 have weights "
         f"{_listed(weights)}{below_zero(weights)}."
     )
-    made: list[Part] = [(r"\lambda_0", weights[0]), "=", "1"]
-    for k in (1, 2):
-        made += ["-", (rf"\lambda_{k}", weights[k])]
-    return text, equation(*made)
+    first, second, third = (named(rf"\lambda_{k}", weight) for k, weight in enumerate(weights))
+    return text, formula_of(first.equals(1 - second - third))
 
 
-def _doubled_area(symbol: str, value: float, corners: list[tuple[tuple[str, float], ...]]) -> list[Part]:
+Place = tuple[Named, Named]
+"""x and y with their symbols."""
+
+
+def _doubled_area(corners: list[Place]) -> Operation:
     """Return the doubled area of three points as two products of differences; the first point is subtracted."""
     (x0, y0), (x1, y1), (x2, y2) = corners
-    made: list[Part] = [(symbol, value), "="]
-    for sign, across, up in (("", x1, y2), ("-", x2, y1)):
-        products = [difference(across, x0), difference(up, y0)]
-        made += [sign] if sign else []
-        made.append(
-            (
-                "".join(f"({symbols})" for symbols, _ in products),
-                r" \cdot ".join(f"({numbers})" for _, numbers in products),
-            )
-        )
-    return made
+    return (x1 - x0) @ (y2 - y0) - (x2 - x0) @ (y1 - y0)
 
 
-def _named_corners(step: StepValues) -> list[tuple[tuple[str, float], ...]]:
-    """Return x and y of the corners with their symbols."""
-    return [
-        tuple((f"{axis}_{k}", value) for axis, value in zip("xy", corner, strict=True))
-        for k, corner in enumerate(step.rows("corner_window"))
-    ]
+def _corners(step: StepValues) -> list[Place]:
+    """Return x and y of the corners."""
+    return [(named(f"x_{k}", x), named(f"y_{k}", y)) for k, (x, y) in enumerate(step.rows("corner_window"))]
 
 
 @explains("interpolate.affine-areas.whole")
 def whole_area(step: StepValues) -> Said:
     """The area of the triangle, doubled and signed."""
-    value = step.number("whole_area")
-    turn = "counter-clockwise" if value > 0 else "clockwise"
-    text = f"{step.fragment_name}: twice the area of the triangle is {spoken(value)}; its corners run {turn}."
-    return text, equation(*_doubled_area("2A", value, _named_corners(step)))
+    area = step.named("whole_area", "2A")
+    turn = "counter-clockwise" if area.value > 0 else "clockwise"
+    text = f"{step.fragment_name}: twice the area of the triangle is {area}; its corners run {turn}."
+    return text, formula_of(area.equals(_doubled_area(_corners(step))))
 
 
 @explains("interpolate.affine-areas.areas")
 def part_areas(step: StepValues) -> Said:
     """The pixel cuts the triangle into three, each opposite to its corner."""
-    areas, corners = step.vector("areas"), _named_corners(step)
-    centre = (("x", step.number("x")), ("y", step.number("y")))
+    areas, corners = step.vector("areas"), _corners(step)
     text = (
         f"{step.fragment_name}: its centre cuts the triangle into three; twice the areas opposite to "
         "corners 0, 1 and 2 "
         f"are {_listed(areas)}"
     )
     text += "; an area below 0 lies outside" if min(areas) < 0 else ""
-    parts = [_doubled_area(f"2A_{k}", areas[k], [centre, corners[k - 2], corners[k - 1]]) for k in range(3)]
-    return f"{text}.", equation(*beside(*parts))
+    made = (
+        area.equals(_doubled_area([step.centre, corners[k - 2], corners[k - 1]]))
+        for k, area in enumerate(_areas(step))
+    )
+    return f"{text}.", formula_of(*made)
 
 
-def _quotients(
-    step: StepValues, symbols: list[tuple[str, str]], over: list[float], under: list[float]
-) -> Formula:
-    """Return the three weights as quotients."""
-    weights = step.vector("weights")
-    quotients: list[list[Part]] = [
-        [(rf"\lambda_{k}", weights[k]), "=", fraction((top, over[k]), (bottom, under[k]), k)]
-        for k, (top, bottom) in enumerate(symbols)
-    ]
-    return equation(*beside(*quotients))
+def _areas(step: StepValues) -> list[Named]:
+    """Return twice the three areas."""
+    return [named(f"2A_{k}", area) for k, area in enumerate(step.vector("areas"))]
 
 
 @explains("interpolate.affine-areas.weights", asks=first_weight, decides=True)
@@ -180,63 +167,52 @@ def shares_of_area(step: StepValues) -> Said:
         "opposite to them"
         f"{below_zero(weights)}."
     )
-    symbols = [(f"2A_{k}", "2A") for k in range(3)]
-    return text, _quotients(step, symbols, step.vector("areas"), [step.number("whole_area")] * 3)
+    return text, formula_of(*quotients(step, _areas(step), [step.named("whole_area", "2A")] * 3))
 
 
-def _line_name(k: int, at: str = "x, y") -> str:
-    """Write the line function of the edge opposite to corner ``k``."""
-    return rf"f_{{{(k + 1) % 3}{(k + 2) % 3}}}({at})"
-
-
-def _values_of_lines(
-    step: StepValues, values: list[float], names: list[str], places: list[tuple[tuple[str, float], ...]]
-) -> Formula:
-    """Write the three line functions with their values, each at a place: its name, and x and y with their symbols."""
-    lines = zip(*(step.vector(f"line_{name}") for name in "abc"), strict=True)
-    sums = [
-        linear_parts(
-            rf"\vertex{{{k}}}{{{_line_name(k, names[k])}}}",
-            values[k],
-            [(f"{name}_{k}", value) for name, value in zip("abc", line, strict=True)],
-            *places[k],
-        )
-        for k, line in enumerate(lines)
+def _line_values(step: StepValues, column: str, places: list[Place]) -> list[Named]:
+    """Return the line functions of the edges opposite to the corners, each at a place."""
+    return [
+        named(rf"f_{{{(k + 1) % 3}{(k + 2) % 3}}}({x.symbol}, {y.symbol})", value)
+        for k, (value, (x, y)) in enumerate(zip(step.vector(column), places, strict=True))
     ]
-    return equation(*beside(*sums))
+
+
+def _lines_at(step: StepValues, column: str, places: list[Place]) -> list[Chain]:
+    """Return how the values of the line functions are computed."""
+    made = []
+    for k, (value, (x, y)) in enumerate(zip(_line_values(step, column, places), places, strict=True)):
+        a, b, c = (named(f"{name}_{k}", step.vector(f"line_{name}")[k]) for name in "abc")
+        made.append(value.of_vertex(k).equals(a * x + b * y + c))
+    return made
 
 
 @explains("interpolate.affine-distances.lines")
 def line_functions(step: StepValues) -> Said:
     """The line through two corners as a function of x and y that is 0 on it."""
     a, b, c = (step.vector(f"line_{name}") for name in "abc")
-    corners = _named_corners(step)
+    _, (x1, y1), (x2, y2) = _corners(step)
     text = (
         f"{step.fragment_name}: each edge has a function a x + b y + c that is 0 on its line; opposite to "
         f"corner 0 it has a = {spoken(a[0])}, b = {spoken(b[0])}, c = {spoken(c[0])}"
         f"{remainder_note([a[0], b[0], c[0]])}."
     )
-    (x1, y1), (x2, y2) = corners[1:]
-    products = " - ".join(
-        rf"{signed_latex(x)} \cdot {signed_latex(y)}" for x, y in ((x1[1], y2[1]), (x2[1], y1[1]))
+    return text, formula_of(
+        named("a_0", a[0]).equals(y1 - y2),
+        named("b_0", b[0]).equals(x2 - x1),
+        named("c_0", c[0]).equals(x1 @ y2 - x2 @ y1),
     )
-    made: list[list[Part]] = [
-        [("a_0", a[0]), "=", difference(y1, y2)],
-        [("b_0", b[0]), "=", difference(x2, x1)],
-        [("c_0", c[0]), "=", ("x_1 y_2 - x_2 y_1", products)],
-    ]
-    return text, equation(*beside(*made))
 
 
 @explains("interpolate.affine-distances.functions")
 def at_the_pixel(step: StepValues) -> Said:
     """The three functions at the pixel: distances, each in a unit of its own."""
-    values, x, y = step.vector("at_pixel"), step.number("x"), step.number("y")
+    values = step.vector("at_pixel")
     text = (
         f"{step.fragment_name}: the functions of the edges opposite to corners 0, 1 and 2 are {_listed(values)} here, "
         f"the distances from the edges times their lengths{remainder_note(values)}."
     )
-    return text, _values_of_lines(step, values, ["x, y"] * 3, [(("x", x), ("y", y))] * 3)
+    return text, formula_of(*_lines_at(step, "at_pixel", [step.centre] * 3))
 
 
 @explains("interpolate.affine-distances.opposite")
@@ -244,7 +220,7 @@ def at_the_corner(step: StepValues) -> Said:
     """The same functions at the corner opposite to each edge."""
     values = step.vector("at_corner")
     text = f"{step.fragment_name}: at the corner opposite to each edge the functions are {_listed(values)}."
-    return text, _values_of_lines(step, values, [f"x_{k}, y_{k}" for k in range(3)], _named_corners(step))
+    return text, formula_of(*_lines_at(step, "at_corner", _corners(step)))
 
 
 @explains("interpolate.affine-distances.weights", asks=first_weight, decides=True)
@@ -255,8 +231,11 @@ def shares_of_distance(step: StepValues) -> Said:
         f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(weights)}: how far the pixel is from the "
         f"opposite edge, as a part of how far the corner is{below_zero(weights)}."
     )
-    symbols = [(_line_name(k), _line_name(k, f"x_{k}, y_{k}")) for k in range(3)]
-    return text, _quotients(step, symbols, step.vector("at_pixel"), step.vector("at_corner"))
+    here, at_corner = (
+        _line_values(step, "at_pixel", [step.centre] * 3),
+        _line_values(step, "at_corner", _corners(step)),
+    )
+    return text, formula_of(*quotients(step, here, at_corner))
 
 
 @explains("interpolate.no-area.weights")

@@ -2,13 +2,14 @@
 
 import math
 
-from core.explain.digits import number_latex, spoken
-from core.explain.equation import all_of, comparison, conclusion, equation, fraction, linear, relation
+from core.explain.digits import spoken
+from core.explain.formulas import call, concludes, formula_of, named, slash, upright
 from core.explain.number_text import pair_text, steps_apart
 from core.explain.records import Asked, Formula, choice
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.variable_text import GIVEN, VariableText, hides, shows
+from core.records.terms import term
 
 QUANTITIES = {
     "z": ("z", "z", "depth"),
@@ -43,17 +44,16 @@ def value_made(step: StepValues) -> Said:
     """The number that is stored instead of z, before it is rounded."""
     value, depth = step.number("value"), spoken(step.number("depth"))
     name, symbol, _ = quantity_of(step)
-    text, made = f"its {name} is {spoken(value)} (z = {depth})", equation((symbol, value))
+    text, made = f"its {name} is {spoken(value)} (z = {depth})", formula_of(named(symbol, value))
     if name == "logarithmic depth":
-        inverse_w, near, far = (step.number(name) for name in ("inverse_w", "near", "far"))
+        inverse_w, near, far = step.number("inverse_w"), step.named("near", "n"), step.named("far", "f")
         text = (
-            f"on a scale of octaves from w = {spoken(near)} to w = {spoken(far)}, "
+            f"on a scale of octaves from w = {near} to w = {far}, "
             f"1/w = {spoken(inverse_w)} is at {spoken(value)} (z = {depth})"
         )
-        above = rf"\log_2 (1 / ({number_latex(inverse_w)} \cdot {number_latex(near)}))"
-        below = rf"\log_2 ({number_latex(far)} / {number_latex(near)})"
-        made = equation(
-            (symbol, value), "=", fraction((r"\log_2 (w / n)", above), (r"\log_2 (f / n)", below))
+        w = named("w", 1 / inverse_w if inverse_w else math.inf)
+        made = formula_of(
+            named(symbol, value).equals(call("log2", slash(w, near)) / call("log2", slash(far, near)))
         )
     elif name == "reversed z":
         where = "along the outline" if step.has("t") else "on the triangle's plane"
@@ -64,12 +64,12 @@ def value_made(step: StepValues) -> Said:
 
 def _reversed(step: StepValues, value: float) -> Formula:
     """Return the reversed depth along a line, or on the plane of a triangle."""
+    r = named("r", value)
     if not step.has("t"):
-        coefficients = [(name, step.number(name)) for name in "abc"]
-        return linear("r", value, coefficients, ("x", step.number("x")), ("y", step.number("y")))
-    t, (start, end) = step.number("t"), step.vector("ends")
-    first = ("(1 - t)", f"(1 - {number_latex(t)})")
-    return equation(("r", value), "=", first, r"\cdot", ("r_0", start), "+", ("t", t), r"\cdot", ("r_1", end))
+        a, b, c, x, y = (step.named(name, name) for name in "abcxy")
+        return formula_of(r.equals(a * x + b * y + c))
+    t, (start, end) = step.named("t", "t"), map(named, ("r_0", "r_1"), step.vector("ends"))
+    return formula_of(r.equals((1 - t) * start + t * end))
 
 
 @explains("depth.*.depth")
@@ -79,7 +79,7 @@ def stored(step: StepValues) -> Said:
     before = step.number(variable)
     if variable == "stored":
         text = f"{step.pixel_name}: the cell of triangle {step.triangle} holds {spoken(value)}."
-        return text, equation((held_name(step, "new")[0], value))
+        return text, formula_of(named(held_name(step, "new")[0], value))
     if name == "z":
         of_steps = f" of {step.whole('scale')} steps" if step.has("scale") else ""
         text = f"{step.pixel_name}: its depth z = {spoken(before)} is stored as {spoken(value)}{of_steps}."
@@ -90,15 +90,13 @@ def stored(step: StepValues) -> Said:
         text = (
             f"{step.pixel_name}: {name} {spoken(before)} is {limited}stored as the float32 {spoken(value)}."
         )
-    symbols, numbers = rf"\mathrm{{float32}}({symbol})", rf"\mathrm{{float32}}({number_latex(before)})"
+    exact = named(symbol, before)
+    kept = call("float32", exact)
     if step.has("origin"):
-        symbols, numbers = (
-            rf"\mathrm{{round}}(2^{{38}} \cdot {at})" for at in (symbol, number_latex(before))
-        )
+        kept = call("round", term(2) ** 38 * exact)
     elif name == "z" and step.has("scale"):
-        symbols = rf"\mathrm{{round}}(\mathrm{{steps}} \cdot {symbol})"
-        numbers = rf"\mathrm{{round}}({number_latex(step.number('scale'))} \cdot {number_latex(before)})"
-    return text, equation((held_name(step, "new")[0], value), "=", (symbols, numbers))
+        kept = call("round", step.named("scale", upright("steps")) * exact)
+    return text, formula_of(named(held_name(step, "new")[0], value).equals(kept))
 
 
 def passes(step: StepValues) -> Asked:
@@ -149,12 +147,9 @@ def compared(step: StepValues) -> Said:
     wanted = ">" if step.flag("larger_is_nearer") else "<"
     if step.has("comparison"):
         wanted = {"≤": r"\le", "≥": r"\ge"}.get(step.text("comparison"), step.text("comparison"))
-    return f"{step.pixel_name} {text}", equation(
-        (held_name(step, "new")[0], new),
-        (wanted, relation(new, old)),
-        (held_name(step, "buffer")[0], old),
-        *conclusion("passes", "passes" if step.flag("passes") else "fails"),
-    )
+    test = named(held_name(step, "new")[0], new).compared(wanted, named(held_name(step, "buffer")[0], old))
+    made = concludes("passes", "passes" if step.flag("passes") else "fails", test)
+    return f"{step.pixel_name} {text}", formula_of(made)
 
 
 @explains("depth.*.write")
@@ -190,14 +185,11 @@ def _not_stored(step: StepValues) -> str:
 @explains("depth.*.range")
 def out_of_range(step: StepValues) -> Said:
     """A fragment in front of the near or behind the far plane."""
-    depth = step.number("depth")
+    z, depth = step.named("depth", "z"), step.number("depth")
     why = "below 0: in front of the near plane" if depth < 0 else "above 1: behind the far plane"
     why = "which is not a number" if math.isnan(depth) else why
-    tests = [comparison("z", r"\ge", depth), comparison("z", r"\le", depth, 1.0)]
-    return (
-        f"{step.pixel_name} is dropped: its depth z is {spoken(depth)}, {why}.",
-        all_of(tests, *conclusion("kept", "dropped")),
-    )
+    made = concludes("kept", "dropped", z.compared(r"\ge"), z.compared(r"\le", 1))
+    return f"{step.pixel_name} is dropped: its depth z is {z}, {why}.", formula_of(made)
 
 
 @explains("depth.discarded.discard")

@@ -1,25 +1,21 @@
 """Interpolation over triangles: weights with and without perspective, corrected every n pixels, and mixed values."""
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 
-from core.explain.digits import is_remainder, number_latex, remainder_note, signed_latex, spoken, vector_text
-from core.explain.equation import (
-    Part,
-    beside,
-    difference,
-    equation,
-    fraction,
-    linear,
-    linear_parts,
-    outstanding,
-)
+from core.explain.arithmetic import work_out
+from core.explain.channels import outstanding
+from core.explain.digits import is_remainder, remainder_note, spoken, vector_text
+from core.explain.formulas import Named, below, call, formula_of, named, total
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import ATTRIBUTES, StepValues, component_names
 from core.explain.variable_text import CENTRE, COEFFICIENTS, VariableText, given, hides, shows
 from core.fragments.interpolation import window_weights
+from core.records.terms import Colored, Term
 from core.records.words import joined, noun_of
 
 ATTRIBUTE_NAMES = {
@@ -47,36 +43,30 @@ def numerators(step: StepValues) -> Said:
         f"{step.fragment_name}: the edge functions of the unsnapped corners are {_listed(values)}"
         f"{',' if is_affine else ''} {what}."
     )
-    x, y = step.number("x"), step.number("y")
-    planes = [[step.vector(name)[k] for name in "abc"] for k in range(3)]
-    w = step.vector("corner_w") if is_affine else [1.0] * 3
-    sums: list[list[Part]] = []
-    for k, (a, b, c) in enumerate(planes):
-        terms, units = [(f"a_{k}", a), (f"b_{k}", b), (f"c_{k}", c)], (("x", x), ("y", y))
+    x, y = step.centre
+    sums = []
+    for k, (a, b, c) in enumerate(map(step.plane, range(3))):
+        here: Term = a * x + b * y + c
         if is_affine:
-            products_text = " + ".join(
-                rf"{signed_latex(slope)} \cdot {number_latex(at)}" for slope, at in ((a, x), (b, y))
-            )
-            plane = (rf"(a_{k} x + b_{k} y + c_{k})", f"({products_text} + {signed_latex(c)})")
-            sums.append([(f"n_{k}", values[k]), "=", plane, r"\cdot", (f"w_{k}", w[k])])
-        else:
-            sums.append(linear_parts(f"n_{k}", values[k], terms, *units))
-    return text, equation(*beside(*sums))
+            here = (a @ x + b @ y + c) * named(f"w_{k}", step.vector("corner_w")[k])
+        sums.append(named(f"n_{k}", values[k]).equals(here))
+    return text, formula_of(*sums)
 
 
 @explains("interpolate.perspective|affine.total")
-def total(step: StepValues) -> Said:
+def sum_of_three(step: StepValues) -> Said:
     """The sum of the three."""
-    values, whole, inverse_w = (
-        step.vector("numerators"),
-        step.number("total"),
-        spoken(step.number("inverse_w")),
-    )
+    whole, inverse_w = step.named("total", "n"), spoken(step.number("inverse_w"))
     what = f"the determinant times 1/w, and 1/w is {inverse_w} here"
     if step.kind == "affine":
         what = f"the sum that the three weights are parts of (1/w is {inverse_w} here)"
-    text = f"{step.fragment_name}: together they are {spoken(whole)}, {what}."
-    return text, linear("n", whole, [(f"n_{k}", values[k]) for k in range(3)])
+    text = f"{step.fragment_name}: together they are {whole}, {what}."
+    return text, formula_of(whole.equals(total(_numbered("n", step.vector("numerators")))))
+
+
+def _numbered(letter: str, values: list[float]) -> list[Named]:
+    """Return numbers of the corners with their symbols."""
+    return [named(f"{letter}_{k}", value) for k, value in enumerate(values)]
 
 
 def first_weight(step: StepValues) -> Asked | None:
@@ -101,7 +91,7 @@ def below_zero(weights: list[float]) -> str:
 @explains("interpolate.perspective|affine.weights", asks=first_weight, decides=True)
 def weights(step: StepValues) -> Said:
     """The weights of the corners, parts of the sum."""
-    values, whole = step.vector("weights"), step.number("total")
+    values, whole = step.vector("weights"), step.named("total", "n")
     text = f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(values)}, their parts of the sum"
     w = step.vector("corner_w")
     if step.kind == "perspective" and min(w) != max(w):
@@ -110,11 +100,14 @@ def weights(step: StepValues) -> Said:
     text += below_zero(values)
     if any(map(math.isnan, values)):
         text += "; NaN means that the sum is 0"
-    quotients: list[list[Part]] = [
-        [(rf"\lambda_{k}", values[k]), "=", fraction((f"n_{k}", part), ("n", whole), k)]
-        for k, part in enumerate(step.vector("numerators"))
-    ]
-    return f"{text}.", equation(*beside(*quotients))
+    parts = _numbered("n", step.vector("numerators"))
+    return f"{text}.", formula_of(*quotients(step, parts, [whole] * 3))
+
+
+def quotients(step: StepValues, over: Sequence[Term], under: Sequence[Term]) -> list[Chain]:
+    """Return the three weights as quotients, in the colours of their corners."""
+    weights = _numbered(r"\lambda", step.vector("weights"))
+    return [weight.equals(Colored(k, over[k] / under[k])) for k, weight in enumerate(weights)]
 
 
 @explains("interpolate.flat.weights", asks=first_weight, decides=True)
@@ -124,7 +117,7 @@ def flat_weights(step: StepValues) -> Said:
     corner = values.index(max(values))
     others = "the other has" if len(values) == 2 else "the others have"
     text = f"{step.fragment_name}: only corner {corner} counts; {others} weight 0."
-    return text, equation(*beside(*([(rf"\lambda_{k}", weight)] for k, weight in enumerate(values))))
+    return text, formula_of(*_numbered(r"\lambda", values))
 
 
 def _value(step: StepValues, how: str) -> str:
@@ -155,31 +148,31 @@ def value(step: StepValues) -> Said:
         else "the weighted sum of the corners' values"
     )
     letter, found, corners = _component(step, step.corner_values(step.operation.removeprefix("value-")))
-    terms = [(rf"\lambda_{k}", share) for k, share in enumerate(step.vector("weights"))]
-    units = ((f"{letter}_{k}", corner) for k, corner in enumerate(corners))
-    mixed = linear_parts(letter, found, terms, *units)
+    shares, ends = _numbered(r"\lambda", step.vector("weights")), _numbered(letter, corners)
+    mixed = named(letter, found).equals(total(share * end for share, end in zip(shares, ends, strict=True)))
     if step.kind != "perspective" or not step.operation.endswith("uv"):
-        return _value(step, how), equation(*mixed)
+        return _value(step, how), formula_of(mixed)
     how += f", or {letter}/w over 1/w, which are A x + B y + C each"
-    return _value(step, how), equation(*beside(mixed, *_quotient_of_planes(step, letter, found, corners)))
+    return _value(step, how), formula_of(mixed, *_quotient_of_planes(step, letter, found, corners))
 
 
-def _quotient_of_planes(
-    step: StepValues, letter: str, found: float, corners: list[float]
-) -> list[list[Part]]:
+def _quotient_of_planes(step: StepValues, letter: str, found: float, corners: list[float]) -> list[Chain]:
     """Return a value as value/w over 1/w, both of which are linear in x and y."""
-    inverse_w = step.number("inverse_w")
-    determinant = step.number("total") / inverse_w
-    made: list[list[Part]] = []
-    for name, of, values in ((f"{letter}/w", letter, corners), ("1/w", "w", [1.0] * 3)):
-        plane = [
-            sum(a * of_corner for a, of_corner in zip(step.vector(column), values, strict=True)) / determinant
+    inverse_w, (x, y) = step.named("inverse_w", "1/w"), step.centre
+    determinant = step.number("total") / inverse_w.value
+    over_w = named(f"{letter}/w", found * inverse_w.value)
+    made = []
+    for quotient, of, values in ((over_w, letter, corners), (inverse_w, "w", [1.0] * 3)):
+        a, b, c = (
+            named(
+                f"{column.upper()}_{of}",
+                sum(slope * value for slope, value in zip(step.vector(column), values, strict=True))
+                / determinant,
+            )
             for column in "abc"
-        ]
-        terms = [(f"{symbol}_{of}", factor) for symbol, factor in zip("ABC", plane, strict=True)]
-        value = inverse_w if of == "w" else found * inverse_w
-        made.append(linear_parts(name, value, terms, ("x", step.number("x")), ("y", step.number("y"))))
-    return [*made, [(letter, found), "=", fraction((f"{letter}/w", found * inverse_w), ("1/w", inverse_w))]]
+        )
+        made.append(quotient.equals(a * x + b * y + c))
+    return [*made, named(letter, found).equals(over_w / inverse_w)]
 
 
 @explains("interpolate.line-perspective|line-affine.value")
@@ -188,42 +181,41 @@ def value_along(step: StepValues) -> Said:
     s = step.number("s")
     how = f"{spoken(1 - s)} of the first end's and {spoken(s)} of the second end's"
     name = step.operation.removeprefix("value-")
-    letter, found, (first, second) = _component(step, step.corner_values(name, "end_values"))
-    symbols = (step.of_end(letter, end) for end in range(2))
-    return _value(step, how), linear(
-        letter, found, [("(1 - s)", 1 - s), ("s", s)], *zip(symbols, (first, second), strict=True)
-    )
+    letter, found, ends = _component(step, step.corner_values(name, "end_values"))
+    first, second = (named(step.of_end(letter, end), value) for end, value in enumerate(ends))
+    mixed = named("(1 - s)", 1 - s) * first + named("s", s) * second
+    return _value(step, how), formula_of(named(letter, found).equals(mixed))
 
 
 @explains("interpolate.point.value")
 def value_of_point(step: StepValues) -> Said:
     """The value of a point."""
     letter, found, (of_point,) = _component(step, step.corner_values(step.operation.removeprefix("value-")))
-    return _value(step, "that of the point"), equation((letter, found), "=", (f"{letter}_0", of_point))
+    made = named(letter, found).equals(named(f"{letter}_0", of_point))
+    return _value(step, "that of the point"), formula_of(made)
 
 
 @explains("interpolate.affine-n.row")
 def row(step: StepValues) -> Said:
     """Where the triangle begins and ends in the pixel's row: the nearest crossings of its left and right edges."""
-    ends, y, determinant = step.vector("row_ends"), step.number("y"), step.number("determinant")
+    ends, y, determinant = step.vector("row_ends"), step.named("y", "y"), step.number("determinant")
     text = (
         f"{step.fragment_name}: in this row the unsnapped triangle reaches from x = {spoken(ends[0])} "
         f"to x = {spoken(ends[1])}."
     )
     if any(map(math.isinf, ends)):
         text = f"{step.fragment_name}: the triangle is edge-on, so its row has no ends."
-    a, b, c = (step.vector(name) for name in "abc")
-    sides: list[list[Part]] = []
+    planes = [step.plane(k) for k in range(3)]
+    sides: list[Chain | Term] = []
     for name, end, sign in zip(("left", "right"), ends, (1, -1), strict=True):
-        side: list[Part] = [(rf"x_{{\mathrm{{{name}}}}}", end)]
-        edges = [k for k in range(3) if sign * a[k] * determinant > 0]
-        if edges and math.isfinite(end):
-            k = min(edges, key=lambda k: abs(-(b[k] * y + c[k]) / a[k] - end))
-            above = rf"{signed_latex(b[k])} \cdot {number_latex(y)} + {signed_latex(c[k])}"
-            symbols, numbers = fraction((f"b_{k} y + c_{k}", above), (f"a_{k}", a[k]))
-            side += ["=", (f"-{symbols}", f"-{numbers}")]
-        sides.append(side)
-    return text, equation(*beside(*sides))
+        side = named(below("x", name), end)
+        crossings = [-((b @ y + c) / a) for a, b, c in planes if sign * a.value * determinant > 0]
+        if crossings and math.isfinite(end):
+            nearest = min(crossings, key=lambda crossing: abs(float(work_out(crossing)[0]) - end))
+            sides.append(side.equals(nearest))
+        else:
+            sides.append(side)
+    return text, formula_of(*sides)
 
 
 @explains("interpolate.affine-n.grid")
@@ -231,45 +223,46 @@ def grid(step: StepValues) -> Said:
     """The columns of the grid beside a pixel."""
     before, behind = step.vector("grid")
     text = f"{step.fragment_name}: the multiples of {step.whole('interval')} beside it are at x = {spoken(before)} "
-    return f"{text}and {spoken(behind)}.", equation(*beside([("g", before)], [("g + n", behind)]))
+    return f"{text}and {spoken(behind)}.", formula_of(named("g", before), named("g + n", behind))
 
 
 @explains("interpolate.affine-n.anchors")
 def anchors(step: StepValues) -> Said:
     """The columns of the grid, moved to the ends of the row; a pixel beyond these is its own anchor."""
-    (left, right), grid = step.vector("anchor_x"), step.vector("grid")
-    x = step.number("x")
-    if left == right:
+    left, right = map(named, "lr", step.vector("anchor_x"))
+    before, behind = map(named, ("g", "g + n"), step.vector("grid"))
+    x = step.named("x", "x")
+    if left.value == right.value:
         text = (
             f"{step.fragment_name}: its centre is not between the ends of the triangle's row, "
-            f"so it is its own anchor, x = {spoken(x)}."
+            f"so it is its own anchor, x = {x}."
         )
-        return text, equation(("l", left), "=", ("r", right), "=", ("x", x))
-    text = f"{step.fragment_name}: its anchors are x = {spoken(left)} and x = {spoken(right)}"
-    moved = [
-        name for name, at, of_grid in (("left", left, grid[0]), ("right", right, grid[1])) if at != of_grid
-    ]
+        return text, formula_of(left.equals(right, x))
+    text = f"{step.fragment_name}: its anchors are x = {left} and x = {right}"
+    pairs = (("left", left, before), ("right", right, behind))
+    moved = [name for name, anchor, of_grid in pairs if anchor.value != of_grid.value]
     if moved:
         text += f", the {joined(moved)} {'ends' if len(moved) == 2 else 'end'} moved to where the triangle's row ends"
-    before, behind, row_left, row_right = map(number_latex, (*grid, *step.vector("row_ends")))
-    first: Part = (r"\max(g, x_{\mathrm{left}})", rf"\max({before}, {row_left})")
-    second: Part = (r"\min(g + n, x_{\mathrm{right}})", rf"\min({behind}, {row_right})")
-    return f"{text}.", equation(*beside([("l", left), "=", first], [("r", right), "=", second]))
+    row_left, row_right = map(named, (below("x", "left"), below("x", "right")), step.vector("row_ends"))
+    return f"{text}.", formula_of(
+        left.equals(call("max", before, row_left)), right.equals(call("min", behind, row_right))
+    )
 
 
 @explains("interpolate.affine-n.fraction")
 def position(step: StepValues) -> Said:
     """Where the pixel is between its anchors."""
-    t, (left, right), x = step.number("fraction"), step.vector("anchor_x"), step.number("x")
-    text = (
-        f"{step.fragment_name}: its centre is t = {spoken(t)} of the way from the left to the right anchor."
+    t, (left, right), x = (
+        step.named("fraction", "t"),
+        map(named, "lr", step.vector("anchor_x")),
+        step.named("x", "x"),
     )
-    if t == 0:
+    text = f"{step.fragment_name}: its centre is t = {t} of the way from the left to the right anchor."
+    if t.value == 0:
         text = f"{step.fragment_name}: its centre is at the left anchor, t = 0."
-    if left == right:
-        return text, equation(("t", 0.0))
-    quotient = fraction(difference(("x", x), ("l", left)), difference(("r", right), ("l", left)))
-    return text, equation(("t", t), "=", quotient)
+    if left.value == right.value:
+        return text, formula_of(named("t", 0.0))
+    return text, formula_of(t.equals((x - left) / (right - left)))
 
 
 @explains("interpolate.affine-n.corrected")
@@ -280,12 +273,12 @@ def corrected(step: StepValues) -> Said:
         f"{step.fragment_name}: with the division by 1/w the weights are {vector_text(left)} at the left anchor and "
         f"{vector_text(right)} at the right one."
     )
-    shown: list[list[Part]] = [
-        [(rf"\vertex{{{k}}}{{\lambda_{k}({letter})}}", values[k])]
-        for letter, values in (("l", left), ("r", right))
-        for k in range(3)
-    ]
-    return text, equation(*beside(*shown))
+    return text, formula_of(*_at_anchor("l", left), *_at_anchor("r", right))
+
+
+def _at_anchor(letter: str, weights: list[float]) -> list[Named]:
+    """Return the weights at an anchor."""
+    return [named(rf"\lambda_{k}({letter})", weight).of_vertex(k) for k, weight in enumerate(weights)]
 
 
 @explains("interpolate.affine-n.weights", asks=first_weight, decides=True)
@@ -299,15 +292,11 @@ def corrected_weights(step: StepValues) -> Said:
         f"{step.fragment_name}: {spoken(1 - t)} of the left and {spoken(t)} of the right anchor's weights give "
         f"corners 0, 1 and 2 the weights {_listed(values)}{rest}{remainder_note(values)}."
     )
-    sums: list[list[Part]] = [
-        [
-            *((rf"\lambda_{k}", values[k]), "=", ("(1 - t)", 1 - t), r"\cdot"),
-            *((rf"\vertex{{{k}}}{{\lambda_{k}(l)}}", left[k]), "+", ("t", t), r"\cdot"),
-            (rf"\vertex{{{k}}}{{\lambda_{k}(r)}}", right[k]),
-        ]
-        for k in range(3)
-    ]
-    return text, equation(*beside(*sums))
+    rest_of_t, at = named("(1 - t)", 1 - t), named("t", t)
+    weights = zip(_numbered(r"\lambda", values), _at_anchor("l", left), _at_anchor("r", right), strict=True)
+    return text, formula_of(
+        *(weight.equals(rest_of_t * first + at * second) for weight, first, second in weights)
+    )
 
 
 shows(

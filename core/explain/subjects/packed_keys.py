@@ -1,13 +1,19 @@
 """Depth on integer planes, and packed keys: depth above the number of the triangle, compared as one whole number."""
 
-from core.explain.digits import number_latex, spoken
-from core.explain.equation import conclusion, equation, linear, relation
+from fractions import Fraction
+
+from core.explain.digits import spoken
+from core.explain.formulas import Named, below, call, concludes, formula_of, named, relation, upright
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues, key_fields
 from core.explain.subjects.depth import passes
+from core.explain.term_latex import TermLatex, Written
 from core.framebuffer.packed_keys import NUMBER_BITS
+from core.records.terms import Operation, term
 
-_NEW, _BUFFER = r"\mathrm{key}_{\mathrm{new}}", r"\mathrm{key}_{\mathrm{buffer}}"
+_NEW, _BUFFER = below(upright("key"), "new"), below(upright("key"), "buffer")
+_SLACK, _DEPTHS = term(2) ** 20, term(2) ** 38
 
 
 def _whole(step: StepValues, name: str) -> str:
@@ -20,9 +26,9 @@ def key_text(key: int) -> str:
     return " | ".join(key_fields(key))
 
 
-def _key_latex(key: int) -> str:
-    depth, number = key_fields(key)
-    return rf"\mathrm{{{depth}}} \, | \, \mathrm{{{number}}}"
+def _key(symbol: str, key: int) -> Written:
+    depth, number = map(upright, key_fields(key))
+    return Written(symbol, rf"{depth} \, | \, {number}")
 
 
 def _holder(key: int) -> str:
@@ -42,9 +48,12 @@ def plane(step: StepValues) -> Said:
         f"{step.pixel_name}: on the triangle's integer plane the depth is {_whole(step, 'stored')} of "
         f"2³⁸ (z = {spoken(step.number('depth'))})."
     )
-    slopes = [(rf"\mathrm{{{name}}}", step.number(name)) for name in ("across", "up", "origin")]
-    place = ((rf"\mathrm{{{name}}}", step.number(name)) for name in ("column", "row"))
-    return text, linear("d", step.number("stored"), slopes, *place)
+    return text, formula_of(step.named("stored", "d").equals(_on_plane(step)))
+
+
+def _on_plane(step: StepValues) -> Operation:
+    across, column, up, row, origin = map(step.upright, ("across", "column", "up", "row", "origin"))
+    return across * column + up * row + origin
 
 
 def _limited(step: StepValues, on_plane: int) -> Said:
@@ -53,26 +62,20 @@ def _limited(step: StepValues, on_plane: int) -> Said:
         f"{step.pixel_name}: this pixel lies outside the triangle, where its integer plane is at "
         f"{on_plane:,} of 2³⁸; the depth is limited to −2²⁰ … 2³⁸ + 2²⁰, which gives {_whole(step, 'stored')}."
     ).replace("-", "−")
-    symbols, numbers = (
-        rf"\min(\max({on}, -2^{{20}}), 2^{{38}} + 2^{{20}})"
-        for on in (
-            r"\mathrm{across} \cdot \mathrm{column} + \mathrm{up} \cdot \mathrm{row} + \mathrm{origin}",
-            str(on_plane),
-        )
-    )
-    return text, equation(("d", step.number("stored")), "=", (symbols, numbers))
+    there = Named(TermLatex(False).text(_on_plane(step)), Fraction(on_plane))
+    limited = call("min", call("max", there, -_SLACK), _DEPTHS + _SLACK)
+    return text, formula_of(step.named("stored", "d").equals(limited))
 
 
 @explains("depth.rounded.depth")
 def rounded(step: StepValues) -> Said:
     """Depth that is rounded at the pixel."""
-    depth = step.number("depth")
+    z = step.named("depth", "z")
     text = (
-        f"{step.pixel_name}: triangle {step.triangle} has no integer plane, so z = {spoken(depth)} is rounded here, "
+        f"{step.pixel_name}: triangle {step.triangle} has no integer plane, so z = {z} is rounded here, "
         f"to {_whole(step, 'stored')} of 2³⁸."
     )
-    numbers = rf"\mathrm{{round}}(2^{{38}} \cdot {number_latex(depth)})"
-    return text, equation(("d", step.number("stored")), "=", (r"\mathrm{round}(2^{38} \cdot z)", numbers))
+    return text, formula_of(step.named("stored", "d").equals(call("round", _DEPTHS * z)))
 
 
 @explains("depth.*.key")
@@ -83,9 +86,8 @@ def key(step: StepValues) -> Said:
         f"{step.pixel_name}: its key is {key_text(packed)}, the depth above the lower 24 bits, "
         f"which hold the number of triangle {number} plus one."
     )
-    depth = (r"(d + 2^{20})", rf"({step.whole('stored')} + 2^{{20}})")
-    terms = (depth, r"\cdot", rf"2^{{{NUMBER_BITS}}}", "+", (r"(n + 1)", f"({number} + 1)"))
-    return text, equation((_NEW, _key_latex(packed)), "=", *terms)
+    made = (named("d", step.whole("stored")) + _SLACK) * term(2) ** NUMBER_BITS + (named("n", number) + 1)
+    return text, formula_of(Chain((_key(_NEW, packed), made), ("=",)))
 
 
 @explains("depth.*.minimum", asks=passes, decides=True)
@@ -99,12 +101,9 @@ def minimum(step: StepValues) -> Said:
         text = f"fails: the depths tie, and {there} has the lower number, as it came first"
     else:
         text = f"fails: the buffer's key, {key_text(old)} of {there}, is smaller"
-    return f"{step.pixel_name} {text}.", equation(
-        (_NEW, _key_latex(new)),
-        ("<", relation(float(new - old))),
-        (_BUFFER, _key_latex(old)),
-        *conclusion("passes", "passes" if step.flag("passes") else "fails"),
-    )
+    test = Chain((_key(_NEW, new), _key(_BUFFER, old)), (("<", relation(float(new - old))),))
+    made = concludes("passes", "passes" if step.flag("passes") else "fails", test)
+    return f"{step.pixel_name} {text}.", formula_of(made)
 
 
 @explains("depth.rounded.write")
@@ -115,12 +114,10 @@ def key_written(step: StepValues) -> Said:
     text = f"the buffer {verb} the smaller key, {key_text(after)}, of {_holder(after)}"
     if step.flag("passes") and not step.flag("writes"):
         text = f"the buffer keeps {key_text(after)}, of {_holder(after)}, as the line covers under half of the pixel"
-    kept = (
-        rf"\lfloor \min({_NEW}, {_BUFFER}) / 2^{{{NUMBER_BITS}}} \rfloor",
-        rf"\mathrm{{{key_fields(after)[0]}}}",
-    )
-    made = equation((r"d_{\mathrm{buffer}}", step.number("after")), "=", kept, "-", "2^{20}")
-    return f"{step.pixel_name}: {text}.", made
+    upper = rf"\lfloor \min({_NEW}, {_BUFFER}) / 2^{{{NUMBER_BITS}}} \rfloor"
+    kept = Written(upper, upright(key_fields(after)[0]))
+    made = step.named("after", below("d", "buffer")).equals(kept - _SLACK)
+    return f"{step.pixel_name}: {text}.", formula_of(made)
 
 
 @explains("depth.plane.write")
@@ -130,4 +127,4 @@ def plane_written(step: StepValues) -> Said:
         f"{step.pixel_name}: without a depth test {_whole(step, 'after')} replaces {_whole(step, 'before')} "
         "in the depth buffer."
     )
-    return text, equation((r"d_{\mathrm{buffer}}", step.number("after")), "=", ("d", step.number("stored")))
+    return text, formula_of(step.named("after", below("d", "buffer")).equals(step.named("stored", "d")))

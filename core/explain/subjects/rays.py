@@ -2,14 +2,16 @@
 
 import math
 
-from core.explain.digits import number_latex, signed_latex, spoken
-from core.explain.equation import conclusion, equation, fraction, relation
+from core.explain.digits import spoken
+from core.explain.formulas import below, concludes, formula_of, named, slash
 from core.explain.number_text import pair_text
 from core.explain.records import Asked, choice
 from core.explain.rows import Said, explains
+from core.explain.statements import Chain
 from core.explain.step_values import StepValues
+from core.explain.term_latex import Written
 
-_NEW, _NEAREST = r"v_{\mathrm{new}}", r"v_{\mathrm{nearest}}"
+_NEW, _NEAREST = below("v", "new"), below("v", "nearest")
 
 
 def _measure(step: StepValues) -> str:
@@ -31,28 +33,26 @@ def nearer(step: StepValues) -> Asked:
 @explains("depth.*.hit")
 def hit(step: StepValues) -> Said:
     """Where the ray meets the plane of a triangle, in the coordinates X = m/W and Y = n/H."""
-    value, error = step.number("nearness"), step.number("error")
-    text = f"the ray meets triangle {step.triangle} at {_measure(step)} = {spoken(value)}, within {spoken(error)}."
+    value, error = step.named("nearness", "v"), step.number("error")
+    text = f"the ray meets triangle {step.triangle} at {_measure(step)} = {value}, within {spoken(error)}."
     if math.isinf(error):
         text = (
             f"the ray runs in the plane of triangle {step.triangle}, or so nearly that float64 cannot locate the hit; "
-            f"{spoken(value)} stands for it."
+            f"{value} stands for it."
         )
-    a, b, c, d = (step.number(name) for name in "abcd")
-    m, n = (number_latex(step.number(name)) for name in "mn")
-    above = rf"{signed_latex(a)} \cdot {m} / W + {signed_latex(b)} \cdot {n} / H + {signed_latex(c)}"
-    quotient = fraction((r"a \, m / W + b \, n / H + c", above), ("d", d))
-    return f"{step.pixel_name}: {text}", equation(("v", value), "=", quotient)
+    a, b, c, d, m, n = (step.named(name, name) for name in "abcdmn")
+    above = slash(a @ m, Written("W")) + slash(b @ n, Written("H")) + c
+    return f"{step.pixel_name}: {text}", formula_of(value.equals(above / d))
 
 
 @explains("depth.*.bound")
 def bound(step: StepValues) -> Said:
     """How far rounding may have moved the hit."""
-    error = step.number("error")
-    text = f"rounding has moved this {_measure(step)} by at most {spoken(error)}."
-    if math.isinf(error):
+    error = step.named("error", "e")
+    text = f"rounding has moved this {_measure(step)} by at most {error}."
+    if math.isinf(error.value):
         text = "float64 cannot bound the rounding error of this hit."
-    return f"{step.pixel_name}: {text}", equation(("e", error))
+    return f"{step.pixel_name}: {text}", formula_of(error)
 
 
 @explains("depth.ray-first.keep")
@@ -73,24 +73,25 @@ def compared(step: StepValues) -> Said:
         f"{step.pixel_name} {verdict}: {_measure(step)} {shown} is {than} than {shown_old} of triangle {nearest}, "
         "and by more than both errors together."
     )
-    done = conclusion("passes", verdict)
-    return text, equation((_NEW, new), (">", relation(new, old)), (_NEAREST, old), *done)
+    return text, formula_of(
+        concludes("passes", verdict, named(_NEW, new).compared(">", named(_NEAREST, old)))
+    )
 
 
 @explains("depth.ray-exact.doubt")
 def doubted(step: StepValues) -> Said:
     """A hit that float64 cannot tell from the nearest so far."""
-    errors = step.number("error") + step.number("nearest_error")
-    apart = abs(step.number("nearness") - step.number("nearest_nearness"))
+    errors = named(
+        f"{below('e', 'new')} + {below('e', 'nearest')}", step.number("error") + step.number("nearest_error")
+    )
+    apart = named(f"|{_NEW} - {_NEAREST}|", abs(step.number("nearness") - step.number("nearest_nearness")))
     text = (
-        f"{step.pixel_name}: triangle {step.whole('nearest')} is {spoken(apart)} away in {_measure(step)}, "
-        f"within the errors of {spoken(errors)}: float64 cannot decide."
+        f"{step.pixel_name}: triangle {step.whole('nearest')} is {apart} away in {_measure(step)}, "
+        f"within the errors of {errors}: float64 cannot decide."
     )
-    if math.isinf(errors):
+    if math.isinf(errors.value):
         text = f"{step.pixel_name}: float64 cannot locate one of the two hits, so it cannot decide."
-    return text, equation(
-        (f"|{_NEW} - {_NEAREST}|", apart), r"\le", (r"e_{\mathrm{new}} + e_{\mathrm{nearest}}", errors)
-    )
+    return text, formula_of(Chain((apart, errors), (r"\le",)))
 
 
 @explains("depth.ray-exact.exact", asks=nearer, decides=True)
@@ -101,12 +102,8 @@ def exact(step: StepValues) -> Said:
     text = f"{verdict}: compared in whole numbers, without any error, it is {word} than {nearest}."
     if sign == 0:
         text = f"fails: in whole numbers it is exactly as near as {nearest}, and a tie keeps that."
-    return f"{step.pixel_name} {text}", equation(
-        (rf"\mathrm{{sign}}({_NEW} - {_NEAREST})", float(sign)),
-        (">", relation(sign)),
-        "0",
-        *conclusion("passes", verdict),
-    )
+    side = named(rf"\mathrm{{sign}}({_NEW} - {_NEAREST})", sign)
+    return f"{step.pixel_name} {text}", formula_of(concludes("passes", verdict, side.compared(">")))
 
 
 @explains("depth.ray|ray-exact.write")
