@@ -70,7 +70,7 @@ def exact_latex(value: Fraction | int) -> str:
     """Write a whole number in full, and 1/256ths as a mixed fraction."""
     if value.denominator == 1:
         return str(value)
-    sign, (whole, part) = "-" if value < 0 else "", divmod(round(abs(value) * SUBPIXELS), SUBPIXELS)
+    sign, (whole, part) = "-" if value < 0 else "", divmod(round(abs(Fraction(value)) * SUBPIXELS), SUBPIXELS)
     return rf"{sign}{whole or ''}\frac{{{part}}}{{{SUBPIXELS}}}"
 
 

@@ -135,12 +135,12 @@ def _edited_slopes(step: StepValues, k: int) -> Said:
         "half a pixel behind."
     )
     letter, (ahead, behind) = "uv"[k % 2], (("right", "left"), ("up", "down"))[k // 2]
-    apart = [step.vector(f"slope_{side}")[k % 2] for side in (ahead, behind)]
-    marks = [rf"\Delta {letter}_{{\mathrm{{{side}}}}}" for side in (ahead, behind)]
-    own = rf"{SLOPES[k]}^{{\mathrm{{method}}}}"
-    sum_of = rf"{own} + ({marks[0]} - {marks[1]})"
-    numbers = rf"{number_latex(of_method[k])} + ({number_latex(apart[0])} - {signed_latex(apart[1])})"
-    return text, equation((SLOPES[k], values[k]), "=", (sum_of, numbers))
+    own = named(rf"{SLOPES[k]}^{{\mathrm{{method}}}}", of_method[k])
+    more, less = (
+        named(rf"\Delta {below(letter, side)}", step.vector(f"slope_{side}")[k % 2])
+        for side in (ahead, behind)
+    )
+    return text, formula_of(named(SLOPES[k], values[k]).equals(own + (more - less)))
 
 
 def _line_slope(step: StepValues, k: int) -> Formula:
