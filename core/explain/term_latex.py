@@ -3,6 +3,7 @@ r"""Terms as LaTeX: in symbols, and with the numbers of their step put in, cell 
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
+from numbers import Real
 from types import MappingProxyType
 from typing import Any
 
@@ -188,7 +189,7 @@ class TermLatex:
             if len(value) > LONGEST_LIST:
                 return rf"\text{{{len(value)} values}}"
             return f"({', '.join(map(self.value, value))})"
-        if value is None or isinstance(value, str):
+        if not isinstance(value, Real):
             return rf"\text{{{'nothing' if value is None else value}}}"
         return latex_text(float(value) + 0.0, self.digits.get(abs(float(value)), DIGITS))
 

@@ -125,7 +125,7 @@ BROKEN = [
     (
         "solution = { corners = [[0, 2, 4.25, 4.25]] }",
         'solution = { edit = [["cull", "a", "b"]] }',
-        "step.3.solution: Its listing returns words",
+        "step.3.solution: No face is dropped.",
     ),
     (
         "pixel = [32, 24]",
