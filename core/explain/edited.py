@@ -97,27 +97,37 @@ def edited_step(explanation: Explanation) -> EditedStep | None:
         if found is None:
             return None
         ran = found
-    shown = [each.line for each in (*explanation.earlier, explanation) if each.listing is listing]
-    lines = [listing.begin_of(line) for line in shown]
-    labelled = frozenset(map(listing.begin_of, listing.lines.values()))
+    chain = _own_steps(explanation, listing)
     begin, group = 0, range(0)
-    for place, line in enumerate(lines):
-        is_last = place == len(lines) - 1
-        group = _group(ran, begin, line, labelled, is_first=place == 0)
-        begin = group.stop if len(group) or not is_last else begin
+    for place, each in enumerate(chain):
+        line = listing.begin_of(each.line)
+        stops = set(map(listing.begin_of, each.later_lines)) - ({line} if _is_value(each) else set())
+        group = _group(ran, begin, line, stops, is_first=place == 0)
+        begin = group.stop if len(group) or place < len(chain) - 1 else begin
     latest = ran[group.stop - 1] if group.stop > 0 else (ran[begin - 1] if begin else None)
     return EditedStep(listing, tuple(ran[group.start : group.stop]), latest)
 
 
-def _group(
-    ran: Sequence[LaneStep], begin: int, line: int, labelled: frozenset[int], *, is_first: bool
-) -> range:
-    """Return which steps belong to an operation of a line: those from it up to the next labelled one."""
+def _is_value(explanation: Explanation) -> bool:
+    """Return whether a step interpolates one attribute of several, with which the listing runs anew."""
+    return explanation.key.startswith("interpolate.") and ".value-" in explanation.key
+
+
+def _own_steps(explanation: Explanation, listing: EditedListing) -> list[Explanation]:
+    """Return the operations of a listing up to one, those on other attributes left out."""
+    chain = [each for each in (*explanation.earlier, explanation) if each.listing is listing]
+    if _is_value(explanation):
+        chain = [each for each in chain if each is explanation or not _is_value(each)]
+    return chain
+
+
+def _group(ran: Sequence[LaneStep], begin: int, line: int, stops: set[int], *, is_first: bool) -> range:
+    """Return which steps belong to an operation of a line: those from it up to the lines that follow, see ``stops``."""
     at = next((k for k in range(begin, len(ran)) if ran[k].line == line), None)
     if at is None:
         return range(begin, begin)
     end = at + 1
-    while end < len(ran) and (ran[end].line not in labelled):
+    while end < len(ran) and ran[end].line not in stops:
         end += 1
     if end < len(ran):
         # The head of a loop's next round belongs to what follows.

@@ -58,24 +58,28 @@ class Equality:
     result: Any
 
 
+def _named(target: Expression, now: Mapping[str, Any]) -> str:
+    """Print what is given a value: several names stand in brackets, as their values do."""
+    text = in_symbols(term_of(target, now))
+    return f"({text[1:-1]})" if text.startswith("[") else text
+
+
 def equalities(step: LaneStep) -> tuple[Equality, ...]:
     """Return what a step computes; of several names on the left of = one for each, where they can be told apart."""
     node = step.statement
     match node:
         case Assign(_, Many(_, targets), Many(_, values)) if _are_paired(targets, values):
             return tuple(
-                Equality(in_symbols(term_of(target, step.before)), term_of(value, step.before), result)
+                Equality(_named(target, step.before), term_of(value, step.before), result)
                 for target, value, result in zip(targets, values, step.value, strict=True)
             )
         case Assign(_, target, value):
-            return (
-                Equality(in_symbols(term_of(target, step.before)), term_of(value, step.before), step.value),
-            )
+            return (Equality(_named(target, step.before), term_of(value, step.before), step.value),)
         case Declare(_, _, name, value):
             right = Leaf("", step.value) if value is None else term_of(value, step.before)
             return (Equality(name, right, step.value),)
         case Each(_, target):
-            return (Equality(in_symbols(term_of(target, step.after)), Leaf("", step.value), step.value),)
+            return (Equality(_named(target, step.after), Leaf("", step.value), step.value),)
         case Put(_, name, value):
             return (Equality(name, term_of(value, step.before), step.value),)
         case Return(_, None):

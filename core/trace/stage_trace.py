@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from core.records.arrays import Flags, Integers, read_only
 from core.records.cached import cached_property
-from core.records.listing import Listing
+from core.records.listing import EditedListing, Listing
 from core.records.operation import Operation
 from core.records.steps import Steps
 
@@ -81,6 +81,8 @@ class Explanation:
     """What the row has done before, operation by operation."""
     corner_count: int = 3
     """Corners of what is drawn: 2 of segments, 1 of points."""
+    later_lines: tuple[int, ...] = ()
+    """Of an edited listing: its lines that the row runs after this operation."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -161,7 +163,11 @@ class StageTrace:
         kind = self.kind_of(row)
         operations: tuple[Operation, ...] = self.steps.operations[kind]
         done = operations[operation]
-        listing = self.listings.get(f"{kind}.{done.name}", self.listings.get(kind))
+        listing = self._listing_of(kind, done)
+        later: tuple[int, ...] = ()
+        if isinstance(listing, EditedListing):
+            own = [o for o in operations[operation + 1 :] if self._listing_of(kind, o) is listing]
+            later = tuple(listing.lines.get(o.label_at(self.columns, row), 0) for o in own)
         return Explanation(
             key=f"{self.stage}.{kind}.{done.name}",
             values=values,
@@ -174,7 +180,11 @@ class StageTrace:
             listing=listing,
             line=listing.lines.get(done.label_at(self.columns, row), 0) if listing else 0,
             corner_count=self.corner_count,
+            later_lines=later,
         )
+
+    def _listing_of(self, kind: str, operation: Operation) -> Listing | None:
+        return self.listings.get(f"{kind}.{operation.name}", self.listings.get(kind))
 
     def state(self, position: int) -> dict[str, NDArray[Any]]:
         """Return all buffers as they are at a position; a row counts when its last operation is done."""

@@ -22,6 +22,7 @@ from core.edits import (
 )
 from core.edits.typed import Typed
 from core.explain import formula
+from core.explain.edited import edited_step
 from core.explain.steps import sentence
 from core.fragments.edited_slopes import slopes_of_edit
 from core.fragments.lighting import blinn_phong
@@ -402,6 +403,24 @@ def test_steps_of_an_edited_light_tell_its_own_lines():
     said = [sentence(stage.explain(k), -1, None) for k in range(first + 1, end + 1)]
     assert any("n_dot_l = " in text for text in said)
     assert not any("N·L" in text for text in said)
+
+
+def test_every_line_that_runs_is_told_by_a_step_of_its_row():
+    scene = replace(make_scene("textured-floor"), size=(16, 16))
+    for part, of in (("interpolation", "perspective"), ("texture_filter", "bilinear"), ("shading", "phong")):
+        ours = apply_edit(Settings(), Edit(part, of, original(part, of).source))
+        stage = trace(scene, ours).stage(EDITABLE[part].stage)
+        first, end = stage.steps.starts[:2].tolist()
+        said = [sentence(stage.explain(k), -1, None) for k in range(first + 1, end + 1)]
+        assert not any("does not run here" in text for text in said), said
+        done = [stage.explain(k) for k in range(first + 1, end + 1)]
+        steps = [edited_step(each) for each in done if isinstance(each.listing, EditedListing)]
+        assert steps[-1].steps[-1].kind == "return"
+    filtered = apply_edit(
+        Settings(), Edit("texture_filter", "bilinear", original("texture_filter", "bilinear").source)
+    )
+    text = sentence(trace(scene, filtered).stage("shade").explain(2), -1, None)
+    assert "(left, right) = (" in text
 
 
 def test_an_endless_loop_of_a_line_ends_with_its_line():
