@@ -13,6 +13,7 @@ from core.lanes.listings import compile_listing
 from core.lanes.problem import Place, Problem, counted
 from core.lanes.program import Program
 from core.lanes.python_values import Log, Many, at_lane, is_flag, is_number, kind_of
+from core.lanes.tables import Table
 from core.records.listing import TypedText, listing
 
 BLOCK = 16_384
@@ -122,6 +123,8 @@ def returned(value: Any, shape: Shape, words: str, place: Place) -> Any:
         return value
     if isinstance(value, Log):
         value = value.seen(None, place)
+    if isinstance(value, Table) and not np.ndim(value.length) and value.length == len(shape):
+        value = [value.part(k) for k in range(value.length)]
     if not isinstance(value, list) or len(value) != len(shape):
         count = len(value) if isinstance(value, list) else 1
         raise Problem(place, f"return must give {words}: here it gives {counted(count, 'value')}")

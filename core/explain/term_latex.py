@@ -39,12 +39,12 @@ SIGNS = {
     ">=": r"\ge",
     "==": "=",
     "!=": r"\ne",
-    "%": r"\mathbin{\mathrm{mod}}",
-    "&": r"\mathbin{\mathrm{and}}",
-    "|": r"\mathbin{\mathrm{or}}",
-    "^": r"\mathbin{\mathrm{xor}}",
-    "<<": r"\ll",
-    ">>": r"\gg",
+    "%": r"\text{ mod }",
+    "&": r"\text{ and }",
+    "|": r"\text{ or }",
+    "^": r"\text{ xor }",
+    "<<": r"\text{ << }",
+    ">>": r"\text{ >> }",
 }
 AROUND = {
     "floor": (r"\lfloor ", r" \rfloor"),

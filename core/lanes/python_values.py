@@ -114,7 +114,8 @@ def at_lane(value: Any, lane: int) -> Any:
     if isinstance(value, Range):
         return range(*(int(at_lane(part, lane)) for part in (value.start, value.stop, value.step)))
     if isinstance(value, Table):
-        return str(value)
+        is_texel = value.is_texel
+        return [at_lane(value.part(k), lane) for k in range(value.length)] if is_texel else str(value)
     if isinstance(value, np.ndarray | np.generic):
         one = value[lane] if isinstance(value, np.ndarray) and value.ndim else value
         return one if one.dtype == np.float32 else one.item()

@@ -36,6 +36,11 @@ class Table:
             return self.numbers.shape[1]
         return _plain((self.heights if place == ROW else self.widths)[self.chosen[LEVEL]])
 
+    @property
+    def is_texel(self) -> bool:
+        """Whether only a channel is left to choose."""
+        return len(self.chosen) == CHANNEL
+
     def part(self, index: Any) -> Any:
         """Return an element, a number or another table; the index is a whole number or (L,), and inside."""
         if len(self.chosen) < CHANNEL:

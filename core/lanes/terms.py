@@ -60,8 +60,13 @@ class Equality:
 
 def _named(target: Expression, now: Mapping[str, Any]) -> str:
     """Print what is given a value: several names stand in brackets, as their values do."""
-    text = in_symbols(term_of(target, now))
-    return f"({text[1:-1]})" if text.startswith("[") else text
+    return _in_brackets(term_of(target, now))
+
+
+def _in_brackets(target: Term) -> str:
+    if isinstance(target, ListOf):
+        return f"({', '.join(map(_in_brackets, target.parts))})"
+    return in_symbols(target)
 
 
 def equalities(step: LaneStep) -> tuple[Equality, ...]:
@@ -145,7 +150,7 @@ def _worked_out(term: Term) -> Any:
 
 def _gathered(node: Gather, now: Mapping[str, Any]) -> Term:
     element, things = term_of(node.element, now), term_of(node.things, now)
-    target = in_symbols(term_of(node.target, now))
+    target = _named(node.target, now)
     written: tuple[Term, ...] = ()
     match node:
         case Gather(_, _, Name(_, name), Call(_, "range", (Constant(_, int() as count),)), ()):

@@ -63,6 +63,7 @@ class CodeView(QPlainTextEdit):
         """Mark the lines that differ from those of the other version."""
         if lines != self._changed_lines:
             self._changed_lines = lines
+            self.place_margin()
             self.margin.update()
 
     @property
@@ -167,7 +168,7 @@ class CodeMargin(QWidget):
 
     def wanted_width(self) -> int:
         """Return the room for a mark, a star and the largest line number."""
-        digits = max(2, len(str(self._view.blockCount())))
+        digits = max(2, len(str(self._view.blockCount()))) + bool(self._view.changed_lines)
         return self._view.fontMetrics().horizontalAdvance("0") * digits + self._mark_size() + 13
 
     def sizeHint(self) -> QSize:

@@ -405,6 +405,15 @@ def test_steps_of_an_edited_light_tell_its_own_lines():
     assert not any("N·L" in text for text in said)
 
 
+def test_a_texel_is_a_colour():
+    plain = Settings(texture_filter="nearest")
+    ours = apply_edit(
+        plain, edit("texture_filter", "tuple(pixels[row][column])", "pixels[row][column]", "nearest")
+    )
+    scene = replace(make_scene("textured-floor"), size=(16, 16))
+    np.testing.assert_array_equal(render(scene, ours).color, render(scene, plain).color)
+
+
 def test_every_line_that_runs_is_told_by_a_step_of_its_row():
     scene = replace(make_scene("textured-floor"), size=(16, 16))
     for part, of in (("interpolation", "perspective"), ("texture_filter", "bilinear"), ("shading", "phong")):
