@@ -32,8 +32,13 @@ def name_latex(name: str) -> str:
     return rf"\mathrm{{{escaped(name)}}}"
 
 
-def symbol_latex(symbol: str, now: Mapping[str, Any]) -> str:
-    """Write a variable, or an element of a list, in the colour of its vertex; ``now`` are the variables of the step."""
+def symbol_latex(symbol: str, now: Mapping[str, Any] | None) -> str:
+    """Write a variable, or an element of a list, in the colour of its vertex.
+
+    ``now`` are the variables of the step; ``None``: those of a shader, which belong to no vertex whatever their index.
+    """
+    if now is None:
+        return symbol if len(symbol) == 1 else rf"\mathrm{{{escaped(symbol)}}}"
     found = _ELEMENT.match(symbol)
     if found is None:
         text = name_latex(symbol) if symbol.isidentifier() else rf"\mathrm{{{escaped(symbol)}}}"
@@ -48,13 +53,13 @@ def symbol_latex(symbol: str, now: Mapping[str, Any]) -> str:
     return rf"\vertex{{{index}}}{{{text}}}" if is_vertex else text
 
 
-def in_latex(term: Term, now: Mapping[str, Any]) -> Term:
-    """Return a term with its names as formulas write them; ``now`` are the variables of the step."""
+def in_latex(term: Term, now: Mapping[str, Any] | None) -> Term:
+    """Return a term with its names as formulas write them; ``now`` as in `symbol_latex`."""
     match term:
         case Leaf(symbol, value):
             return Leaf(symbol and symbol_latex(symbol, now), value)
         case Gathered(_, target, _, (_, *_) as written):
-            return ListOf(tuple(in_latex(part, {**now, target: k}) for k, part in enumerate(written)))
+            return ListOf(tuple(in_latex(part, {**(now or {}), target: k}) for k, part in enumerate(written)))
         case Gathered(element, target, things):
             one_of, among = (TermLatex(False).text(in_latex(part, now)) for part in (element, things))
             rule = rf"({one_of} \text{{ for }} {name_latex(target)} \in {among})"
@@ -62,8 +67,8 @@ def in_latex(term: Term, now: Mapping[str, Any]) -> Term:
     return term.mapped(lambda part: in_latex(part, now))
 
 
-def stated(equality: Equality, kind: str, now: Mapping[str, Any]) -> Stated:
-    """Return what a step computes; ``kind`` is that of its `LaneStep`."""
+def stated(equality: Equality, kind: str, now: Mapping[str, Any] | None) -> Stated:
+    """Return what a step computes; ``kind`` is that of its `LaneStep`, ``now`` as in `symbol_latex`."""
     right, result = in_latex(equality.right, now), equality.result
     shown = _result("", result)
     if kind in ("set", "for") and equality.symbol:

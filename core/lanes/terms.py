@@ -122,7 +122,9 @@ def term_of(node: Expression, now: Mapping[str, Any]) -> Term:
         case Index():
             return _element(node, now)
         case Field(_, whole, name):
-            return Leaf(f"{in_symbols(term_of(whole, now))}.{name}", None)
+            of = term_of(whole, now)
+            text = in_symbols(of)
+            return Leaf(f"{text if isinstance(of, Leaf | Applied) else f'({text})'}.{name}", None)
         case Gather():
             return _gathered(node, now)
     raise AssertionError(f"{type(node).__name__} is no term")

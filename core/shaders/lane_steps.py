@@ -30,7 +30,8 @@ from core.lanes.nodes import (
 )
 from core.lanes.notes import LaneStep
 from core.lanes.run import Frame, Watch
-from core.lanes.terms import in_numbers, in_symbols, said, term_of
+from core.lanes.terms import Equality, equalities, in_symbols, said, term_of
+from core.records.terms import Leaf, Term
 from core.shaders.glsl_types import MATRICES, GlslValue
 from core.shaders.scopes import typed_name
 
@@ -107,32 +108,44 @@ def words_of(step: LaneStep) -> str:
         return "discard: the fragment ends here, and nothing of it is written"
     if isinstance(node, Break | Continue):
         return LEAVES[type(node)]
-    now = Typed(step.before)
     if isinstance(node, Evaluate):
+        now = Typed(step.before)
         return f"{in_symbols(term_of(now.expression(node.value), now.values))} runs"
     if isinstance(node, Return) and node.value is None:
         return "return: this function ends here"
     if isinstance(node, Declare) and node.value is None:
         return f"{typed_name(node.name)} begins without a value: here it is 0"
-    whole = now.statement(node)
-    told = said(replace(step, statement=whole, before=now.values, after=now.values))
+    told = said(_typed_step(step))
     if isinstance(node, Loop):
         return f"{told}: {'one more round' if step.value else 'the loop ends'}"
     return told
 
 
-def parts_of(step: LaneStep) -> tuple[str, str]:
-    """Return the right side of a step, or its condition, in symbols and with its numbers."""
-    node, now = step.statement, Typed(step.before)
-    match node:
-        case Assign(_, _, value) | Declare(_, _, _, Expression() as value) | Return(_, Expression() as value):
-            right = value
-        case If(_, test) | Loop(_, test):
-            right = test
-        case _:
-            return "", ""
-    term = term_of(now.expression(right), now.values)
-    return in_symbols(term), in_numbers(term)
+def _typed_step(step: LaneStep) -> LaneStep:
+    """Return a step of typed names, with components as variables of their own."""
+    now = Typed(step.before)
+    whole = now.statement(step.statement)
+    return replace(step, statement=whole, before=now.values, after=now.values)
+
+
+def computed(step: LaneStep) -> Equality | None:
+    """Return what a step computes, as terms; ``None``: nothing, or a matrix. Matrices within keep their symbols."""
+    node = step.statement
+    is_empty = isinstance(node, Declare | Return) and node.value is None
+    if is_empty or isinstance(node, Discard | Break | Continue | Evaluate) or _is_matrix(step.value):
+        return None
+    (found,) = equalities(_typed_step(step))
+    return replace(found, right=_without_matrices(found.right))
+
+
+def _is_matrix(value: Any) -> bool:
+    return isinstance(value, list) and any(isinstance(part, list) for part in value)
+
+
+def _without_matrices(of: Term) -> Term:
+    if isinstance(of, Leaf):
+        return Leaf(of.symbol, None) if _is_matrix(of.value) else of
+    return of.mapped(_without_matrices)
 
 
 class Typed:

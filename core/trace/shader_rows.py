@@ -1,6 +1,5 @@
 """Traces of the stages that a scene's shaders run: one row for each statement of each vertex or fragment."""
 
-import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -16,7 +15,6 @@ from core.records.cached import cached_property
 from core.records.listing import ShaderListing
 from core.records.operation import Columns, Operation
 from core.shaders.glsl_types import GlslValue
-from core.shaders.lane_steps import words_of
 from core.shaders.scopes import typed_name
 from core.shaders.shader import Shader, walk
 from core.shaders.steps import Recorder, stored_name
@@ -24,10 +22,6 @@ from core.trace.stage_trace import Explanation, StageTrace, Value
 
 LANE_STEP_LIMIT = 4_000_000
 """Statements times lanes of a stage that is traced: each is a row, or waits in one."""
-
-
-_VECTOR = re.compile(r"(?<![\w)\]])\[([^\[\]]*)\]")
-"""The numbers of a vector in brackets, which are no index."""
 
 
 def _line_labels(columns: Columns, rows: Any) -> Any:
@@ -257,24 +251,15 @@ class ShaderStageTrace(StageTrace):
             f"{name} before": value for name, value in _shown_variables(step.before, self.names).items()
         }
         changed = tuple(map(typed_name, filter(None, (stored_name(step.statement),))))
-        live, lanes = int(self.columns["live"][row]), int(self.columns["lanes"][row])
-        said = _sentence(step, live, lanes, "vertices" if self.stage == "transform" else "fragments")
         return Explanation(
             key=explanation.key,
-            values={**values, **before, **held, "said": said, "lanes earlier": self._live_before(row)},
+            values={**values, **before, **held, "lanes earlier": self._live_before(row)},
             known=(*explanation.known, *held),
             changed=changed,
             listing=explanation.listing,
             line=explanation.line,
+            step=step,
         )
-
-
-def _sentence(step: LaneStep, live: int, lanes: int, what: str) -> str:
-    words = words_of(step)
-    while (changed := _VECTOR.sub(r"(\1)", words)) != words:
-        words = changed
-    together = "" if live == lanes else f"; {live:,} of {lanes:,} {what} run this line"
-    return f"Line {step.line}: {words}{together}."
 
 
 def _shown_variables(names: Mapping[str, Any], occurring: frozenset[str]) -> dict[str, Any]:

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +12,9 @@ from core.records.cached import cached_property
 from core.records.listing import EditedListing, Listing
 from core.records.operation import Operation
 from core.records.steps import Steps
+
+if TYPE_CHECKING:
+    from core.lanes.notes import LaneStep
 
 Value = float | int | bool | str | NDArray[Any]
 MARKS = ("covered", "rejected", "tie", "nan", "depth-failed")
@@ -83,6 +86,8 @@ class Explanation:
     """Corners of what is drawn: 2 of segments, 1 of points."""
     later_lines: tuple[int, ...] = ()
     """Of an edited listing: its lines that the row runs after this operation."""
+    step: "LaneStep | None" = None
+    """The statement of a shader that ran, with its variables; ``None``: the row runs none."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,16 +1,51 @@
-"""Statements of shaders: each is told by its own line, which the trace has put into words."""
+"""Statements of shaders: each is told by its own line, with its numbers, in words and as a formula."""
 
+import re
+
+from core.explain.formulas import formula_of
+from core.explain.records import Formula
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
+from core.explain.typed_latex import stated
+
+_VECTOR = re.compile(r"(?<![\w)\]])\[([^\[\]]*)\]")
+"""The numbers of a vector in brackets, which are no index."""
 
 
 @explains("transform.statement.run")
 def vertex_statement(step: StepValues) -> Said:
     """A statement of the vertex shader."""
-    return str(step.explanation.values["said"])
+    return _told(step, "vertices")
 
 
 @explains("shade.statement.run")
 def fragment_statement(step: StepValues) -> Said:
     """A statement of the fragment shader."""
-    return str(step.explanation.values["said"])
+    return _told(step, "fragments")
+
+
+def _told(values: StepValues, what: str) -> Said:
+    """Return what a statement did, and how many of a triangle's lanes did it together."""
+    from core.shaders.lane_steps import words_of  # Wanted by few: it takes the evaluator.
+
+    step = values.explanation.step
+    assert step is not None
+    words = words_of(step)
+    while (changed := _VECTOR.sub(r"(\1)", words)) != words:
+        words = changed
+    live, lanes = (int(values.explanation.values[name]) for name in ("live", "lanes"))
+    together = "" if live == lanes else f"; {live:,} of {lanes:,} {what} run this line"
+    said, made = f"Line {step.line}: {words}{together}.", _formula(values)
+    return said if made is None else (said, made)
+
+
+def _formula(values: StepValues) -> Formula | None:
+    """Return the formula of a statement that computes something other than a matrix."""
+    from core.shaders.lane_steps import computed
+
+    step = values.explanation.step
+    assert step is not None
+    found = computed(step)
+    if found is None:
+        return None
+    return formula_of(stated(found, step.kind, None))

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from core.explain.steps import sentence, variables
+from core.explain.steps import formula, sentence, variables
 from core.records.listing import ShaderListing
 from core.records.steps import Level
 from core.shaders.presets import TASK_FRAGMENT, TASK_VERTEX
@@ -88,6 +88,34 @@ def test_a_step_says_its_line_its_numbers_and_what_came_out():
     assert "25 of 36 fragments run this line." in said[5]
     corner = _sentences(stage, stage.rows_at_pixel(0, 0))
     assert corner[-1].startswith("Line 10: discard: the fragment ends here, and nothing of it is written; ")
+
+
+def test_a_statement_has_a_formula_with_its_numbers_under_its_symbols():
+    stage = trace(square_scene(BRANCHES), Settings(), 0).stage("shade")
+    made = {}
+    for row in stage.rows_at_pixel(3, 0):
+        explanation = stage.explain(stage.steps.position_after(int(row)))
+        made.setdefault(int(stage.columns["line"][row]), formula(explanation))
+    assert (made[8].symbolic, made[8].substituted) == (
+        r"p & = & \mathrm{vUv} & - & 0.5",
+        r"(-0.0625, -0.4375) & = & (0.4375, 0.0625) & - & 0.5",
+    )
+    assert made[10].symbolic == r"r > 0.9 & \Rightarrow & \text{false}"
+    # An index of a shader is that of no vertex: no colour.
+    assert made[14].symbolic.startswith(r"\mathrm{k[i]} & = & \mathrm{k[i]} & + & (r \text{ if }")
+    # A matrix keeps its symbol.
+    first = trace(tutorial_scene(), Settings(), 0).stage("transform").explain(1)
+    assert formula(first).substituted.startswith("(-13.58, -3.621, ")
+    assert (
+        r"\mathrm{projectionMatrix} & \cdot & \mathrm{modelViewMatrix} & \cdot & "
+        in formula(first).substituted
+    )
+
+
+def test_components_of_a_product_keep_its_brackets():
+    body = "c = vec4((vUv.xyxy * 2.0).xyz, 1.0);"
+    stage = trace(square_scene(body), Settings(), 0).stage("shade")
+    assert "vec4((vUv.xyxy · 2).xyz, 1)" in _sentences(stage, [0])[0]
 
 
 def test_the_variables_are_those_of_the_shader():
