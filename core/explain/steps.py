@@ -213,7 +213,7 @@ def _shader_variables(explanation: Explanation) -> tuple[Variable, ...]:
                 name,
                 _value(values[name]),
                 _value(values.get(f"{name} before")) if name in explanation.changed else _value(values[name]),
-                "A variable of the shader.",
+                "A variable of the shader. Its menu (right click) shows it in every pixel.",
             )
             for name in own
         ),

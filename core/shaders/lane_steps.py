@@ -135,17 +135,22 @@ def computed(step: LaneStep) -> Equality | None:
     if is_empty or isinstance(node, Discard | Break | Continue | Evaluate) or _is_matrix(step.value):
         return None
     (found,) = equalities(_typed_step(step))
-    return replace(found, right=_without_matrices(found.right))
+    return replace(found, right=_named(found.right, _is_matrix))
 
 
 def _is_matrix(value: Any) -> bool:
     return isinstance(value, list) and any(isinstance(part, list) for part in value)
 
 
-def _without_matrices(of: Term) -> Term:
+def without_vectors(of: Term) -> Term:
+    """Return a term whose vectors keep their names where their numbers would stand."""
+    return _named(of, lambda value: isinstance(value, list))
+
+
+def _named(of: Term, keeps_name: Callable[[Any], bool]) -> Term:
     if isinstance(of, Leaf):
-        return Leaf(of.symbol, None) if _is_matrix(of.value) else of
-    return of.mapped(_without_matrices)
+        return Leaf(of.symbol, None) if of.symbol and keeps_name(of.value) else of
+    return of.mapped(lambda part: _named(part, keeps_name))
 
 
 class Typed:

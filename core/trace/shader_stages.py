@@ -13,7 +13,7 @@ from core.scene import Scene
 from core.shaders.fragment_stage import FragmentLanes, lanes_of, run_lanes
 from core.shaders.lane_steps import record_lane
 from core.shaders.shader import Shader
-from core.shaders.vertex_stage import run_vertices
+from core.shaders.vertex_stage import OUT, run_vertices
 from core.trace.shader_rows import (
     STATEMENT,
     LaneRows,
@@ -174,7 +174,7 @@ def trace_fragment_shader(source: TraceSource) -> StageTrace:
         pixel=pixel,
         listings={"statement": shader_listing(shader.source, "fragment")},
         marks={"nan": rows.undefined},
-        buffers=_buffers(source, rows, columns["live"], color),
+        buffers=_buffers(source, shader, rows, columns["live"], color),
         extra={"mesh": mesh},
         lane_rows=rows,
         steps_of=remembered(steps_of),
@@ -221,8 +221,10 @@ def _before_nothing(values: Any, count: int) -> Any:
     return np.concatenate([values, _missing(values, count)])
 
 
-def _buffers(source: TraceSource, rows: LaneRows, live: Any, color: Any) -> tuple[BufferTrack, ...]:
-    """Return the colour, how many lanes run together, and every variable that some line stores."""
+def _buffers(
+    source: TraceSource, shader: Shader, rows: LaneRows, live: Any, color: Any
+) -> tuple[BufferTrack, ...]:
+    """Return the colour, how many lanes run together, every variable that some line stores, and those given."""
     place, shape = source.place, source.raster.shape
     _, before_end = np.unique(rows.lane[::-1], return_index=True)
     last = np.sort(len(rows.lane) - 1 - before_end)
@@ -237,7 +239,17 @@ def _buffers(source: TraceSource, rows: LaneRows, live: Any, color: Any) -> tupl
         track("fragment color", shown, color[rows.lane[shown]], "color"),
         track("lanes together", every, live.astype(float), "scalar"),
     ]
-    for name, (at, values) in rows.stored.items():
+    _, first = np.unique(rows.lane, return_index=True)
+    first.sort()
+    layout = source.geometry.primitives.layout
+    given = {
+        variable.name: (first, source.interpolated[1][rows.lane[first]][:, layout[OUT + variable.name]])
+        for variable in shader.inputs
+        if variable.qualifier == "in"
+        and not variable.name.startswith("gl_")
+        and not variable.of.startswith("mat")
+    }
+    for name, (at, values) in {**rows.stored, **given}.items():
         width = values.shape[1]
         if width >= 3:
             whole = values if width == 4 else np.column_stack([values, np.ones(len(values))])

@@ -105,6 +105,8 @@ class VariablesView(QTreeWidget):
 
     origin_requested = Signal(object)
     """The user asks where the value of this `Variable` comes from."""
+    picture_requested = Signal(str)
+    """The user wants to see the variable of this name in every pixel."""
     meaning_requested = Signal(str, str)
     """The user asks what a variable is: its name, and its meaning in a sentence."""
 
@@ -145,11 +147,13 @@ class VariablesView(QTreeWidget):
         origin.setShortcut(QKeySequence(Qt.Key.Key_Return))
         origin.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
         origin.triggered.connect(self._ask_for_current)
+        picture = QAction("Show it in every pixel", self)
+        picture.triggered.connect(self._ask_for_picture)
         meaning = QAction("What is this?", self)
         meaning.triggered.connect(self._ask_for_meaning)
         self.itemClicked.connect(self._click)
         self.itemExpanded.connect(self._fill)
-        self.addActions([meaning, origin, copy, self._fraction_action])
+        self.addActions([picture, meaning, origin, copy, self._fraction_action])
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         theme_notifier().theme_changed.connect(self._follow_theme)
         self._follow_theme()
@@ -188,6 +192,14 @@ class VariablesView(QTreeWidget):
     @Slot()
     def _ask_for_current(self) -> None:
         self._ask_for(self.currentItem())
+
+    @Slot()
+    def _ask_for_picture(self) -> None:
+        item = self.currentItem()
+        if item is not None:
+            parent = item.parent()
+            name = (parent or item).text(0)
+            self.picture_requested.emit(f"{name}.{item.text(0)}" if parent else name)
 
     @Slot()
     def _ask_for_meaning(self) -> None:

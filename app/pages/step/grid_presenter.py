@@ -1,5 +1,6 @@
 """The pixel grids of the stepping page: what they show of the trace, and what is done in them."""
 
+from collections.abc import Iterable
 from dataclasses import replace
 
 from PySide6.QtCore import QObject, Signal, Slot
@@ -237,6 +238,15 @@ class GridPresenter(QObject):
         return replace(buffer, range=chosen) if chosen else buffer
 
     # Acting.
+
+    def buffer_of(self, names: Iterable[str]) -> str:
+        """Return the first of these names that a buffer of the stage has; empty: none has."""
+        known = {buffer.name for buffer in buffers_of(self._session.moment)}
+        return next((name for name in names if name in known), "")
+
+    def choose_buffer(self, name: str) -> None:
+        """Show a buffer of the stage as the user chooses it."""
+        self._choose_buffer(name)
 
     @Slot(int, int)
     def _pin(self, column: int, row: int) -> None:

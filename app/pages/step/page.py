@@ -95,6 +95,7 @@ class StepPage(Page):
         self.pixel_menu.origin_requested.connect(self.go_to_writer)
         self.asking = AskThis(session, self)
         self.pixel_menu.question_requested.connect(self.ask_value)
+        self.variables.picture_requested.connect(self.show_variable)
         for pixels in (self.grid, self.strip, self.compare_view.linked):
             pixels.pixel_clicked.connect(self._show_clicked)
         self.grid.pixel_menu_requested.connect(self.pixel_menu.open_at)
@@ -389,6 +390,22 @@ class StepPage(Page):
         buffer = self.grid.buffer()
         if buffer is not None:
             self.inspector.go_to_writer(buffer.name, buffer.label)
+
+    @Slot(str)
+    def show_variable(self, name: str) -> None:
+        """Show a variable, or a component of one, in every pixel; one of a vertex shader where it is interpolated."""
+        moment, whole = self.session.moment, name.partition(".")[0]
+        if moment.cursor.stage == "transform" and f"out {whole}" in {
+            track.name for track in moment.trace.stage("interpolate").buffers
+        }:
+            self.session.set_stage("interpolate")
+            name = whole = f"out {whole}"
+        buffer = self.grids.buffer_of((name, f"{name}.x", whole))
+        if buffer:
+            self.show_view("pixels")
+            self.grids.choose_buffer(buffer)
+        else:
+            self.tell(f"No pixel has a value of {name} at this stage.")
 
     @Slot()
     def ask_value(self) -> None:

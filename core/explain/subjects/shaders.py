@@ -1,6 +1,7 @@
 """Statements of shaders: each is told by its own line, with its numbers, in words and as a formula."""
 
 import re
+from dataclasses import replace
 
 from core.explain.formulas import formula_of
 from core.explain.records import Formula
@@ -8,6 +9,8 @@ from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.typed_latex import stated
 
+LONGEST_CELL = 60
+"""Signs of a cell with its numbers: beyond them vectors keep their names."""
 _VECTOR = re.compile(r"(?<![\w)\]])\[([^\[\]]*)\]")
 """The numbers of a vector in brackets, which are no index."""
 
@@ -41,11 +44,19 @@ def _told(values: StepValues, what: str) -> Said:
 
 def _formula(values: StepValues) -> Formula | None:
     """Return the formula of a statement that computes something other than a matrix."""
-    from core.shaders.lane_steps import computed
+    from core.shaders.lane_steps import computed, without_vectors
 
     step = values.explanation.step
     assert step is not None
     found = computed(step)
     if found is None:
         return None
-    return formula_of(stated(found, step.kind, None))
+    made = formula_of(stated(found, step.kind, None))
+    if max(map(_length, made.substituted.split("&"))) > LONGEST_CELL:
+        made = formula_of(stated(replace(found, right=without_vectors(found.right)), step.kind, None))
+    return made
+
+
+def _length(cell: str) -> int:
+    """Return about how many signs a cell has once it is typeset."""
+    return len(re.sub(r"\\[A-Za-z]+|[{}\\ ]", "", cell))

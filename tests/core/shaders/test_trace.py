@@ -132,7 +132,9 @@ def test_the_variables_are_those_of_the_shader():
 def test_any_variable_is_a_buffer():
     stage = trace(square_scene(BRANCHES), Settings()).stage("shade")
     names = [track.name for track in stage.buffers]
-    assert names == ["fragment color", "lanes together", "p.x", "p.y", "r", "k", "i", "c"]
+    assert names == ["fragment color", "lanes together", "p.x", "p.y", "r", "k", "i", "c", "vUv.x", "vUv.y"]
+    given = stage.buffers[names.index("vUv.x")]
+    np.testing.assert_allclose(given.at(stage.steps.row_count)[3], (np.arange(8) + 0.5) / 8)
     radius = stage.buffers[names.index("r")].at(stage.steps.row_count)
     u = (np.arange(8) + 0.5) / 8 - 0.5
     np.testing.assert_allclose(radius, 2 * np.hypot(*np.meshgrid(u, u)), rtol=1e-6)

@@ -214,6 +214,20 @@ def test_methods_say_that_a_shader_lights_the_scene(lab):
     assert combo.isEnabled()
 
 
+def test_any_variable_of_both_shaders_is_shown_in_every_pixel(lab):
+    page, session = lab.page, lab.session
+    session.set_stage("shade")
+    for name in ("vColor", "outColor"):
+        page.variables.picture_requested.emit(name)
+        assert page.grid.buffer().name == name
+    session.set_stage("transform", 1)
+    page.variables.picture_requested.emit("gl_Position")
+    assert "No pixel has a value of gl_Position" in lab.statusBar().currentMessage()
+    page.variables.picture_requested.emit("vColor")
+    assert session.cursor.stage == "interpolate"
+    assert page.grid.buffer().name == "out vColor"
+
+
 def test_raw_shader_material_declares_nothing(lab):
     pane = lab.page.shader_pane
     _choose(pane._dialect, "raw-shader-material")
