@@ -110,6 +110,8 @@ class Expressions:
             names[name] = dialect.merged(mask, value, names[name], place, run)
             if name in frame.given:
                 frame.given[name] = frame.given[name] | mask
+                if frame.given[name].all():
+                    del frame.given[name]
         else:
             names[name], frame.given[name] = value, mask
         run.make_room(place, dialect.size(names[name]) - held)
@@ -229,9 +231,13 @@ class Expressions:
 
         return unpack
 
+    def whole(self, frame: Frame, mask: Some, name: str, place: Place) -> Value:
+        """Return the value of a variable of which a part is about to be stored; the mask is (L,)."""
+        return self.look(frame, mask, name, place)
+
     def _element(self, place: Place, name: str, at: Callable[[Frame, Some], Any]) -> Stored:
         def store(frame: Frame, mask: Some, value: Value) -> None:
-            old = self.look(frame, mask, name, place)
+            old = self.whole(frame, mask, name, place)
             new = self._dialect.with_part(old, at(frame, mask), value, mask, place, frame.run)
             self.keep(frame, mask, name, new, place)
 
@@ -241,7 +247,7 @@ class Expressions:
         dialect = self._dialect
 
         def store(frame: Frame, mask: Some, value: Value) -> None:
-            run, whole, index = frame.run, self.look(frame, mask, name, place), outer(frame, mask)
+            run, whole, index = frame.run, self.whole(frame, mask, name, place), outer(frame, mask)
             row = dialect.part(whole, index, mask, place, run)
             changed = dialect.with_part(row, inner(frame, mask), value, mask, place, run)
             self.keep(frame, mask, name, dialect.with_part(whole, index, changed, mask, place, run), place)

@@ -35,6 +35,8 @@ class LaneStep:
     """What was stored, put, tested or returned."""
     depth: int
     """In how many calls it stands; 1: in the listing itself."""
+    unset: tuple[str, ...] = ()
+    """Variables that it has read before they had a value, where the language allows that."""
 
     @property
     def kind(self) -> str:

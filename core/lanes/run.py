@@ -10,6 +10,7 @@ from core.lanes.limits import Limits
 from core.lanes.masks import NOBODY, Mask, Some, lanes_in
 from core.lanes.nodes import Statement
 from core.lanes.problem import Place, Problem, counted
+from core.records.arrays import Flags
 
 TICKS = 31
 """The clock is looked at once in so many statements, and one more."""
@@ -62,6 +63,8 @@ class Run:
         self.place = Place(1)
         self.dead: Mask = NOBODY
         """Lanes that were discarded."""
+        self.unset: list[tuple[str, Flags]] = []
+        """Variables that lanes (L,) have read before they had a value, where that is allowed; while watched."""
         bounds = _bounds.get()
         self._end, self._seconds, self._stop = perf_counter() + limits.seconds, limits.seconds, stop
         if bounds is not None:

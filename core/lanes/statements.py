@@ -36,9 +36,12 @@ Step = Callable[[Frame, Some], Mask]
 class Statements:
     """Compiles the statements of one program."""
 
+    expressions: type[Expressions] = Expressions
+    """What compiles their expressions."""
+
     def __init__(self, dialect: Dialect, functions: Functions) -> None:
         self.dialect = dialect
-        self._expressions = Expressions(dialect, functions)
+        self._expressions = self.expressions(dialect, functions)
         self._value, self._target = self._expressions.value, self._expressions.target
 
     def body(self, body: Sequence[Statement]) -> Step:
@@ -119,6 +122,8 @@ class Statements:
             else:
                 value = dialect.typed(node.of, made(frame, mask), place, node.name)
             keep(frame, mask, node.name, value, place, is_new=True)
+            if made is None and not frame.run.is_checking:
+                frame.given[node.name] = np.zeros(frame.run.lanes, bool)
             if watch is not None:
                 watch.end(node, mask, frame, value)
             return mask

@@ -24,8 +24,9 @@ from core.settings import Settings
 from core.shaders.glsl_types import GlslValue, component_count, from_rows
 from core.shaders.record import ShaderProblem
 from core.shaders.samplers import Sampler
-from core.shaders.shader import SECONDS, Outcome, Shader, walk
+from core.shaders.shader import SECONDS, Outcome, Shader
 from core.shaders.vertex_stage import OUT, uniform_values
+from core.shaders.walking import walk
 from core.stages.geometry import Geometry
 
 

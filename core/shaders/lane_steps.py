@@ -34,6 +34,7 @@ from core.lanes.terms import Equality, equalities, in_symbols, said, term_of
 from core.records.terms import Leaf, Term
 from core.shaders.glsl_types import MATRICES, GlslValue
 from core.shaders.scopes import typed_name
+from core.shaders.steps import OpenStatements
 
 SAME = {"++": "+", "--": "-", "^^": "!="}
 """Operators that words have another name for."""
@@ -57,15 +58,18 @@ class _LaneRecorder:
         self.steps: list[LaneStep | None] = []
         self._lane = lane
         self._open: list[tuple[Statement, int, dict[str, Any]]] = []
+        self._statements = OpenStatements()
 
     def begin(self, statement: Statement, mask: Some, frame: Frame) -> None:
         """Keep the variables before a statement."""
+        self._statements.begin(frame.run)
         if mask is None or mask[self._lane]:
             self._open.append((statement, len(self.steps), dict(frame.names)))
             self.steps.append(None)
 
     def end(self, statement: Statement, mask: Some, frame: Frame, value: Any) -> None:
         """Keep the step."""
+        unset = self._statements.end(frame.run)
         if not (mask is None or mask[self._lane]):
             return
         while self._open:
@@ -77,6 +81,7 @@ class _LaneRecorder:
                     self._plain(frame.names),
                     plain_value(value, self._lane),
                     frame.depth,
+                    tuple(dict.fromkeys(typed_name(name) for name, lanes in unset if lanes[self._lane])),
                 )
                 return
 

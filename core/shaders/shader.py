@@ -1,6 +1,6 @@
 """One shader, read and checked, and its run on lanes."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
 from typing import Any, cast
@@ -8,6 +8,7 @@ from typing import Any, cast
 import numpy as np
 
 from core.lanes.dialect import Dialect
+from core.lanes.expressions import Expressions
 from core.lanes.limits import SHADER, Limits
 from core.lanes.masks import NOBODY, Mask, Nobody, Some
 from core.lanes.nodes import (
@@ -18,8 +19,6 @@ from core.lanes.nodes import (
     Evaluate,
     Expression,
     Function,
-    Loop,
-    Node,
     Statement,
 )
 from core.lanes.problem import Place, Problem
@@ -34,6 +33,7 @@ from core.shaders.function_names import DERIVATIVES
 from core.shaders.glsl_types import GlslValue, component_count, zero_of
 from core.shaders.parser import GlobalVariable, Parser, Syntax
 from core.shaders.record import DIALECTS
+from core.shaders.walking import walk, weight_of
 
 STAGES = ("vertex", "fragment")
 BLOCK = 16_384
@@ -42,8 +42,6 @@ NUMBERS = 1 << 22
 """Numbers that all variables of such lanes have together: 16 MB."""
 SECONDS = 5.0
 """Seconds that a shader may run for one picture."""
-ROUNDS = 16
-"""Rounds of a loop, for a guess."""
 LIMITS = replace(SHADER, seconds=SECONDS)
 
 
@@ -64,8 +62,27 @@ class ShaderRun(Run):
         self.given: dict[str, Any] = {}
 
 
+class ShaderExpressions(Expressions):
+    """Compiles the expressions of a shader: a variable that was declared without a value can be read, and is 0."""
+
+    def look(self, frame: Frame, mask: Some, name: str, place: Place) -> Any:
+        """Return the value of a variable, and note where a lane of the mask (L,) has given it none."""
+        given, run = frame.given.get(name), frame.run
+        if given is not None and run.watch is not None:
+            missing = ~given if mask is None else mask & ~given
+            if missing.any():
+                run.unset.append((name, missing))
+        return frame.names[name]
+
+    def whole(self, frame: Frame, mask: Some, name: str, place: Place) -> Any:
+        """Return the value of a variable of which a part is about to be stored, for any mask (L,)."""
+        return frame.names[name]
+
+
 class ShaderStatements(Statements):
     """Compiles the statements of a shader, whose lanes may be discarded within a call."""
+
+    expressions = ShaderExpressions
 
     def __init__(self, dialect: Dialect, functions: Program) -> None:
         super().__init__(dialect, functions)
@@ -163,27 +180,6 @@ def _without(mask: Mask, dead: Mask, lanes: int) -> Mask:
     return left if left.any() else NOBODY
 
 
-def walk(node: Any) -> Any:
-    """Yield a node and all that are part of it."""
-    yield node
-    for part in _parts(node):
-        yield from walk(part)
-
-
-def _parts(node: Any) -> Iterator[Node]:
-    for name in type(node).__dataclass_fields__:
-        value = getattr(node, name)
-        for part in value if isinstance(value, tuple) and not isinstance(value, Place) else (value,):
-            if isinstance(part, Node):
-                yield part
-
-
-def _weight(node: Node) -> int:
-    """Return how many statements a node runs, roughly."""
-    inner = sum(map(_weight, _parts(node)))
-    return isinstance(node, Statement) + inner * (ROUNDS if isinstance(node, Loop) else 1)
-
-
 @dataclass(frozen=True, eq=False)
 class Outcome:
     """What a run of a shader on L lanes gave."""
@@ -239,8 +235,8 @@ class Shader:
 
     @cached_property
     def weight(self) -> int:
-        """How many statements a lane runs, roughly: a loop counts for `ROUNDS`."""
-        return sum(map(_weight, self.syntax.functions.values()))
+        """How many statements a lane runs, roughly: see `weight_of`."""
+        return sum(map(weight_of, self.syntax.functions.values()))
 
     @property
     def discards(self) -> bool:

@@ -16,8 +16,9 @@ from core.records.listing import ShaderListing
 from core.records.operation import Columns, Operation
 from core.shaders.glsl_types import GlslValue
 from core.shaders.scopes import typed_name
-from core.shaders.shader import Shader, walk
+from core.shaders.shader import Shader
 from core.shaders.steps import Recorder, stored_name
+from core.shaders.walking import walk
 from core.trace.stage_trace import Explanation, StageTrace, Value
 
 LANE_STEP_LIMIT = 4_000_000
@@ -63,6 +64,8 @@ class LaneRows:
     """(R,) bool, the value has a component that is not a number."""
     discards: Flags
     """(R,) bool, the lane is discarded."""
+    unset: Flags
+    """(R,) bool, the lane reads a variable before it has a value."""
 
     def ordered(self, order: Integers) -> "LaneRows":
         """Return the rows in another order (R,)."""
@@ -73,7 +76,7 @@ class LaneRows:
         return LaneRows(stored=stored, **arrays)
 
 
-_ARRAYS = ("lane", "step", "number", "line", "result", "undefined", "discards")
+_ARRAYS = ("lane", "step", "number", "line", "result", "undefined", "discards", "unset")
 """Arrays (R, ...) of `LaneRows`."""
 
 
@@ -94,12 +97,14 @@ def record_rows(lane_count: int, lanes: Integers, run: Callable[[Watch], object]
     lane, number = np.nonzero(live.T)
     begins = np.searchsorted(lane, np.arange(len(lanes)))
     result = np.full((len(lane), 4), np.nan)
-    undefined = np.zeros(len(lane), bool)
+    undefined, unset = np.zeros(len(lane), bool), np.zeros(len(lane), bool)
     stored: dict[str, list[tuple[Integers, Any]]] = {}
     by_number = np.argsort(number, kind="stable")
     ends = np.searchsorted(number[by_number], np.arange(len(steps) + 1))
     for k, step in enumerate(steps):
         rows = by_number[ends[k] : ends[k + 1]]
+        for _, reading in step.unset:
+            unset[rows] |= reading[lanes[lane[rows]]]
         values = _components(step.value, lanes[lane[rows]])
         if values is not None:
             result[rows, : values.shape[1]] = values[:, :4]
@@ -119,6 +124,7 @@ def record_rows(lane_count: int, lanes: Integers, run: Callable[[Watch], object]
         {name: join_rows(parts) for name, parts in stored.items()},
         undefined,
         discards[number],
+        unset,
     )
 
 

@@ -73,6 +73,7 @@ def trace_vertex_shader(source: TraceSource) -> StageTrace:
     kind = np.concatenate([np.zeros(count, np.int64), divided.steps.kind - first + kinds])[order]
     projection = listing(divide_and_map)
     nan = np.concatenate([rows.undefined, divided.marks["nan"]])
+    unset = np.concatenate([rows.unset, np.zeros(2 * len(corners), bool)])
     triangle = owner[corner][order]
     return ShaderStageTrace(
         stage="transform",
@@ -93,7 +94,7 @@ def trace_vertex_shader(source: TraceSource) -> StageTrace:
             "viewport": projection,
         },
         marks={"nan": nan[order]},
-        extra={**divided.extra, "corners": corner[order]},
+        extra={**divided.extra, "corners": corner[order], "unset": unset[order]},
         constants=divided.constants,
         lane_rows=rows,
         steps_of=remembered(steps_of),
@@ -175,7 +176,7 @@ def trace_fragment_shader(source: TraceSource) -> StageTrace:
         listings={"statement": shader_listing(shader.source, "fragment")},
         marks={"nan": rows.undefined},
         buffers=_buffers(source, shader, rows, columns["live"], color),
-        extra={"mesh": mesh},
+        extra={"mesh": mesh, "unset": rows.unset},
         lane_rows=rows,
         steps_of=remembered(steps_of),
         names=occurring_names(shader),

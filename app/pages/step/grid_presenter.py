@@ -43,7 +43,7 @@ DEFAULT_OVERLAYS = {
     "raster": frozenset(
         {"rejected", "tie", "nan", "spans", "clip window", "clipped lines", "clipped polygon"}
     ),
-    "shade": frozenset({*LANE_MARKS, "nan"}),
+    "shade": frozenset({*LANE_MARKS, "unset", "nan"}),
     "depth": frozenset({"failed", "nan"}),
     "resolve": frozenset({"nan", "cutting edge", "cut polygon"}),
 }

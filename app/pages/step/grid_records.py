@@ -269,6 +269,9 @@ def mask_overlays(step: Step) -> list[Overlay]:
             chosen = np.zeros(raster.shape, bool)
             chosen.ravel()[step.trace.source.place[lanes]] = True
             overlays.append(MaskOverlay(key, mark, chosen, title=key))
+    if "unset" in stage.extra:
+        unset = mask(stage.extra["unset"][:done])
+        overlays.append(MaskOverlay("unset", Mark.MISSING, unset, title="read without a value"))
     if "nan" in marks:
         overlays.append(MaskOverlay("nan", Mark.NAN, mask(marks["nan"])))
     return overlays

@@ -1,12 +1,15 @@
 """A trial of shaders off the GUI thread: they are read, stepped and drawn before the document takes them over."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+
+import numpy as np
 
 from app.session.document import Document
 from app.session.tracing import trace_now
 from core import Trace, render
 from core.records.arrays import Singles
+from core.records.words import joined
 from core.scene import Scene
 from core.shaders.record import ShaderProgram
 
@@ -49,13 +52,35 @@ def try_shaders(
         trace = trace_now(document, stage, earlier)
         if document.traced_scene is not document.scene:
             render(document.scene, document.settings)
+    picture = trace.source.picture.color
     return Tried(
-        beside, document, trace, _accepted(document, program, trace.source.picture.color, is_cancelled)
+        beside, document, trace, _accepted(document, program, picture, [*_unset(trace, stage)], is_cancelled)
     )
 
 
+def _unset(trace: Trace, stage: str) -> Iterator[str]:
+    """Yield what is said of the first statement of the stage that reads a variable without a value."""
+    traced = trace.stage(stage)
+    rows = np.flatnonzero(traced.extra.get("unset", ()))
+    if not len(rows):
+        return
+    row = int(rows[0])
+    explanation = traced.explain(traced.steps.position_after(row))
+    assert explanation is not None
+    assert explanation.step is not None
+    line, what = explanation.step.line, "vertices" if stage == "transform" else "fragments"
+    same = rows[traced.columns["line"][rows] == line]
+    count = len(np.unique(traced.columns["lane"][same]))
+    names = joined(explanation.step.unset)
+    yield f"Line {line} reads {names} before it has a value, for {count:,} {what}. Here it is 0, GLSL leaves it open."
+
+
 def _accepted(
-    document: Document, program: ShaderProgram, picture: Singles, is_cancelled: Callable[[], bool]
+    document: Document,
+    program: ShaderProgram,
+    picture: Singles,
+    unset: Sequence[str],
+    is_cancelled: Callable[[], bool],
 ) -> str:
     """Return what is said of shaders that run."""
     scene, said = document.traced_scene, ""
@@ -77,7 +102,8 @@ def _accepted(
         ):
             mistake = None  # Pictures of one colour are alike whatever made them.
         said = f"Both shaders run. {mistake.says}" if mistake is not None else ""
-    return f"{said} {notes_of(program)}".strip()
+    said = said or ("Both shaders run." if unset else "")
+    return " ".join(filter(None, (said, notes_of(program), *unset)))
 
 
 def _is_plain(picture: Singles) -> bool:

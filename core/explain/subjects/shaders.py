@@ -8,6 +8,7 @@ from core.explain.records import Formula
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.typed_latex import stated
+from core.records.words import joined
 
 LONGEST_CELL = 60
 """Signs of a cell with its numbers: beyond them vectors keep their names."""
@@ -38,7 +39,12 @@ def _told(values: StepValues, what: str) -> Said:
         words = changed
     live, lanes = (int(values.explanation.values[name]) for name in ("live", "lanes"))
     together = "" if live == lanes else f"; {live:,} of {lanes:,} {what} run this line"
-    said, made = f"Line {step.line}: {words}{together}.", _formula(values)
+    unset = (
+        f" {joined(step.unset)}: read before it has a value. GLSL leaves it open, here it is 0."
+        if step.unset
+        else ""
+    )
+    said, made = f"Line {step.line}: {words}{together}.{unset}", _formula(values)
     return said if made is None else (said, made)
 
 

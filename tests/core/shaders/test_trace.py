@@ -140,6 +140,32 @@ def test_any_variable_is_a_buffer():
     np.testing.assert_allclose(radius, 2 * np.hypot(*np.meshgrid(u, u)), rtol=1e-6)
 
 
+def test_a_variable_that_is_read_before_it_has_a_value_is_marked_in_its_lanes():
+    body = """
+float k;
+vec3 v;
+v.x = 1.0;
+for (int i = 0; i < 2; i++) { if (vUv.x > 0.5) k += 1.0; }
+float m = k + v.x;
+float last = m;
+c = vec4(last);
+"""
+    for lanes in ("one", "together"):
+        stage = trace(square_scene(body), Settings(), 0, lanes=lanes).stage("shade")
+        rows = np.flatnonzero(stage.extra["unset"])
+        read = {
+            int(line): stage.columns["column"][rows[stage.columns["line"][rows] == line]]
+            for line in stage.columns["line"][rows]
+        }
+        # In the right half k is read by its first += only, in the left half where m is computed.
+        assert sorted(read) == [11, 12]
+        assert read[11].min() == 4
+        assert read[12].max() == 3
+        assert len(read[11]) + len(read[12]) == len(np.unique(stage.columns["lane"]))
+    said = _sentences(stage, rows[:1])[0]
+    assert said.endswith("k: read before it has a value. GLSL leaves it open, here it is 0.")
+
+
 def test_the_vertex_shader_is_stepped_before_the_division():
     stage = trace(tutorial_scene(), Settings(), 0).stage("transform")
     kinds = [stage.kind_of(row) for row in range(stage.steps.row_count)]

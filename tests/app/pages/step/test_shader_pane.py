@@ -313,6 +313,14 @@ def test_shaders_stay_on_another_scene_or_say_why_not(lab, qtbot):
     assert _program(lab) is None
 
 
+def test_a_variable_without_a_value_is_told(lab, qtbot):
+    lab.session.set_stage("shade")
+    text = TASK_FRAGMENT.replace("outColor = vec4(", "vec3 k;\n   outColor = vec4(k + ")
+    _type(lab, qtbot, "fragment", text)
+    assert "Line 10 reads k before it has a value, for " in lab.page.shader_pane.message
+    assert "read without a value" in [overlay.label for overlay in mask_overlays(lab.session.moment)]
+
+
 def test_a_mistake_of_the_shelf_is_named(lab, qtbot):
     swapped = (
         lab.page.shader_pane.editor("vertex")
