@@ -19,6 +19,7 @@ from app.session.document import Document
 from app.session.moment import Moment, Step
 from app.session.session import Session
 from core.records.listing import EditedListing, Listing, moved_lines
+from core.scene import AnyScene
 from core.settings import FAMILIES
 from widgets.inspector.listing_pane import A, B, ListingPane, PaneHead
 
@@ -74,8 +75,8 @@ class ListingPresenter(QObject):
         """Part and method of what is edited in the editor."""
         self._drafts: dict[tuple[str, str], str] = {}
         """Texts that did not run when the editor was left, by part and method."""
-        self._hides_right = False
-        """Whether the listing as it is, and where the edited one differs, stays hidden: an exercise asks for it."""
+        self._asked: AnyScene | None = None
+        """The scene of an exercise that asks for a listing; ``None``: none does."""
         self._naming = Job(self)
         """Looks for the mistake that an edit is."""
         self._naming.succeeded.connect(self._name_mistake)
@@ -138,15 +139,20 @@ class ListingPresenter(QObject):
             self._inspector.refresh_step(self._session.moment)
             self._inspector.refresh_history(self._session.moment)
 
-    def hide_right(self) -> None:
-        """Show no listing as it is until another scene is opened: an exercise asks for it."""
-        self._hides_right = True
-        self.show_side(B)
+    @property
+    def _hides_right(self) -> bool:
+        """Whether the listing as it is, and where the edited one differs, stays hidden: an exercise asks for it."""
+        return self._asked is not None and self._session.document.scene is self._asked
+
+    def show_right(self, *, is_asked: bool) -> None:
+        """Show B beside the listing as it is, or no listing as it is while an exercise asks for it."""
+        self._asked = self._session.document.scene if is_asked else None
+        if is_asked:
+            self.show_side(B)
         self._show_head(self._inspector.shown_listing)
 
     def begin_anew(self) -> None:
         """Leave the editor: another scene was opened. What did not run is kept, as what ran is."""
-        self._hides_right = False
         self._end_editing()
 
     @property
@@ -173,6 +179,8 @@ class ListingPresenter(QObject):
             if moment.is_predicting or moment.is_asked_about:
                 self._end_editing()
             self._set_side(A)
+        elif self._hides_right:
+            self._set_side(B)
         if self._pane.is_editing and self._place is not None:
             from app.session.edited_run import edit_of
             from core.edits import original

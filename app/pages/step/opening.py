@@ -68,8 +68,7 @@ class StepOpening(QObject):
         if ready.request.edits:
             self._page.show_view("compare")
             self._page.comparing.begin_at(pixel)
-            if ready.request.hides_right:
-                self._page.editing.hide_right()
+            self._page.editing.show_right(is_asked=ready.request.hides_right)
         elif other is None:
             self._page.show_view("pixels")
             if pixel is not None and not ready.request.is_asked and ready.request.position is None:

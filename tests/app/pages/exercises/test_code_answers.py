@@ -131,6 +131,9 @@ def test_the_smallest_input_is_opened_in_a_b_and_escape_ends_a_check(
         True,
     ]
     pane.side_chosen.emit(A)
+    window.run_action("undo")
+    window.run_action("redo")
+    step.settle()
     assert "value >= 0" in pane.listing.toPlainText()
     assert not pane.listing.changed_lines
     assert not compared.notes[2].text().startswith("0 of")
