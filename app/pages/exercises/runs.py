@@ -7,12 +7,14 @@ import numpy as np
 from app.pages.exercises.answer_pictures import Live, coverage_of, picture_of
 from app.pages.exercises.scene_outline import document_of, scene_outline
 from app.pages.page_bar import StepRequest
+from core import STAGES, trace
 from core.records.frame import Frame
 from core.scene import ClipScene
 from core.study.accuracy.record import Opening
 from lessons.exercises.answers.answer import Response
 from lessons.exercises.answers.code import CodeAnswer, Opened
 from lessons.exercises.answers.pixels import PixelAnswer
+from lessons.exercises.coding.shader_task import Beside
 from lessons.exercises.question import Question
 from lessons.exercises.refutation import Refutation
 from lessons.mistakes.shelf import SHELF
@@ -100,11 +102,22 @@ def drawn_picture(question: Question, drawn: Frame) -> Live:
     return Live(None, coverage_of(drawn, "your picture"), marks)
 
 
-def wrong_run(question: Question, opened: Opened, *, hides_right: bool) -> StepRequest:
+def wrong_run(question: Question, opened: Opened | Beside, *, hides_right: bool) -> StepRequest:
     """Return what steps the right run beside a wrong one, on the smallest input that shows it.
 
-    ``hides_right``: the right listing itself is not shown.
+    ``hides_right``: the right listing itself is not shown. A shader stands beside built-in shading.
     """
+    if isinstance(opened, Beside):
+        last = trace(opened.scene, opened.settings).stage(STAGES[-1]).steps.count
+        return StepRequest(
+            Opening(opened.scene, opened.settings, STAGES[-1]),
+            question.template.title,
+            opened.settings,
+            other_scene=opened.other,
+            other_title="my shader",
+            position=last,
+            is_asked=False,
+        )
     shown = opened.shown
     opening = Opening(shown.scene, shown.settings, shown.stage, shown.pixel)
     return StepRequest(

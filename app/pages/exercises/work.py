@@ -15,6 +15,7 @@ from lessons.attempts.practice import telling_apart
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.answers.code import CannotRunError, CodeAnswer, Opened
+from lessons.exercises.coding.shader_task import Beside
 from lessons.exercises.question import Draft, Judgement, Question, Template, ask, judge
 from widgets.grid.geometry import GridGeometry
 
@@ -46,7 +47,7 @@ class Checked:
     """The attempt to keep; ``None``: the model answer was shown before."""
     trouble: str
     """What to tell of keeping it, in sentences; empty: all is well."""
-    opened: Opened | None = None
+    opened: Opened | Beside | None = None
     """Of a wrong listing, the smallest input that shows it, for A | B; ``None``: there is none."""
     drawn: Frame | None = None
     """Of a wrong listing, its picture where one is wanted."""
@@ -131,7 +132,9 @@ def checking(
     return work
 
 
-def _seen(question: Question, response: Response, judgement: Judgement) -> tuple[Opened | None, Frame | None]:
+def _seen(
+    question: Question, response: Response, judgement: Judgement
+) -> tuple[Opened | Beside | None, Frame | None]:
     """Return what can be shown of a wrong listing: the smallest input in A | B, and its picture."""
     answer = question.draft.answer
     if not isinstance(answer, CodeAnswer) or judgement.verdict.score == 1:

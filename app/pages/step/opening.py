@@ -77,7 +77,8 @@ class StepOpening(QObject):
             comparing, scene = self._page.comparing, ready.request.other_scene
             differences = opening.settings.differences(other)
             if scene is not None:
-                comparing.show_mistake(differences, scene, ready.request.other_title)
+                seeks = ready.request.position is None
+                comparing.show_mistake(differences, scene, ready.request.other_title, seeks=seeks)
             else:
                 comparing.set_differences(differences)
             self._page.show_view("compare")

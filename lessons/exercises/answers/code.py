@@ -13,6 +13,7 @@ from core.records.cells import Form
 from core.records.frame import Frame
 from core.scene import ClipScene
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
+from lessons.exercises.coding.shader_task import Beside, ShaderTask
 from lessons.exercises.coding.task import Shown, Task, Wrong
 from lessons.exercises.draws import Draws
 
@@ -199,8 +200,14 @@ class CodeAnswer(Answer):
         """Whether the program runs the right listing beside it somewhere."""
         return not self.task.draws_other and self.task.shown(self.task.all_cases[0][1]) is not None
 
-    def opened(self, response: str) -> Opened | None:
-        """Return the smallest wrong input whose picture differs, or else the smallest; ``None``: none is drawn."""
+    def opened(self, response: str) -> Opened | Beside | None:
+        """Return the smallest wrong input whose picture differs, or else the smallest; ``None``: none is drawn.
+
+        Of a shader, a scene that it draws otherwise. Raises ValueError where it cannot draw it.
+        """
+        if isinstance(self.task, ShaderTask):
+            beside = self.task.beside(response)
+            return beside if beside is not None and beside.differs else None
         found: list[Opened] = []
         for one in self.wrong(response) if self.is_stepped else []:
             shown = self.task.shown(one.case)

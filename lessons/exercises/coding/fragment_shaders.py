@@ -1,11 +1,19 @@
 """Fragment shaders and functions of them: light, texture, and what is discarded, on hidden inputs of every class."""
 
+from functools import partial
+
 import numpy as np
 
 from core.scene import Texture
+from core.shaders.presets import VERTEX
+from lessons.exercises.coding.shader_scenes import matte, textured
 from lessons.exercises.coding.shader_task import HEAD, cases_of, shader_task
 from lessons.exercises.coding.task import Fault
 
+STRAIGHT = tuple(map(float, np.eye(4).ravel()))
+"""Of a camera that looks along -z, column by column."""
+TURNED = (0.0, 0.0, -1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+"""Of one that looks along x."""
 UP, SIDE, SLANTED = (0.0, 0.0, 1.0), (1.0, 0.0, 0.0), (0.0, 0.6, 0.8)
 _LIGHT = (
     ("vec3", "vNormal"),
@@ -13,21 +21,22 @@ _LIGHT = (
     ("vec3", "lightDirection"),
     ("float", "ambient"),
     ("float", "diffuse"),
+    ("mat4", "viewMatrix"),
 )
 _RED, _GREY = (1.0, 0.5, 0.25), (0.5, 0.5, 0.5)
 _COSINE, _SURFACE = (
     "float cosine = max(dot(N, L), 0.0);",
     "outColor = vec4(vColor * (ambient + diffuse * cosine), 1.0);",
 )
-_UNIT, _TO_LIGHT = "vec3 N = normalize(vNormal);", "vec3 L = normalize(-lightDirection);"
+_UNIT, _TO_LIGHT = "vec3 N = normalize(vNormal);", "vec3 L = normalize(mat3(viewMatrix) * -lightDirection);"
 DIFFUSE = shader_task(
     "diffuse-shader",
     "shade",
     "the diffuse light",
     "This fragment shader lights a surface. vNormal is interpolated, so it may be shorter than 1. lightDirection is "
-    "the way the light travels; it may have any length. The colour is vColor times the light: ambient, and diffuse "
-    "times the cosine between the normal and the way to the light. What is turned away from the light has ambient "
-    "light alone. Alpha is 1.",
+    "the way the light travels in the world, of any length; mat3(viewMatrix) turns it to what the eye sees, as vNormal "
+    "is. The colour is vColor times the light: ambient, and diffuse times the cosine between the normal and the way to "
+    "the light. What is turned away from the light has ambient light alone. Alpha is 1.",
     f"""{HEAD}in vec3 vNormal;
 in vec3 vColor;
 uniform vec3 lightDirection;
@@ -45,35 +54,40 @@ void main() {{
         _LIGHT,
         {
             "light from the front": [
-                (UP, _RED, (0.0, 0.0, -1.0), 0.25, 0.75),
-                (SIDE, _GREY, (-1.0, 0.0, 0.0), 0.0, 1.0),
+                (UP, _RED, (0.0, 0.0, -1.0), 0.25, 0.75, STRAIGHT),
+                (SIDE, _GREY, (-1.0, 0.0, 0.0), 0.0, 1.0, STRAIGHT),
             ],
             "light at an angle": [
-                (SLANTED, _RED, (0.0, 0.0, -1.0), 0.25, 0.5),
-                (UP, _GREY, (0.0, -0.6, -0.8), 0.5, 0.5),
+                (SLANTED, _RED, (0.0, 0.0, -1.0), 0.25, 0.5, STRAIGHT),
+                (UP, _GREY, (0.0, -0.6, -0.8), 0.5, 0.5, STRAIGHT),
             ],
             "a short normal": [
-                ((0.0, 0.0, 0.5), _RED, (0.0, 0.0, -1.0), 0.25, 0.75),
-                ((0.0, 0.3, 0.4), _GREY, (0.0, 0.0, -1.0), 0.5, 0.5),
+                ((0.0, 0.0, 0.5), _RED, (0.0, 0.0, -1.0), 0.25, 0.75, STRAIGHT),
+                ((0.0, 0.3, 0.4), _GREY, (0.0, 0.0, -1.0), 0.5, 0.5, STRAIGHT),
             ],
             "a long light direction": [
-                (UP, _RED, (0.0, 0.0, -2.0), 0.25, 0.75),
-                (SLANTED, _GREY, (0.0, 0.0, -4.0), 0.5, 0.5),
+                (UP, _RED, (0.0, 0.0, -2.0), 0.25, 0.75, STRAIGHT),
+                (SLANTED, _GREY, (0.0, 0.0, -4.0), 0.5, 0.5, STRAIGHT),
             ],
             "turned away from the light": [
-                (UP, _RED, (0.0, 0.0, 1.0), 0.25, 0.75),
-                (SLANTED, _GREY, (0.0, 0.6, 0.8), 0.5, 0.25),
+                (UP, _RED, (0.0, 0.0, 1.0), 0.25, 0.75, STRAIGHT),
+                (SLANTED, _GREY, (0.0, 0.6, 0.8), 0.5, 0.25, STRAIGHT),
             ],
             "light along the surface": [
-                (UP, _RED, SIDE, 0.25, 0.75),
-                (SIDE, _GREY, (0.0, 0.0, -1.0), 0.5, 0.5),
+                (UP, _RED, SIDE, 0.25, 0.75, STRAIGHT),
+                (SIDE, _GREY, (0.0, 0.0, -1.0), 0.5, 0.5, STRAIGHT),
+            ],
+            "a turned camera": [
+                (UP, _RED, SIDE, 0.25, 0.75, TURNED),
+                (SLANTED, _GREY, SIDE, 0.5, 0.5, TURNED),
             ],
         },
     ),
     (
         Fault(_UNIT, "vec3 N = vNormal;", "normal-not-unit"),
-        Fault(_TO_LIGHT, "vec3 L = normalize(lightDirection);", "light-turned-round"),
-        Fault(_TO_LIGHT, "vec3 L = -lightDirection;"),
+        Fault(_TO_LIGHT, "vec3 L = normalize(mat3(viewMatrix) * lightDirection);", "light-turned-round"),
+        Fault(_TO_LIGHT, "vec3 L = normalize(-lightDirection);"),
+        Fault(_TO_LIGHT, "vec3 L = mat3(viewMatrix) * -lightDirection;"),
         Fault(_COSINE, "float cosine = dot(N, L);", "cosine-below-zero"),
         Fault(_COSINE, "float cosine = abs(dot(N, L));"),
         Fault(_SURFACE, "outColor = vec4(vColor * diffuse * cosine, 1.0);", "ambient-missing"),
@@ -87,6 +101,7 @@ void main() {{
     ),
     ("outColor = vec4(vColor, 1.0);", "outColor = vec4(0.0);", "outColor = vec4(vColor * ambient, 1.0);"),
     ("outColor",),
+    beside=partial(matte, VERTEX),
 )
 _RAY = (("vec3", "normal"), ("vec3", "direction"))
 LAMBERT = shader_task(
@@ -213,6 +228,7 @@ void main() {{
     ("outColor = vec4(0.0, 0.0, 0.0, 1.0);", "outColor = vec4(vUv, 0.0, 1.0);"),
     ("outColor",),
     textures={"map": _TEXELS},
+    beside=textured,
 )
 _LEAF = (("vec4", "vColor"), ("float", "threshold"))
 _TEST = "if (vColor.a < threshold) discard;"

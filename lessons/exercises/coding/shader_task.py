@@ -1,16 +1,16 @@
 """What a shader, or one of its functions, must do, and what a run of another text gives on hidden inputs."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 from typing import Any, ClassVar
 
 import numpy as np
 
-from core import Settings
+from core import Settings, render
 from core.lanes.problem import Place, Problem
 from core.lanes.run import bounded
-from core.scene import Texture
+from core.scene import Scene, Texture
 from core.shaders.fragment_stage import texture_colors_of
 from core.shaders.glsl_types import MATRICES, GlslValue, component_count, from_rows
 from core.shaders.samplers import Sampler
@@ -23,6 +23,7 @@ HEAD = "#version 300 es\nprecision highp float;\n"
 Given = Sequence[tuple[str, str]]
 ROUNDED = 4e-6
 """Relative difference of two numbers that are the same: float32 rounds sums in their order."""
+BYTE = 1 / 255
 QUAD = 4
 TEXTURED = Settings(texture_filter="nearest")
 """How hidden inputs read a texture."""
@@ -35,6 +36,21 @@ WIDENED = {
 """By the type that a function returns, how a colour is made of it."""
 DISCARDED: list[float] = []
 """What stands for a fragment that is discarded."""
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """A scene as built-in shading draws it, and as a shader that was written does."""
+
+    settings: Settings
+    scene: Scene
+    other: Scene
+
+    @property
+    def differs(self) -> bool:
+        """Whether the two pictures differ by more than a byte."""
+        mine, other = (render(scene, self.settings).color for scene in (self.scene, self.other))
+        return bool((np.abs(mine - other) > BYTE).any())
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +67,8 @@ class ShaderTask(Task):
     """Type of what the function returns; empty: it is a whole shader."""
     textures: Mapping[str, Texture] = field(default_factory=dict)
     """By sampler, what it reads."""
+    beside: Callable[[str], Beside | None] = field(default=lambda _text: None)
+    """What a text draws beside built-in shading, which a right one equals; ``None``: nothing is drawn."""
 
     note: ClassVar[str] = "//"
     tail: ClassVar[str] = "\n}"
@@ -147,12 +165,14 @@ def _of_lanes(of: str, column: Sequence[Any], repeated: int) -> GlslValue:
 
 
 def said_of(given: Sequence[tuple[str, str]], values: Sequence[Any]) -> str:
-    """Return a hidden input in words; matrices are said in the case itself."""
+    """Return a hidden input in words; of matrices only whether they turn."""
     parts = []
     for (of, name), value in zip(given, values, strict=True):
         if of not in MATRICES:
             text = numbers_text([float(one) for one in np.ravel(value)])
             parts.append(f"{name} = {text if of == 'float' else f'({text})'}")
+        elif not np.array_equal(np.reshape(value, (MATRICES[of], -1)), np.eye(MATRICES[of])):
+            parts.append(f"a {name} that turns")
     return f"for {', '.join(parts)}"
 
 

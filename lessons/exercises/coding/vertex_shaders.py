@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from lessons.exercises.coding.fragment_shaders import DIFFUSE
+from lessons.exercises.coding.shader_scenes import matte
 from lessons.exercises.coding.shader_task import HEAD, shader_task
 from lessons.exercises.coding.task import Case, Fault
 
@@ -86,6 +88,7 @@ void main() {{
     ),
     ("gl_Position = vec4(position, 1.0);", "vColor = color;", "vNormal = normal;"),
     ("gl_Position", "vNormal", "vColor"),
+    beside=lambda text: matte(text, DIFFUSE.text),
 )
 _SCALED = "vec4 scaled = vec4(position.x * 1.5, position.y * 0.5, position.z * 2.0, 1.0);"
 _BOTH = "gl_Position = projectionMatrix * modelViewMatrix * scaled;"

@@ -57,6 +57,19 @@ def test_each_wrong_line_is_wrong_somewhere_and_right_somewhere_else() -> None:
         assert {fault.mistake for fault in task.faults} - {""} <= set(SHADERS)
 
 
+def test_a_right_shader_draws_what_built_in_shading_draws() -> None:
+    for task in (DIFFUSE, TEXTURE, VERTEX):
+        right = task.beside(task.text)
+        assert right is not None
+        assert not right.differs, task.name
+    answer = CodeAnswer(DIFFUSE, head_alone(DIFFUSE))
+    assert answer.opened(DIFFUSE.text.replace("* -light", "* light")) is not None
+    assert (
+        CodeAnswer(LAMBERT, head_alone(LAMBERT)).opened(LAMBERT.text.replace("-direction", "direction"))
+        is None
+    )
+
+
 OTHERS = {
     DIFFUSE: DIFFUSE.text.replace("vec3 N = normalize(vNormal);", "vec3 N = vNormal / length(vNormal);"),
     LAMBERT: "float lambert(vec3 n, vec3 d) {\n"
@@ -93,7 +106,7 @@ def test_the_input_that_shows_it_and_the_mistake_are_told() -> None:
         "For vColor = (1, 0.5, 0.25, 0.75), threshold = 0.5: yours discarded; right (1, 0.5, 0.25, 1).",
     ]
     short = DIFFUSE.text.replace("normalize(vNormal)", "vNormal")
-    assert CodeAnswer(DIFFUSE, head_alone(DIFFUSE)).check(short).counts == "right in 5 of 6 classes of inputs"
+    assert CodeAnswer(DIFFUSE, head_alone(DIFFUSE)).check(short).counts == "right in 6 of 7 classes of inputs"
 
 
 HEAD = LAMBERT.head

@@ -157,14 +157,17 @@ class ComparePresenter(QObject):
         really = mine.differences(replace(mine, **differences))  # type: ignore[arg-type]
         self._become(SideB(really) if differences else None)
 
-    def show_mistake(self, differences: Mapping[str, str | int], scene: AnyScene, title: str) -> None:
-        """Let B make a mistake, in its settings or the scene; both go to the first step in which they differ."""
+    def show_mistake(
+        self, differences: Mapping[str, str | int], scene: AnyScene, title: str, *, seeks: bool = True
+    ) -> None:
+        """Let B make a mistake, in its settings or the scene.
+
+        Both go to the first step in which they differ, where ``seeks`` is set.
+        """
         mine = self._session.document.scene
         scenes = None if scene is mine else (mine, scene)
-        self._become(
-            SideB(differences, title, scenes=scenes),
-            partial(self.go_to_divergence, self._session.cursor.stage),
-        )
+        goal = partial(self.go_to_divergence, self._session.cursor.stage) if seeks else None
+        self._become(SideB(differences, title, scenes=scenes), goal)
 
     def begin_at(self, pixel: tuple[int, int] | None) -> None:
         """Go to a pixel, or to the first step in which both differ, once B is drawn."""

@@ -9,6 +9,7 @@ from app.files.attempts import attempt_file
 from app.pages.exercises.evidence import OPEN
 from app.pages.step.page import StepPage
 from app.window.main_window import MainWindow
+from core.scene import Scene
 from lessons.exercises.answers.code import CodeAnswer
 from tests.app.pages.exercises.acting import Page, check
 from widgets.exercises.code_answer import NAME, CodeAnswerView
@@ -164,3 +165,29 @@ def test_what_differs_is_shown_where_depths_are_alike(page: Page, window: MainWi
     step.settle()
     assert window.session.cursor.stage == "depth"
     assert step.compare_view.buffer_box.currentData() == "primitive"
+
+
+def test_a_wrong_shader_stands_beside_built_in_shading(page: Page, window: MainWindow, qtbot: QtBot) -> None:
+    shown = page("repair-diffuse-shader", 0)
+    assert shown.question is not None
+    right = shown.question.draft.answer
+    assert isinstance(right, CodeAnswer)
+    answer = shown.question_view.answer
+    assert isinstance(answer, CodeAnswerView)
+    answer.show_given(right.named_mistakes["light-turned-round"])
+    answer.answer_changed.emit()
+    assert "The light comes from the wrong side" in check(shown)
+    assert shown.question_view.twin_button.text() == OPEN
+    shown.question_view.twin_button.click()
+    qtbot.waitUntil(lambda: isinstance(window.pages.current, StepPage))
+    step = window.pages.current
+    assert isinstance(step, StepPage)
+    step.settle()
+    scene = window.session.document.scene
+    assert isinstance(scene, Scene)
+    assert scene.program is None
+    assert [title.text().split("\n")[0] for title in step.compare_view.titles[:2]] == [
+        "A: built-in shading",
+        "B: my shader",
+    ]
+    assert not step.compare_view.notes[2].text().startswith("0 of")
