@@ -186,12 +186,14 @@ class LessonTask(QObject):
     def _is_about_a_step(self) -> bool:
         """Return whether the step that is done is to be read: not before the first, nor beside a listing that is typed.
 
-        At the end of the run the whole picture is what is looked at, not the byte that was written last.
+        Where all triangles are covered, and at the end of the run, the whole picture is looked at, not the last pixel.
         """
         cursor, asked = self._session.cursor, None if self._home is None else self._home.asked
         if cursor.position == 0 or (asked is not None and asked.is_typed):
             return False
-        return cursor.stage != STAGES[-1] or cursor.position < self._session.stage_trace.steps.count
+        has_triangles = self._session.document.scene.corner_count == 3
+        is_picture = cursor.stage == STAGES[-1] or (cursor.stage == "raster" and has_triangles)
+        return not is_picture or cursor.position < self._session.stage_trace.steps.count
 
     # What the learner does.
 
