@@ -3,7 +3,8 @@
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Qt, Signal, Slot
+from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QApplication
 
 from app.pages.step.lesson_evidence import has_refuting_step, mistake_of, show_mistake
@@ -50,6 +51,7 @@ class LessonTask(QObject):
         self._page, self._session = page, page.session
         self.grid = MarkGrid(page)
         self.grid.hide()
+        self.grid.installEventFilter(self)
         self._blank = PixelGrid(page)
         """Stands for the picture of an exercise that has none: that of the first step would contradict it."""
         self._blank.empty_text = NO_PICTURE
@@ -196,6 +198,15 @@ class LessonTask(QObject):
         return not is_picture or cursor.position < self._session.stage_trace.steps.count
 
     # What the learner does.
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Check with Return on the picture, as in the pane."""
+        if not isinstance(event, QKeyEvent) or event.type() != QEvent.Type.KeyPress or event.modifiers():
+            return False
+        is_return = event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter)
+        if is_return:
+            self.answers.check()
+        return is_return
 
     @Slot(Change)
     def _follow(self, what: Change) -> None:

@@ -429,6 +429,18 @@ def test_the_exercise_that_closes_a_lesson_leads_back_to_it(
     assert back.isHidden()
 
 
+def test_return_on_the_picture_checks_what_is_marked(window: MainWindow, qtbot: QtBot) -> None:
+    window.page.lessons.open("pixel-centres", 2)
+    walk = settled(window, qtbot)
+    asked = walk.answers.asked
+    assert asked is not None
+    walk.answers.fill(asked.question.draft.answer.reference)
+    QTest.keyClick(walk.task.grid, Qt.Key.Key_Return)
+    settled(window, qtbot)
+    assert walk.answers.last is not None
+    assert walk.answers.last.outcome.is_right
+
+
 def test_no_step_stands_beside_a_whole_picture_and_a_listing_that_is_typed(
     window: MainWindow, qtbot: QtBot
 ) -> None:
