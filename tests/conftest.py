@@ -14,6 +14,8 @@ import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
 
+from tests.families import in_families
+
 # Rewriting the assertions of hundreds of files makes millions of objects: until the tests are collected nothing
 # searches for garbage, which took a third of the time.
 gc.disable()
@@ -80,12 +82,15 @@ def pytest_collection(session: pytest.Session) -> None:
                 importlib.import_module(".".join(path.relative_to(ROOT).with_suffix("").parts))
 
 
+@pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave slow tests to --all."""
+    """Leave slow tests to --all, and run cases together where several processes share the tests."""
     if not config.getoption("--all"):
         slow = [item for item in items if item.get_closest_marker("slow")]
         config.hook.pytest_deselected(items=slow)
         items[:] = [item for item in items if not item.get_closest_marker("slow")]
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        items[:] = in_families(items)
 
 
 def pytest_collection_finish() -> None:
