@@ -5,28 +5,17 @@ sizes and the product of two vectors.
 """
 
 import math
-import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from fractions import Fraction
 
 import numpy as np
 
-from core.explain.digits import MARK
 from core.records.terms import Applied, Colored, Leaf, ListOf, Operation, Prefix, Term
 
 Number = Fraction | float
 """A finite number without error, or a float where it is not rational: a root, a logarithm, infinite, NaN."""
 Count = Callable[[float], Number]
 """What a number counts as: the value of its digits."""
-_TOKEN = re.compile(
-    rf"\s+|\\[,;! ]|(?P<mark>{MARK.pattern})|(?P<number>\d+\.?\d*|\.\d+)|(?P<word>\\[A-Za-z]+)|(?P<sign>.)"
-)
-_SCRIPTED = re.compile(r"\\mathrm\{([a-z][a-z0-9]*)\}|\\log_(?:\{\{2\}\}|\{2\}|2)")
-
-
-class UnreadError(ValueError):
-    """A side is no arithmetic."""
 
 
 def is_constant(leaf: Leaf) -> bool:
@@ -108,129 +97,6 @@ def _name(term: Term) -> str:
     if isinstance(term, Colored):
         return "colored"
     return term.function if isinstance(term, Applied) else ""
-
-
-def read(text: str) -> Term:
-    """Read arithmetic in LaTeX; UnreadError for anything else."""
-    reader = _Reader(text)
-    found = reader.sum()
-    if reader.place < len(reader.tokens) or isinstance(found, ListOf) or not is_arithmetic(found):
-        raise UnreadError(text)
-    return found
-
-
-@dataclass(frozen=True)
-class ReadNumber(Leaf):
-    """A number that was read, and its significant digits."""
-
-    digits: int
-
-
-class _Reader:
-    """Reads tokens from left to right; every method takes what belongs to it."""
-
-    def __init__(self, text: str) -> None:
-        named = _SCRIPTED.sub(lambda found: rf"\{(found[1] or 'log').rstrip('0123456789')} ", text)
-        self.tokens = [m for m in _TOKEN.finditer(named) if m.lastgroup is not None]
-        self.place = 0
-
-    def next(self) -> str:
-        """Return the next token without taking it; at the end an empty text."""
-        return self.tokens[self.place][0] if self.place < len(self.tokens) else ""
-
-    def take(self, wanted: str = "") -> str:
-        found = self.next()
-        if not found or (wanted and found != wanted):
-            raise UnreadError(found)
-        self.place += 1
-        return found
-
-    def sum(self) -> Term:
-        found = self.product()
-        while self.next() in ("+", "-"):
-            found = Operation(self.take(), found, self.product())
-        return found
-
-    def product(self) -> Term:
-        found = self.power()
-        while True:
-            if self.next() in (r"\cdot", r"\times"):
-                self.take()
-                found = found * self.power()
-            elif self.next() == "/":
-                self.take()
-                found = found / self.power()
-            elif self.next() in ("(", r"\frac", r"\lfloor", r"\sqrt"):
-                found = found * self.power()
-            else:
-                return found
-
-    def power(self) -> Term:
-        if self.next() == "-":
-            self.take()
-            return -self.power()
-        found = self.one()
-        if self.next() == "^":
-            self.take()
-            found = found ** self.one()
-        return found
-
-    def one(self) -> Term:
-        start = self.place
-        token = self.take()
-        group = self.tokens[start].lastgroup
-        if group == "mark":
-            return Leaf(r"\num", float(self.tokens[start]["value"]))
-        if group == "number":
-            number = ReadNumber("", Fraction(token), len(token.replace(".", "").lstrip("0")))
-            # A mixed fraction stands without a space: 382 250/256.
-            if self.next() == r"\frac" and self.tokens[self.place].start() == self.tokens[start].end():
-                return number + self.one()
-            return number
-        match token:
-            case "(":
-                return self.bracketed(")")
-            case "{":
-                return _with_power_of_ten(self.bracketed("}"))
-            case "|":
-                found = self.sum()
-                self.take("|")
-                return Applied("abs", (found,))
-            case r"\frac":
-                return self.one() / self.one()
-            case r"\lfloor" | r"\lceil":
-                found = self.sum()
-                self.take(rf"\r{token[2:]}")
-                return Applied(token[2:], (found,))
-            case r"\infty":
-                return Leaf("", math.inf)
-            case r"\vertex":
-                self.one()
-                return self.one()
-            case r"\min" | r"\max" | r"\sqrt" | r"\round" | r"\sign" | r"\log" | r"\float":
-                found = self.power()
-                name = {"log": "log2", "float": "float32"}.get(token[1:], token[1:])
-                return Applied(name, found.parts if isinstance(found, ListOf) else (found,))
-        raise UnreadError(token)
-
-    def bracketed(self, end: str) -> Term:
-        parts = [self.sum()]
-        while self.next() == ",":
-            self.take()
-            parts.append(self.sum())
-        self.take(end)
-        return parts[0] if len(parts) == 1 else ListOf(tuple(parts))
-
-
-def _with_power_of_ten(found: Term) -> Term:
-    r"""Return a term, or the number that is written as ``{1.5 \cdot 10^{-3}}``."""
-    match found:
-        case Operation("*", Leaf() | Prefix() as mantissa, Operation("**", Leaf(_, 10), _)):
-            value = Fraction(work_out(found)[0])
-            digits = max(part.digits for part in mantissa.every() if isinstance(part, ReadNumber))
-            number = ReadNumber("", abs(value), digits)
-            return -number if isinstance(mantissa, Prefix) else number
-    return found
 
 
 def _size(value: Number) -> Fraction:

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import isnan
 
-from core.explain.digits import number_latex
+from core.explain.digits import spoken
 from core.explain.number_text import position_text
 from core.explain.records import Formula
 from core.explain.statements import Chain, about_equal, checkable_digits
@@ -23,7 +23,7 @@ class Named(Leaf):
     """A number with the symbol that formulas have for it; in a sentence it is the number."""
 
     def __str__(self) -> str:
-        return number_latex(float(self.value))
+        return spoken(self.value)
 
     def equals(self, *others: Term | float) -> "Chain":
         """Return the statement that it equals the others."""

@@ -1,38 +1,27 @@
-r"""What a formula states: its line of numbers is read, worked out, and checked.
+r"""What a formula states: sides with relations between them, as ``42 = -6 \cdot 0.5 + 45`` or ``-3 < 0``.
 
-A line is cut into statements at ``\quad``, ``\land`` and ``\Rightarrow``. A statement is a chain of sides with
-relations between them, as ``42 = -6 \cdot 0.5 + 45`` or ``-3 < 0``. A side that is no arithmetic (a name, a code,
-words) leaves its statement unread.
+Each number has the fewest digits with which all that is stated can be checked from what is shown.
 """
 
 import math
 import operator
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 
 from core.explain.arithmetic import (
     Count,
     Number,
-    ReadNumber,
-    UnreadError,
-    in_full,
     is_arithmetic,
     is_rounded,
     lone_number,
     numbers_in,
-    read,
     work_out,
 )
 from core.explain.digits import MOST_DIGITS
 from core.explain.number_text import DIGITS, digit_count, shown_value
 from core.records.terms import Leaf, Term
 
-RELATIONS = ("=", "<", ">", r"\le", r"\ge", r"\ne", r"\approx", r"\equiv")
-MODULUS = r"(\mathrm{mod}"
-"""How the modulus of a congruence begins."""
-BREAKS = (r"\quad", r"\land", r"\lor", r"\Rightarrow")
-"""What stands between statements."""
 FLOAT_ERROR = Fraction(1, 2**44)
 """Error of float64 arithmetic, over the largest number that takes part."""
 LEAST_DIGITS = 4
@@ -49,10 +38,6 @@ _COMPARISONS: dict[str, Callable[[Number, Number], bool]] = {
 }
 
 
-def _digits_of(number: Leaf) -> int:
-    return number.digits if isinstance(number, ReadNumber) else digit_count(float(number.value))
-
-
 @dataclass(frozen=True)
 class Chain:
     """Sides with relations between them."""
@@ -67,7 +52,7 @@ class Chain:
         """Whether it states something that can be checked."""
         return bool(self.relations) and all(map(is_arithmetic, self.sides))
 
-    def holds(self, count: Count = in_full, digits: Callable[[Leaf], int] = _digits_of) -> bool:
+    def holds(self, count: Count, digits: Callable[[Leaf], int]) -> bool:
         """Return whether all relations hold.
 
         Parameters
@@ -150,8 +135,7 @@ def _holds(statement: Chain, digits: dict[float, int]) -> bool:
 
     def digits_of(number: Leaf) -> int:
         value = float(number.value)
-        own = number.digits if isinstance(number, ReadNumber) else 0
-        return own or digit_count(value, digits.get(abs(value), DIGITS))
+        return digit_count(value, digits.get(abs(value), DIGITS))
 
     return statement.holds(lambda value: _shown(value, digits), digits_of)
 
@@ -183,41 +167,3 @@ def about_equal(statement: Chain, digits: dict[float, int]) -> set[int]:
 
 def _shown(value: float, digits: dict[float, int]) -> Fraction | float:
     return shown_value(value, digits.get(abs(value), DIGITS))
-
-
-def statements(cells: Sequence[str]) -> list[Chain]:
-    """Return the statements of a line of numbers that can be read as arithmetic; marked numbers are read too."""
-    return [found for found, _ in placed_statements(cells)]
-
-
-def placed_statements(cells: Sequence[str]) -> list[tuple[Chain, tuple[int, ...]]]:
-    """Return them with the cells of their relations."""
-    found: list[tuple[Chain, tuple[int, ...]]] = []
-    start = 0
-    for end in [*(k for k, cell in enumerate(cells) if cell in BREAKS), len(cells)]:
-        part = [(place, cells[place]) for place in range(start, end)]
-        start = end + 1
-        try:
-            if len(part) == 1 and part[0][1].startswith(MODULUS) and found:
-                modulus, _ = work_out(read(part[0][1][len(MODULUS) : -1]))
-                found[-1] = replace(found[-1][0], modulus=round(math.log2(modulus))), found[-1][1]
-            elif (statement := _statement(part)) is not None:
-                found.append(statement)
-        except UnreadError:
-            continue
-    return found
-
-
-def _statement(part: Sequence[tuple[int, str]]) -> tuple[Chain, tuple[int, ...]] | None:
-    """Return what neighbouring cells with their places state; ``None`` without a relation."""
-    relations = [(place, cell) for place, cell in part if cell in RELATIONS]
-    if not relations:
-        return None
-    sides: list[list[str]] = [[]]
-    for _, cell in part:
-        if cell in RELATIONS:
-            sides.append([])
-        else:
-            sides[-1].append(cell)
-    places, names = zip(*relations, strict=True)
-    return Chain(tuple(read(" ".join(side)) for side in sides), names), places

@@ -9,13 +9,13 @@ from pytestqt.qtbot import QtBot
 
 from core import ClipScene, Settings, trace
 from core.explain import formula
-from core.explain.equation import comparison, equation, grid_latex
+from core.explain.formulas import Stated, call, formula_of, named, on_grid
 from core.explain.latex import split_cells
 from core.explain.number_text import latex_text
 from core.explain.records import Formula
-from core.explain.statements import BREAKS, RELATIONS, statements
 from core.trace import Explanation
 from tests.core.explain.explained_steps import all_said, rare_trace, steps_of
+from tests.core.explain.read_formulas import BREAKS, RELATIONS, holds, statements
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.typesetter import Typesetter
 
@@ -36,8 +36,8 @@ def test_every_formula_can_be_checked_from_what_it_shows() -> None:
         symbols, numbers = split_cells(made.symbolic), split_cells(made.substituted)
         assert len(symbols) == len(numbers), (explanation.key, made)
         assert not re.search(r"\bnan\b|\binf\b|None|−|e[-+]\d|num", made.substituted), (explanation.key, made)
-        found = statements(numbers)
-        assert all(statement.holds() for statement in found), (explanation.key, made)
+        found = statements(made.substituted)
+        assert all(map(holds, found)), (explanation.key, made)
         stated, read = stated + relation_count(numbers), read + len(found)
         long += max(made.digits.values(), default=0) > 8
         if number % 2 == 0 and SUMS.match(explanation.key) and "NaN" not in made.substituted:
@@ -190,38 +190,35 @@ def test_numbers_in_formulas(value: float, expected: str) -> None:
 
 
 def test_negative_numbers_stand_in_brackets_behind_operators() -> None:
-    made = equation(("x", -5.0), "=", ("a", -2.0), "+", ("b", -3.0), "+", ("c", -1e-9))
+    a, b, c = named("a", -2.0), named("b", -3.0), named("c", -1e-9)
+    made = formula_of(named("x", -5.0).equals(a + b + c))
     assert split_cells(made.substituted) == (
         *("-5", r"\approx", "-2", "+", "(-3)", "+", r"({-1 \cdot 10^{-9}})"),
     )
 
 
-def shown(*parts: object) -> str:
-    """Return the line of numbers of an equation."""
-    return " ".join(split_cells(equation(*parts).substituted))  # type: ignore[arg-type]
+def shown(*stated: Stated) -> str:
+    """Return the line of numbers of a formula."""
+    return " ".join(split_cells(formula_of(*stated).substituted))
 
 
 def test_numbers_have_the_digits_that_show_what_is_said() -> None:
     # A small difference of large numbers.
-    assert (
-        shown(("d", 0.125), "=", ("a", 258.12890625), "-", ("b", 258.00390625)) == "0.125 = 258.129 - 258.004"
-    )
-    assert shown(("s", 516.1328125), "=", ("a", 258.12890625), "+", ("b", 258.00390625)) == (
-        "516.1 = 258.1 + 258"
-    )
+    a, b = named("a", 258.12890625), named("b", 258.00390625)
+    assert shown(named("d", 0.125).equals(a - b)) == "0.125 = 258.129 - 258.004"
+    assert shown(named("s", 516.1328125).equals(a + b)) == "516.1 = 258.1 + 258"
     # Neighbours in float32, and a rounding that four digits would turn around.
-    assert shown(*comparison("z", "<", 0.30000001, 0.3)) == "0.30000001 > 0.3"
-    assert shown(("n", 110.0), "=", ("c", r"\lceil \num{109.50004} - \num{0.5} \rceil")) == (
+    assert shown(named("z", 0.30000001).compared("<", 0.3)) == "0.30000001 > 0.3"
+    assert shown(named("n", 110).equals(call("ceil", named("x", 109.50004) - named("c", 0.5)))) == (
         r"110 = \lceil 109.50004 - 0.5 \rceil"
     )
     # Whole numbers, such as depths of 2^24 steps.
-    assert shown(*comparison("z", "<", 14860003.0, 14860000.0)) == "14860003 > 14860000"
+    assert shown(named("z", 14860003).compared("<", 14860000)) == "14860003 > 14860000"
 
 
 def test_grid_positions_are_exact() -> None:
-    assert grid_latex(22.5) == r"\num{22.5}"
-    assert grid_latex(258 + 33 / 256) == r"258\frac{33}{256}"
-    assert grid_latex(-1 / 256) == r"-\frac{1}{256}"
+    places = [on_grid("x", value) for value in (22.5, 258 + 33 / 256, -1 / 256)]
+    assert shown(*places) == r"22.5 \quad 258\frac{33}{256} \quad -\frac{1}{256}"
 
 
 def test_the_view_shows_them(qtbot: QtBot) -> None:
@@ -247,12 +244,12 @@ def test_numbers_that_wrap_around_are_congruent_not_equal(fill: str) -> None:
     for name in ("edges", "bin", "raster"):
         for explanation, _, _ in steps_of(traced.stage(name)):
             made = formula(explanation)
-            for statement in statements(split_cells(made.substituted)) if made is not None else ():
-                assert statement.holds(), (explanation.key, made)
+            for statement in statements(made.substituted) if made is not None else ():
+                assert holds(statement), (explanation.key, made)
                 signs.update(statement.relations)
     assert signs[r"\equiv"]
 
 
 def test_the_logarithm_of_0_is_minus_infinity() -> None:
-    (found,) = statements([r"-\infty", "=", r"\log_{{2}} \max(0, 0)"])
-    assert found.holds()
+    (found,) = statements(r"-\infty & = & \log_{{2}} \max(0, 0)")
+    assert holds(found)
