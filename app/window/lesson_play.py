@@ -4,7 +4,7 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import Qt, QThread
 
 from app.files.open_any import open_any
 from app.pages.step.lesson_walk import LessonWalk
@@ -79,6 +79,9 @@ def settle(window: MainWindow) -> None:
     for _ in range(3):
         for _ in range(10):
             the_application().processEvents()
+        while window.session.tracing.is_busy:  # A run that takes long is traced in the background.
+            the_application().processEvents()
+            QThread.msleep(5)
         window.page.settle()
 
 
