@@ -5,6 +5,8 @@ from dataclasses import dataclass, fields
 LARGEST = 2**53
 """Largest whole number: up to here float64 and int64 hold every one, and the sums of a line fit 64 bits."""
 LARGEST_EXPONENT = 16
+NAME_LENGTH = 60
+"""Longest name of a version of a listing, in characters."""
 
 
 @dataclass(frozen=True)

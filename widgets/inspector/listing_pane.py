@@ -14,6 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from core.lanes.limits import NAME_LENGTH
 from widgets.basics.accessible import announce
 from widgets.basics.controls import LEAST_TARGET, column_layout, row_layout
 from widgets.basics.labels import ElidedLabel, set_role, text_label
@@ -25,8 +26,6 @@ A, B = 0, 1
 HEAD_HEIGHT = 1.85
 """Height of the head, in heights of the text."""
 UNNAMED = "mine"
-NAME_LENGTH = 60
-"""Longest name of a version in characters."""
 TAB_LETTERS = 16
 """Letters of a name that a tab shows at most."""
 EDIT_TIP = "Change a line: side B draws at once what your version draws (F2)"
