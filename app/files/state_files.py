@@ -186,12 +186,15 @@ def draft_notes(look: Look, settings: Settings) -> tuple[str, ...]:
     if not look.drafts:
         return ()
     from core.edits import Edit, apply_edit
+    from core.lanes.limits import LISTING
+    from core.lanes.run import bounded
 
     notes = []
     for draft in look.drafts:
         edit, reason = Edit(**dict(draft)), "it has not been run yet"
         try:
-            apply_edit(settings, edit)
+            with bounded(LISTING.seconds / len(look.drafts)):
+                apply_edit(settings, edit)
         except ValueError as error:
             reason = str(error)
         kept = f"A text that does not run is kept for the {edit.title.removeprefix('the edited ')}"

@@ -16,6 +16,8 @@ VERSION: Literal[3] = 3
 
 NOTE_LIMIT = 500
 """Longest note of a bookmark in characters."""
+DRAFTS_LIMIT = 100
+"""Most texts that are kept though they do not run: more than there are listings to edit."""
 DRAFT_LIMIT = 10 * LISTING.characters
 """Longest text that is kept though it does not run, in characters."""
 
@@ -274,7 +276,7 @@ class Look(Record):
     """Family to method: what B does otherwise than A."""
     printed: str = ""
     """Name of the listing as printed that B runs; empty: none."""
-    drafts: list[DraftRecord] = []
+    drafts: Annotated[list[DraftRecord], Field(max_length=DRAFTS_LIMIT)] = []
     """Edited listings that do not run: *Edit* opens them again."""
     other_buffer: str = "color"
     """Buffer in which A and B are compared."""

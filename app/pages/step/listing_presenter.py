@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 HIDDEN = "While you predict, or a question is asked about this scene, no listing can be edited."
 ASKED = "A's listing is hidden: it is asked for"
-KEPT = "The text that does not run is kept: Edit opens it again."
+KEPT = "The text that has not run is kept: Edit opens it again."
 LOADING = "The editor is being loaded."
 LATER_MS = 50
 EDITED_FAMILIES = (
@@ -46,7 +46,7 @@ EDITED_FAMILIES = (
 )
 """Families whose listings can be edited, as `core.edits.EDITABLE` has them."""
 EDITED_STAGES = frozenset(FAMILIES[family].stage for family in EDITED_FAMILIES)
-DRAFT_KEPT = "Your text does not run"
+DRAFT_KEPT = "Your text has not run"
 LISTING_CHANGES = "all changes of this listing"
 OLD_STEP = " The step and its numbers are those of the last version that ran."
 HAS_NONE = "This step has no listing."
@@ -73,6 +73,8 @@ class ListingPresenter(QObject):
         self._pane: ListingPane = column.code
         self._place: tuple[str, str] | None = None
         """Part and method of what is edited in the editor."""
+        self._is_stopped = False
+        """Whether the text that stands in the editor was stopped before it had run."""
         self._drafts: dict[tuple[str, str], str] = {}
         """Texts that did not run when the editor was left, by part and method."""
         self._asked: AnyScene | None = None
@@ -159,11 +161,16 @@ class ListingPresenter(QObject):
     def drafts(self) -> list[DraftRecord]:
         """The texts that do not run, also the one that is being typed."""
         texts = dict(self._drafts)
-        if self._place is not None and self._pane.editor.has_problem:
+        if self._place is not None and self._has_not_run:
             texts[self._place] = self._pane.editor.text
         # No file holds half of a character that takes two units.
         whole = {place: text.encode("utf-8", "replace").decode() for place, text in texts.items()}
         return [DraftRecord(part=part, of=of, text=text[:DRAFT_LIMIT]) for (part, of), text in whole.items()]
+
+    @property
+    def _has_not_run(self) -> bool:
+        """Whether the text in the editor cannot run, or was stopped."""
+        return self._pane.editor.has_problem or self._is_stopped
 
     def show_drafts(self, drafts: Iterable[DraftRecord]) -> None:
         """Keep the texts of a state that do not run: *Edit* opens them."""
@@ -316,6 +323,8 @@ class ListingPresenter(QObject):
         """Stop what runs, or else leave the editor; the edit stays."""
         if self._comparing.is_drawing:
             self._comparing.cancel_drawing()
+            self._is_stopped = self._pane.is_editing
+            self.drafts_changed.emit()
             self._pane.show_message("Stopped: B is the last version that ran.", is_problem=True)
             self._comparing.show_old(True)
             return
@@ -328,9 +337,8 @@ class ListingPresenter(QObject):
         """Put the listing in the place of the editor; what ran stays, and what does not run is kept for later."""
         place, self._place = self._place, None
         self._pane.end_editing()
-        if self._pane.editor.has_problem:
+        if self._has_not_run:
             self._show_right()
-            self._pane.editor.show_problem(None)
             if place is not None:
                 self._drafts[place] = self._pane.editor.text
                 self._pane.show_message(KEPT)
@@ -376,6 +384,7 @@ class ListingPresenter(QObject):
 
         if self._place is None:
             return
+        self._is_stopped = False
         document = self._session.latest
         known = edit_of(document, self._place)
         edited = with_edit(document, Edit(*self._place, text, known.name if known is not None else ""))
@@ -396,6 +405,7 @@ class ListingPresenter(QObject):
             self._set_side(B)
 
     def _show_right(self) -> None:
+        self._is_stopped = False
         self._pane.editor.show_problem(None)
         self._pane.show_message("")
         self._comparing.show_old(False)

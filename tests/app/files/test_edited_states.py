@@ -1,11 +1,13 @@
 """Edited listings in state files: kept as text, opened with a note, and never run where they cannot."""
 
 import json
+import re
 from dataclasses import replace
 
 import pytest
 
 from app.files.state_files import EXTENSION, State, StateFileError, load_state, save_state
+from app.files.state_models import DraftRecord, Look
 from app.session.document import Document, TeachingRaster
 from core import Settings, render
 from core.edits import Edit, apply_edit, edits_of, original
@@ -77,6 +79,28 @@ def test_an_edit_that_the_scene_passes_over_is_refused(tmp_path):
     path = tmp_path / f"state{EXTENSION}"
     save_state(path, State(Document(scene, TeachingRaster(8, 8), settings=apply_edit(Settings(), LINE))))
     with pytest.raises(StateFileError, match=r"edits: .*would not run: only wireframes draw lines"):
+        load_state(path)
+
+
+def test_texts_that_do_not_run_are_kept_with_their_message(state, tmp_path):
+    drafts = [
+        DraftRecord(part="line", of="dda", text="def f(:"),
+        DraftRecord(part="fill", of="bounding-box", text="x" * 7000),
+        DraftRecord(part="blend", of="over", text=original("blend", "over").source),
+    ]
+    path = tmp_path / f"state{EXTENSION}"
+    save_state(path, replace(state, look=Look(drafts=drafts)))
+    loaded, notes = load_state(path)
+    assert loaded.look.drafts == drafts
+    said = [note for note in notes if note.startswith("A text that does not run is kept for the ")]
+    for note, words in zip(
+        said, ("DDA, .*never closed", "6,000 characters.*7,000", "has not been run yet"), strict=True
+    ):
+        assert re.search(words + r"\. Edit opens it\.$", note), note
+    kept = json.loads(path.read_text(encoding="utf-8"))
+    kept["look"]["drafts"][0]["of"] = "diamond-exit"
+    path.write_text(json.dumps(kept), encoding="utf-8")
+    with pytest.raises(StateFileError, match=r"look\.drafts: Its listing computes with fractions"):
         load_state(path)
 
 

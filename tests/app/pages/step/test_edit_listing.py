@@ -207,7 +207,7 @@ def test_what_does_not_run_is_kept_in_a_state_and_in_other_scenes(window: MainWi
     assert [draft.text for draft in window.page.editing.drafts] == [typed]
     window.page.editing.show_drafts([])
     window.files.show_opened(open_any(str(path)))
-    assert pane_of(window).note.text() == "Your text does not run"
+    assert pane_of(window).note.text() == "Your text has not run"
     window.run_action("edit_line")
     assert editor.text == typed
     wait(lambda: editor.has_problem)
@@ -318,6 +318,12 @@ def test_a_long_run_leaves_the_window_free_and_escape_ends_it(
     assert not window.page.comparing.is_drawing
     assert pane_of(window).is_editing
     assert pane_of(window).message.text().startswith("Stopped")
+    # What was stopped is not lost either.
+    typed = editor.text
+    QTest.keyClick(editor, Qt.Key.Key_Escape)
+    assert not pane_of(window).is_editing
+    assert [draft.text for draft in window.page.editing.drafts] == [typed]
+    window.page.editing.show_drafts([])
 
 
 def test_an_edit_that_is_a_mistake_of_the_shelf_is_named(window: MainWindow) -> None:
