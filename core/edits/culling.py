@@ -10,7 +10,9 @@ from core.edits.typed import Typed, parameters_of
 from core.geometry.normal_view import EyeTriangles, NormalView
 from core.methods import Method
 from core.records.arrays import Floats
+from core.settings import Settings
 
+TRIANGLE = 3
 SHAPE = (("number",) * 3, "number", "flag")
 WORDS = "N, its product with V, and whether the triangle is dropped"
 
@@ -57,6 +59,13 @@ def look_inputs(typed: Typed, corners: Floats, given: Floats, carry: Floats, see
         "is_parallel": seen.is_parallel,
     }
     return [known[name] for name in parameters_of(typed.of)]
+
+
+def cull_is_passed_over(settings: Settings, scene: Any) -> str:
+    """Return why an edited back-face test would not run."""
+    if scene is not None and scene.corner_count > TRIANGLE:
+        return "A polygon is culled by the sign of its area."
+    return ""
 
 
 def check_cull(typed: Typed) -> None:

@@ -85,6 +85,7 @@ EDITABLE = {
             "cull",
             culling.check_cull,
             culling.edited_cull,
+            passed_over=culling.cull_is_passed_over,
             refused={"none": "No face is dropped.", "back": _BY_AREA, "front": _BY_AREA},
         ),
         Part(
@@ -138,6 +139,7 @@ EDITABLE = {
             shading.check_shading,
             shading.edited_shading,
             function=_light_of,
+            passed_over=shading.shading_is_passed_over,
             refused={
                 "gouraud": _AT_VERTICES,
                 "flat": _AT_VERTICES,

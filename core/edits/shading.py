@@ -12,6 +12,7 @@ from core.fragments.lighting import Reflectance, Surface, plain_lights, plain_ma
 from core.methods import Method
 from core.records.arrays import Floats
 from core.scene import Light, Material
+from core.settings import Settings
 
 SHAPE = (("number",) * 3, ("number",) * 3)
 WORDS = "diffuse and specular light, three numbers each"
@@ -50,6 +51,13 @@ class TypedShading(LightRule):
 
 def _components(vectors: Floats) -> list[Floats]:
     return [np.ascontiguousarray(vectors[:, axis]) for axis in range(3)]
+
+
+def shading_is_passed_over(settings: Settings, scene: Any) -> str:
+    """Return why an edited light would not run."""
+    if scene is not None and scene.program is not None:
+        return "The shaders of the scene light it."
+    return ""
 
 
 def check_shading(typed: Typed) -> None:

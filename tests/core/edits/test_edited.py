@@ -32,6 +32,7 @@ from core.methods import table
 from core.pixel_history import why
 from core.records.listing import EditedListing
 from core.settings import families
+from core.shaders.presets import preset_program
 from lessons.mistakes import clipping, coverage, depths, fragments, lighting, lines, textures
 from lessons.mistakes.twin import line_pixels
 from lessons.scenes import make_scene
@@ -252,6 +253,9 @@ def test_what_would_pass_an_edit_over_is_refused_with_a_sentence(name):
         ("depth_test", "shared-edge", {"visibility": "painters"}, "only the depth buffer"),
         ("depth_test", "depth-table", {}, "has its own"),
         ("blend", "segment", {"line": "wu"}, "blend over"),
+        ("cull", "polygon-holes", {}, "sign of its area"),
+        ("shading", "shared-edge", {}, "no lights"),
+        ("texture_filter", "cube", {}, "no texture"),
     ],
 )
 def test_scenes_and_settings_that_would_not_run_an_edit_say_so(part, scene, changes, words):
@@ -362,6 +366,14 @@ def test_the_classical_error_of_culling_is_an_edit_of_a_line():
     np.testing.assert_array_equal(trace(scene, turned).stage("cull").extra["culled"].drops, right.side > 0)
     said = [sentence(found.explain(k), -1, None) for k in range(1, found.steps.count + 1)]
     assert any(text.startswith("Line 7: product = ") for text in said)
+
+
+def test_a_light_of_shaders_is_not_edited():
+    scene = replace(make_scene("cube"), size=(16, 16))
+    shaders = replace(scene, program=preset_program("phong", scene))
+    ours = apply_edit(Settings(), Edit("shading", "phong", original("shading", "phong").source))
+    with pytest.raises(ValueError, match="the shaders of the scene light it"):
+        render(shaders, ours)
 
 
 LIGHTS = {
