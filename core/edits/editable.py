@@ -75,9 +75,6 @@ EDITABLE = {
             "line",
             lines.check_line,
             lines.edited_line,
-            refused={
-                "diamond-exit": "Its listing computes with fractions, which are not in the language of listings."
-            },
         ),
         Part(
             "cull",

@@ -16,8 +16,6 @@ OpenGL 4.6 (core profile), 14.5.1 "Basic Line Segment Rasterization".
 """
 
 from dataclasses import dataclass
-from fractions import Fraction
-from math import ceil, floor
 
 import numpy as np
 
@@ -158,49 +156,46 @@ def _judge(course: _Course, owner: Integers, k: Integers, last_pixel: bool) -> _
     return _Verdict(minor, is_drawn, offset, is_tie | is_edge.any(axis=1), exits[:, 0], exits[:, 1])
 
 
-def _rounded(number: float, parts: int) -> Fraction:
-    return Fraction(round(number * parts), parts)
-
-
 def diamond_exit_listing(x0: float, y0: float, x1: float, y1: float, last_pixel: bool) -> Listed:
-    """List the pixels of ``diamond-exit`` on one segment, exactly; pixel centres are whole numbers."""
-    ends = (x0, y0, x1, y1)
-    u0, v0, u1, v1 = [_rounded(end, END_SUBPIXELS) for end in ends]
-    a, b, c, d = [_rounded(end, SUBPIXELS) for end in ends]
+    """List the pixels of ``diamond-exit`` on one segment, in whole numbers; pixel centres are whole numbers."""
+    u0, v0, u1, v1 = [round(end * END_SUBPIXELS) for end in (x0, y0, x1, y1)]
+    a, b, c, d = [round(end * SUBPIXELS) for end in (x0, y0, x1, y1)]
     is_steep = abs(v1 - v0) > abs(u1 - u0)  #: octant
     if is_steep:
         u0, v0, u1, v1 = v0, u0, v1, u1
         a, b, c, d = b, a, d, c
     s = -1 if u1 < u0 else 1
-    m, half = Fraction(0), Fraction(1, 2)
-    if c != a:
-        m = min(max((d - b) / (c - a), Fraction(-1)), Fraction(1))
-
-    def is_through(u: Fraction, v: Fraction) -> bool:
-        through = s * (u - x) + abs(v - y)
-        if through == half:
-            return v <= y if is_steep else s < 0
-        return through > half
-
-    def is_reached(u: Fraction, v: Fraction) -> bool:
-        reach = abs(v - y) - s * (u - x)
-        if reach == half:
-            return v > y if is_steep else s < 0
-        return reach < half
-
+    run, rise = (c - a, d - b) if c > a else (a - c, b - d) if c < a else (1, 0)
+    rise = min(max(rise, -run), run)
     pixels = []
-    first, last = ceil(min(u0, u1) - half), floor(max(u0, u1) + half)
+    first = -((END_SUBPIXELS - 2 * min(u0, u1)) // (2 * END_SUBPIXELS))
+    last = (2 * max(u0, u1) + END_SUBPIXELS) // (2 * END_SUBPIXELS)
     for x in range(first, last + 1)[::s]:  #: column
-        height = b + (x - a) * m
-        is_lower = height + half == floor(height + half) and (is_steep or m <= 0)
-        y = floor(height + half) - is_lower  #: round
-        begins = not is_through(u0, v0)
-        leaves = begins and is_through(u1, v1)
-        ends_here = last_pixel and begins and is_reached(u1, v1)
+        height, unit = b * run + (x * SUBPIXELS - a) * rise, SUBPIXELS * run
+        is_lower = (2 * height + unit) % (2 * unit) == 0 and (is_steep or rise <= 0)
+        y = (2 * height + unit) // (2 * unit) - (1 if is_lower else 0)  #: round
+        u, v = x * END_SUBPIXELS, y * END_SUBPIXELS
+        begins = not is_through(u0 - u, v0 - v, s, is_steep)
+        leaves = begins and is_through(u1 - u, v1 - v, s, is_steep)
+        ends_here = last_pixel and begins and is_reached(u1 - u, v1 - v, s, is_steep)
         if leaves or ends_here:  #: leaves
-            place = (y, x) if is_steep else (x, y)
-            pixels.append((*place, float(height - y)))  #: draw
+            above = (height - y * unit) / unit
+            pixels.append((y, x, above) if is_steep else (x, y, above))  #: draw
     return pixels
+
+
+def is_through(across: int, up: int, s: int, is_steep: bool) -> bool:
+    """Return whether an end, so far from a pixel's centre, lies behind its diamond; in 1/END_SUBPIXELS pixel."""
+    through = 2 * (s * across + abs(up))
+    on_border = up <= 0 if is_steep else s < 0
+    return on_border if through == END_SUBPIXELS else through > END_SUBPIXELS
+
+
+def is_reached(across: int, up: int, s: int, is_steep: bool) -> bool:
+    """Return whether the line enters the diamond of a pixel's centre before such an end."""
+    reach = 2 * (abs(up) - s * across)
+    on_border = up > 0 if is_steep else s < 0
+    return on_border if reach == END_SUBPIXELS else reach < END_SUBPIXELS
 
 
 @method(

@@ -98,9 +98,9 @@ def test_texts_that_do_not_run_are_kept_with_their_message(state, tmp_path):
     ):
         assert re.search(words + r"\. Edit opens it\.$", note), note
     kept = json.loads(path.read_text(encoding="utf-8"))
-    kept["look"]["drafts"][0]["of"] = "diamond-exit"
+    kept["look"]["drafts"][0] |= {"part": "depth", "of": "fixed-38"}
     path.write_text(json.dumps(kept), encoding="utf-8")
-    with pytest.raises(StateFileError, match=r"look\.drafts: Its listing computes with fractions"):
+    with pytest.raises(StateFileError, match=r"look\.drafts: It compares whole numbers"):
         load_state(path)
 
 
