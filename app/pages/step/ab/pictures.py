@@ -208,7 +208,18 @@ def _common_range(a: GridBuffer, b: GridBuffer) -> tuple[float, float] | None:
 
 
 DIFFERING = {
+    "applies": "which test drops it",
+    "verdict": "the verdict",
+    "drops": "the verdict",
+    "weights": "the weights",
     "color": "the colour",
+    "albedo": "the albedo",
+    "texture_color": "the texture's colour",
+    "diffuse_light": "the diffuse light",
+    "specular_light": "the specular light",
+    "decision": "the number that decides",
+    "kept_start": "the end that is left",
+    "kept_end": "the end that is left",
     "covered": "coverage",
     "values": "the interpolated values",
     "passes": "the result of the depth test",
