@@ -118,6 +118,7 @@ class ShaderPane(QWidget):
         column = column_layout(content, 0)
         self._rows = QGridLayout()
         self._rows.setContentsMargins(0, 4, 4, 4)
+        self._rows.setHorizontalSpacing(8)
         column.addLayout(self._rows)
         column.addStretch(1)
         self._uniforms.setWidget(content)

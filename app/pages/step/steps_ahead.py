@@ -19,6 +19,7 @@ from core.explain import (
     variables,
 )
 from core.explain.steps import load_subjects
+from core.explain.subjects.shaders import statements_summary
 from core.records.steps import Level
 from core.trace.tracers import load_tracers
 from widgets.inspector.formula_view import Formula, FormulaView
@@ -36,6 +37,8 @@ def sentence_at(step: Step) -> str:
     if row < 0:
         return initial_sentence(trace.stage, trace.corner_count)
     first = trace.steps.rows_done(trace.steps.back(step.cursor.position, level))
+    if level <= Level.GROUP and row > first and "statement" in trace.steps.kinds:
+        return statements_summary(trace, first, row, level)
     if level <= Level.GROUP and row > first:
         counts = trace.summary(first, row + 1)
         said = summary_sentence(trace.stage, level, counts, step.triangle, trace.corner_count, trace.method)

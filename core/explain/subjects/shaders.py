@@ -3,12 +3,16 @@
 import re
 from dataclasses import replace
 
+import numpy as np
+
 from core.explain.formulas import formula_of
 from core.explain.records import Formula
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
 from core.explain.typed_latex import stated
+from core.records.steps import Level
 from core.records.words import joined
+from core.trace import StageTrace
 
 LONGEST_CELL = 60
 """Signs of a cell with its numbers: beyond them vectors keep their names."""
@@ -26,6 +30,27 @@ def vertex_statement(step: StepValues) -> Said:
 def fragment_statement(step: StepValues) -> Said:
     """A statement of the fragment shader."""
     return _told(step, "fragments")
+
+
+def statements_summary(trace: StageTrace, first: int, row: int, level: Level) -> str:
+    """Say what a step did that is larger than one row of a shader: its rows are from ``first`` to ``row``."""
+    rows = first + np.flatnonzero(trace.steps.kind[first : row + 1] == trace.steps.kinds.index("statement"))
+    what = ("vertex", "vertices") if trace.stage == "transform" else ("fragment", "fragments")
+    triangles = np.unique(trace.triangle[first : row + 1])
+    who = f"Triangle {triangles[0]}" if len(triangles) == 1 else "All triangles"
+    if level == Level.STAGE:
+        who = "Whole stage"
+    if not len(rows):
+        return f"{who}: a {what[0]} is divided by w and goes to the window."
+    lanes = len(np.unique(trace.columns["lane"][rows]))
+    numbers = np.unique(trace.columns["lane_number"][rows])
+    if level == Level.GROUP and len(numbers) == 1 and lanes > 1:
+        line, live, of_triangle = (int(trace.columns[name][rows[0]]) for name in ("line", "live", "lanes"))
+        code = trace.listings["statement"].source.splitlines()[line - 1].strip()
+        count = f"{live:,} of {of_triangle:,} {what[1]}"
+        return f"Line {line} runs for {count} of triangle {triangles[0]} together: {code}"
+    counts = f"{len(rows):,} statements of {lanes:,} {what[lanes != 1]}"
+    return f"{who}: {counts}."
 
 
 def _told(values: StepValues, what: str) -> Said:

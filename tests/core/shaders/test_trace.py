@@ -8,6 +8,7 @@ import pytest
 
 from core import Settings, render, trace
 from core.explain.steps import formula, sentence, variables
+from core.explain.subjects.shaders import statements_summary
 from core.records.listing import ShaderListing
 from core.records.steps import Level
 from core.shaders.presets import TASK_FRAGMENT, TASK_VERTEX
@@ -164,6 +165,23 @@ c = vec4(last);
         assert len(read[11]) + len(read[12]) == len(np.unique(stage.columns["lane"]))
     said = _sentences(stage, rows[:1])[0]
     assert said.endswith("k: read before it has a value. GLSL leaves it open, here it is 0.")
+
+
+def test_a_larger_step_counts_statements_and_lanes():
+    for lanes, level, said in (
+        (
+            "together",
+            Level.GROUP,
+            "Line 8 runs for 36 of 36 fragments of triangle 0 together: vec2 p = vUv - 0.5;",
+        ),
+        ("one", Level.GROUP, "Triangle 0: 4 statements of 1 fragment."),
+        ("one", Level.STAGE, "Whole stage: 444 statements of 36 fragments."),
+    ):
+        stage = trace(square_scene(BRANCHES), Settings(), 0, lanes=lanes).stage("shade")
+        row = stage.steps.rows_done(stage.steps.forward(0, level)) - 1
+        assert statements_summary(stage, 0, row, level) == said
+    stage = trace(tutorial_scene(), Settings(), 0).stage("transform")
+    assert statements_summary(stage, 2, 3, Level.GROUP).startswith("Triangle 0: a vertex is divided by w")
 
 
 def test_the_vertex_shader_is_stepped_before_the_division():
