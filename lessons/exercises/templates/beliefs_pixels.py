@@ -53,13 +53,13 @@ def draw_sample_point(draws: Draws) -> Draft | None:
     """The pixel's name is its sample point."""
     column, row = draws.whole(1, 6), draws.whole(1, 4)
     refutation = Refutation(
-        f"Pixel ({column}, {row}) reaches from its lower left corner to the next, and its centre is sampled.",
+        f"Pixel ({column}, {row}) reaches from its lower left corner to the next, and its centre is tested.",
         triangle_scene([[(0, 0), (11, 0), (0, 9)]], SIZE),
         "raster",
         f"column == {column} and row == {row} and x == {column}.5 and y == {row}.5",
         TESTED,
     )
-    text = f"Where in the window is pixel ({column}, {row}) sampled, with one sample a pixel?"
+    text = f"At which point of the window is pixel ({column}, {row}) tested, with one test a pixel?"
     hints = (
         "Which point of a pixel is tested?",
         "A pixel is 1 wide: where does it begin, where is its middle?",
@@ -244,7 +244,7 @@ def draw_block(draws: Draws) -> Draft | None:
 
 TEMPLATES = (
     Template("belief-little-square", 2, "Is a pixel a little square?", "raster", 1, draw_square),
-    Template("belief-sample-point", 1, "Where is a pixel sampled?", "raster", 1, draw_sample_point),
+    Template("belief-sample-point", 1, "Where is a pixel tested?", "raster", 1, draw_sample_point),
     Template("belief-rounding", 2, "Does rounding remove cracks?", "edges", 1, draw_rounding),
     Template("belief-tie", 2, "Which pixel does D choose?", "raster", 1, draw_tie),
     Template("belief-two-steps", 2, "Two steps up in a row?", "raster", 1, draw_two_steps),
