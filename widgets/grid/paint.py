@@ -26,6 +26,8 @@ CENTRE_CELL = 12.0
 """Side from which sample centres are drawn."""
 NUMBER_CELL = 40.0
 """Side from which values are written into the cells, if they fit."""
+_LINE_ROOM = 4.0
+"""What a line along the border of the picture takes of the rulers."""
 NUMBER_PART = 0.45
 """Size of small whole numbers relative to their cells."""
 _GAP = 5.0
@@ -356,7 +358,13 @@ def rulers_of(placement: GridPlacement, area: QRect, theme: Theme) -> Rulers:
         boxes = [box for box, _ in labels if (box.top() >= picture.bottom()) is is_below]
         # One gap for a whole ruler: a line is not broken at each of its numbers.
         strip = reduce(QRectF.united, boxes, QRectF())
-        for box in boxes if strip.intersects(picture) else [strip]:
+        if not strip.intersects(picture):
+            # A line along the border of the picture keeps its width.
+            border = picture.adjusted(-_LINE_ROOM, 0, 0, _LINE_ROOM)
+            strip.setTop(max(strip.top(), border.bottom() if is_below else strip.top()))
+            strip.setRight(min(strip.right(), strip.right() if is_below else border.left()))
+            boxes = [strip]
+        for box in boxes:
             beside -= QRegion(box.toAlignedRect())
     return Rulers(labels, beside)
 

@@ -46,8 +46,19 @@ def test_no_line_crosses_the_numbers_of_the_rulers(qtbot) -> None:
         after = picture(widget)
         assert after != before
         for box in columns:
-            area = box.toRect()
+            area = box.adjusted(0, 4, 0, 0).toRect()  # A line along the border keeps its width.
             assert after.copy(area) == before.copy(area)
+
+
+def test_an_edge_along_the_border_of_the_picture_keeps_its_width(qtbot) -> None:
+    widget = PixelGrid()
+    qtbot.addWidget(widget)
+    widget.resize(700, 500)
+    widget.show_buffer(GridBuffer("coverage", np.zeros((3, 4), bool)))
+    widget.show_geometry(GridGeometry(np.array([[0.0, 0], [4, 0], [0, 3]]), np.array([[0, 1, 2]])))
+    image, place = picture(widget), widget.placement()
+    casing = [image.pixelColor(round(place.left) - 2, y).lightness() < 64 for y in range(60, 440)]
+    assert all(casing)
 
 
 def test_the_rulers_say_what_they_count_where_there_is_room(qtbot) -> None:
