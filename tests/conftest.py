@@ -13,8 +13,10 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 from hypothesis.internal.conjecture import providers
+from pytestqt.qtbot import QtBot
 
 from tests.families import in_families
+from tests.patience import PatientBot
 
 # Rewriting the assertions of hundreds of files makes millions of objects: until the tests are collected nothing
 # searches for garbage, which took a third of the time.
@@ -107,6 +109,12 @@ def pytest_terminal_summary(config: pytest.Config) -> None:
     if config.getoption("--all"):
         seed = config.getoption("--hypothesis-seed")
         print(f"\nDraw these random examples again with: --all --hypothesis-seed={seed}")
+
+
+@pytest.fixture
+def qtbot(qapp: object, request: pytest.FixtureRequest) -> QtBot:
+    """Return pytest-qt's robot, with more patience."""
+    return PatientBot(request)
 
 
 @pytest.fixture(scope="session")

@@ -17,6 +17,7 @@ from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import Trace
 from lessons.scenes import built_in_scene
+from tests.patience import PATIENCE
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import LIGHT, current_theme
 
@@ -33,7 +34,7 @@ def shown_window(application: QApplication) -> Iterator[MainWindow]:
     made.session.set_stage("raster", 4000)  # before it is painted
     made.show()
     made.activateWindow()
-    assert QTest.qWaitForWindowActive(made)
+    assert QTest.qWaitForWindowActive(made, PATIENCE)
     yield made
     with pytest.MonkeyPatch.context() as patch:
         # Who closes while presenting comes back to the desk first, and a window that goes need not be styled for it.
@@ -85,7 +86,7 @@ def kept_window(window_of_module: tuple[MainWindow, State, Trace], qtbot: QtBot)
     made, before, trace = window_of_module
     made.show()
     made.activateWindow()
-    assert QTest.qWaitForWindowActive(made)
+    assert QTest.qWaitForWindowActive(made, PATIENCE)
     yield made
     made.hide()
     put_back(made, before, trace)

@@ -26,7 +26,7 @@ def test_many_parts_are_drawn_at_once_and_once_more(page: QWidget, qtbot: QtBot)
     for _ in range(400):
         pace.ask()
     assert len(drawn) == 1, "the first is drawn without waiting"
-    qtbot.waitUntil(lambda: len(drawn) == 2, timeout=20 * PAUSE)
+    qtbot.waitUntil(lambda: len(drawn) == 2)
     qtbot.wait(2 * PAUSE)
     assert len(drawn) == 2, "after the last part nothing is drawn again"
 

@@ -144,7 +144,7 @@ def test_nor_does_it_after_tracing_in_the_background(
         session.edit(wanted, "drag")
         qtbot.waitUntil(lambda wanted=wanted: session.document is wanted and not session.tracing.is_busy)
         assert examined == [{4}]
-        qtbot.waitUntil(lambda earlier=earlier: not any_is_left(earlier), timeout=5000)
+        qtbot.waitUntil(lambda earlier=earlier: not any_is_left(earlier))
         earlier = references(session.trace, "raster")
     session.tracing.shut_down()
 
@@ -175,7 +175,7 @@ def test_while_the_triangle_in_focus_is_dragged_it_alone_is_traced(
 def test_a_drag_that_rests_is_traced_whole_by_itself(qtbot: QtBot, session: Session) -> None:
     session.open(replace(session.document, triangle=4))
     session.drag(dragged(session.document, 4, 10.0), "drag")
-    with qtbot.waitSignal(session.changed, timeout=5000):
+    with qtbot.waitSignal(session.changed):
         pass
     assert_traced_as_from_nothing(session)
     session.come_to_rest()

@@ -154,7 +154,7 @@ def test_the_window_shows_the_work_and_cancels_it(window: MainWindow, qtbot: QtB
         before, raster=replace(before.raster, columns=56, rows=42, origin=None), settings=settings
     )
     window.edits.edit(whole)
-    qtbot.waitUntil(window.messages.isVisible, timeout=5000)
+    qtbot.waitUntil(window.messages.isVisible)
     assert window.messages.text.text() == "Tracing Knot"
     window.messages.cancel_button.click()
     assert not window.session.tracing.is_busy

@@ -57,7 +57,7 @@ def show(qtbot):
 
 def rested(qtbot, views: StageViews) -> None:
     """Wait until the 3D view shows the newest picture."""
-    qtbot.waitUntil(lambda: not views.is_drawing, timeout=10000)
+    qtbot.waitUntil(lambda: not views.is_drawing)
 
 
 def drag(widget, start: QPoint, end: QPoint) -> None:

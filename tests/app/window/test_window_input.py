@@ -259,7 +259,7 @@ def test_playing_goes_to_the_end_and_stops(window: MainWindow, qtbot: QtBot) -> 
     session.go_to(0)
     window.page.timeline.show_speed(60)
     window.run_action("toggle_play")
-    qtbot.waitUntil(lambda: not window.page.timeline.is_playing(), timeout=5000)
+    qtbot.waitUntil(lambda: not window.page.timeline.is_playing())
     assert session.cursor.position == session.stage_trace.steps.count
 
 

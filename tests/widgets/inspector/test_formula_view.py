@@ -108,7 +108,7 @@ def view(qtbot) -> FormulaView:
 
 
 def wait_for_typesetting(qtbot, view: FormulaView) -> None:
-    qtbot.waitUntil(view.is_complete, timeout=5000)
+    qtbot.waitUntil(view.is_complete)
 
 
 def pixels(image: QImage) -> np.ndarray:

@@ -189,7 +189,7 @@ def test_playing_asks_for_steps_in_time_and_stops_at_the_end(qtbot, timeline) ->
     timeline.show_position(509)
     qtbot.mouseClick(timeline.play_button, Qt.MouseButton.LeftButton)
     assert timeline.play_button.accessibleName() == "Pause"
-    qtbot.waitUntil(lambda: position[0] == 512, timeout=3000)
+    qtbot.waitUntil(lambda: position[0] == 512)
     assert steps == [1, 1, 1]
     assert not timeline.is_playing()
     assert timeline.play_button.accessibleName() == "Play"

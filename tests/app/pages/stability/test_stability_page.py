@@ -77,7 +77,7 @@ def test_cancelling_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot)
     before = run(page, qtbot)
     page.results.choice.resolution = "fine"
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    qtbot.waitUntil(lambda: page.maps.canvas.record is not None and page.results.is_partial, timeout=10000)
+    qtbot.waitUntil(lambda: page.maps.canvas.record is not None and page.results.is_partial)
     page.maps.canvas.cell_chosen.emit(CellPlace(EXCLUSIVE, 18, 0))
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
     assert not page.results.is_running

@@ -23,6 +23,7 @@ from core.lanes.limits import LISTING
 from core.records.steps import Level
 from core.trace.stage_trace import StageTrace
 from lessons.scenes import make_scene
+from tests.patience import PATIENCE
 from widgets.inspector.listing_editor import ListingEditor
 from widgets.inspector.listing_pane import A, B, ListingPane
 
@@ -34,7 +35,7 @@ def pane_of(window: MainWindow) -> ListingPane:
 
 
 def wait(holds: Callable[[], object]) -> None:
-    end = monotonic() + 60
+    end = monotonic() + PATIENCE / 1000
     while not holds():
         assert monotonic() < end, f"this has not come: {getsource(holds).strip()}"
         QTest.qWait(10)

@@ -135,7 +135,7 @@ def test_a_typed_segment_is_stepped_in_six_actions_and_clipped_in_three_more(
 
     (card,) = [card for card in window.pages.current.cards.cards if card.entry.name == "segment"]
     act(card.click)
-    qtbot.waitUntil(lambda: session.document.title == "Segment", timeout=10000)
+    qtbot.waitUntil(lambda: session.document.title == "Segment")
     act(lambda: qtbot.keyClick(window, Qt.Key.Key_S))
     act(lambda: type_end("corner/0/0/x", "2.5, 3.5"))
     act(lambda: type_end("corner/0/1/x", "20.5, 10.5"))

@@ -38,7 +38,7 @@ def _type(window, qtbot, stage, text):
     editor = window.page.shader_pane.editor(stage)
     cursor = QTextCursor(editor.document())
     cursor.select(QTextCursor.SelectionType.Document)
-    with qtbot.waitSignal(window.page.shader_pane.source_settled, timeout=5000):
+    with qtbot.waitSignal(window.page.shader_pane.source_settled):
         cursor.insertText(text)
     window.page.settle()
 
@@ -92,7 +92,7 @@ def test_a_mistake_leaves_the_picture_and_is_marked_at_its_place(lab, qtbot):
 
 def test_an_endless_loop_is_refused_in_a_sentence(lab, qtbot):
     program = _program(lab)
-    with qtbot.waitSignal(lab.page.shader_pane.source_settled, timeout=5000):
+    with qtbot.waitSignal(lab.page.shader_pane.source_settled):
         lab.page.shader_pane.editor("fragment").setPlainText(
             TASK_FRAGMENT.replace("void main() {", "void main() { while (true) { }")
         )
@@ -105,7 +105,7 @@ def test_an_endless_loop_is_refused_in_a_sentence(lab, qtbot):
 def test_a_trial_runs_in_the_background_and_escape_stops_it(lab, qtbot):
     pane, program = lab.page.shader_pane, _program(lab)
     editor = pane.editor("fragment")
-    with qtbot.waitSignal(pane.source_settled, timeout=5000):
+    with qtbot.waitSignal(pane.source_settled):
         editor.setPlainText(
             TASK_FRAGMENT.replace(
                 "void main() {",
@@ -122,7 +122,7 @@ def test_a_trial_runs_in_the_background_and_escape_stops_it(lab, qtbot):
     # What was typed stays, and another key tries it again; undo of the document ends the trial.
     assert "900" in editor.toPlainText()
     lab.session.set_setting("interpolation", "affine")
-    with qtbot.waitSignal(pane.source_settled, timeout=5000):
+    with qtbot.waitSignal(pane.source_settled):
         editor.insertPlainText(" ")
     assert lab.page.shading.is_working
     assert lab.page.dismiss()
@@ -131,7 +131,7 @@ def test_a_trial_runs_in_the_background_and_escape_stops_it(lab, qtbot):
 
 def test_shaders_are_taken_over_beside_what_is_open_by_then(lab, qtbot):
     changed = TASK_FRAGMENT.replace("vec4(vColor, 1.0)", "vec4(vColor.bgr, 1.0)")
-    with qtbot.waitSignal(lab.page.shader_pane.source_settled, timeout=5000):
+    with qtbot.waitSignal(lab.page.shader_pane.source_settled):
         lab.page.shader_pane.editor("fragment").setPlainText(changed)
     lab.session.set_setting("interpolation", "affine")
     lab.page.settle()
@@ -254,15 +254,13 @@ def test_shaders_beside_the_built_in_shading_and_beside_others(lab, qtbot):
     qtbot.waitUntil(lambda: _program(lab) is not None)
     _choose(pane._beside, "")
     comparing = lab.page.comparing
-    qtbot.waitUntil(lambda: comparing.second is not None, timeout=10_000)
+    qtbot.waitUntil(lambda: comparing.second is not None)
     assert comparing.other.shading == "phong"
     mine, other = (step.source.surface.color for step in (lab.session.trace, comparing.second.trace))
     np.testing.assert_allclose(mine, other, atol=1e-6)
     assert comparing._b.titles(lab.session.document) == ("Phong shading", "Built-in Phong shading")
     _choose(pane._beside, "toon")
-    qtbot.waitUntil(
-        lambda: comparing._b.title == "Toon shading" and comparing.second is not None, timeout=10_000
-    )
+    qtbot.waitUntil(lambda: comparing._b.title == "Toon shading" and comparing.second is not None)
     assert pane._beside.currentIndex() == 0
 
 
@@ -360,9 +358,9 @@ def test_typing_has_an_undo_of_its_own(lab, qtbot):
     editor = lab.page.shader_pane.editor("fragment")
     editor.setFocus()
     editor.moveCursor(QTextCursor.MoveOperation.Start)
-    with qtbot.waitSignal(lab.page.shader_pane.source_settled, timeout=5000):
+    with qtbot.waitSignal(lab.page.shader_pane.source_settled):
         QTest.keyClicks(editor, "xx")
     assert editor.toPlainText() == f"xx{TASK_FRAGMENT}"
-    with qtbot.waitSignal(lab.page.shader_pane.source_settled, timeout=5000):
+    with qtbot.waitSignal(lab.page.shader_pane.source_settled):
         QTest.keyClick(editor, Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
     assert editor.toPlainText() == TASK_FRAGMENT

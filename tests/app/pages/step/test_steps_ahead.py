@@ -25,7 +25,7 @@ def test_a_step_finds_its_formula_typeset(qtbot: QtBot) -> None:
     session.set_stage("edges", 0)
     session.set_level(Level.OPERATION)
     ahead.begin(session.moment)
-    qtbot.waitUntil(lambda: not ahead.is_working, timeout=10000)
+    qtbot.waitUntil(lambda: not ahead.is_working)
     for _ in range(STEPS_AHEAD):
         session.step(1)
         explanation = session.explanation
@@ -63,7 +63,7 @@ def test_a_step_of_another_run_is_prepared_after_those_of_this_one(qtbot: QtBot)
     step = Step(other, Cursor("raster", 7))
     filled: list[bool] = []
     ahead.look_at(step, lambda: filled.append(view.is_complete()))
-    qtbot.waitUntil(lambda: bool(filled), timeout=10000)
+    qtbot.waitUntil(lambda: bool(filled))
     explanation = step.explanation
     assert explanation is not None
     view.show_formula(formula(explanation))
