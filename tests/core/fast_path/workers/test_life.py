@@ -129,7 +129,7 @@ def memory_of(pid: int) -> set[str]:
     return {path.name for path in SHARED_FOLDER.glob(f"{memory_prefix(pid)}*")}
 
 
-def is_gone(pid: int, but: set[str] | None = None, seconds: float = 5.0) -> bool:
+def is_gone(pid: int, but: set[str] | None = None, seconds: float = 60.0) -> bool:
     """Tell whether no shared memory of a process has a name, ``but`` these, at once or soon."""
     deadline = time.monotonic() + seconds
     while time.monotonic() < deadline:
@@ -224,7 +224,7 @@ def is_running(pid: int) -> bool:
     return True
 
 
-def has_ended(pid: int, seconds: float = 10.0) -> bool:
+def has_ended(pid: int, seconds: float = 60.0) -> bool:
     deadline = time.monotonic() + seconds
     while is_running(pid) and time.monotonic() < deadline:
         time.sleep(0.02)
