@@ -167,7 +167,7 @@ def test_a_table_stands_where_it_can_be_read_and_the_picture_is_larger(
     window.session.open(open_document(row.make(), row.title, settings=settings_from_texts(row.settings)))
     session, area = window.session, window.page.main_area
     places = set()
-    for position in range(0, session.trace.stage("raster").steps.count, 4):
+    for position in range(0, session.trace.stage("raster").steps.count, 12):
         session.set_stage("raster", position)
         QApplication.processEvents()
         places.add((area.beside.x() > 0, area.beside.y() > 0))

