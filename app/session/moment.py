@@ -65,8 +65,8 @@ class Step:
 
     @cached_property
     def row_and_operation(self) -> tuple[int, int]:
-        """The row and the operation just done; -1 and -1 before the first one."""
-        return self.steps.row_at(self.cursor.position)
+        """The row and the operation just done; -1 and -1 before the first one, which takes no trace."""
+        return (-1, -1) if self.cursor.position == 0 else self.steps.row_at(self.cursor.position)
 
     @property
     def row(self) -> int:

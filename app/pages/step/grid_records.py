@@ -198,7 +198,8 @@ def edge_overlays(step: Step, geometry: GridGeometry) -> list[Overlay]:
 def block_overlays(step: Step) -> list[Overlay]:
     """Return the boxes and blocks that binning has tested so far (all of them in later stages)."""
     stage, trace = step.stage_trace, step.trace
-    if stage.stage != "bin" and (stage.stage != "raster" or step.is_predicting):
+    blocks = trace.source.runs.blocks if stage.stage in ("bin", "raster") else None
+    if stage.stage != "bin" and (blocks is None or step.is_predicting):
         # An accepted block tells which pixels are covered.
         return []
     bins = trace.stage("bin")
@@ -211,7 +212,6 @@ def block_overlays(step: Step) -> list[Overlay]:
     left, bottom = np.maximum(columns["column"], first_column), np.maximum(columns["row"], first_row)
     right, top = np.minimum(columns["column_end"], end_column), np.minimum(columns["row_end"], end_row)
     boxes = np.stack([left - first_column, bottom - first_row, right - left, top - bottom], axis=1)[:done]
-    blocks = trace.source.runs.blocks
     states = [
         STATES[int(blocks.verdict[node])] if blocks is not None and node >= 0 else BlockState.SPLIT
         for node in columns["node"][:done]

@@ -1,7 +1,7 @@
 """The states of a lesson on the Step page: traced off the GUI thread, the next one ahead, each one entry of undo."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from threading import Lock
 from typing import TYPE_CHECKING
@@ -37,6 +37,8 @@ class OpenState:
     document: Document
     trace: Trace
     cursor: Cursor
+    second: tuple[Document, Trace] | None
+    """What side B draws, with its trace; ``None``: it has no B, or none that can be drawn."""
     asked: LessonQuestion | None = None
 
 
@@ -122,7 +124,7 @@ class LessonStates(QObject):
         page.grids.look_only_at(shown.cursor.stage, state.buffer)
         page.comparing.look_only_at(shown.cursor.stage, state.buffer)
         before = session.moment
-        with page.comparing.held():
+        with page.comparing.held(shown.second):
             if session.document is shown.document:
                 session.jump(shown.cursor, state.pixel, is_hidden)
             else:
@@ -155,27 +157,39 @@ class LessonStates(QObject):
             page.show_own_view()
 
 
-def _settings(state: State) -> Settings:
-    """Return the settings of A: beside a listing as printed, those under which both run the same listing."""
+def _both_settings(state: State) -> tuple[Settings, Settings | None]:
+    """Return the settings of A and B: beside a listing as printed, those under which both run the same listing."""
     if not state.printed:
-        return state.settings
+        return state.settings, state.other
     raster = TeachingRaster(*state.scene.size)
-    mine, _ = settings_of(state.printed, Document(state.scene, raster, state.settings))
-    return mine
+    return settings_of(state.printed, Document(state.scene, raster, state.settings))
+
+
+def _second(document: Document, stage: str, other: Settings, earlier: Trace) -> tuple[Document, Trace] | None:
+    """Trace what B draws up to a stage; ``None`` where it cannot: A | B says why."""
+    second = replace(document, settings=other)
+    try:
+        second.check_length()
+        run = second.make_trace(earlier=earlier)
+        run.stage(stage)
+    except ValueError:
+        return None
+    return second, run
 
 
 def opened(state: State, asked: LessonQuestion | None, known: tuple[OpenState, ...]) -> OpenState:
     """Trace a state, or take the trace of a ``known`` one that has the same; ValueError where it cannot be opened."""
+    mine, other = _both_settings(state)
     for each in known:
         same = each.state.scene is state.scene and each.state.triangle == state.triangle
-        if same and each.document.settings == _settings(state) and each.document.edits == state.edits:
+        if same and each.document.settings == mine and each.document.edits == state.edits:
             document, run = each.document, each.trace
             break
     else:
         raster = TeachingRaster(*state.scene.size)
-        document = Document(
-            state.scene, raster, _settings(state), state.triangle, title=state.title, edits=state.edits
-        )
+        document = Document(state.scene, raster, mine, state.triangle, title=state.title, edits=state.edits)
         run = trace_now(document, state.stage)
     run.stage(state.stage)
-    return OpenState(state, document, run, cursor_at(state.place, run, Level.PIXEL), asked)
+    cursor = cursor_at(state.place, run, Level.PIXEL)
+    second = None if other is None else _second(document, cursor.stage, other, run)
+    return OpenState(state, document, run, cursor, second, asked)

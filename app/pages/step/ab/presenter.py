@@ -66,6 +66,8 @@ class ComparePresenter(QObject):
         self._fitting = ""
         """Name of the buffer that shows what an edit or a mistake does, where none was chosen; empty: the first one."""
         self._is_active = self._is_held = False
+        self._ready: tuple[Document, Trace] | None = None
+        """What B may draw, traced before it is wanted."""
         self._second: Trace | None = None
         """The run of B; ``None``: it cannot be drawn, is being drawn, or is not shown."""
         self._steps: LockStep | None = None
@@ -177,7 +179,7 @@ class ComparePresenter(QObject):
 
     def begin_anew(self, moment: Moment) -> None:
         """Forget what has no effect in a scene that was opened."""
-        self._goal, self._suggested = None, SideB()
+        self._goal, self._suggested, self._ready = None, SideB(), None
         self._chosen = None if self._chosen is None else self._chosen.opened_beside(moment.document)
 
     def _become(self, b: SideB | None, goal: Callable[[], object] | None = None) -> None:
@@ -244,13 +246,16 @@ class ComparePresenter(QObject):
             self._view.show_family(next(iter(self._b.differences)))
 
     @contextmanager
-    def held(self) -> Iterator[None]:
-        """Do nothing while another scene, another B and another view are chosen, then show both runs once."""
+    def held(self, ready: tuple[Document, Trace] | None = None) -> Iterator[None]:
+        """Do nothing while another scene, another B and another view are chosen, then show both runs once.
+
+        ``ready``: what B draws then, traced before.
+        """
         was_active, self._is_held = self._is_active, True
         try:
             yield
         finally:
-            self._is_held = False
+            self._is_held, self._ready = False, ready
             if self._is_active is was_active:
                 self.refresh(self._session.moment)
             else:
@@ -282,6 +287,10 @@ class ComparePresenter(QObject):
         self._view.show_settings(b.shown_settings(document), frozenset(b.differences))
         if (self._choice is None or b.edits) and b.differences:
             self._view.show_family(next(iter(b.differences)))
+
+        if self._ready is not None and self._ready[0].has_run_of(other):
+            self._take(self._ready[1])
+            return
 
         def work() -> Trace:
             """Trace B up to the stage that is shown."""

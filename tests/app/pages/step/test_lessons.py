@@ -1,7 +1,9 @@
 """Lessons on the Step page: what they open, hide, judge and notice; what was open before is there after them."""
 
+import sys
 from dataclasses import replace
 from pathlib import Path
+from types import FrameType
 
 import numpy as np
 import pytest
@@ -15,6 +17,8 @@ from app.files.attempts import attempt_file
 from app.pages.step.lesson_walk import LessonWalk
 from app.pages.step.looks import show_state
 from app.window.main_window import MainWindow
+from core.stages.vertices import process_geometry
+from core.trace.tracers import trace_stage
 from lessons.attempts.record import Attempt
 from lessons.exercises.scene_digest import scene_digest
 from tests.lessons.course.lesson_texts import GOOD
@@ -612,3 +616,27 @@ def test_a_file_of_an_exercise_is_none_of_a_lesson(window: MainWindow, tmp_path:
     path.write_text('question = "[[step]]"', encoding="utf-8")
     assert not is_lesson_file(str(path))
     assert not is_lesson_file(str(tmp_path / "none.toml"))
+
+
+def test_a_step_beside_another_method_traces_nothing_itself(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    text = GOOD.replace('at = "end", buffer', 'at = "end", other = { fill = "scanline" }, buffer')
+    assert text != GOOD
+    codes = {trace_stage.__code__, process_geometry.__code__}
+    found: list[str] = []
+
+    def look(frame: FrameType, event: str, _: object) -> None:
+        if event == "call" and frame.f_code in codes:
+            found.append(frame.f_code.co_name)
+
+    sys.setprofile(look)
+    try:
+        opened(window, qtbot, tmp_path, text=text)
+    finally:
+        sys.setprofile(None)
+    comparing = window.page.comparing
+    assert window.page.current_view() == "compare"
+    assert comparing.second is not None
+    assert comparing.second.trace.source.settings.fill == "scanline"
+    assert not found, "traced by the thread of the window"
