@@ -2,11 +2,11 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from typing import Any
 
 from core.edits.editable import EDITABLE, Part, refusal
-from core.edits.typed import Typed
+from core.edits.typed import Typed, with_called
 from core.families import suited
 from core.methods import Method, ReplacedName, table
 from core.records.listing import EditedListing, Listing, listing
@@ -45,8 +45,13 @@ class Edit:
 
 
 def original(part: str, of: str) -> Listing:
-    """Return the listing that is edited."""
-    return listing(_function(part, of))
+    """Return the listing that is edited: below it stand those that it calls."""
+    return _original(_function(part, of))
+
+
+@cache
+def _original(function: Callable[..., Any]) -> Listing:
+    return replace(listing(function), source=with_called(function))
 
 
 def _function(part: str, of: str) -> Callable[..., Any]:

@@ -190,7 +190,7 @@ NOT_EDITABLE = {
     "polygon_fill": "Its listing keeps tables of edges.",
     "pixel_center": _FIXED,
     "provoking": _FIXED,
-    "wrap": "The listing of the texture filter calls it: edit that one, and write a wrap of your own below it.",
+    "wrap": "Its listing stands below that of the texture filter: edit it there.",
     "visibility": "It orders triangles, or casts rays, for the whole picture at once.",
     "antialiasing": _FIXED,
     "resolve_filter": "Its listing takes all samples of a pixel.",

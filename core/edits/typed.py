@@ -98,11 +98,31 @@ def surroundings(function: Callable[..., Any]) -> tuple[dict[str, Any], dict[str
         elif isinstance(value, np.ndarray | tuple | list) and _is_table(value):
             constants[name] = Many([float(number) for number in value])
         elif isfunction(value) and value.__module__.startswith("core."):
+            known = surroundings(value)
             try:
-                helpers[name] = compile_listing(listing(value).source, *surroundings(value))
+                helpers[name] = compile_listing(listing(value).source, *known)
             except Problem:
                 continue
+            # The text that is edited has that function, too.
+            constants, helpers = {**known[0], **constants}, {**known[1], **helpers}
     return constants, helpers
+
+
+def with_called(function: Callable[..., Any]) -> str:
+    """Return the source of a listing, and below it those of all listings that it calls: what is edited."""
+    _, helpers = surroundings(function)
+    called = [listing(value).source for name, value in _called_by(function).items() if name in helpers]
+    return "\n\n".join([listing(function).source, *called])
+
+
+def _called_by(function: Callable[..., Any]) -> dict[str, Callable[..., Any]]:
+    """Return the functions of the core that a function calls, and those that these call, by name."""
+    found: dict[str, Callable[..., Any]] = {}
+    for name in function.__code__.co_names:
+        value = function.__globals__.get(name)
+        if isfunction(value) and value.__module__.startswith("core."):
+            found |= {name: value, **_called_by(value)}
+    return found
 
 
 def _is_table(value: Any) -> bool:

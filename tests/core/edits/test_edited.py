@@ -82,6 +82,12 @@ MISTAKES = {
     "half-texel-added": ("texture_filter", PLACE, f"{PLACE} + 1".replace(",", " + 1,")),
     "texels-of-one-less": ("texture_filter", ACROSS, f"({ACROSS}) * (({WIDE} - 1) / {WIDE})", "nearest"),
     "texel-rounded": ("texture_filter", ACROSS, f"{ACROSS} + 0.5", "nearest"),
+    "negative-repeat": (
+        "texture_filter",
+        "return index % size",
+        "return (-index - 1 if index < 0 else index) % size",
+        "nearest",
+    ),
     "weights-permuted": (
         "interpolation",
         "weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]",
