@@ -10,7 +10,6 @@ from core.fragments.interpolation import Interpolator, plane_value
 from core.fragments.mipmap_samples import mipmap_colors
 from core.fragments.textures import texture_colors, uses_mipmaps
 from core.framebuffer.depth import clamp_depth
-from core.lanes.nodes import Name
 from core.lanes.problem import Problem
 from core.lanes.run import Watch, bounded
 from core.raster.coverage import Fragments
@@ -26,7 +25,6 @@ from core.shaders.record import ShaderProblem
 from core.shaders.samplers import Sampler
 from core.shaders.shader import SECONDS, Outcome, Shader
 from core.shaders.vertex_stage import OUT, uniform_values
-from core.shaders.walking import walk
 from core.stages.geometry import Geometry
 
 
@@ -231,18 +229,12 @@ def _add_own(
     row: Integers,
 ) -> None:
     """Put gl_FragCoord and gl_FrontFacing into what is given, if the shader reads them."""
-    read = {
-        node.name
-        for function in shader.syntax.functions.values()
-        for node in walk(function)
-        if isinstance(node, Name)
-    }
-    if "gl_FragCoord" in read:
+    if "gl_FragCoord" in shader.mentioned:
         x, y = raster.centers(column, row)
         depth, _ = clamp_depth(
             plane_value(geometry.depth_plane, primitive, x, y), geometry.is_in_range[primitive]
         )
         inverse_w = plane_value(geometry.inverse_w_plane, primitive, x, y)
         given["gl_FragCoord"] = from_rows("vec4", np.stack([x, y, depth, inverse_w], axis=1))
-    if "gl_FrontFacing" in read:
+    if "gl_FrontFacing" in shader.mentioned:
         given["gl_FrontFacing"] = from_rows("bool", (geometry.doubled_area[primitive] > 0)[:, None])

@@ -19,6 +19,7 @@ from core.lanes.nodes import (
     Evaluate,
     Expression,
     Function,
+    Name,
     Statement,
 )
 from core.lanes.problem import Place, Problem
@@ -238,12 +239,18 @@ class Shader:
         """How many statements a lane runs, roughly: see `weight_of`."""
         return sum(map(weight_of, self.syntax.functions.values()))
 
-    @property
+    @cached_property
+    def mentioned(self) -> frozenset[str]:
+        """Own names of the variables that its functions read or store."""
+        nodes = (node for function in self.syntax.functions.values() for node in walk(function))
+        return frozenset(node.name for node in nodes if isinstance(node, Name))
+
+    @cached_property
     def discards(self) -> bool:
         """Whether some line discards fragments."""
         return self._has(lambda node: isinstance(node, Discard))
 
-    @property
+    @cached_property
     def needs_quads(self) -> bool:
         """Whether it looks at the lanes beside each: derivatives, and textures."""
         return self._has(lambda node: isinstance(node, Call) and node.function in (*DERIVATIVES, "texture"))

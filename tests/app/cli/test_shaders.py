@@ -58,6 +58,18 @@ def test_a_trace_has_the_lines_of_the_shader(tmp_path):
     assert "statement" in run.stdout
 
 
+def test_lanes_run_together_in_a_trace_and_in_states(tmp_path):
+    asked = ("trace", "lmu-shaders", "--stage", "transform", "--format", "npz", "-o")
+    for name, *order in (("one.npz",), ("together.npz", "--lanes", "together")):
+        run = run_program(*asked, tmp_path / name, *order)
+        assert run.returncode == 0, run.stderr
+    one, together = (np.load(tmp_path / name)["corner"] for name in ("one.npz", "together.npz"))
+    assert one[:8].tolist() == [0, 0, 0, 0, 1, 1, 1, 1]
+    assert together[:8].tolist() == [0, 1, 2, 0, 1, 2, 0, 0]
+    document = replace(open_any("lmu-shaders").document, lanes="together")
+    assert again(tmp_path, State(document, "shade", 3)).document.lanes == "together"
+
+
 @pytest.mark.parametrize(
     ("arguments", "code", "said"),
     [
