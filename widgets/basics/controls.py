@@ -2,7 +2,7 @@
 
 from typing import TypeVar
 
-from PySide6.QtWidgets import QHBoxLayout, QPushButton, QToolButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QAbstractButton, QHBoxLayout, QPushButton, QToolButton, QVBoxLayout, QWidget
 
 Margins = tuple[int, int, int, int]
 """Logical pixels at the left, top, right and bottom."""
@@ -53,3 +53,19 @@ def flat_button(text: str, name: str, tip: str, parent: QWidget) -> QToolButton:
 def closing_button(what: str, parent: QWidget) -> QToolButton:
     """Return the cross that closes ``what``, as ``the case``; Escape does the same."""
     return flat_button("✕", f"Close {what}", f"Close {what} (Escape)", parent)
+
+
+def wrap_text(button: QAbstractButton, text: str, width: int) -> None:
+    """Write a text on a button in as many lines as it takes in a width; a screen reader hears one."""
+    metrics = button.fontMetrics()
+    room = width - (button.sizeHint().width() - metrics.size(0, button.text()).width())
+    lines = [""]
+    for word in text.split():
+        longer = f"{lines[-1]} {word}".strip()
+        if lines[-1] and metrics.horizontalAdvance(longer) > room:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    button.setMinimumWidth(1)
+    button.setAccessibleName(text)
+    button.setText("\n".join(lines))

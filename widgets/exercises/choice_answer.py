@@ -3,11 +3,13 @@
 from typing import Any
 
 from PySide6.QtCore import Qt, Slot
+from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QAbstractButton, QButtonGroup, QCheckBox, QLabel, QRadioButton, QWidget
 
 from core.records.cells import Form, Marks
-from widgets.basics.controls import column_layout, row_layout
+from widgets.basics.controls import column_layout, row_layout, wrap_text
 from widgets.basics.labels import text_label
+from widgets.basics.theme import current_theme
 from widgets.exercises.answer_view import AnswerView, show_mark
 from widgets.exercises.mark_grid import MarkGrid
 
@@ -34,6 +36,13 @@ class ChoiceAnswerView(AnswerView):
             row.addWidget(mark)
             row.addStretch(1)
             layout.addLayout(row)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Write long options in several lines."""
+        super().resizeEvent(event)
+        room = current_theme().text_px + 8  # of a mark
+        for option, button in zip(self._form.items, self.buttons, strict=True):
+            wrap_text(button, option, self.width() - room)
 
     def given(self) -> list[str]:
         """Return the options chosen."""

@@ -1,12 +1,12 @@
 """The pane of a lesson beside the picture: text, task, the form of an answer, what came of it, and where to go next."""
 
 from PySide6.QtCore import Qt, Signal, SignalInstance, Slot
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtGui import QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from core.records.cells import Form
 from widgets.basics.accessible import announce
-from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
+from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout, wrap_text
 from widgets.basics.flow_layout import FlowLayout
 from widgets.basics.labels import set_role, text_label
 from widgets.basics.marks import Mark, mark_pixmap
@@ -74,7 +74,8 @@ class LessonView(QWidget):
         self._icon = QLabel(self)
         self.feedback = text_label("", self, wraps=True, is_selectable=True, name="What came of it")
         self._links = FlowLayout(spacing=8)
-        self._link_buttons: list[QPushButton] = []
+        self._link_buttons: dict[QPushButton, str] = {}
+        """Those that lead elsewhere, and their texts."""
         self._arrange()
         self.close_button.clicked.connect(self.close_requested)
         self.dots.step_chosen.connect(self.step_chosen)
@@ -158,8 +159,15 @@ class LessonView(QWidget):
             button.setObjectName(address)
             button.clicked.connect(self._choose_link)
             self._links.addWidget(button)
-            self._link_buttons.append(button)
+            self._link_buttons[button] = title
+            wrap_text(button, title, self._links.geometry().width() or self.width())
             button.show()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Write long texts of buttons in several lines."""
+        super().resizeEvent(event)
+        for button, title in self._link_buttons.items():
+            wrap_text(button, title, self._links.geometry().width())
 
     @Slot()
     def _choose_link(self) -> None:

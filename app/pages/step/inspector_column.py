@@ -1,6 +1,6 @@
 """The inspector's column: the step in words, formula, listing and variables; or the history of a pixel."""
 
-from PySide6.QtCore import QEvent, QObject, Qt, Slot
+from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QTabWidget, QWidget
 
 from app.session.moment import Moment
@@ -30,6 +30,9 @@ class InspectorColumn(QTabWidget):
     has chosen the history. What the step says changes its own parts only: the column keeps its width, and so the
     picture its place; the listing moves only for a formula that is the tallest of its stage.
     """
+
+    formula_grown = Signal()
+    """The tallest formula of the stage so far is another one."""
 
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
@@ -106,7 +109,7 @@ class InspectorColumn(QTabWidget):
         """Give the listing what room there is now; beside a bar or without one, everything is as wide."""
         if watched is self.step.viewport() and event.type() == QEvent.Type.Resize:
             bar = self.step.verticalScrollBar()
-            self._parts.setContentsMargins(0, 0, 0 if bar.isVisible() else bar.sizeHint().width(), 0)
+            self._parts.setContentsMargins(0, 0, 0 if bar.isVisible() else self._bar_width(), 0)
             self._forget_heights()
         return super().eventFilter(watched, event)
 
@@ -135,10 +138,11 @@ class InspectorColumn(QTabWidget):
     def show_formula(self, formula: Formula | None, is_new_stage: bool) -> None:
         """Show the formula of a step; one that is the tallest of its stage so far moves what is below."""
         self.formula.show_formula(formula)
-        tallest = self._tallest
-        self._tallest = max(self._wanted_height(), 0 if is_new_stage else tallest)
-        if self._tallest != tallest:
+        before = self._tallest
+        self._tallest = max(self._wanted_height(), 0 if is_new_stage else before)
+        if self._tallest != before:
             self.fit()
+            self.formula_grown.emit()
 
     def _wanted_height(self) -> int:
         return self.formula.heightForWidth(max(self.formula.width(), 1))
@@ -149,8 +153,10 @@ class InspectorColumn(QTabWidget):
         self.tabBar().setFont(
             text_font(current_theme())
         )  # Qt leaves it as it was while the column is hidden.
-        self._tallest = self._wanted_height()
+        before, self._tallest = self._tallest, self._wanted_height()
         self.fit()
+        if self._tallest != before:
+            self.formula_grown.emit()
 
     @Slot()
     def fit(self) -> None:
@@ -184,12 +190,15 @@ class InspectorColumn(QTabWidget):
             code += head
             self.rows.setSizes([code, max(self.rows.height() - code - self.rows.handleWidth(), details)])
 
-    def step_heights(self) -> tuple[int, int]:
-        """Return the heights at which the step is read without scrolling, and its formula alone."""
-        line, width = round(1.25 * current_theme().text_px), max(self.width(), 1)
-        formula = max(self._tallest, self._wanted_height())
-        told = max(SENTENCE_LINES * line, self.sentence.heightForWidth(width))
+    def step_heights(self, width: int) -> tuple[int, int]:
+        """Return the heights at which the step is read without scrolling in a width, and its formula alone."""
+        line, inner = round(1.25 * current_theme().text_px), max(width - self._bar_width(), 1)
+        formula = max(self._tallest, self.formula.heightForWidth(inner))
+        told = max(SENTENCE_LINES * line, self.sentence.heightForWidth(inner))
         return self.tabBar().sizeHint().height() + told + 4 + formula, formula
+
+    def _bar_width(self) -> int:
+        return self.step.verticalScrollBar().sizeHint().width()
 
     def show_formula_alone(self, is_alone: bool) -> None:
         """Leave out the tabs and the sentence for want of room, or show them again."""

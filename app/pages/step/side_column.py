@@ -26,6 +26,7 @@ class SideColumn(QWidget):
         column_layout(self._below).addWidget(inspector)
         self._layout.addWidget(self._below, 1)
         inspector.installEventFilter(self)
+        inspector.formula_grown.connect(self._divide)
 
     def show_lesson(self, lesson: LessonScroll | None) -> None:
         """Show the pane of a lesson above the inspector, or no longer."""
@@ -72,7 +73,7 @@ class SideColumn(QWidget):
             self._below.show()
             self._inspector.show_formula_alone(False)
             return
-        whole, formula = self._inspector.step_heights()
+        whole, formula = self._inspector.step_heights(self.width())
         least = min(whole, round(INSPECTOR_LINES * 1.5 * current_theme().text_px))
         room = self.height() - self._lesson.height_for(self.width()) - self._layout.spacing()
         is_alone, has_room = False, room >= least

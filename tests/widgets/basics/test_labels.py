@@ -1,5 +1,8 @@
 """Text that is longer than its place."""
 
+from PySide6.QtWidgets import QRadioButton
+
+from widgets.basics.controls import wrap_text
 from widgets.basics.labels import CutLabel
 
 
@@ -16,3 +19,16 @@ def test_a_text_ends_with_a_whole_word_and_an_ellipsis_where_it_has_no_room(qtbo
     assert len(words) > 4
     label.setFixedHeight(400)
     assert label.seen_text() == label.text()
+
+
+def test_a_button_writes_a_long_text_in_several_lines_and_is_heard_as_one(qtbot) -> None:
+    button = QRadioButton()
+    qtbot.addWidget(button)
+    text = "From no t: N . D is 0, and N . (P0 - PE) decides"
+    wrap_text(button, text, 160)
+    assert button.text().count("\n") >= 1
+    assert button.text().split() == text.split()
+    assert button.sizeHint().width() <= 160
+    assert button.accessibleName() == text
+    wrap_text(button, text, 2000)
+    assert button.text() == text

@@ -461,6 +461,28 @@ def test_no_step_stands_beside_a_whole_picture_and_a_listing_that_is_typed(
     assert not column.isVisible()
 
 
+@pytest.mark.own_window
+@pytest.mark.parametrize(("name", "step"), [("one-row", 3), ("spaces", 4)])
+def test_a_formula_beside_a_lesson_is_whole_before_a_class(
+    window: MainWindow, qtbot: QtBot, name: str, step: int
+) -> None:
+    window.appearance.set_theme("light")
+    window.resize(1280, 720)
+    window.presenter.arrange()
+    window.page.lessons.open(name, step)
+    walk = settled(window, qtbot)
+    for _ in ("the question", "the answer"):
+        window.page.settle()
+        column = window.page.column
+        if column.isVisible():
+            assert column.step.verticalScrollBar().maximum() == 0
+            assert column.formula.height() >= column.formula.heightForWidth(column.formula.width())
+            assert column.formula.visibleRegion().boundingRect() == column.formula.rect()
+            assert column.tabBar().visibleRegion().boundingRect().height() in (0, column.tabBar().height())
+        walk.task.reveal()
+        settled(window, qtbot)
+
+
 # In front of a class, and what is refused.
 
 
