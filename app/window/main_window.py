@@ -246,8 +246,6 @@ class MainWindow(ActionWindow):
 
     @Slot(Change)
     def _follow(self, what: Change) -> None:
-        if what & (Change.DOCUMENT | Change.PREDICTING):
-            self._show_checks()
         if Change.DOCUMENT in what:
             self._show_document()
             self.notices.settle_edit()

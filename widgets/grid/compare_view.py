@@ -196,6 +196,7 @@ class CompareView(QWidget):
             self._notes_layout.setStretchFactor(note, 0 if is_folded else 1)
         self._notes_layout.setStretch(len(self.notes), 1 if is_folded else 0)
         self._show_again()
+        self._notes.show()
 
     def _gain(self) -> float:
         """Return how many times larger the pictures are with the difference below A and B; 0: its notes lack room."""

@@ -45,6 +45,9 @@ class LinkedGrids(QWidget):
             grid.view_changed.connect(self._link_views)
             title.setAlignment(Qt.AlignmentFlag.AlignBottom)
             title.setProperty("role", "muted")
+            # Else Qt would show and paint them once more, a moment after they are placed otherwise.
+            title.show()
+            grid.show()
         self._place(len(self.grids))
 
     def _place(self, columns: int) -> None:

@@ -26,9 +26,8 @@ class LessonScroll(QScrollArea):
         layout = self._content.layout()
         return 0 if layout is None else layout.totalHeightForWidth(width)
 
-    def take_room(self, width: int, most: int) -> None:
-        """Be as high as the content needs in a column of a width, and at ``most`` so high: then it scrolls."""
-        wanted = self.height_for(width)
+    def take_room(self, wanted: int, most: int) -> None:
+        """Be as high as the content needs, see `height_for`, and at ``most`` so high: then it scrolls."""
         # Not as Qt sees fit: where a bar makes the text higher, it would keep the bar for that.
         policies = Qt.ScrollBarPolicy
         self.setVerticalScrollBarPolicy(

@@ -122,13 +122,15 @@ class InspectorColumn(QTabWidget):
 
     def show_card(self, is_wanted: bool) -> None:
         """Show the stage's card, but not while presenting; or leave it out for something else that stands there."""
-        self._is_card_wanted = is_wanted
-        self._show_parts()
+        if is_wanted != self._is_card_wanted:
+            self._is_card_wanted = is_wanted
+            self._show_parts()
 
     def fold_listing(self, is_folded: bool) -> None:
         """Leave out listing and variables while presenting, for the text of a lesson; or show them again."""
-        self._folds_listing = is_folded
-        self._show_parts()
+        if is_folded != self._folds_listing:
+            self._folds_listing = is_folded
+            self._show_parts()
 
     def _show_parts(self) -> None:
         self.card.setVisible(self._is_card_wanted and not self._is_presenting)

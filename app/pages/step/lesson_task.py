@@ -18,7 +18,7 @@ from lessons.course.record import StepPart
 from lessons.course.state import States
 from lessons.course.texts import edited_shader
 from lessons.exercises.scene_digest import scene_digest
-from widgets.basics.focus_order import give_focus, tab_stops
+from widgets.basics.focus_order import first_stop, give_focus
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.lessons.lesson_scroll import LessonScroll
@@ -112,7 +112,8 @@ class LessonTask(QObject):
         if kept != page.desk_panes():
             page.show_desk_panes(kept)  # What goes need not show the new state first.
         self._show(shown, is_hidden=is_hidden)
-        page.show_desk_panes(panes)
+        if set(panes) != set(page.desk_panes()):
+            page.show_desk_panes(panes)
         if stage := "" if part is None else edited_shader(part):
             page.shader_pane.show_source(stage)
         page.column.fold_listing("listing" not in shown.state.panes)
@@ -168,12 +169,13 @@ class LessonTask(QObject):
             return
         home = self._home
         if home is not None and home.asked is not None and self.answers.is_open:
-            stops = [self.grid] if home.asked.is_on_picture else tab_stops([self.view])
+            answer = self.view.answer
+            stop = self.grid if home.asked.is_on_picture else first_stop([] if answer is None else [answer])
             by_mouse = QApplication.mouseButtons() != Qt.MouseButton.NoButton
-            reason = Qt.FocusReason.MouseFocusReason if by_mouse else Qt.FocusReason.TabFocusReason
-            inside = [stop for stop in stops if stop is self.grid or self.view.is_of_answer(stop)]
-            if inside:
-                give_focus(inside[0], reason)
+            if stop is not None:
+                give_focus(
+                    stop, Qt.FocusReason.MouseFocusReason if by_mouse else Qt.FocusReason.TabFocusReason
+                )
         elif focused is None or focused is self.grid or self.view.is_of_answer(focused):
             page.take_focus()
 

@@ -222,9 +222,13 @@ class StepPage(Page):
         self.place.setText(" · ".join((*parts, *filter(None, [moment.document.title]))))
 
     def settle_layouts(self, moment: Moment | None = None) -> None:
-        """Lay out now what has another size: each layout asks the one around it, and in between all is painted."""
+        """Lay out now what has another size: each layout asks the one around it, and in between all is painted.
+
+        What has just been shown asks to be painted, too: else it may be painted once before and once after that.
+        """
         for _ in range(NESTED_LAYOUTS):
             QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
+        QCoreApplication.sendPostedEvents(None, QEvent.Type.UpdateLater.value)
 
     # Panes.
 

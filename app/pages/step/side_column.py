@@ -43,8 +43,9 @@ class SideColumn(QWidget):
 
     def let_inspector_give_way(self, gives_way: bool) -> None:
         """Leave the inspector out where the lesson needs the room: nothing has been stepped that it could show."""
-        self._gives_way = gives_way
-        self._divide()
+        if gives_way != self._gives_way:
+            self._gives_way = gives_way
+            self._divide()
 
     def set_idle(self, is_idle: bool) -> None:
         """Leave the inspector out of a lesson: no step has been done that it could show."""
@@ -75,7 +76,8 @@ class SideColumn(QWidget):
             return
         whole, formula = self._inspector.step_heights(self.width())
         least = min(whole, round(INSPECTOR_LINES * 1.5 * current_theme().text_px))
-        room = self.height() - self._lesson.height_for(self.width()) - self._layout.spacing()
+        wanted = self._lesson.height_for(self.width())
+        room = self.height() - wanted - self._layout.spacing()
         is_alone, has_room = False, room >= least
         if self._is_presenting:
             is_alone, has_room = room < whole, room >= formula
@@ -87,7 +89,7 @@ class SideColumn(QWidget):
         most = (
             self.height() if not is_inspected or has_room else max(self.height() - least, self.height() // 2)
         )
-        self._lesson.take_room(self.width(), most)
+        self._lesson.take_room(wanted, most)
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Divide another height."""

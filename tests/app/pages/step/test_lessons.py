@@ -1,6 +1,7 @@
 """Lessons on the Step page: what they open, hide, judge and notice; what was open before is there after them."""
 
 import sys
+from collections import Counter
 from dataclasses import replace
 from pathlib import Path
 from types import FrameType
@@ -22,6 +23,7 @@ from core.trace.tracers import trace_stage
 from lessons.attempts.record import Attempt
 from lessons.exercises.scene_digest import scene_digest
 from tests.lessons.course.lesson_texts import GOOD
+from widgets.grid.display import GridDisplay
 from widgets.grid.overlay import MaskOverlay
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.inspector.listing_editor import ListingEditor
@@ -640,25 +642,32 @@ def test_a_file_of_an_exercise_is_none_of_a_lesson(window: MainWindow, tmp_path:
     assert not is_lesson_file(str(tmp_path / "none.toml"))
 
 
-def test_a_step_beside_another_method_traces_nothing_itself(
+def test_a_step_beside_another_method_is_traced_in_the_background_and_painted_once(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
     text = GOOD.replace('at = "end", buffer', 'at = "end", other = { fill = "scanline" }, buffer')
     assert text != GOOD
-    codes = {trace_stage.__code__, process_geometry.__code__}
-    found: list[str] = []
+    walk = opened(window, qtbot, tmp_path, 1, text)
+    codes = {each.__code__ for each in (trace_stage, process_geometry)}
+    traced: list[str] = []
+    painted: Counter[int] = Counter()
 
     def look(frame: FrameType, event: str, _: object) -> None:
         if event == "call" and frame.f_code in codes:
-            found.append(frame.f_code.co_name)
+            traced.append(frame.f_code.co_name)
+        if event == "call" and frame.f_code is GridDisplay.paintEvent.__code__:
+            painted[id(frame.f_locals["self"])] += 1
 
     sys.setprofile(look)
     try:
-        opened(window, qtbot, tmp_path, text=text)
+        walk.go(0)
+        settled(window, qtbot)
+        qtbot.wait(20)
     finally:
         sys.setprofile(None)
     comparing = window.page.comparing
     assert window.page.current_view() == "compare"
     assert comparing.second is not None
     assert comparing.second.trace.source.settings.fill == "scanline"
-    assert not found, "traced by the thread of the window"
+    assert not traced, "by the thread of the window"
+    assert sorted(painted.values()) == [1, 1, 1]
