@@ -60,6 +60,8 @@ class FormulaView(QWidget):
         self._hint = "The formula of each step appears here."
         self._shown_at = -math.inf
         self._kept_lines: tuple[Line, ...] | None = None
+        self._heights: dict[int, int] = {}
+        """By width; one step has the layouts ask for the same one several times."""
         self._kept_setter: tuple[str, float, FormulaSetter] | None = None
         self._catch_up_timer = QTimer(self)
         self._catch_up_timer.setSingleShot(True)
@@ -133,8 +135,7 @@ class FormulaView(QWidget):
         """Say this where there is no formula."""
         if text != self._hint:
             self._hint = text
-            self.updateGeometry()
-            self.update()
+            self._refresh()
 
     def is_complete(self) -> bool:
         """Whether everything shown is typeset (nothing waits for the event loop)."""
@@ -182,6 +183,11 @@ class FormulaView(QWidget):
 
     def heightForWidth(self, width: int) -> int:
         """Height that shows every line, or the hint, without shrinking."""
+        if width not in self._heights:
+            self._heights[width] = self._height_in(width)
+        return self._heights[width]
+
+    def _height_in(self, width: int) -> int:
         if self._formula is None:
             room = QRect(0, 0, max(width - 2 * MARGIN, 1), 10_000)
             return (
@@ -204,6 +210,12 @@ class FormulaView(QWidget):
         """Wrap anew."""
         super().resizeEvent(event)
         self._kept_lines = None
+
+    def changeEvent(self, event: QEvent) -> None:
+        """Set anew in another type."""
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self._refresh()
 
     @property
     def _lines(self) -> tuple[Line, ...]:
@@ -303,6 +315,7 @@ class FormulaView(QWidget):
 
     def _refresh(self) -> None:
         self._kept_lines = None
+        self._heights.clear()
         self.updateGeometry()
         self.update()
 

@@ -15,6 +15,8 @@ _SIDE = 6
 """Room at both sides of a chapter's text."""
 _STRIP = 3
 """Height of the strip that shows how much of a chapter is done."""
+_TICK = 3
+"""By how much the tick in it is higher."""
 
 
 class ChapterState(Enum):
@@ -102,7 +104,7 @@ class ChapterButton(QAbstractButton):
         """Show how much of the present chapter is done, 0 to 1."""
         if share != self._share_done:
             self._share_done = share
-            self.update()
+            self.update(self._strip())
 
     def wanted_width(self, spelling: Spelling) -> int:
         """Return the width in pixels that a spelling needs."""
@@ -125,8 +127,7 @@ class ChapterButton(QAbstractButton):
         return super().event(event)
 
     def paintEvent(self, event: QPaintEvent) -> None:
-        """Draw ground and state, the two lines and the strip."""
-        del event
+        """Draw ground and state, the two lines and the strip; or only the strip, where it alone has changed."""
         theme, chapter = current_theme(), self._chapter
         is_current = chapter.state is ChapterState.CURRENT
         painter = QPainter(self)
@@ -139,12 +140,14 @@ class ChapterButton(QAbstractButton):
         line = chapter.second_line(self._spelling)
         if not line:
             top = (self.height() - _STRIP - title_height) // 2
-        if chapter.key:
+        # Of the text only its second line comes near the strip.
+        is_whole = not self._strip().contains(event.rect())
+        if chapter.key and is_whole:
             painter.setFont(self._small_font())
             painter.setPen(QColor(theme.muted_text))
             painter.drawText(QRect(left, top, right - left, title_height), flags, chapter.key)
             left += painter.fontMetrics().horizontalAdvance(chapter.key) + 4
-        if self._spelling < Spelling.KEY or is_current or not chapter.key:
+        if is_whole and (self._spelling < Spelling.KEY or is_current or not chapter.key):
             painter.setFont(self._title_font(is_bold=is_current))
             is_dim = chapter.state is ChapterState.SKIPPED
             painter.setPen(QColor(theme.muted_text if is_dim else theme.text))
@@ -154,6 +157,11 @@ class ChapterButton(QAbstractButton):
             painter.setPen(QColor(theme.muted_text))
             box = QRect(_SIDE, top + title_height, right - _SIDE, painter.fontMetrics().height())
             painter.drawText(box, flags, line)
+
+    def _strip(self) -> QRect:
+        """Return where the strip is, with its tick."""
+        height = _STRIP + _TICK + 1
+        return QRect(0, self.height() - height, self.width(), height)
 
     def _paint_ground(self, painter: QPainter) -> None:
         """Draw the card: raised where there is work, an outline that is open below for the present chapter."""
@@ -189,7 +197,7 @@ class ChapterButton(QAbstractButton):
         )
         if state is ChapterState.CURRENT:
             x = min(track.left() + track.width() * share, track.right() - 3.0)
-            painter.fillRect(QRectF(x, track.top() - 3.0, 3.0, _STRIP + 3.0), QColor(theme.accent))
+            painter.fillRect(QRectF(x, track.top() - _TICK, 3.0, _STRIP + _TICK), QColor(theme.accent))
 
     def _title_font(self, *, is_bold: bool = False) -> QFont:
         return _title_font(current_theme(), is_bold=is_bold)

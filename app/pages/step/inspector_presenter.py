@@ -48,7 +48,7 @@ class InspectorPresenter(QObject):
         self.beside: Callable[[], Step | None] | None = None
         """Returns the step that is shown instead of that of the session: where B of A | B is."""
         self.listing_shown: Callable[[Listing | None], object] = lambda _: None
-        """Is told which listing is shown."""
+        """Is told which listing is shown now, or that it is one of another stage or run."""
         self.hint_beside = ""
         """What is said where there is no such step."""
         self._triangles: list[int | None] = []
@@ -105,7 +105,7 @@ class InspectorPresenter(QObject):
             self._variables.show_variables([])
             first = None if moment.is_predicting else trace.explain(1)
             self._listing.show_hint(HINT if first is None else NO_LISTING)
-            self._show_listing(first.listing if first else None)
+            self._show_listing(first.listing if first else None, is_new_stage)
             self._show_line(None)
             self._listing.show_shares({})
             return
@@ -113,7 +113,7 @@ class InspectorPresenter(QObject):
         self._column.show_formula(formula(explanation), is_new_stage)
         self._variables.show_variables(variables(explanation))
         self._listing.show_hint(NO_LISTING)
-        self._show_listing(explanation.listing)
+        self._show_listing(explanation.listing, is_new_stage)
         self._show_line(explanation.line or None)
         self._listing.show_shares(trace.line_shares(step.row))
 
@@ -122,13 +122,15 @@ class InspectorPresenter(QObject):
         self._listing.show_line(line)
         self._column.code.editor.show_step(line, self._shown.source if self._shown else "")
 
-    def _show_listing(self, listing: Listing | None) -> None:
-        if listing is not self._shown:
+    def _show_listing(self, listing: Listing | None, is_new_stage: bool) -> None:
+        is_new = listing is not self._shown
+        if is_new:
             self._shown = listing
             shown = ListingText(listing.name, listing.source, listing.purpose) if listing else None
             self._listing.show_listing(shown)
             self._show_breakpoints()
-        self.listing_shown(listing)
+        if is_new or is_new_stage:
+            self.listing_shown(listing)
 
     def _show_breakpoints(self) -> None:
         """Mark the lines with breakpoints: they stand in the listings of A."""

@@ -1,8 +1,8 @@
 from dataclasses import replace
 
 import pytest
-from PySide6.QtCore import QPoint, Qt
-from PySide6.QtGui import QColor
+from PySide6.QtCore import QPoint, QRect, Qt
+from PySide6.QtGui import QColor, QRegion
 from PySide6.QtWidgets import QApplication
 
 from tests.widgets.showing import shown
@@ -53,6 +53,21 @@ def test_a_click_enters_a_chapter_and_leaves_the_arrow_keys_to_stepping(qtbot, r
     qtbot.mouseClick(row.buttons()[3], Qt.MouseButton.LeftButton)
     assert seen == [3]
     assert not row.buttons()[3].hasFocus()
+
+
+@pytest.mark.parametrize("width", [2500, 1264, 600])
+def test_what_is_painted_of_a_step_is_what_a_whole_chapter_would_be(qtbot, row, width) -> None:
+    row.resize(width, row.height())
+    button = row.buttons()[5]
+    row.show_share_done(0.3)
+    painted = button.grab()
+    updates: list[QRect] = []
+    button.update = updates.append
+    row.show_share_done(0.7)
+    (strip,) = updates
+    assert strip.height() < button.height() / 3
+    button.render(painted, strip.topLeft(), QRegion(strip))
+    assert painted.toImage() == button.grab().toImage()
 
 
 def test_a_row_writes_what_it_has_room_for_and_never_cuts_text(row) -> None:

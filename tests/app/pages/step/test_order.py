@@ -2,7 +2,7 @@
 
 import sys
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from types import FrameType
 
 import pytest
@@ -14,9 +14,14 @@ from lessons.scenes import make_scene
 pytestmark = pytest.mark.shared_window
 
 
-def counted(window: MainWindow, do: Callable[[], object]) -> Counter[str]:
+def refreshes(window: MainWindow, do: Callable[[], object]) -> Counter[str]:
     """Return how often each part is brought up to date, by the page or by another part."""
-    codes = {show.__func__.__code__: show.__qualname__ for _, show in window.page._order}
+    return counted([show for _, show in window.page._order], do)
+
+
+def counted(functions: Iterable[Callable[..., object]], do: Callable[[], object]) -> Counter[str]:
+    """Return how often each function runs meanwhile."""
+    codes = {getattr(each, "__func__", each).__code__: each.__qualname__ for each in functions}
     found: Counter[str] = Counter()
 
     def look(frame: FrameType, event: str, _: object) -> None:
@@ -35,7 +40,7 @@ def test_a_change_refreshes_each_part_once(window: MainWindow) -> None:
     session = window.session
     session.set_stage("raster", 400)
     session.set_pin((3, 3))
-    assert max(counted(window, lambda: session.set_pin((5, 5))).values()) == 1, "where its history is shown"
+    assert max(refreshes(window, lambda: session.set_pin((5, 5))).values()) == 1, "where its history is shown"
     ways: list[Callable[[], object]] = [
         lambda: session.open(open_document(make_scene("cube"), "cube")),
         lambda: session.set_setting("fill", "scanline"),
@@ -45,6 +50,16 @@ def test_a_change_refreshes_each_part_once(window: MainWindow) -> None:
         session.undo,
     ]
     for way in ways:
-        found = counted(window, way)
+        found = refreshes(window, way)
         assert found
         assert max(found.values()) == 1, found
+
+
+def test_a_step_of_the_same_listing_asks_nothing_of_it_again(window: MainWindow) -> None:
+    session, page = window.session, window.page
+    session.set_stage("raster", 400)
+    listing = page.inspector.shown_listing
+    found = counted([page.editing._show_head], lambda: session.step(1))
+    assert page.inspector.shown_listing is listing is not None
+    assert not found
+    assert counted([page.editing._show_head], lambda: session.set_stage("depth", 5))
