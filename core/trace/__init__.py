@@ -52,7 +52,9 @@ class Trace:
             corner_count = self.source.scene.corner_count
             if corner_count == 0 and STAGES.index(name) < STAGES.index("depth"):
                 found = without_steps(found)
-            self._stages[name] = found if corner_count == 3 else replace(found, corner_count=corner_count)
+            # Another thread may have traced it meanwhile: all see the same.
+            found = found if corner_count == 3 else replace(found, corner_count=corner_count)
+            self._stages.setdefault(name, found)
         return self._stages[name]
 
 

@@ -34,6 +34,7 @@ class ChapterRow(QWidget):
     @Slot(object)
     def show_chapters(self, chapters: Sequence[Chapter]) -> None:
         """Show the chapters in order; buttons are kept where their number stays."""
+        changed = []
         while len(self._buttons) > len(chapters):
             button = self._buttons.pop()
             self._row.removeWidget(button)
@@ -48,7 +49,8 @@ class ChapterRow(QWidget):
                 self._row.addWidget(button)
             elif self._buttons[place].chapter() != chapter:
                 self._buttons[place].show_chapter(chapter)
-        self._share_width()
+                changed.append(place)
+        self._share_width(changed)
         self._set_tab_stop()
 
     @Slot(float)
@@ -127,14 +129,17 @@ class ChapterRow(QWidget):
             return True
         return False
 
-    def _share_width(self) -> None:
-        """Spell as fully as the row has room, and share its width by what each chapter writes."""
+    def _share_width(self, changed: Sequence[int] = ()) -> None:
+        """Spell as fully as the row has room, and share its width by what each chapter writes.
+
+        ``changed``: places of the chapters that write something else, where their number is the same.
+        """
         for spelling in Spelling:
-            wanted = [button.wanted_width(spelling) for button in self._buttons]
-            kept = self._rooms.get(spelling, [])
-            if len(kept) == len(wanted):
-                wanted = [max(pair) for pair in zip(wanted, kept, strict=True)]
-            self._rooms[spelling] = wanted
+            rooms = self._rooms.setdefault(spelling, [])
+            if len(rooms) != len(self._buttons):
+                rooms = self._rooms[spelling] = [button.wanted_width(spelling) for button in self._buttons]
+            for place in changed:
+                rooms[place] = max(rooms[place], self._buttons[place].wanted_width(spelling))
         gaps = self._row.spacing() * max(len(self._buttons) - 1, 0)
         fitting = (each for each in Spelling if sum(self._rooms[each]) + gaps <= self.width())
         spelling = next(fitting, Spelling.KEY)

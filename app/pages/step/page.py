@@ -465,6 +465,7 @@ class StepPage(Page):
         self.editing.stop()
         self.shading.stop()
         self.lessons.stop()
+        self.inspector.ahead.stop()
         self.views.stop()
         self.navigation.stop()
 

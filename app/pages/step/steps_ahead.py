@@ -1,14 +1,18 @@
-"""What the next steps say, made before they are shown, while the user looks at this one."""
+"""What the next steps say, and the next stage, made before they are shown, while the user looks at this one."""
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import cache
+from functools import cache, partial
 from importlib import import_module
 from threading import Thread
 
 from PySide6.QtCore import QObject, QTimer, Slot
 
+from app.background.workers import Job
+from app.session.cursor import stage_for
 from app.session.moment import Moment, Step
+from app.session.tracing import QUICK_SECONDS
+from core import STAGES, Trace
 from core.explain import (
     formula,
     initial_sentence,
@@ -78,6 +82,10 @@ class StepsAhead(QObject):
         self._also: Callable[[], object] | None = None
         """What is prepared beside it, after all."""
         self._formula: Formula | None = None
+        self._tracing = Job(self)
+        """Traces the stage that comes next."""
+        self._traced: tuple[Trace, str] | None = None
+        """The run and the stage that it was given last."""
         self.is_drawing: Callable[[], bool] = lambda: False
         """Returns whether a picture of the step, or another step of a lesson, is still being made in the background."""
         self._is_resting = True
@@ -90,7 +98,12 @@ class StepsAhead(QObject):
     @property
     def is_working(self) -> bool:
         """Whether something is left to be prepared."""
-        return self._timer.isActive()
+        return self._timer.isActive() or self._tracing.is_running
+
+    def stop(self) -> None:
+        """Prepare nothing more, and wait for the thread."""
+        self._timer.stop()
+        self._tracing.shut_down()
 
     def begin(self, moment: Moment) -> None:
         """Look ahead from where the cursor is now, as soon as the user pauses."""
@@ -117,6 +130,7 @@ class StepsAhead(QObject):
             self._is_resting = is_shown
             self._timer.start(QUIET_MS)
             return
+        self._trace_next()
         if self._formula is None:
             moment, step = self._moment, self._elsewhere
             if self._positions:
@@ -136,3 +150,11 @@ class StepsAhead(QObject):
         elif self._view.prepare(self._formula):
             self._formula = None
         self._timer.start(0 if self._view.can_prepare() else QUIET_MS)
+
+    def _trace_next(self) -> None:
+        """Have the stage after the one that is shown traced in the background, unless that takes long."""
+        trace, here = self._moment.trace, STAGES.index(self._moment.cursor.stage)
+        next_stage = (trace, stage_for(trace.source.scene, STAGES[min(here + 1, len(STAGES) - 1)]))
+        if next_stage != self._traced and self._moment.document.estimated_seconds <= QUICK_SECONDS:
+            self._traced = next_stage
+            self._tracing.call(partial(trace.stage, next_stage[1]))

@@ -1,39 +1,21 @@
 """The order in which the parts of the Step page show a moment."""
 
-import sys
 from collections import Counter
-from collections.abc import Callable, Iterable
-from types import FrameType
+from collections.abc import Callable
 
 import pytest
 
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from lessons.scenes import make_scene
+from tests.calls import calls_of
 
 pytestmark = pytest.mark.shared_window
 
 
 def refreshes(window: MainWindow, do: Callable[[], object]) -> Counter[str]:
     """Return how often each part is brought up to date, by the page or by another part."""
-    return counted([show for _, show in window.page._order], do)
-
-
-def counted(functions: Iterable[Callable[..., object]], do: Callable[[], object]) -> Counter[str]:
-    """Return how often each function runs meanwhile."""
-    codes = {getattr(each, "__func__", each).__code__: each.__qualname__ for each in functions}
-    found: Counter[str] = Counter()
-
-    def look(frame: FrameType, event: str, _: object) -> None:
-        if event == "call" and frame.f_code in codes:
-            found[codes[frame.f_code]] += 1
-
-    sys.setprofile(look)
-    try:
-        do()
-    finally:
-        sys.setprofile(None)
-    return found
+    return calls_of([show for _, show in window.page._order], do)
 
 
 def test_a_change_refreshes_each_part_once(window: MainWindow) -> None:
@@ -59,7 +41,7 @@ def test_a_step_of_the_same_listing_asks_nothing_of_it_again(window: MainWindow)
     session, page = window.session, window.page
     session.set_stage("raster", 400)
     listing = page.inspector.shown_listing
-    found = counted([page.editing._show_head], lambda: session.step(1))
+    found = calls_of([page.editing._show_head], lambda: session.step(1))
     assert page.inspector.shown_listing is listing is not None
     assert not found
-    assert counted([page.editing._show_head], lambda: session.set_stage("depth", 5))
+    assert calls_of([page.editing._show_head], lambda: session.set_stage("depth", 5))

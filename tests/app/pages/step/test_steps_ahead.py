@@ -12,7 +12,9 @@ from app.session.moment import Step
 from app.session.session import Session
 from core.explain import formula
 from core.records.steps import Level
+from core.trace.tracers import trace_stage
 from lessons.scenes import built_in_scene
+from tests.calls import calls_of
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.typesetter import Typesetter
 
@@ -51,6 +53,7 @@ def test_it_begins_only_when_the_window_has_come_to_rest(qtbot: QtBot) -> None:
     assert ahead._positions == owed
     ahead.is_drawing = lambda: False
     qtbot.waitUntil(lambda: not ahead._positions)
+    ahead.stop()
 
 
 def test_a_step_of_another_run_is_prepared_after_those_of_this_one(qtbot: QtBot) -> None:
@@ -69,3 +72,18 @@ def test_a_step_of_another_run_is_prepared_after_those_of_this_one(qtbot: QtBot)
     view.show_formula(formula(explanation))
     assert view.is_complete()
     assert filled == [True]
+    ahead.stop()
+
+
+def test_the_next_stage_is_traced_meanwhile(qtbot: QtBot) -> None:
+    session = Session(open_document(built_in_scene("shared-edge").make(), ""))
+    view = FormulaView(typesetter=Typesetter())
+    qtbot.addWidget(view)
+    ahead = StepsAhead(session.moment, view)
+    session.set_stage("depth", 0)
+    ahead.begin(session.moment)
+    qtbot.waitUntil(lambda: not ahead.is_working, timeout=10000)
+    assert calls_of([trace_stage], lambda: session.next_stage(1)) == {}
+    assert session.cursor.stage == "blend"
+    assert calls_of([trace_stage], lambda: session.next_stage(1)), "nobody has waited for it"
+    ahead.stop()
