@@ -333,6 +333,8 @@ class _VariableItem(QTreeWidgetItem):
     def __init__(self) -> None:
         super().__init__()
         self._variable = Variable("", None)
+        self._made_from: tuple[object, ...] = ()
+        """What is shown, to the last digit: most variables stay from step to step."""
         self._shown: tuple[str, str, str, bool, int | None, _Look] | None = None
         """Texts now and before, what is spoken, whether the step has changed it, its vertex, and how it is written."""
         self.setTextAlignment(1, _RIGHT)
@@ -371,7 +373,12 @@ class _VariableItem(QTreeWidgetItem):
 
     def show_variable(self, variable: Variable, look: _Look) -> None:
         """Set what differs from what the row shows."""
-        self._variable, is_changed = variable, variable.is_changed()
+        self._variable = variable
+        values = repr((variable.now, variable.before))
+        made_from = (variable.name, values, variable.vertex, variable.digits, look)
+        if made_from == self._made_from:
+            return
+        self._made_from, is_changed = made_from, variable.is_changed()
         now, before = (
             value_text(value, is_fraction=look.is_fraction, digits=variable.digits)
             for value in (variable.now, variable.before)

@@ -8,6 +8,7 @@ from PySide6.QtWidgets import QApplication, QToolTip
 
 from core.explain.number_text import latex_text
 from core.explain.records import Variable
+from tests.calls import calls_of
 from tests.widgets.showing import shown
 from widgets.basics.theme import current_theme
 from widgets.inspector.variables import VariablesView, value_text
@@ -156,6 +157,15 @@ def test_only_cells_that_differ_are_set_and_laid_out_again(qtbot, view) -> None:
     assert changed == []
     view.show_variables((Variable("x", 14, 14), *still[1:]))
     assert set(changed) == {(0, 1), (0, 2)}
+
+
+def test_only_values_that_differ_are_put_into_words(view) -> None:
+    view.show_variables(STEP)
+    again = (Variable("x", 14, 13), *STEP[1:])
+    assert calls_of([value_text], lambda: view.show_variables(again)) == {"value_text": 2}
+    view.show_variables((Variable("is_tie", 1),))
+    view.show_variables((Variable("is_tie", True),))
+    assert view.topLevelItem(0).text(1) == "yes", "equal, but not the same"
 
 
 def test_a_closed_vector_is_written_when_it_is_opened(view) -> None:
