@@ -2,14 +2,16 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.background.workers import Job
 from app.files.state_files import State
 from app.pages.step.looks import show_state, state_of
+from app.pages.step.steps_ahead import FIRST_MS
 from core import Trace
 
 if TYPE_CHECKING:
@@ -73,6 +75,12 @@ class LessonPresenter(QObject):
         self._job = Job(self, expected=(ValueError, OSError, MemoryError))
         self._job.succeeded.connect(self._begin)
         self._job.failed.connect(self._refuse)
+        self._wanted: tuple[Lesson | str, int | None] | None = None
+        """What is opened once the window is painted."""
+        self._painted = QTimer(self)
+        self._painted.setSingleShot(True)
+        self._painted.setInterval(FIRST_MS)
+        self._painted.timeout.connect(self._open_wanted)
 
     @property
     def walk(self) -> "LessonWalk | None":
@@ -93,9 +101,10 @@ class LessonPresenter(QObject):
     @property
     def is_working(self) -> bool:
         """Whether a lesson is being read, or something in it is being worked on."""
+        is_opening = self._painted.isActive() or self._job.is_running
         if self._walk is None:
-            return self._job.is_running
-        return self._job.is_running or self._walk.is_working or self.attempts.is_working
+            return is_opening
+        return is_opening or self._walk.is_working or self.attempts.is_working
 
     @property
     def kept(self) -> State | None:
@@ -113,6 +122,7 @@ class LessonPresenter(QObject):
 
     def stop(self) -> None:
         """End all work."""
+        self._painted.stop()
         self._job.shut_down()
         self._reading.shut_down()
         if self._walk is not None:
@@ -178,9 +188,20 @@ class LessonPresenter(QObject):
     def open(self, lesson: "Lesson | str", step: int | None = None) -> None:
         """Open a lesson, or that of a name, at one of its steps from 0; ``None``: at its beginning.
 
-        What is open now comes back when the lesson is closed.
+        What is open now comes back when the lesson is closed. A window that opens is painted first.
         """
-        self._job.call(lambda: _found(lesson, step))
+        self._wanted = lesson, step
+        if self._page.window().isVisible():
+            self._open_wanted()
+        else:
+            self._painted.start()
+
+    @Slot()
+    def _open_wanted(self) -> None:
+        self._painted.stop()
+        wanted, self._wanted = self._wanted, None
+        if wanted is not None:
+            self._job.call(partial(_found, *wanted))
 
     def open_path(self, path: str) -> None:
         """Open the lesson of a file, or go to one of the places that are `listed`."""
