@@ -11,6 +11,8 @@ class FlowLayout(QLayout):
         """Make an empty layout; ``is_spread``: the last item of several on a line stands at its right end."""
         super().__init__(parent)
         self._items: list[QLayoutItem] = []
+        self._heights: dict[int, int] = {}
+        """By width, as long as nothing in it has changed."""
         self._is_spread = is_spread
         self.setSpacing(spacing)
         self.setContentsMargins(0, 0, 0, 0)
@@ -47,7 +49,14 @@ class FlowLayout(QLayout):
 
     def heightForWidth(self, width: int) -> int:
         """Return the height of all lines."""
-        return self._place(QRect(0, 0, width, 0), is_only_measured=True)
+        if width not in self._heights:
+            self._heights[width] = self._place(QRect(0, 0, width, 0), is_only_measured=True)
+        return self._heights[width]
+
+    def invalidate(self) -> None:
+        """Forget what was measured; Qt calls this."""
+        self._heights.clear()
+        super().invalidate()
 
     def setGeometry(self, rect: QRect) -> None:
         """Place the items."""

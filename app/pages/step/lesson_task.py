@@ -104,34 +104,34 @@ class LessonTask(QObject):
         self.answers.end()
         self._watch.end()
         self._has_peeked = self._is_revealed = self._is_done = False
-        if page.predicting.is_active:
-            page.set_predicting(False)
-        page.tell("")  # What was said of the step before no longer holds.
-        panes = (*PANES, *shown.state.panes)
-        kept = [name for name in page.desk_panes() if name in panes]
-        if kept != page.desk_panes():
-            page.show_desk_panes(kept)  # What goes need not show the new state first.
-        self._show(shown, is_hidden=is_hidden)
-        if set(panes) != set(page.desk_panes()):
-            page.show_desk_panes(panes)
-        if stage := "" if part is None else edited_shader(part):
-            page.shader_pane.show_source(stage)
-        page.column.fold_listing("listing" not in shown.state.panes)
-        self.scroll.keep_in_sight(None)
-        self.view.show_step(record, None if asked is None else asked.question.draft.answer.form)
-        self.view.reveal_button.setText(REVEAL)
-        self.view.offer_solution(self._has_solution())
-        page.side.let_inspector_give_way(asked is not None and shown.cursor.position == 0)
-        if asked is not None:
-            self.answers.begin(asked)
-        picture = None if asked is None or asked.number >= 0 else self._blank
-        page.main_area.show_asked(self.grid if asked is not None and asked.is_on_picture else picture)
-        if part is not None and part.until is not None:
-            self._watch.begin(part.until)
-        elif part is not None and asked is None and not part.show:
-            self.standing_changed.emit(Standing.DONE)
-        self._give_keyboard()
-        page.settle_layouts()
+        with page.laid_out_once():
+            if page.predicting.is_active:
+                page.set_predicting(False)
+            page.tell("")  # What was said of the step before no longer holds.
+            panes = (*PANES, *shown.state.panes)
+            kept = [name for name in page.desk_panes() if name in panes]
+            if kept != page.desk_panes():
+                page.show_desk_panes(kept)  # What goes need not show the new state first.
+            self._show(shown, is_hidden=is_hidden)
+            if set(panes) != set(page.desk_panes()):
+                page.show_desk_panes(panes)
+            if stage := "" if part is None else edited_shader(part):
+                page.shader_pane.show_source(stage)
+            page.column.fold_listing("listing" not in shown.state.panes)
+            self.scroll.keep_in_sight(None)
+            self.view.show_step(record, None if asked is None else asked.question.draft.answer.form)
+            self.view.reveal_button.setText(REVEAL)
+            self.view.offer_solution(self._has_solution())
+            page.side.let_inspector_give_way(asked is not None and shown.cursor.position == 0)
+            if asked is not None:
+                self.answers.begin(asked)
+            picture = None if asked is None or asked.number >= 0 else self._blank
+            page.main_area.show_asked(self.grid if asked is not None and asked.is_on_picture else picture)
+            if part is not None and part.until is not None:
+                self._watch.begin(part.until)
+            elif part is not None and asked is None and not part.show:
+                self.standing_changed.emit(Standing.DONE)
+            self._give_keyboard()
 
     def end(self) -> None:
         """Ask nothing and hide nothing any more; what is open stays."""

@@ -1,6 +1,7 @@
 """The stepping page: side panes, main view, inspector and the run at the bottom, around one session."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
 
@@ -112,6 +113,8 @@ class StepPage(Page):
         self.views.refused.connect(self.edit_refused)
         self.lessons = LessonPresenter(self)
         self.lessons.place_changed.connect(self._follow_lesson)
+        self._settles = True
+        """Whether layouts are settled after each change; else something sees to it after several."""
         self._desk_panes: list[str] | None = None
         """While presenting, the panes that come back after it."""
         self._lay_out()
@@ -226,9 +229,21 @@ class StepPage(Page):
 
         What has just been shown asks to be painted, too: else it may be painted once before and once after that.
         """
+        if not self._settles:
+            return
         for _ in range(NESTED_LAYOUTS):
             QCoreApplication.sendPostedEvents(None, QEvent.Type.LayoutRequest.value)
         QCoreApplication.sendPostedEvents(None, QEvent.Type.UpdateLater.value)
+
+    @contextmanager
+    def laid_out_once(self) -> Iterator[None]:
+        """Lay out what is shown meanwhile at the end."""
+        self._settles = False
+        try:
+            yield
+        finally:
+            self._settles = True
+            self.settle_layouts()
 
     # Panes.
 

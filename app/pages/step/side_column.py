@@ -1,6 +1,6 @@
 """The right column of the Step page: the pane of a lesson while one is open, and the inspector below it."""
 
-from PySide6.QtCore import QEvent, QObject, Qt, Slot
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QWidget
 
@@ -20,7 +20,7 @@ class SideColumn(QWidget):
         super().__init__(parent)
         self._inspector = inspector
         self._lesson: LessonScroll | None = None
-        self._gives_way = self._is_idle = self._is_presenting = False
+        self._gives_way = self._is_idle = self._is_presenting = self._is_owed = False
         self._layout = column_layout(self, 4)
         self._below = QWidget(self)
         column_layout(self._below).addWidget(inspector)
@@ -45,7 +45,9 @@ class SideColumn(QWidget):
         """Leave the inspector out where the lesson needs the room: nothing has been stepped that it could show."""
         if gives_way != self._gives_way:
             self._gives_way = gives_way
-            self._divide()
+            # When all is known that the lesson shows, and before it is painted.
+            self._is_owed = True
+            QCoreApplication.postEvent(self, QEvent(QEvent.Type.LayoutRequest))
 
     def set_idle(self, is_idle: bool) -> None:
         """Leave the inspector out of a lesson: no step has been done that it could show."""
@@ -67,9 +69,16 @@ class SideColumn(QWidget):
         self.setVisible(not self._inspector.isHidden() or self._lesson is not None)
         self._divide()
 
+    def event(self, event: QEvent) -> bool:
+        """Divide the height where that was put off."""
+        if event.type() == QEvent.Type.LayoutRequest and self._is_owed:
+            self._divide()
+        return super().event(event)
+
     @Slot()
     def _divide(self) -> None:
         """Give the lesson the height that it wants, unless the inspector would have too little."""
+        self._is_owed = False
         if self._lesson is None:
             self._below.show()
             self._inspector.show_formula_alone(False)
