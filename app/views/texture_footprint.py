@@ -47,8 +47,10 @@ class PixelInTexture:
 
 
 def texture_of(source: TraceSource, triangle: int) -> Texture | None:
-    """Return the texture of a triangle's mesh."""
+    """Return the texture of a triangle's mesh; ``None`` where shaders choose what they look up."""
     scene = source.scene
+    if scene.program is not None:
+        return None
     if isinstance(scene, ClipScene):
         return scene.texture
     return scene.meshes[int(source.geometry.vertices.mesh[triangle])].texture
@@ -166,6 +168,8 @@ def texture_pictures(moment: Moment) -> tuple[tuple[TexturePicture, ...], str]:
 def no_texture_reason(moment: Moment, triangle: int) -> str:
     """Say why there is no texture to show."""
     scene = moment.document.scene
+    if scene.program is not None:
+        return "The scene's shaders choose where they look a texture up: step their lines in Shade."
     if isinstance(scene, ClipScene):
         text = "These triangles have colours at their corners and no texture."
         return of_kind(text, scene.corner_count)

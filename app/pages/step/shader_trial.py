@@ -15,8 +15,8 @@ from core.shaders.record import ShaderProgram
 
 TRIAL_SECONDS = 3.0
 """Seconds that stepping and drawing may take before what was typed is taken over."""
-MOST_RECOGNISED = 96 * 72
-"""Pixels of a picture that is compared with those of the mistakes."""
+RECOGNISED = (96, 72)
+"""Largest size, in pixels, of a picture that is compared with those of the mistakes."""
 
 Make = Callable[[], ShaderProgram]
 """Reads shaders; raises ValueError where they cannot be read."""
@@ -52,10 +52,8 @@ def try_shaders(
         trace = trace_now(document, stage, earlier)
         if document.traced_scene is not document.scene:
             render(document.scene, document.settings)
-    picture = trace.source.picture.color
-    return Tried(
-        beside, document, trace, _accepted(document, program, picture, [*_unset(trace, stage)], is_cancelled)
-    )
+    said = _accepted(document, program, [*_unset(trace, stage)], is_cancelled)
+    return Tried(beside, document, trace, said)
 
 
 def _unset(trace: Trace, stage: str) -> Iterator[str]:
@@ -78,30 +76,28 @@ def _unset(trace: Trace, stage: str) -> Iterator[str]:
 def _accepted(
     document: Document,
     program: ShaderProgram,
-    picture: Singles,
     unset: Sequence[str],
     is_cancelled: Callable[[], bool],
 ) -> str:
     """Return what is said of shaders that run."""
-    scene, said = document.traced_scene, ""
-    assert isinstance(scene, Scene)
-    if scene.size[0] * scene.size[1] <= MOST_RECOGNISED:
-        from core.lanes.problem import Problem
-        from core.lanes.run import bounded
-        from lessons.shader_mistakes import recognised
+    from core.lanes.problem import Problem
+    from core.lanes.run import bounded
+    from lessons.shader_mistakes import recognised
 
-        try:
-            with bounded(TRIAL_SECONDS, is_cancelled):
-                mistake = recognised(program, replace(scene, program=None), document.settings)
-        except Problem:
-            mistake = None  # A mistake takes too long to draw: none is named.
-        if (
-            mistake is not None
-            and mistake.wrong not in getattr(program, mistake.stage)
-            and _is_plain(picture)
-        ):
-            mistake = None  # Pictures of one colour are alike whatever made them.
-        said = f"Both shaders run. {mistake.says}" if mistake is not None else ""
+    assert isinstance(document.scene, Scene)
+    width, height = document.scene.size
+    scale = min(1.0, RECOGNISED[0] / width, RECOGNISED[1] / height)
+    small = (max(round(scale * width), 1), max(round(scale * height), 1))
+    scene = replace(document.scene, size=small)
+    try:
+        with bounded(TRIAL_SECONDS, is_cancelled):
+            mistake = recognised(program, replace(scene, program=None), document.settings)
+            if mistake is not None and mistake.wrong not in getattr(program, mistake.stage):
+                # Pictures of one colour are alike whatever made them.
+                mistake = None if _is_plain(render(scene, document.settings).color) else mistake
+    except Problem:
+        mistake = None  # A mistake takes too long to draw: none is named.
+    said = f"Both shaders run. {mistake.says}" if mistake is not None else ""
     said = said or ("Both shaders run." if unset else "")
     return " ".join(filter(None, (said, notes_of(program), *unset)))
 

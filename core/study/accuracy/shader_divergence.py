@@ -93,8 +93,11 @@ def _refined(
 ) -> Divergence:
     """Return the divergence of a fragment or vertex by a row of each, from its first variable that differs on."""
     variable, lines = "", (0, 0)
-    values: tuple[dict[str, Any], dict[str, Any]] = ({}, {})
     row, other = rows
+    values: tuple[dict[str, Any], dict[str, Any]] = (
+        {} if row is None else first.variables(row),
+        {} if other is None else second.variables(other),
+    )
     if row is not None and other is not None and runs_shader(first) and runs_shader(second):
         theirs = {key: (at, line, value) for key, at, line, value in _stored(second, other)}
         for key, at, line, value in _stored(first, row):

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QLineEdit
 from app.files.open_any import Opened, open_any
 from app.pages.step.grid_records import mask_overlays
 from app.session.document import focus_on
+from app.views.texture_footprint import texture_pictures
 from app.window.main_window import MainWindow
 from core.explain.steps import variables
 from core.records.listing import ShaderListing
@@ -352,6 +353,27 @@ def test_undo_in_the_editor_goes_back_over_a_preset(lab, qtbot):
     qtbot.waitUntil(
         lambda: (_program(lab).vertex, _program(lab).fragment) == (before.vertex, before.fragment)
     )
+
+
+def test_what_darkens_the_middle_of_triangles_is_named(lab, qtbot):
+    _open(lab, "sphere")
+    _choose(lab.page.shader_pane._preset, "phong")
+    text = _program(lab).fragment.replace("normalize(vNormal)", "vNormal")
+    _type(lab, qtbot, "fragment", text)
+    assert "interpolation shortens it between the vertices" in lab.page.shader_pane.message
+
+
+def test_a_textured_scene_is_stepped_by_shaders(lab):
+    _choose(lab.page.shader_pane._preset, "")
+    _open(lab, "textured-floor")
+    _choose(lab.page.shader_pane._preset, "phong")
+    assert "map, vUv" in _program(lab).fragment
+    lab.session.set_stage("shade")
+    lab.page.show_view("texture")
+    lab.page.settle()
+    pictures, why = texture_pictures(lab.session.moment)
+    assert pictures == ()
+    assert why.startswith("The scene's shaders choose")
 
 
 def test_typing_has_an_undo_of_its_own(lab, qtbot):

@@ -76,6 +76,7 @@ def test_a_shader_and_the_built_in_shading_differ_by_more_than_rounding_or_not()
     wrong = _traced("fragment", "dot(N, L)", "0.5 * dot(N, L)")
     found = diverge(wrong, _traced(), by_outcome=True)
     assert (found.stage, found.names) == ("shade", ("color",))
+    assert "A and B differ in the colour." in divergence_text(found, wrong, _traced())
 
 
 def test_the_same_values_by_other_statements_are_no_difference():
