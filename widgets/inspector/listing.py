@@ -29,6 +29,8 @@ SEEN_LINES = 10
 """Lines of which the present one is in sight, whole."""
 MOST_ROWS = 19
 """Rows that the pane is made high for: beyond them a listing is scrolled."""
+KEPT_ROWS = 256
+"""Listings in some width whose rows are kept, at most."""
 HINT = "The algorithm of the stage appears here, with the line of each step marked."
 """What an empty pane is for."""
 
@@ -65,9 +67,8 @@ class ListingView(CodeView):
         self._pressed_at = QPoint()
         self._title = ""
         self._in_turn: frozenset[str] = frozenset()
-        self._rows_for: object = None
-        """Width and type that the kept rows are for."""
-        self._kept_rows: dict[str, int] = {}
+        self._kept_rows: dict[tuple[object, ...], int] = {}
+        """By source, lines, width and type."""
         self.setReadOnly(True)
         self.setTextInteractionFlags(
             Qt.TextInteractionFlag.TextSelectableByMouse | Qt.TextInteractionFlag.TextSelectableByKeyboard
@@ -162,13 +163,13 @@ class ListingView(CodeView):
         return math.ceil(min(rows, MOST_ROWS) * row + row / 2 + 2 * self.document().documentMargin())
 
     def _rows_of(self, source: str, lines: int, width: float, font: QFont, wrap: QTextOption.WrapMode) -> int:
-        """Return what `_rows` does, found once for each source as long as width and type stay."""
-        now = lines, width, font.key(), wrap
-        if now != self._rows_for:
-            self._rows_for, self._kept_rows = now, {}
-        if source not in self._kept_rows:
-            self._kept_rows[source] = _rows(source, lines, width, font, wrap)
-        return self._kept_rows[source]
+        """Return what `_rows` does, found once for each width: a bar that comes and goes is beside it or not."""
+        key = source, lines, width, font.key(), wrap
+        if key not in self._kept_rows:
+            if len(self._kept_rows) >= KEPT_ROWS:
+                self._kept_rows.clear()
+            self._kept_rows[key] = _rows(source, lines, width, font, wrap)
+        return self._kept_rows[key]
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep the margin beside the text, and the line of the step in view."""

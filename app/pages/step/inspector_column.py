@@ -37,8 +37,8 @@ class InspectorColumn(QTabWidget):
     def __init__(self, parent: QWidget) -> None:
         super().__init__(parent)
         self._listing_lines = LISTING_LINES
-        self._tallest = 0
-        """Height of the tallest formula of the stage so far."""
+        self._width = self._tallest = 0
+        """Width of what is in the pane that scrolls, and height of the tallest formula of the stage so far."""
         self._is_presenting, self._is_card_wanted, self._folds_listing = False, True, False
         self._is_formula_alone = False
         self._is_history_chosen = False
@@ -109,8 +109,14 @@ class InspectorColumn(QTabWidget):
         """Give the listing what room there is now; beside a bar or without one, everything is as wide."""
         if watched is self.step.viewport() and event.type() == QEvent.Type.Resize:
             bar = self.step.verticalScrollBar()
-            self._parts.setContentsMargins(0, 0, 0 if bar.isVisible() else self._bar_width(), 0)
-            self._forget_heights()
+            beside = 0 if bar.isVisible() else self._bar_width()
+            self._parts.setContentsMargins(0, 0, beside, 0)
+            width = self.step.viewport().width() - beside
+            if width == self._width:
+                self.fit()
+            else:
+                self._width = width
+                self._forget_heights()
         return super().eventFilter(watched, event)
 
     def set_presenting(self, is_presenting: bool) -> None:

@@ -128,10 +128,10 @@ class StepPage(Page):
         """Show the history of a clicked pixel, also of one that was pinned before."""
         self.column.show_history(self.session.moment)
 
-    def _order_of_parts(self) -> tuple[tuple[Change, Callable[[Moment], object]], ...]:
+    def _order_of_parts(self) -> tuple[tuple[int, Callable[[Moment], object]], ...]:
         document, step, pin, pointing = Change.DOCUMENT, Change.STEP, Change.PIN, Change.POINTING
         cursor, run = Change.CURSOR, Change.DOCUMENT | Change.PREDICTING
-        return (
+        order: tuple[tuple[Change, Callable[[Moment], object]], ...] = (
             (Change.OPENED, self._begin_anew),
             (step | run | pointing | Change.ASKED, self.views.refresh),
             (step, self.main_area.follow_stage),
@@ -163,14 +163,16 @@ class StepPage(Page):
             (cursor, self.navigation.follow_step),
             (step, self.settle_layouts),
         )
+        return tuple((change.value, show) for change, show in order)
 
     @Slot(Change)
     def _follow(self, what: Change) -> None:
         """Bring all parts up to date, each once: who shows another document shows its step and its pin, too."""
         if Change.DOCUMENT in what:
             what &= ~(Change.CURSOR | Change.POINTING)
-        for change, show in self._order:
-            if change & what:
+        bits = what.value
+        for changes, show in self._order:
+            if changes & bits:
                 # A part may have gone on to another step: the others show that one.
                 show(self.session.moment)
 
