@@ -140,7 +140,7 @@ class LessonView(QWidget):
         self._follow_theme()
         self.dots.show_standings(record.standings, record.number)
         self.back_button.setEnabled(record.has_previous)
-        self.next_button.setEnabled(record.has_next)
+        self.next_button.setVisible(record.has_next)
         self.next_button.setText(record.next_title or "Next")
         self.next_button.setToolTip(f"{record.next_title or 'Next step of the lesson'} (Page Down)")
 
