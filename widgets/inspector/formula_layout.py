@@ -25,6 +25,10 @@ MARGIN = 8
 """Room around a formula, in logical pixels."""
 SPACE = r"\quad"
 """What stands between two equations of one row."""
+OPERATOR_ROOM = 0.28
+"""Room on both sides of an operator, as a share of the size."""
+WHOLE = 0
+"""Stands for each width in which nothing of a formula is wrapped or shrunk."""
 KEPT_LAYOUTS = 256
 """Formulas that are kept laid out, at their widths: one is asked for many times a step, and comes again."""
 
@@ -122,6 +126,9 @@ class FormulaSetter:
         if formula is None:
             return ()
         key = formula, width, current_theme()
+        whole = formula, WHOLE, current_theme()
+        if whole in self._layouts and self._room(self._layouts[whole]) <= width:
+            key = whole
         if key in self._layouts:
             self._layouts.move_to_end(key)
             return self._layouts[key]
@@ -131,12 +138,17 @@ class FormulaSetter:
             return self._unfinished[key]
         lines = self._layout(formula, width)
         if all(map(self.is_ready, self.cells_needed(formula))):
-            self._layouts[key] = lines
+            is_whole = len(lines) == len(cell_rows(formula)) and self._room(lines) <= width
+            self._layouts[whole if is_whole else key] = lines
             if len(self._layouts) > KEPT_LAYOUTS:
                 self._layouts.popitem(last=False)
         else:
             self._unfinished[key] = lines
         return lines
+
+    def _room(self, lines: tuple[Line, ...]) -> float:
+        """Return a width that is enough for lines, with what stands beside a last operator."""
+        return extent(lines)[0] + 2 * OPERATOR_ROOM * self._size + 2 * MARGIN
 
     def _layout(self, formula: Formula, width: int) -> tuple[Line, ...]:
         rows = cell_rows(formula)
@@ -151,7 +163,7 @@ class FormulaSetter:
 
         A row of several equations, with `SPACE` between them, is broken between two of them if it can be.
         """
-        room = self._size * 0.28
+        room = self._size * OPERATOR_ROOM
         boxes = [[self._box(latex, color) for latex, color in row] for row in rows]
         widths = [max(box.width() for box in column) for column in zip(*boxes, strict=True)]
         pads = [room if is_operator(rows[0][k][0]) else 0.0 for k in range(len(widths))]

@@ -1,6 +1,6 @@
 """The variables of a step: value now, value before, and which of them the step has changed."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
@@ -374,8 +374,10 @@ class _VariableItem(QTreeWidgetItem):
     def show_variable(self, variable: Variable, look: _Look) -> None:
         """Set what differs from what the row shows."""
         self._variable = variable
-        values = repr((variable.now, variable.before))
-        made_from = (variable.name, values, variable.vertex, variable.digits, look)
+        values, digits = repr((variable.now, variable.before)), variable.digits
+        numbers = {abs(each) for each in _numbers(variable)} if digits else set()
+        own = {each: digits[each] for each in numbers if each in digits}
+        made_from = (variable.name, values, variable.vertex, own, look)
         if made_from == self._made_from:
             return
         self._made_from, is_changed = made_from, variable.is_changed()
@@ -407,6 +409,14 @@ class _VariableItem(QTreeWidgetItem):
         for column, color in enumerate(colors):
             self.setFont(column, (look.figures if column else look.names)[is_changed and column < 2])
             self.setForeground(column, QColor(color))
+
+
+def _numbers(variable: Variable) -> Iterator[float]:
+    """Yield the numbers of a variable, now and before."""
+    for value in (variable.now, variable.before):
+        for part in value if isinstance(value, tuple) else (value,):
+            if isinstance(part, int | float):
+                yield part
 
 
 def _shape(variable: Variable) -> tuple[str, int]:

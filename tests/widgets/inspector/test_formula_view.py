@@ -1,3 +1,5 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
@@ -13,9 +15,11 @@ from core.explain.latex import (
     without_macros,
 )
 from core.explain.records import Formula
+from tests.calls import calls_of
 from tests.widgets.showing import shown
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT
+from widgets.inspector.formula_layout import FormulaSetter, Line
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.typesetter import Typesetter
 
@@ -221,6 +225,22 @@ def test_an_empty_view_says_what_it_is_for_and_the_formula_is_spoken(qtbot, view
 EQUATIONS = Formula(
     r"x = \frac{a}{256} \quad y = \frac{b}{256}", r"57 = \frac{c}{256} \quad 15 = \frac{d}{256}"
 )
+
+
+@pytest.mark.parametrize("formula", [EDGE, EQUATIONS])
+def test_a_formula_is_laid_out_once_for_all_widths_in_which_it_is_whole(qtbot, view, formula) -> None:
+    view.show_formula(formula)
+    wait_for_typesetting(qtbot, view)
+    setter, apart = view._setter(), FormulaSetter(view._typesetter, view.font(), view._size())
+
+    def placed(lines: tuple[Line, ...]) -> list[object]:
+        return [vars(part) for line in lines for part in (*line.pieces, replace(line, pieces=()))]
+
+    setter.layout(formula, 2000)
+    assert calls_of([FormulaSetter._layout], lambda: setter.layout(formula, 1990)) == {}
+    for width in range(60, 900, 7):
+        apart._layouts.clear()
+        assert placed(setter.layout(formula, width)) == placed(apart.layout(formula, width)), width
 
 
 def test_two_equations_are_parted_between_them(qtbot, view) -> None:

@@ -1,5 +1,6 @@
 import gc
 import math
+from dataclasses import replace
 
 import pytest
 from PySide6.QtCore import QEvent, Qt
@@ -161,8 +162,11 @@ def test_only_cells_that_differ_are_set_and_laid_out_again(qtbot, view) -> None:
 
 def test_only_values_that_differ_are_put_into_words(view) -> None:
     view.show_variables(STEP)
-    again = (Variable("x", 14, 13), *STEP[1:])
+    again = (Variable("x", 14, 13), *(replace(each, digits={14: 6, 99: 5}) for each in STEP[1:]))
     assert calls_of([value_text], lambda: view.show_variables(again)) == {"value_text": 2}
+    for digits in ({1 / 3: 6}, {2 / 3: 6}):
+        view.show_variables((Variable("pair", (1 / 3, 2 / 3), digits=digits),))
+        assert view.topLevelItem(0).text(1) == value_text((1 / 3, 2 / 3), digits=digits)
     view.show_variables((Variable("is_tie", 1),))
     view.show_variables((Variable("is_tie", True),))
     assert view.topLevelItem(0).text(1) == "yes", "equal, but not the same"
