@@ -1,6 +1,6 @@
 """The variables of a step: value now, value before, and which of them the step has changed."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
 from typing import NamedTuple
@@ -373,15 +373,12 @@ class _VariableItem(QTreeWidgetItem):
 
     def show_variable(self, variable: Variable, look: _Look) -> None:
         """Set what differs from what the row shows."""
-        self._variable = variable
-        values, digits = repr((variable.now, variable.before)), variable.digits
-        numbers = {abs(each) for each in _numbers(variable)} if digits else set()
-        own = {each: digits[each] for each in numbers if each in digits}
-        made_from = (variable.name, values, variable.vertex, own, look)
-        if made_from == self._made_from:
+        before, self._variable = self._variable, variable
+        made_from = (variable.name, repr((variable.now, variable.before)), variable.vertex, look)
+        if made_from == self._made_from and _own_digits(variable) == _own_digits(before):
             return
         self._made_from, is_changed = made_from, variable.is_changed()
-        now, before = (
+        now, earlier = (
             value_text(value, is_fraction=look.is_fraction, digits=variable.digits)
             for value in (variable.now, variable.before)
         )
@@ -389,13 +386,13 @@ class _VariableItem(QTreeWidgetItem):
         spoken = f"{variable.name} {said}, {'changed' if is_changed else 'unchanged'}"
         if variable.name != self.text(0):
             self.setText(0, variable.name)
-        shown, self._shown = self._shown, (now, before, spoken, is_changed, variable.vertex, look)
+        shown, self._shown = self._shown, (now, earlier, spoken, is_changed, variable.vertex, look)
         if shown == self._shown:
             return
         if shown is None or now != shown[0]:
             self.setText(1, now)
-        if shown is None or before != shown[1]:
-            self.setText(2, before)
+        if shown is None or earlier != shown[1]:
+            self.setText(2, earlier)
         if shown is None or spoken != shown[2]:
             self.setData(1, Qt.ItemDataRole.AccessibleTextRole, spoken)
         if shown is None or shown[3:] != self._shown[3:]:
@@ -411,12 +408,14 @@ class _VariableItem(QTreeWidgetItem):
             self.setForeground(column, QColor(color))
 
 
-def _numbers(variable: Variable) -> Iterator[float]:
-    """Yield the numbers of a variable, now and before."""
-    for value in (variable.now, variable.before):
-        for part in value if isinstance(value, tuple) else (value,):
-            if isinstance(part, int | float):
-                yield part
+def _own_digits(variable: Variable) -> Mapping[float, int]:
+    """Return the digits of a variable's numbers, by their size, that are not the usual ones."""
+    if not variable.digits:
+        return EVERY_DEFAULT
+    values = (variable.now, variable.before)
+    parts = (part for value in values for part in (value if isinstance(value, tuple) else (value,)))
+    sizes = {abs(part) for part in parts if isinstance(part, int | float)}
+    return {size: variable.digits[size] for size in sizes if size in variable.digits}
 
 
 def _shape(variable: Variable) -> tuple[str, int]:
