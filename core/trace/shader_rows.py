@@ -214,9 +214,12 @@ class ShaderStageTrace(StageTrace):
         of = self._rows_of_triangle(row)
         if of.start not in self._shares:
             lane, line = (self.columns[name][of] for name in ("lane", "line"))
-            ran = np.unique(np.stack([line, lane], axis=1)[line >= 0], axis=0)[:, 0]
-            counts = np.bincount(ran) / self.columns["lanes"][row]
-            self._shares[of.start] = {k: float(counts[k]) if k < len(counts) else 0.0 for k in self.lines}
+            ran, width = line >= 0, int(lane.max()) + 1
+            counts = np.bincount(np.unique(line[ran] * width + lane[ran]) // width)
+            self._shares[of.start] = {
+                k: float(counts[k]) / int(self.columns["lanes"][row]) if k < len(counts) else 0.0
+                for k in self.lines
+            }
         return self._shares[of.start]
 
     def waiting_at(self, row: int) -> tuple[Integers, Integers] | None:
@@ -228,11 +231,20 @@ class ShaderStageTrace(StageTrace):
             return None
         of = self._rows_of_triangle(row)
         lane, number = (self.columns[name][of] for name in ("lane", "lane_number"))
+        if of.start not in self._lanes:
+            self._lanes[of.start] = np.unique(lane)
+        lanes, at = self._lanes[of.start], self.columns["lane_number"][row]
         assert self.lane_rows is not None
-        at = self.columns["lane_number"][row]
-        discarded = np.unique(lane[self.lane_rows.discards[of] & (number < at)])
-        others = np.setdiff1d(lane, lane[number == at])
-        return np.setdiff1d(others, discarded), discarded
+        gone = self.lane_rows.discards[of] & (number < at)
+        live, discarded = np.zeros(len(lanes), bool), np.zeros(len(lanes), bool)
+        live[np.searchsorted(lanes, lane[number == at])] = True
+        discarded[np.searchsorted(lanes, lane[gone])] = True
+        return lanes[~live & ~discarded], lanes[discarded]
+
+    @cached_property
+    def _lanes(self) -> dict[int, Integers]:
+        """First row of a triangle to its lanes (n,), rising."""
+        return {}
 
     @cached_property
     def _shares(self) -> dict[int, Mapping[int, float]]:
