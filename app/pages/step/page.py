@@ -110,6 +110,7 @@ class StepPage(Page):
         self.grids.look_changed.connect(self.look_changed)
         self.comparing.look_changed.connect(self.look_changed)
         self.shading.comparison_requested.connect(self._compare_scene)
+        self.comparing.divergence_told.connect(self.shading.show_divergence)
         self.views.refused.connect(self.edit_refused)
         self.lessons = LessonPresenter(self)
         self.lessons.place_changed.connect(self._follow_lesson)

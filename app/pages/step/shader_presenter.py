@@ -131,6 +131,12 @@ class ShaderPresenter(QObject):
         assert isinstance(scene, Scene)
         self._edit(partial(retyped, program, scene, sources["vertex"], sources["fragment"]))
 
+    @Slot(str)
+    def show_divergence(self, said: str) -> None:
+        """Say below the sources, where all of it has room, where A and B differ first; not in place of a problem."""
+        if self._program() is not None and not self.drafts():
+            self._pane.show_accepted(said)
+
     def drafts(self) -> dict[Literal["vertex", "fragment"], str]:
         """Return the texts in the editors that the document has not taken over."""
         program = self._program()

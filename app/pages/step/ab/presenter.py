@@ -52,6 +52,8 @@ class ComparePresenter(QObject):
     """B is shown where it is now, or that it cannot be shown."""
     look_changed = Signal()
     """B differs otherwise, or another buffer is compared."""
+    divergence_told = Signal(str)
+    """Where both runs differ first, in words."""
 
     def __init__(self, session: Session, view: CompareView, page: Page) -> None:
         super().__init__(page)
@@ -467,6 +469,7 @@ class ComparePresenter(QObject):
                 self._session.set_pin(found.pixel)
             self._put_at(found.stage, *found.rows)
         self._page.tell(said)
+        self.divergence_told.emit(said)
 
     @Slot(object)
     def _tell_no_divergence(self, error: Exception) -> None:

@@ -263,6 +263,7 @@ def test_shaders_beside_the_built_in_shading_and_beside_others(lab, qtbot):
     _choose(pane._beside, "toon")
     qtbot.waitUntil(lambda: comparing._b.title == "Toon shading" and comparing.second is not None)
     assert pane._beside.currentIndex() == 0
+    qtbot.waitUntil(lambda: "cosine is the first variable that differs" in pane.message, timeout=10_000)
 
 
 def _open(window, name):
