@@ -8,6 +8,7 @@ import pytest
 
 from lessons.course.catalogue import FOLDER, chapters, explorations, shipped, with_folders
 from lessons.course.lesson_file import Lesson, read_lesson
+from lessons.course.pace import estimated_minutes
 from lessons.course.slides import coverage, slides
 from lessons.course.state import States
 from lessons.course.validation import validate
@@ -25,6 +26,15 @@ def lesson_of(folder: Path, text: str, name: str = "whose-pixel") -> Lesson:
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_a_lesson_says_what_is_so(path: Path) -> None:
     validate(read_lesson(path), shipped().lessons)
+
+
+def test_the_minutes_of_all_lessons_mean_the_same() -> None:
+    far = {
+        name: (lesson.minutes, round(estimated_minutes(lesson), 1))
+        for name, lesson in shipped().lessons.items()
+        if abs(lesson.minutes - estimated_minutes(lesson)) > max(2, lesson.minutes / 4)
+    }
+    assert far == {}
 
 
 def test_the_order_names_each_lesson_once() -> None:
