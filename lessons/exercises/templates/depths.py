@@ -122,9 +122,9 @@ def draw_inverse(draws: Draws) -> Draft | None:
     hints = (
         "Is a surface with a larger 1/w nearer or farther?",
         "Follow one pixel at a time.",
-        f"Fragment 0 leaves 1/{1 / fragments[0][1]} at its pixel: only a larger 1/w replaces it there.",
+        f"The first fragment leaves 1/{1 / fragments[0][1]} at its pixel: only a larger 1/w replaces it there.",
     )
-    labels = [f"fragment {k}: pixel {pixel}, w = {1 / value}" for k, (pixel, value) in enumerate(fragments)]
+    labels = [f"pixel {pixel}, w = {1 / value}" for pixel, value in fragments]
     wrong = {"farther-wins": stored(min), "no-depth-test": [[value] for _, value in fragments]}
     follow = follow_nearest(fragments)
     settings = Settings(depth="inverse-w")

@@ -129,9 +129,9 @@ def stored_depths(fragments: Sequence[Fragment], twin: str = "") -> Rows:
 def again_text(fragments: Sequence[Fragment]) -> str:
     """Return the first comparison at a pixel that holds a depth already, as a question."""
     held: dict[int, int] = {}
-    for number, (pixel, z) in enumerate(fragments):
+    for pixel, z in fragments:
         if pixel in held:
-            return f"Fragment {number} comes to pixel {pixel}: is {z} smaller than {held[pixel]}?"
+            return f"z = {z} comes to pixel {pixel}: is {z} smaller than {held[pixel]}?"
         held[pixel] = z
     raise ValueError(f"expected more fragments than pixels, got {len(fragments)}")
 
@@ -144,7 +144,7 @@ def depth_table(fragments: Sequence[Fragment]) -> TableAnswer:
         before = [stored for (stored,), (its, _) in zip(own, fragments, strict=False) if its == pixel]
         return min((Fraction(z), *before[-1:]))
 
-    labels = tuple(f"fragment {k}: pixel {pixel}, z = {z}" for k, (pixel, z) in enumerate(fragments))
+    labels = tuple(f"pixel {pixel}, z = {z}" for pixel, z in fragments)
     return TableAnswer((Column("stored"),), labels, stored_depths(fragments), follow)
 
 
