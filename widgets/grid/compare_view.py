@@ -30,8 +30,8 @@ FOLDED_LINES = (3, 3)
 """The same where the difference stands below A and B, with all notes beside it: there they are wider."""
 FOLDED_GAIN = 1.15
 """How many times larger the pictures become at least where the difference is put below A and B."""
-UNLIMITED = (1 << 24) - 1
-"""Height of a label without a limit, as Qt has it."""
+NOTE_LINES = 4
+"""Lines of a note at most where all stand beside the difference: more would make A and B smaller."""
 OLD_OPACITY = 0.4
 """Of a picture that is no longer that of what stands there."""
 SWAP_TIP, USE_TIP = "Swap the settings of A and B", "Give the page the settings of B"
@@ -267,7 +267,9 @@ class CompareView(QWidget):
             _grey(grid, side.is_old)
             # Away from its picture a note names it.
             name = f"{side.name}: " if self.linked.is_folded and side.sentence else ""
-            self._write(note, name + side.sentence, 0 if self.linked.is_folded else below)
+            self._write(note, name + side.sentence, NOTE_LINES if self.linked.is_folded else below)
+            if self.linked.is_folded:
+                note.setMinimumHeight(0)  # No higher than its text: the notes stand one below the other.
         self._code.setVisible(has_code)
         self._code.setMinimumHeight(CODE_LINES * self.fontMetrics().lineSpacing())
         for view, side in zip(self.listings, sides, strict=False):
@@ -304,15 +306,12 @@ class CompareView(QWidget):
 
     @staticmethod
     def _write(label: QLabel, text: str, lines: int) -> None:
-        """Show a text in the place of some lines: longer and shorter ones do not move the pictures.
-
-        0: of as many as it has, where it stands beside all pictures.
-        """
+        """Show a text in the place of some lines: longer and shorter ones do not move the pictures."""
         label.setText(text)
         label.setToolTip(text)
         height = lines * label.fontMetrics().lineSpacing() + 4
-        label.setMinimumHeight(height if lines else 0)
-        label.setMaximumHeight(height if lines else UNLIMITED)
+        label.setMinimumHeight(height)
+        label.setMaximumHeight(height)
 
     @Slot()
     def _show_values(self) -> None:

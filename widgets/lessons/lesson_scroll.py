@@ -45,6 +45,7 @@ class LessonScroll(QScrollArea):
             self.verticalScrollBar().setValue(0)
         else:
             self.ensureWidgetVisible(self._kept)
+            self.horizontalScrollBar().setValue(0)  # What is too wide is cut at its end, not at its beginning.
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep in sight what is to be read."""
