@@ -86,13 +86,13 @@ def pytest_collection(session: pytest.Session) -> None:
 
 @pytest.hookimpl(trylast=True)
 def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> None:
-    """Leave slow tests to --all, and run cases together where several processes share the tests."""
+    """Leave slow tests to --all, and else run cases together where several processes share the tests."""
     if not config.getoption("--all"):
         slow = [item for item in items if item.get_closest_marker("slow")]
         config.hook.pytest_deselected(items=slow)
         items[:] = [item for item in items if not item.get_closest_marker("slow")]
-    if "PYTEST_XDIST_WORKER" in os.environ:
-        items[:] = in_families(items)
+        if "PYTEST_XDIST_WORKER" in os.environ:
+            items[:] = in_families(items)
 
 
 def pytest_collection_finish() -> None:
