@@ -17,7 +17,6 @@ from app.cli.commands import MOST_ROUNDS, add_allow_outside, whole_number
 from app.cli.study import aligned
 from app.usage import UsageError
 from core import Settings
-from core.explain.kinds import of_kind
 from core.study import PlanReport, Tolerance, plan_and_check
 from core.study.planner.corpus import corpus_scene
 from core.study.planner.measuring import ROUNDS
@@ -96,8 +95,7 @@ def run(options: argparse.Namespace) -> int:
 def report_text(report: PlanReport) -> list[str]:
     """Return what is printed of one plan: what was seen, chosen, predicted and measured."""
     chosen = report.plan
-    corners = chosen.findings.corner_count
-    lines = [of_kind(f"{fact.title}: {fact.text}", corners) for fact in chosen.findings.facts]
+    lines = [f"{fact.title}: {fact.text}" for fact in chosen.findings.facts]
     measured = {outcome.decision.setting: outcome for outcome in report.outcomes}
     rows = [["setting", "chosen", "instead of", "predicted", "measured"]]
     for decision in chosen.decisions:
@@ -110,7 +108,7 @@ def report_text(report: PlanReport) -> list[str]:
         else:
             rows.append([decision.setting, decision.chosen, "kept" if decision.is_needed else "", "", ""])
     lines += ["", *aligned(rows), ""]
-    lines += [f"{decision.setting}: {of_kind(decision.reason, corners)}" for decision in chosen.decisions]
+    lines += [f"{decision.setting}: {decision.reason}" for decision in chosen.decisions]
     lines += ["", *(each.text for each in chosen.tessellations)]
     lines += [
         f"{outcome.decision.setting} {outcome.decision.chosen}: {outcome.text}."

@@ -6,6 +6,7 @@ from functools import cache
 
 from app.views.stage_views import VIEWS
 from app.window.actions import ACTIONS
+from core.explain.stage_texts import initial_sentence, stage_card
 from core.explain.steps import load_subjects
 from core.explain.variable_text import VARIABLES
 from core.methods import table
@@ -32,9 +33,10 @@ def places() -> Iterator[Place]:
     """Yield every text that the tables put on screen."""
     load_subjects()
     for stage in DECLARED:
-        card = (stage.title, stage.purpose, stage.takes, stage.gives, stage.initial)
+        card = stage_card(stage.name)
+        on_card = (card.title, card.purpose, card.gets, card.gives, initial_sentence(stage.name))
         levels = (stage.group_label, stage.row_label)
-        yield Place(f"Stage {stage.short_title}", f"do:stage/{stage.name}", ". ".join((*card, *levels)))
+        yield Place(f"Stage {stage.short_title}", f"do:stage/{stage.name}", ". ".join((*on_card, *levels)))
     for name, setting in FIELDS.items():
         address = f"help:family/{name if name in table.families else setting.taken_by}"
         yield Place(f"Methods: {setting.title}", address, setting.title)

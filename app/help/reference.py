@@ -7,6 +7,7 @@ from app.help.asked import exercise_links, exercises_of, scenes_of, slides_of
 from app.help.markup import HelpPage, bullets, facts, link, linked, sentence
 from app.session.printed_run import runnable
 from core import Settings, trace
+from core.explain.stage_texts import stage_card
 from core.families import Family
 from core.methods import Method, table
 from core.records.listing import listing
@@ -54,7 +55,7 @@ def family_page(name: str) -> HelpPage:
     rows = (f"{_method_link(method)}. {linked(sentence(method.exact_for))}" for method in _methods(name))
     body = facts(
         (
-            ("Stage", link(f"do:stage/{family.stage}", stage_of(family.stage).title)),
+            ("Stage", link(f"do:stage/{family.stage}", stage_card(family.stage).title)),
             ("Setting", f"<code>{name}</code>"),
             ("Chart", _chart(name)),
             ("Maps", _maps(name)),

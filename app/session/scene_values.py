@@ -5,9 +5,9 @@ from math import degrees
 
 import numpy as np
 
-from core.explain.kinds import of_kind
 from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
+from core.records.nouns import nouns
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, PointLight, Scene
 from lessons.scene_edits import BORDERS, WINDOW_NAMES, clip_window, window_of_clip
 from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue
@@ -59,7 +59,7 @@ def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int])
                 for name, number in zip(WINDOW_NAMES, window[index, corner], strict=True)
             )
             rows.append(OutlineRow(path, f"vertex {corner}", values, vertex=colors[corner]))
-        title = of_kind(f"Triangle {index}", scene.corner_count)
+        title = f"{nouns(scene.corner_count).one.capitalize()} {index}"
         groups.append(OutlineGroup(f"triangle/{index}", title, tuple(rows)))
     if scene.corner_count == 2 or scene.corner_count > 3 or scene.clip_region is not None:
         groups.append(_clip_window_outline(scene, size))

@@ -2,10 +2,10 @@
 
 from core import STAGES, Trace
 from core.antialiasing.sampling import Sampling
-from core.explain.kinds import POLYGON
 from core.explain.stage_texts import skipped_because
 from core.explain.subjects.number_formats import replaced_fill
 from core.records.frame import StageCount
+from core.records.nouns import POLYGON
 from core.resolved import resolve
 from core.stages.declared import GEOMETRY_STAGES, stage_of
 from core.trace import TraceSource

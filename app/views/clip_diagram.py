@@ -11,10 +11,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from core.explain.kinds import of_kind
 from core.geometry.culling import PLANES, REASONS
 from core.geometry.polygon_clipping.sutherland_hodgman import distance_from
 from core.records.arrays import Floats, Integers
+from core.records.nouns import nouns
 from core.trace import StageTrace, Trace
 from widgets.space.diagram import CUBE, Diagram, Patch, Spot, Stroke, Word
 from widgets.space.orbit import Orbit
@@ -61,7 +61,7 @@ def clip_state(trace: Trace, triangle: int, position: int | None) -> ClipState:
     if vertices.rings is not None:
         # Its rings are drawn as sides: they are no single line.
         state = replace(state, polygon=np.empty((0, 4)), is_kept_whole=False)
-    sentence = of_kind(state.sentence, corner_count)
+    sentence = nouns(corner_count).text(state.sentence)
     return replace(
         state, corner_count=corner_count, sentence=sentence, sides=vertices.sides, colors=vertices.colors
     )
@@ -82,20 +82,20 @@ def _state_of(trace: Trace, triangle: int, position: int | None) -> ClipState:
     if not len(kept):
         index = np.flatnonzero(geometry.assembled.triangle == triangle)
         reason = REASONS[int(geometry.culled.verdict[index[0]])] if len(index) else "not traced"
-        return still(before, f"Triangle {triangle} was culled ({reason}) and does not get here.")
+        return still(before, f"{{One}} {triangle} was culled ({reason}) and does not get here.")
     clipped = geometry.clipped
     if clipped is None:
         return still(before, "Clipping is off: homogeneous rasterization needs none.")
     found = np.flatnonzero(clipped.clipped == kept[0])
     if not len(found):
-        return still(before, "No plane crosses the triangle: it passes unchanged.")
+        return still(before, "No plane crosses the {one}: it passes unchanged.")
     if clipped.is_divided:
         # From here on the triangle is what the division made of it.
         if not clipped.counts[0][found[0]]:
-            return still(before, "A corner cannot be divided by w: the triangle is dropped.")
+            return still(before, "A corner cannot be divided by w: the {one} is dropped.")
         before = clipped.polygons[0][found[0], :3, :4]
         if not clipped.planes:
-            return still(before, "The triangle after the division by w: no plane clips it.")
+            return still(before, "The {one} after the division by w: no plane clips it.")
     return _clipped_state(trace, stage, int(found[0]), triangle, before, position)
 
 

@@ -8,9 +8,9 @@ from app.views.clip_diagram import cube_strokes
 from app.views.pointed_pixel import shown_triangle
 from app.views.stage_view import StageView, TextureView
 from app.views.texture_footprint import texture_of
-from core.explain.kinds import of_kind
 from core.explain.step_tables import has_tables, largest_tables, step_table
 from core.records.arrays import Floats
+from core.records.nouns import nouns
 from core.trace import StageTrace
 from core.trace.geometry_progress import SPACES, spaces_reached
 from widgets.basics.controls import column_layout
@@ -127,8 +127,8 @@ class NewDepths(Companion):
         """Show what has been compared so far of the triangle of the step."""
         stage, row = self.moment.stage_trace, self.moment.row
         triangle = -1 if row < 0 else int(stage.triangle[row])
-        of = "none yet" if row < 0 else f"triangle {triangle}"
-        self._title.setText(of_kind(f"New depths: {of}", self.moment.trace.source.scene.corner_count))
+        one = nouns(self.moment.trace.source.scene.corner_count).one
+        self._title.setText(f"New depths: {'none yet' if row < 0 else f'{one} {triangle}'}")
         self.grid.show_buffer(new_depths(self.moment, stage, row))
         origin = self.moment.trace.source.raster.bounds[:2]
         has_pixel = row >= 0 and stage.pixel[row, 0] >= 0
@@ -179,12 +179,12 @@ def entered_diagram(moment: Moment) -> Diagram:
                 Spot(corners[number, k], f"vertex {geometry.vertices.colors[k]}", radius=3.0)
                 for k in np.flatnonzero(there).tolist()
             ]
-    said = of_kind("Vertices appear here when they are divided by w.", is_there.shape[1])
+    drawn = nouns(is_there.shape[1])
+    said = f"{drawn.vertices.capitalize()} appear here when they are divided by w."
     if row >= 0:
         k = int(stage.columns["corner"][row])
         space = SPACES[int(spaces_reached(trace, "transform", position)[current, k])]
-        named = of_kind(f"Vertex {k} of triangle {stage.triangle[row]}", is_there.shape[1])
-        said = f"{named} is in {space} space."
+        said = f"Vertex {k} of {drawn.one} {stage.triangle[row]} is in {space} space."
         if is_there[current, k]:
             spots.append(Spot(corners[current, k], "accent", "ring", 7.0))
     return Diagram(

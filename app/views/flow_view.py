@@ -7,8 +7,8 @@ from PySide6.QtWidgets import QWidget
 from app.views.chapters import chapters_of, traced_counts
 from app.views.stage_view import StageView
 from core import STAGES
-from core.explain.kinds import of_kind
 from core.explain.subjects.interpolation import ATTRIBUTE_NAMES
+from core.records.nouns import nouns
 from core.records.words import counted, joined
 from core.scene import ClipScene
 from core.stages.declared import PHASES
@@ -66,7 +66,7 @@ class FlowView(StageView):
         """Return how many of what go into each of the four stages and come out."""
         trace = self.moment.trace
         geometry, size = trace.source.geometry, trace.source.scene.size
-        given, kind = geometry.assembled, trace.source.scene.corner_count
+        given, drawn = geometry.assembled, nouns(trace.source.scene.corner_count)
         corners = geometry.vertices.all_corners[given.triangle]
 
         def said(count: int, noun: str, plural: str = "") -> str:
@@ -77,7 +77,7 @@ class FlowView(StageView):
         fragments = said(traced_counts(trace)["interpolate"][1], "fragment")
         return [
             (vertices, vertices),
-            (of_kind(said(len(given), "triangle"), kind), fragments),
+            (said(len(given), drawn.one, drawn.many), fragments),
             (fragments, fragments),
             (fragments, said(size[0] * size[1], "pixel")),
         ]

@@ -4,7 +4,7 @@ from PySide6.QtCore import QObject, Qt, QTimer, Slot
 
 from app.views.scene_figures import drawing_text, figures_text
 from app.views.scene_picture import DrawnScene
-from core.explain.kinds import of_kind
+from core.records.nouns import nouns
 from widgets.space.frame_corner import FrameRate
 from widgets.space.scene_view import SceneView
 
@@ -54,6 +54,6 @@ class FrameReport(QObject):
         if self._has_new and self._drawn is not None:
             self._has_new = False
             self._timer.start()
-            text = figures_text(self._drawn.figures, self._rate.per_second())
-            self._view.show_figures(of_kind(text, self._drawn.shot.scene.corner_count))
+            drawn = nouns(self._drawn.shot.scene.corner_count)
+            self._view.show_figures(figures_text(self._drawn.figures, self._rate.per_second(), drawn))
             self._view.corner().show_details(drawing_text(self._drawn.figures))

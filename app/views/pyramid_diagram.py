@@ -14,10 +14,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.views.pointed_pixel import PointedPixel, fragment_at
-from core.explain.kinds import of_kind
 from core.fragments.interpolation import numerators, plane_value, set_up_planes, value_plane
 from core.geometry.vertex_stage import VertexStage
 from core.records.arrays import Floats
+from core.records.nouns import nouns
 from core.trace import TraceSource
 from widgets.grid.buffer import number_text
 from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word
@@ -98,7 +98,7 @@ def pyramid_diagram(source: TraceSource, triangle: int, pixel: PointedPixel | No
         frame=_frame_points(corners, frame),
         azimuth=1.05,
         elevation=0.33,
-        caption=of_kind(" ".join(sentences), source.scene.corner_count),
+        caption=nouns(source.scene.corner_count).text(" ".join(sentences)),
     )
 
 
@@ -137,15 +137,13 @@ def homogeneous_corners(source: TraceSource, triangle: int) -> Floats:
 def _sentence(w: Floats, frame: PyramidFrame) -> str:
     parts = ["Eye at the origin, raster on the plane w = 1."]
     if (w == w[0]).all() and w[0] > 0:
-        parts.append("All w are equal, as in every parallel projection: the triangle keeps its shape.")
+        parts.append("All w are equal, as in every parallel projection: the {one} keeps its shape.")
     elif (w > 0).all():
-        parts.append("All w > 0: the whole triangle is in front of the eye.")
+        parts.append("All w > 0: the whole {one} is in front of the eye.")
     elif (w <= 0).all():
-        parts.append(
-            "All w ≤ 0: the triangle lies behind the eye and only its mirror image meets the raster."
-        )
+        parts.append("All w ≤ 0: the {one} lies behind the eye and only its mirror image meets the raster.")
     else:
-        parts.append("Some w ≤ 0: the triangle reaches behind the eye; edge planes decide without clipping.")
+        parts.append("Some w ≤ 0: the {one} reaches behind the eye; edge planes decide without clipping.")
     if frame.factor != 1:
         parts.append(
             f"The drawing divides x, y and w by {number_text(frame.factor, 3)}: the rays stay the same."
@@ -250,7 +248,7 @@ def _ray(
     ]
     spots = [Spot(on_raster, "text", "disc", 3.0)]
     if source.scene.corner_count < 3:
-        sentence = f"The ray of the {pixel.name} meets only the raster: a triangle has no area."
+        sentence = f"The ray of the {pixel.name} meets only the raster: a {{one}} has no area."
         return Diagram((), tuple(strokes), tuple(spots)), sentence
     vertices = source.geometry.vertices
     if vertices.rings is not None:
@@ -259,7 +257,7 @@ def _ray(
     point, weights, inverse_w = hit_point(homogeneous, x, y)
     if not np.isfinite(point).all():
         strokes.append(Stroke(np.stack([on_raster, on_raster * 3]), "text", 1.4, "dot"))
-        sentence = f"The ray of the {pixel.name} is parallel to the triangle's plane."
+        sentence = f"The ray of the {pixel.name} is parallel to the {{one}}'s plane."
         return Diagram((), tuple(strokes), tuple(spots)), sentence
     hit = frame.place(point[None] / frame.factor)[0]
     is_in_front = inverse_w > 0
@@ -271,10 +269,10 @@ def _ray(
     if not is_in_front:
         where = "behind the eye"
     elif is_covered if vertices.rings is not None else (weights >= 0).all():
-        where = "inside the triangle"
+        where = "inside the {one}"
     else:
         where = "beyond an edge"
     shares = ", ".join(number_text(float(weight), 3) for weight in weights)
     of_corners = f": weights ({shares})" if vertices.rings is None else ""
-    sentence = f"The ray of the {pixel.name} meets the triangle's plane at w = {w_text}, {where}{of_corners}."
+    sentence = f"The ray of the {pixel.name} meets the {{one}}'s plane at w = {w_text}, {where}{of_corners}."
     return Diagram((), tuple(strokes), tuple(spots)), sentence

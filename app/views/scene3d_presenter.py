@@ -29,9 +29,9 @@ from app.views.scene_picture import (
 from app.views.scene_worker import SceneWorker
 from app.views.step_marks import is_scene_asked, is_scene_lit, step_marks
 from app.views.view_space import LARGEST_WITH_CAMERA, ViewSpace, make_space, move_corner_to, with_triangles
-from core.explain.kinds import of_kind
 from core.fast_path.workers import BandWorkers
 from core.records.arrays import Integers
+from core.records.nouns import nouns
 from core.records.words import counted
 from core.scene import AnyScene, Scene
 from core.trace.geometry_progress import is_dropped
@@ -298,20 +298,21 @@ class Scene3dPresenter(QObject):
     def _caption(self) -> str:
         document = self._moment.document
         count = document.triangle_count
-        parts = [f"{counted(count, 'triangle')}."]
+        drawn = nouns(document.scene.corner_count)
+        parts = [f"{counted(count, drawn.one, drawn.many)}."]
         if count > LARGEST_WITH_CAMERA:
-            parts.append("Click a triangle, or press F, to go into it. Shift+F comes back.")
+            parts.append("Click a {one}, or press F, to go into it. Shift+F comes back.")
         elif isinstance(document.scene, Scene):
             parts.append("Camera and view volume are drawn as lines, the near plane thick.")
         else:
             parts.append("Given in clip space: the box is the view volume, its near face in front.")
         if self.focus is not None:
-            parts.append("Drag a vertex to move it.")
+            parts.append("Drag {a_vertex} to move it.")
         elif count <= LARGEST_WITH_CAMERA:
-            parts.append("Click a triangle to choose it.")
+            parts.append("Click a {one} to choose it.")
         if count > MOST_TRIANGLES:
             parts.append(f"One in {-(-count // MOST_TRIANGLES)} is drawn.")
-        return of_kind(" ".join(parts), document.scene.corner_count)
+        return drawn.text(" ".join(parts))
 
     # Acting.
 
@@ -353,8 +354,10 @@ class Scene3dPresenter(QObject):
     @Slot(object)
     def _take_picked(self, triangle: int) -> None:
         if triangle < 0:
-            said = "No triangle is here: a click on one chooses it, a drag turns the scene."
-            self.message_sent.emit(of_kind(said, self._moment.document.scene.corner_count))
+            drawn = nouns(self._moment.document.scene.corner_count)
+            self.message_sent.emit(
+                f"No {drawn.one} is here: a click on one chooses it, a drag turns the scene."
+            )
             return
         is_model = self._moment.document.triangle_count > LARGEST_WITH_CAMERA
         self._entered = triangle if is_model else None

@@ -7,6 +7,7 @@ from core.fast_path import Route
 from core.fast_path.record import Coloring, Visibility
 from core.fast_path.workers import Sharing
 from core.records.frame import StageCount
+from core.records.nouns import TRIANGLES, Nouns
 from core.records.words import counted
 from core.stages.declared import stage_of
 from widgets.space.frame_corner import SizeChoice
@@ -51,13 +52,13 @@ class FrameFigures:
     """Back faces were left out: none can be seen."""
 
 
-def figures_text(figures: FrameFigures, per_second: float | None) -> str:
+def figures_text(figures: FrameFigures, per_second: float | None, drawn: Nouns = TRIANGLES) -> str:
     """Return the figures as one line; a rate that is not known is left out."""
     parts = [] if per_second is None else [f"{per_second:.{0 if per_second >= 9.95 else 1}f} frames/s"]
     milliseconds = figures.seconds * 1000
     parts.append(f"{milliseconds:,.{0 if milliseconds >= 99.95 else 1}f} ms")
     parts.append(f"{figures.size[0]} × {figures.size[1]}")
-    parts.append(counted(figures.triangle_count, "triangle"))
+    parts.append(counted(figures.triangle_count, drawn.one, drawn.many))
     return " · ".join(parts)
 
 

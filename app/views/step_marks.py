@@ -6,9 +6,9 @@ import numpy as np
 
 from app.session.moment import Moment
 from app.views.view_space import ViewSpace
-from core.explain.kinds import of_kind
 from core.geometry.culling import KEPT, REASONS
 from core.records.arrays import Floats, Integers
+from core.records.nouns import nouns
 from core.stages.declared import GEOMETRY_STAGES, STAGES
 from core.trace.geometry_progress import SPACES, is_dropped, spaces_reached
 
@@ -104,7 +104,7 @@ def _facing_marks(moment: Moment, space: ViewSpace, position: int) -> list[Space
     if current < 0:
         return marks
     triangle, kind = int(triangles[current]), trace.kind_of(row)
-    name = of_kind(f"triangle {triangle}", source.scene.corner_count)
+    name = f"{nouns(source.scene.corner_count).one} {triangle}"
     marks += _outlines(space, triangle)
     facing = float(culled.side[current])
     what = f"area {facing / 2:+.4g}" if culled.sight is None else f"N · V {-facing:+.4g}"

@@ -6,12 +6,12 @@ import numpy as np
 
 from app.session.moment import Moment
 from app.views.pointed_pixel import PointedPixel, fragment_at, pointed_pixels, shown_triangle
-from core.explain.kinds import of_kind
 from core.fragments.interpolation import interpolate, plane_value
 from core.fragments.mipmap_samples import sample_mipmaps
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.textures import TextureSamples, sample_texture, wrap_period
 from core.records.arrays import Floats
+from core.records.nouns import nouns
 from core.records.words import counted
 from core.scene import ClipScene, Texture
 from core.trace import TraceSource
@@ -171,8 +171,7 @@ def no_texture_reason(moment: Moment, triangle: int) -> str:
     if scene.program is not None:
         return "The scene's shaders choose where they look a texture up: step their lines in Shade."
     if isinstance(scene, ClipScene):
-        text = "These triangles have colours at their corners and no texture."
-        return of_kind(text, scene.corner_count)
+        return nouns(scene.corner_count).text("These {many} have colours at their {corner}s and no texture.")
     if not any(mesh.texture for mesh in scene.meshes):
         return "No mesh of this scene has a texture."
     return f"The mesh of triangle {triangle} has no texture."

@@ -15,7 +15,7 @@ from app.window.appearance import DESK_THEMES, TEXT_SIZES
 from app.window.export_desk import SCALES
 from app.window.key_choices import KeyChoices
 from app.window.keys import KeyAction, key_text
-from core.explain.kinds import of_kind
+from core.records.nouns import nouns
 from lessons.scenes import CATALOGUE, BuiltInScene
 from lessons.slides.scenes import LECTURE_SCENES
 from widgets.basics.theme import current_theme
@@ -220,9 +220,11 @@ class Menus(QObject):
 
     def show_kind(self, corner_count: int) -> None:
         """Name triangles, segments or points: primitives of so many corners."""
+        one = nouns(corner_count).one
         for entry in self._table:
-            if "triangle" in entry.title.lower():
-                self.actions_by_name[entry.name].setText(of_kind(entry.title, corner_count))
+            if "triangle" in entry.title:
+                many = entry.title.replace("triangles", nouns(corner_count).many)
+                self.actions_by_name[entry.name].setText(many.replace("triangle", one))
 
     def show_keys(self, choices: KeyChoices) -> None:
         """Let the actions have other keys."""

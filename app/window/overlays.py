@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QWidget
 from app.pages.step.page import StepPage
 from app.window.key_desk import KeyDesk
 from app.window.keys import LOCAL_KEYS, KeyAction, key_text
-from core.explain.kinds import of_kind
+from core.records.nouns import nouns
 from core.trace.conditions import variable_names
 from widgets.basics.ask_bar import AskBar
 from widgets.basics.key_help import KeyEntry, KeyHelp
@@ -95,7 +95,7 @@ class Overlays(QObject):
 
     def ask_triangle(self) -> None:
         """Ask for a triangle to bring into focus."""
-        title = of_kind("Go to triangle", self._session.document.scene.corner_count)
+        title = f"Go to {nouns(self._session.document.scene.corner_count).one}"
         self._ask("triangle", title, f"Number 0 to {self._session.document.triangle_count - 1}.")
 
     def ask_condition(self) -> None:
@@ -136,7 +136,7 @@ class Overlays(QObject):
     def _go_to_triangle(self, text: str) -> None:
         last = self._session.document.triangle_count - 1
         if not text.strip().isdecimal() or int(text) > last:
-            wanted = of_kind("Enter a triangle's number", self._session.document.scene.corner_count)
+            wanted = f"Enter a {nouns(self._session.document.scene.corner_count).one}'s number"
             raise ValueError(f"{wanted}, 0 to {last}; got “{text}”.")
         self.triangle_requested.emit(int(text))
 

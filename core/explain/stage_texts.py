@@ -4,37 +4,42 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
-from core.explain.kinds import of_kind
 from core.explain.records import StageCard
 from core.methods import table
 from core.raster.fills.traits import fill_traits
+from core.records.nouns import TRIANGLES, Nouns, nouns
 from core.records.steps import Level
 from core.records.words import counted
 from core.settings import FIELDS
 from core.stages.declared import STAGES, Stage, stage_of
 from core.trace.stage_trace import MARKS
 
-Account = Callable[[Mapping[str, int]], list[str]]
-"""Makes of the counts of rows and marks what a larger step did, in a few parts."""
+Account = Callable[[Mapping[str, int], Nouns], list[str]]
+"""Makes of the counts of rows and marks what a larger step did, in a few parts; takes what is drawn, too."""
 
 
-def _cull_account(counts: Mapping[str, int]) -> list[str]:
+def _cull_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     verdicts = [f"{counts['covered']:,} kept"] if counts["covered"] else []
     verdicts += [f"{counts['rejected']:,} dropped"] if counts["rejected"] else []
     return [counted(counts["rows"], "test"), *(verdicts or ["nothing decided yet"])]
 
 
-def _clip_account(counts: Mapping[str, int]) -> list[str]:
+def _clip_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     outside = [f"{counts['rejected']:,} wholly outside"] if counts["rejected"] else []
-    return [counted(counts["rows"], "edge or untouched triangle", "edges or untouched triangles"), *outside]
+    if drawn.edge == drawn.one:
+        return [counted(counts["rows"], drawn.one, drawn.many), *outside]
+    one, many = f"edge or untouched {drawn.one}", f"edges or untouched {drawn.many}"
+    return [counted(counts["rows"], one, many), *outside]
 
 
-def _edges_account(counts: Mapping[str, int]) -> list[str]:
-    flat = [f"{counted(counts['rejected'], 'triangle')} without area"] if counts["rejected"] else []
+def _edges_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
+    flat = (
+        [f"{counted(counts['rejected'], drawn.one, drawn.many)} without area"] if counts["rejected"] else []
+    )
     return [f"{counted(counts['rows'], 'corner, area or edge', 'corners, areas and edges')} set up", *flat]
 
 
-def _bin_account(counts: Mapping[str, int]) -> list[str]:
+def _bin_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     blocks = [f"{counted(counts['covered'], 'block')} accepted", f"{counts['rejected']:,} rejected"]
     tested = f"{counted(counts['rows'], 'box or block', 'boxes and blocks')} tested"
     return [tested, *(blocks if counts["covered"] + counts["rejected"] else [])]
@@ -45,7 +50,7 @@ def _place(counts: Mapping[str, int]) -> str:
     return "sample" if counts["samples"] else "pixel"
 
 
-def _raster_account(counts: Mapping[str, int]) -> list[str]:
+def _raster_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     ties = [f"{counts['tie']:,} on an edge"] if counts["tie"] else []
     place = _place(counts)
     if not counts["tested"]:
@@ -60,19 +65,21 @@ def _raster_account(counts: Mapping[str, int]) -> list[str]:
     ]
 
 
-def _line_account(counts: Mapping[str, int]) -> list[str]:
+def _line_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     ties = [f"{counts['tie']:,} at a tie"] if counts["tie"] else []
     return [f"{counted(counts['covered'], _place(counts))} drawn", *ties]
 
 
-def _depth_account(counts: Mapping[str, int]) -> list[str]:
+def _depth_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
     tested = f"{counted(counts['rows'], 'fragment')} tested"
     return [tested, f"{counts['covered']:,} kept", f"{counts['depth-failed']:,} hidden or out of range"]
 
 
 def _rows_account(noun: str, done: str) -> Account:
     """Return the account of a stage that does one thing to every row."""
-    return lambda counts: [f"{counted(counts['rows'], _place(counts) if noun == 'pixel' else noun)} {done}"]
+    return lambda counts, _: [
+        f"{counted(counts['rows'], _place(counts) if noun == 'pixel' else noun)} {done}"
+    ]
 
 
 LINE_CARD = {
@@ -82,6 +89,41 @@ LINE_CARD = {
     "purpose": "Draws a line as the pixels nearest to it, one in each column or row.",
 }
 """The card of the rasterization of lines."""
+CARDS: Mapping[tuple[str, str], Mapping[str, str]] = {
+    ("cull", "segment"): {"purpose": "Saves all work on segments behind the eye and outside the view."},
+    ("cull", "point"): {"purpose": "Saves all work on points behind the eye and outside the view."},
+    ("clip", "segment"): {"gives": "Segments wholly inside: of a cut one the part inside."},
+    ("clip", "point"): {"gives": "Points wholly inside."},
+    ("clip", "polygon"): {
+        "title": "Clip: cut polygons at the clip window",
+        "gets": "Polygons and the clip window, in pixels.",
+        "gives": "The rings of what is left of every polygon.",
+        "purpose": "Leaves the part of every polygon that lies in the clip window.",
+    },
+    ("raster", "point"): {
+        "title": "Raster: which pixel contains a point",
+        "gets": "The place of every point in the window.",
+        "gives": "The pixel of every point.",
+        "purpose": "Draws a point as the pixel that contains it.",
+    },
+    ("raster", "polygon"): {
+        "gets": "The rings of every polygon in the window.",
+        "purpose": "Counts the edges to the left of the pixel's centre.",
+    },
+    ("interpolate", "segment"): {
+        "gives": "Weights at every pixel, and the weighted sum of the ends' values.",
+        "purpose": "Extends the values of both ends over the segment, in correct perspective.",
+    },
+    ("interpolate", "point"): {
+        "gives": "The values of its point at every pixel.",
+        "purpose": "Gives each pixel the values of its point.",
+    },
+    ("interpolate", "polygon"): {
+        "gives": "The colour of every pixel.",
+        "purpose": "Gives every pixel the colour of corner 0.",
+    },
+}
+"""Texts of cards by stage and what is drawn, where those of triangles say something else."""
 BEFORE_TABLES = "A table of depths has no triangles: it begins at the depth test."
 """Why fragments that are given skip a stage."""
 ACCOUNTS: Mapping[str, Account] = {
@@ -128,7 +170,7 @@ class DepthText(NamedTuple):
 
 def initial_sentence(stage: str, corner_count: int = 3) -> str:
     """Return the sentence of a stage before its first step, or why primitives of so few corners skip it."""
-    return skipped_because(stage, corner_count) or of_kind(stage_of(stage).initial, corner_count)
+    return skipped_because(stage, corner_count) or nouns(corner_count).text(stage_of(stage).initial)
 
 
 def skipped_because(stage: str, corner_count: int) -> str:
@@ -138,7 +180,7 @@ def skipped_because(stage: str, corner_count: int) -> str:
     if corner_count == 0:
         return BEFORE_TABLES if STAGES.index(stage) < STAGES.index("depth") else ""
     reason = stage_of(stage).needs_area if corner_count < 3 else ""
-    return reason.format(kind=of_kind("triangle", corner_count))
+    return reason.format(kind=nouns(corner_count).one)
 
 
 def summary_sentence(
@@ -165,21 +207,23 @@ def summary_sentence(
     """
     known = {name: counts.get(name, 0) for name in ("rows", "tested", "samples", *MARKS)}
     family, _, name = method.partition("=")
-    account_of, group = ACCOUNTS[stage], stage_of(stage).group
+    drawn = nouns(corner_count)
+    account_of, group = ACCOUNTS[stage], drawn.text(stage_of(stage).group)
     if family == "line":
-        account_of, group = _line_account, "one line"
+        account_of, group = _line_account, "" if drawn.one == "point" else "one line"
     if family == "fill":
         # A lane is set up before its spans are filled.
         group = "one " + fill_traits(name).group_label.lower().split(" or ")[-1 if known["covered"] else 0]
-    account = ", ".join(account_of(known))
+    account = ", ".join(account_of(known, drawn))
     if known["nan"]:
         account += f", {known['nan']:,} undefined (NaN)"
-    who = "All triangles" if triangle is None or triangle < 0 else f"Triangle {triangle}"
+    everything = f"All {drawn.many}"
+    who = everything if triangle is None or triangle < 0 else f"{drawn.one.capitalize()} {triangle}"
     if level == Level.STAGE:
         who = "Whole stage"
-    elif level == Level.GROUP:
-        who = group.capitalize() if who == "All triangles" else f"{who}, {group}"
-    return of_kind(f"{who}: {account}.", corner_count)
+    elif level == Level.GROUP and group:
+        who = group.capitalize() if who == everything else f"{who}, {group}"
+    return f"{who}: {account}."
 
 
 def stage_card(stage: str, method: str = "", corner_count: int = 3) -> StageCard:
@@ -201,9 +245,10 @@ def stage_card(stage: str, method: str = "", corner_count: int = 3) -> StageCard
     """
     declared = stage_of(stage)
     draws_lines = method.startswith("line=") and corner_count > 0
-    texts = LINE_CARD if draws_lines else _own_texts(declared)
-    if not declared.needs_area:
-        texts = {name: of_kind(text, corner_count) for name, text in texts.items()}
+    drawn = TRIANGLES if declared.needs_area else nouns(corner_count)
+    texts = LINE_CARD if draws_lines else _own_texts(declared, drawn)
+    if drawn.one == "point" or not draws_lines:
+        texts = {**texts, **CARDS.get((stage, drawn.one), {})}
     card = StageCard(**texts, source=declared.source)
     if not method:
         return card
@@ -212,8 +257,9 @@ def stage_card(stage: str, method: str = "", corner_count: int = 3) -> StageCard
     return replace(card, source=f"{card.source}. {family_title(family)}, {text.title}: {text.source}")
 
 
-def _own_texts(stage: Stage) -> dict[str, str]:
-    return {"title": stage.title, "gets": stage.takes, "gives": stage.gives, "purpose": stage.purpose}
+def _own_texts(stage: Stage, drawn: Nouns) -> dict[str, str]:
+    texts = {"title": stage.title, "gets": stage.takes, "gives": stage.gives, "purpose": stage.purpose}
+    return {name: drawn.text(text) for name, text in texts.items()}
 
 
 NEARNESS = DepthText(

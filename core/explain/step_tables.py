@@ -12,12 +12,12 @@ from typing import TypeVar
 import numpy as np
 
 from core.explain.digits import in_words
-from core.explain.kinds import of_kind
 from core.explain.number_text import exact_text, full_text
 from core.explain.records import Value
 from core.explain.step_values import StepValues
 from core.explain.steps import load_subjects, sentence
 from core.records.arrays import Integers
+from core.records.nouns import nouns
 from core.records.steps import Level
 from core.records.tables import StepTable, TableCell, TableColumn
 from core.trace import StageTrace
@@ -174,18 +174,23 @@ def filled_table(
     }
     at = np.flatnonzero(begun == current)
     return StepTable(
-        of_kind(title, trace.corner_count),
-        of_kind(row_title, trace.corner_count),
+        title,
+        row_title,
         tuple(
-            TableColumn(column.symbol, of_kind(column.meaning, trace.corner_count), column.vertex)
+            TableColumn(column.symbol, nouns(trace.corner_count).text(column.meaning), column.vertex)
             for column in columns
         ),
-        tuple(of_kind(label, trace.corner_count) for label in labels),
+        tuple(labels),
         tuple(cells),
         frozenset(made),
         int(at[0]) if len(at) else -1,
-        of_kind(note, trace.corner_count) if is_done else "",
+        note if is_done else "",
     )
+
+
+def primitive_name(trace: StageTrace, row: int) -> str:
+    """Return what a row is about, as ``triangle 5``."""
+    return f"{nouns(trace.corner_count).one} {int(trace.triangle[row])}"
 
 
 def last_sentence(trace: StageTrace, row: int) -> str:

@@ -7,6 +7,7 @@ import numpy as np
 from core.explain.formulas import Named, upright
 from core.framebuffer.packed_keys import NUMBER_BITS
 from core.raster.edges.fill_rule import owns as owns_by_side
+from core.records.nouns import Nouns, nouns
 from core.trace import Explanation
 
 AXES = ("x", "y", "z", "w")
@@ -47,9 +48,29 @@ class StepValues:
         return f"Pixel ({column}, {row})"
 
     @property
+    def nouns(self) -> Nouns:
+        """What sentences call the primitive and its parts."""
+        return nouns(self.explanation.corner_count)
+
+    @property
+    def name(self) -> str:
+        """The primitive and its number: ``triangle 5``."""
+        return self.named_primitive(self.triangle)
+
+    def named_primitive(self, number: int) -> str:
+        """Return what another primitive of the scene is called."""
+        return f"{self.nouns.one} {number}"
+
+    @property
+    def edge_name(self) -> str:
+        """The edge of the primitive that the step is about; a segment and a point have no other."""
+        is_own = self.explanation.corner_count in (1, 2)
+        return self.name if is_own else f"edge {self.whole('edge')} of {self.name}"
+
+    @property
     def fragment_name(self) -> str:
-        """The pixel and the triangle that covers it, at the beginning of a sentence."""
-        return f"{self.pixel_name} of triangle {self.triangle}"
+        """The pixel and the primitive that covers it, at the beginning of a sentence."""
+        return f"{self.pixel_name} of {self.name}"
 
     @property
     def the_pixel(self) -> str:

@@ -8,7 +8,6 @@ from typing import Any
 import numpy as np
 
 from core.explain.digits import in_words, spoken, vector_text
-from core.explain.kinds import of_kind
 from core.explain.records import Asked, Formula, Value, Variable
 from core.explain.rows import REMARKS, Row, find_row
 from core.explain.step_values import StepValues, key_fields, row_key
@@ -57,10 +56,7 @@ def account(
     """
     text, made = _said(StepValues(explanation, triangle, pixel))
     standing = made if made is not None else _earlier_formula(explanation, triangle, pixel)
-    said = in_words(text, standing.digits if standing is not None else {})
-    # The names of a student's own code stay as they are.
-    is_own = isinstance(explanation.listing, EditedListing)
-    return said if is_own else of_kind(said, explanation.corner_count), made
+    return in_words(text, standing.digits if standing is not None else {}), made
 
 
 def _earlier_formula(

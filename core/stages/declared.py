@@ -8,7 +8,10 @@ class Stage:
     """One stage."""
 
     name: str
-    """The spelling of files, command line and API."""
+    """The spelling of files, command line and API.
+
+    Other texts have names of what is drawn in braces, as ``{one}`` and ``{corner}``: see ``core.records.nouns``.
+    """
     short_title: str
     """Its name as a chapter of the run."""
     title: str
@@ -53,14 +56,14 @@ DECLARED = (
         name="transform",
         short_title="Transform",
         title="Transform: from the mesh to the window",
-        purpose="Brings all triangles into window space, where pixels are counted.",
-        takes="The vertices of every mesh in object space, the camera, and the size of the picture.",
-        gives="Every vertex in world, camera, clip, NDC and window space.",
+        purpose="Brings all {many} into window space, where pixels are counted.",
+        takes="The {vertices} of every mesh in object space, the camera, and the size of the picture.",
+        gives="Every {vertex} in world, camera, clip, NDC and window space.",
         source="Zwicker 2016, The complete vertex transform; Pellacini, Vertex processing",
         heading="Geometry",
         tracer="core.trace.transform.trace_transform",
-        initial="No vertex is transformed yet: all are in object space.",
-        group="one corner",
+        initial="No {vertex} is transformed yet: all are in object space.",
+        group="one {corner}",
         group_label="Vertex",
         row_label="Matrix",
         of_triangles=True,
@@ -70,14 +73,14 @@ DECLARED = (
     Stage(
         name="cull",
         short_title="Cull",
-        title="Cull: drop triangles that cannot be seen",
-        purpose="Saves all work on triangles behind the eye, outside the view, without area, or turned away.",
-        takes="Triangles in clip space.",
-        gives="The triangles that may be visible, and a reason for each dropped one.",
+        title="Cull: drop {many} that cannot be seen",
+        purpose="Saves all work on {many} behind the eye, outside the view, without area, or turned away.",
+        takes="{Many} in clip space.",
+        gives="The {many} that may be visible, and a reason for each dropped one.",
         source="LMU 2020, Culling; Jubair, Backface culling",
         heading="Geometry",
         tracer="core.trace.cull.trace_cull",
-        initial="No triangle has been tested yet.",
+        initial="No {one} has been tested yet.",
         group="one kind of test",
         group_label="Test",
         row_label="Plane",
@@ -88,14 +91,14 @@ DECLARED = (
     Stage(
         name="clip",
         short_title="Clip",
-        title="Clip: cut triangles at the view volume",
+        title="Clip: cut {many} at the view volume",
         purpose="Makes every w positive, for methods that divide by it. Homogeneous rasterization does not need it.",
-        takes="Triangles in clip space, some of which cross a plane of the view volume.",
-        gives="Triangles wholly inside: each cut one becomes a polygon, split into a fan.",
+        takes="{Many} in clip space, some of which cross a plane of the view volume.",
+        gives="{Many} wholly inside: each cut one becomes a polygon, split into a fan.",
         source="Sutherland and Hodgman 1974; Pellacini, Polygon clipping",
         heading="Geometry",
         tracer="core.trace.clip.trace_clip",
-        initial="No triangle has reached the view volume yet.",
+        initial="No {one} has reached the view volume yet.",
         group="one plane",
         group_label="Plane",
         row_label="Edge",
@@ -145,7 +148,7 @@ DECLARED = (
         title="Raster: which pixels are covered",
         purpose="Decides by the sign of three edge functions at the pixel's centre.",
         takes="The edge functions and the pixels to test.",
-        gives="The covered pixels of every triangle; a pixel on a shared edge belongs to exactly one.",
+        gives="The covered pixels of every {one}; a pixel on a shared edge belongs to exactly one.",
         source="Zwicker 2016, Pixel inside/outside test; Pineda 1988; LMU 2020, Scan line algorithm",
         heading="Raster",
         tracer="core.trace.raster.trace_raster",
@@ -156,9 +159,9 @@ DECLARED = (
     Stage(
         name="interpolate",
         short_title="Interpolate",
-        title="Interpolate: values between the corners",
-        purpose="Extends the values of three corners over the triangle, in correct perspective.",
-        takes="Covered pixels, and colours, texture coordinates or normals at the corners.",
+        title="Interpolate: values between the {corner}s",
+        purpose="Extends the values of three corners over the {one}, in correct perspective.",
+        takes="Covered pixels, and colours, texture coordinates or normals at the {corner}s.",
         gives="Three weights at every pixel, and the weighted sum of the corners' values.",
         source="Zwicker 2016, Perspective correct interpolation; Jubair, Barycentric interpolation",
         heading="Fragments",
@@ -185,7 +188,7 @@ DECLARED = (
         name="depth",
         short_title="Depth",
         title="Depth: which fragment is in front",
-        purpose="Makes the picture independent of the order in which opaque triangles are drawn.",
+        purpose="Makes the picture independent of the order in which opaque {many} are drawn.",
         takes="Fragments in drawing order with their depth, and the depth buffer.",
         gives="The fragments that are nearer than the buffer's depth.",
         source="Catmull 1974; Zwicker 2016, Z-buffering",

@@ -45,7 +45,9 @@ class LessonScroll(QScrollArea):
             self.verticalScrollBar().setValue(0)
         else:
             self.ensureWidgetVisible(self._kept)
-            self.horizontalScrollBar().setValue(0)  # What is too wide is cut at its end, not at its beginning.
+            self.horizontalScrollBar().setValue(
+                0
+            )  # What is too wide is cut at its end, not at its beginning.
 
     def resizeEvent(self, event: QResizeEvent) -> None:
         """Keep in sight what is to be read."""

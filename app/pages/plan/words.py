@@ -1,14 +1,13 @@
 """A plan in words: its rows, what it comes to, and what was seen in the scene."""
 
-from dataclasses import replace
 from html import escape
 
 import numpy as np
 
 from app.pages.words import digits, time_text
-from core.explain.kinds import of_kind
 from core.explain.stage_texts import family_title
 from core.methods import table
+from core.records.nouns import nouns
 from core.records.words import counted, joined
 from core.settings import Settings
 from core.study import Decision, Findings, Plan, PlanReport, Tolerance
@@ -42,11 +41,7 @@ def tolerance_text(tolerance: Tolerance) -> str:
 def rows_of(plan: Plan, report: PlanReport | None) -> tuple[PlanRow, ...]:
     """Return a row for every decision; without a report nothing has been measured yet."""
     outcomes = {} if report is None else {outcome.decision.setting: outcome for outcome in report.outcomes}
-    corners = plan.findings.corner_count
-    return tuple(
-        replace(row, reason=of_kind(row.reason, corners))
-        for row in (_row(each, outcomes.get(each.setting), report) for each in plan.decisions)
-    )
+    return tuple(_row(each, outcomes.get(each.setting), report) for each in plan.decisions)
 
 
 def _row(decision: Decision, outcome: Outcome | None, report: PlanReport | None) -> PlanRow:
@@ -154,8 +149,7 @@ def _method_title(family: str, value: str | int) -> str:
 def findings_html(findings: Findings) -> str:
     """Return the facts as a table, as rich text."""
     rows = (
-        f"<tr><td>{escape(of_kind(fact.title, findings.corner_count))}&nbsp;&nbsp;</td>"
-        f"<td align='right'>{escape(of_kind(fact.text, findings.corner_count))}</td></tr>"
+        f"<tr><td>{escape(fact.title)}&nbsp;&nbsp;</td><td align='right'>{escape(fact.text)}</td></tr>"
         for fact in findings.facts
     )
     return f"<table width='100%' cellspacing='2'>{''.join(rows)}</table>"
@@ -164,5 +158,5 @@ def findings_html(findings: Findings) -> str:
 def advice_html(tessellations: tuple[Tessellation, ...], corner_count: int) -> str:
     """Return the advice on how fine meshes are, as rich text."""
     if not tessellations:
-        return of_kind("Separate triangles do not describe a smooth surface.", corner_count)
+        return f"Separate {nouns(corner_count).many} do not describe a smooth surface."
     return "".join(f"<p style='margin:2px 0'>{escape(each.text)}</p>" for each in tessellations)

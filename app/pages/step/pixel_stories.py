@@ -1,16 +1,14 @@
 """The history of a pixel, from core's keys and numbers to what the pixel history view shows."""
 
-from dataclasses import replace
-
 import numpy as np
 
 from core.explain.history.parts import of_sample, piece_reason, pieces_verdict, samples_name, samples_verdict
 from core.explain.history.sentences import count_sentences, event_reason, event_title, verdict_sentence
-from core.explain.kinds import of_kind
 from core.framebuffer.display import encode_linear, encode_srgb
 from core.pixel_history import PixelHistory, PixelState, why
 from core.pixel_history.pieces import PixelPieces, pixel_pieces
 from core.records.arrays import Singles
+from core.records.nouns import Nouns, nouns
 from core.records.sentences import sentence_case
 from core.records.words import counted
 from core.resolved import resolve
@@ -28,27 +26,19 @@ def story_of(
     source: TraceSource, column: int, row: int, triangle: int | None = None
 ) -> tuple[PixelStory, list[int | None]]:
     """Return the history of a pixel of the traced picture, and the triangle of each of its lines."""
-    story, triangles = _story_of_triangles(source, column, row, triangle)
-    corner_count = source.scene.corner_count
-    entries = [
-        replace(entry, title=of_kind(entry.title, corner_count), reason=of_kind(entry.reason, corner_count))
-        for entry in story.entries
-    ]
-    return replace(story, verdict=of_kind(story.verdict, corner_count), entries=tuple(entries)), triangles
-
-
-def _story_of_triangles(
-    source: TraceSource, column: int, row: int, triangle: int | None
-) -> tuple[PixelStory, list[int | None]]:
     if resolve(source.settings).sampling.count > 1:
         return _story_of_samples(source, column, row, triangle)
     pieces = pixel_pieces(source, column, row) if resolve(source.settings).sampling.is_area else None
     if pieces is not None:
         return _story_of_pieces(source, pieces, triangle)
-    history = why(source, column, row, triangle)
-    lines = _lines(history)
+    history, drawn = why(source, column, row, triangle), _drawn(source)
+    lines = _lines(history, drawn)
     mark = Mark.COVERED if history.final.triangle >= 0 else Mark.REJECTED
-    return _story(column, row, verdict_sentence(history), mark, lines)
+    return _story(column, row, verdict_sentence(history, drawn), mark, lines)
+
+
+def _drawn(source: TraceSource) -> Nouns:
+    return nouns(source.scene.corner_count)
 
 
 def _story_of_pieces(
@@ -61,7 +51,7 @@ def _story_of_pieces(
         lines.append(
             (
                 HistoryEntry(
-                    f"Triangle {event.triangle}",
+                    f"{_drawn(source).one.capitalize()} {event.triangle}",
                     _swatch(event.before),
                     None if is_rejected else _swatch(event.color),
                     _swatch(event.after),
@@ -83,41 +73,42 @@ def _story_of_pieces(
 def _pieces_verdict(source: TraceSource, pieces: PixelPieces, triangle: int | None) -> str:
     """Return what the pixel shows; of a triangle that was asked about, what it covers, or why it touches nothing."""
     areas: dict[int, float] = {}
+    drawn = _drawn(source)
     for event in pieces.events:
         areas[event.triangle] = areas.get(event.triangle, 0.0) + event.seen
     shown = [(number, area) for number, area in areas.items() if area]
-    verdict = pieces_verdict(shown, pieces.background, pieces.is_blended)
+    verdict = pieces_verdict(shown, pieces.background, pieces.is_blended, drawn)
     if triangle is None:
         return verdict
     own = [event for event in pieces.events if event.triangle == triangle]
     if not own:
-        return f"{verdict} {verdict_sentence(why(source, pieces.column, pieces.row, triangle))}"
+        return f"{verdict} {verdict_sentence(why(source, pieces.column, pieces.row, triangle), drawn)}"
     area, passed, seen = (sum(getattr(event, name) for event in own) for name in ("area", "passed", "seen"))
-    return f"{verdict} Triangle {triangle} {piece_reason(area, passed, seen)}."
+    return f"{verdict} {drawn.one.capitalize()} {triangle} {piece_reason(area, passed, seen)}."
 
 
 def _story_of_samples(
     source: TraceSource, column: int, row: int, triangle: int | None
 ) -> tuple[PixelStory, list[int | None]]:
     """Return the histories of the samples of a pixel, one for all samples that show the same triangle."""
-    groups = _groups(source, column, row)
+    groups, drawn = _groups(source, column, row), _drawn(source)
     lines: Lines = []
     verdicts = []
     for _, samples in groups[:MOST_GROUPS]:
         history = why(source, column, row, triangle, sample=samples[0])
         name = samples_name(samples)
-        verdict = of_sample(verdict_sentence(history))
+        verdict = of_sample(verdict_sentence(history, drawn))
         verdicts.append(f"{name}: {verdict}" if len(groups) > 1 else verdict)
         lines += [
             (_of_samples(entry, name if len(groups) > 1 else ""), of_triangle)
-            for entry, of_triangle in _lines(history)
+            for entry, of_triangle in _lines(history, drawn)
             if entry.title != "Initial value"
         ]
     rest = groups[MOST_GROUPS:]
     if rest:
-        counts = f"{sum(len(samples) for _, samples in rest)} more samples, of {len(rest)} more triangles"
+        counts = f"{sum(len(samples) for _, samples in rest)} more samples, of {len(rest)} more {drawn.many}"
         lines.append((HistoryEntry(counts), None))
-    verdict = samples_verdict(groups, resolve(source.settings).sampling.count)
+    verdict = samples_verdict(groups, resolve(source.settings).sampling.count, drawn)
     if triangle is not None or len(groups) == 1:
         verdict = f"{verdict} {' '.join(verdicts)}"
     mark = Mark.COVERED if any(shown >= 0 for shown, _ in groups) else Mark.REJECTED
@@ -147,7 +138,7 @@ def _of_samples(entry: HistoryEntry, name: str) -> HistoryEntry:
     )
 
 
-def _lines(history: PixelHistory) -> Lines:
+def _lines(history: PixelHistory, drawn: Nouns) -> Lines:
     """Return one line for every event, and for every reason why triangles are not listed."""
     lines: Lines = []
     for event in history.events:
@@ -156,16 +147,16 @@ def _lines(history: PixelHistory) -> Lines:
         if is_fragment:
             mark = Mark.REJECTED if event.is_rejected else Mark.COVERED
         entry = HistoryEntry(
-            event_title(event),
+            event_title(event, drawn),
             _value(event.before),
             _value(event.out),
             _value(event.after),
             mark,
-            event_reason(event),
+            event_reason(event, drawn),
             event.is_rejected,
         )
         lines.append((entry, event.triangle if event.triangle >= 0 else None))
-    for text in count_sentences(history):
+    for text in count_sentences(history, drawn):
         count, _, reason = text.partition(": ")
         lines.append((HistoryEntry(count, reason=reason[:1].upper() + reason[1:], is_rejected=True), None))
     return lines

@@ -11,9 +11,9 @@ from app.session.document import Document, focus_on
 from app.session.moment import Moment
 from app.session.scene_values import outline
 from app.session.session import Session
-from core.explain.kinds import of_kind
 from core.families import WholeNumber
 from core.methods import table
+from core.records.nouns import nouns
 from core.settings import DEFAULTS, FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
 from core.stages.declared import DECLARED, stage_of
 from core.stages.needs import refusal
@@ -114,14 +114,14 @@ class SceneOutlinePresenter(QObject):
 
 
 def _document_group(document: Document) -> OutlineGroup:
-    count, corner_count = document.triangle_count, document.scene.corner_count
+    count, drawn = document.triangle_count, nouns(document.scene.corner_count)
     rows = [OutlineRow("document/raster", document.raster.label)]
     if document.triangle is None:
-        text = "One triangle" if count == 1 else f"All {count:,} triangles are stepped"
-        rows.append(OutlineRow("document/all", of_kind(text, corner_count)))
+        text = f"One {drawn.one}" if count == 1 else f"All {count:,} {drawn.many} are stepped"
+        rows.append(OutlineRow("document/all", text))
     else:
         value = OutlineValue("triangle", document.triangle, 0, count - 1)
-        label = of_kind(f"Triangle in focus, of {count:,}", corner_count)
+        label = f"{drawn.one.capitalize()} in focus, of {count:,}"
         rows.append(OutlineRow("document/focus", label, (value,)))
     return OutlineGroup("document", document.title or "Scene", tuple(rows))
 

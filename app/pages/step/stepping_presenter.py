@@ -15,11 +15,11 @@ from app.session.moment import Moment
 from app.session.session import Session
 from app.views.chapters import chapters_of
 from core import STAGES
-from core.explain.kinds import of_kind
 from core.methods import table
 from core.raster.fills.tested import effective_fill
 from core.raster.fills.traits import fill_traits
 from core.records.arrays import Integers
+from core.records.nouns import nouns
 from core.records.steps import Level
 from core.stages.declared import stage_of
 from core.trace.run_to import next_at_pixel, next_marked
@@ -343,7 +343,7 @@ def _level_names(moment: Moment) -> dict[Level, str]:
     """Return what a step of each level is in the stage at hand."""
     stage, settings = moment.cursor.stage, moment.document.settings
     declared, corner_count = stage_of(stage), moment.document.scene.corner_count
-    names = {Level.TRIANGLE: of_kind("Triangle", corner_count)} if corner_count != 3 else {}
+    names = {Level.TRIANGLE: nouns(corner_count).one.capitalize()} if corner_count != 3 else {}
     if "statement" in moment.stage_trace.steps.kinds:
         # A scene's own shader runs line by line.
         lane = "Vertex" if stage == "transform" else "Fragment"

@@ -51,7 +51,7 @@ def _tie(values: Values) -> str:
 def _owned(values: Values, *, owns: bool) -> str:
     """Return the edges on which a centre lies and which the triangle owns, or does not, each with the rule."""
     return " and ".join(
-        f"edge {k}, which the triangle {'owns' if owns else 'does not own'} because "
+        f"edge {k}, which the {values['drawn'].one} {'owns' if owns else 'does not own'} because "
         + tie_reason(values["a"][k], values["b"][k], owns, values["fill_rule"])
         for k in range(3)
         if values["ties"][k] and bool(values["owns_tie"][k]) == owns
@@ -131,6 +131,15 @@ def _on_edge(values: Values) -> str:
     return f"covered: the pixel centre is exactly on {_owned(values, owns=True)}"
 
 
+def has_area(values: Values) -> bool:
+    """Return whether what is drawn has edges and two faces: a segment and a point have neither."""
+    return bool(values["drawn"].edge == "edge")
+
+
+def _for_edge(values: Values) -> str:
+    return f" for edge {values['edge']}" if has_area(values) else ""
+
+
 def _chosen_by(values: Values) -> str:
     """Return the number that chose a pixel of a line, where the listing tests one, as the end of a sentence."""
     name = "" if values["is_point"] else tested_name(values["line"])
@@ -143,7 +152,7 @@ def _chosen_by(values: Values) -> str:
 COVERAGE: dict[tuple[str, str], Sentence] = {
     ("bin", "no-area"): "it has no area on the 1/256-pixel grid",
     ("bin", "in-box"): "in its bounding box",
-    ("bin", "whole-image"): "no bounding box: not all of its corners can be projected",
+    ("bin", "whole-image"): "no bounding box: not all of its {corner}s can be projected",
     ("bin", "inside-block"): lambda v: f"{_block(v)} lies wholly inside",
     ("bin", "outside-block"): _outside_block,
     ("bin", "outside-box"): _outside_box,
@@ -164,11 +173,15 @@ COVERAGE: dict[tuple[str, str], Sentence] = {
     ),
     ("raster", "clipped-polygon"): "clipped away: nothing of it lies in the clip window",
     ("raster", "on-outline"): lambda v: (
-        f"drawn for edge {v['edge']}: the pixel centre is {_pixels(v['distance'])} from the exact line{_chosen_by(v)}"
+        f"drawn{_for_edge(v)}: the pixel centre is {_pixels(v['distance'])} from the exact line{_chosen_by(v)}"
     ),
     ("raster", "off-outline"): lambda v: (
         f"not on its outline: the pixel centre is {_pixels(v['distance'])} from edge {v['edge']}, the nearest"
+        if has_area(v)
+        else f"the pixel centre is {_pixels(v['distance'])} from the {v['drawn'].one}"
     ),
-    ("raster", "no-outline"): "none of its edges is drawn near the window",
+    ("raster", "no-outline"): lambda v: (
+        f"{'none of its edges is' if has_area(v) else 'it is not'} drawn near the window"
+    ),
 }
 """Stage and key to the sentence, without capital and full stop."""

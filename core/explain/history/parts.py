@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from math import isclose
 
 from core.explain.number_text import exact_text
+from core.records.nouns import TRIANGLES, Nouns
 from core.records.words import joined
 
 MOST_NAMED = 4
@@ -37,7 +38,7 @@ def samples_name(samples: Sequence[int]) -> str:
     return f"Samples {joined(named)}"
 
 
-def samples_verdict(groups: Sequence[tuple[int, Sequence[int]]], count: int) -> str:
+def samples_verdict(groups: Sequence[tuple[int, Sequence[int]]], count: int, drawn: Nouns = TRIANGLES) -> str:
     """Return the first line of a pixel of ``count`` samples: which of them show what.
 
     Parameters
@@ -47,7 +48,7 @@ def samples_verdict(groups: Sequence[tuple[int, Sequence[int]]], count: int) -> 
     """
     parts: list[str] = []
     for triangle, samples in groups:
-        what = f"triangle {triangle}" if triangle >= 0 else "none"
+        what = f"{drawn.one} {triangle}" if triangle >= 0 else "none"
         number = f"all {count}" if len(samples) == count else f"{len(samples)} of {count}"
         parts.append(f"{number} samples show {what}" if not parts else f"{len(samples)} show {what}")
     text = ", ".join(parts)
@@ -67,7 +68,9 @@ def is_same(first: float, second: float) -> bool:
     return isclose(first, second, rel_tol=0.0, abs_tol=1e-9)
 
 
-def pieces_verdict(shown: Sequence[tuple[int, float]], background: float, is_blended: bool) -> str:
+def pieces_verdict(
+    shown: Sequence[tuple[int, float]], background: float, is_blended: bool, drawn: Nouns = TRIANGLES
+) -> str:
     """Return the first line of a pixel: which triangles are seen in how much of it.
 
     Parameters
@@ -80,16 +83,16 @@ def pieces_verdict(shown: Sequence[tuple[int, float]], background: float, is_ble
         Whether triangles are transparent: the last one lies on others.
     """
     if not shown:
-        return "No triangle is visible in any part of the pixel."
+        return f"No {drawn.one} is visible in any part of the pixel."
     verb = "lies on top in" if is_blended else "is visible in"
     largest = sorted(shown, key=lambda each: -each[1])
-    parts = [f"Triangle {largest[0][0]} {verb} {share_name(largest[0][1])}"]
-    parts += [f"triangle {triangle} in {exact_text(area)}" for triangle, area in largest[1:MOST_NAMED]]
+    parts = [f"{drawn.one.capitalize()} {largest[0][0]} {verb} {share_name(largest[0][1])}"]
+    parts += [f"{drawn.one} {triangle} in {exact_text(area)}" for triangle, area in largest[1:MOST_NAMED]]
     rest = largest[MOST_NAMED:]
     if rest:
         parts.append(f"{len(rest)} more in {exact_text(sum(area for _, area in rest))}")
     if not is_same(background, 0.0):
-        parts.append(f"no triangle in {exact_text(background)}")
+        parts.append(f"no {drawn.one} in {exact_text(background)}")
     return f"{', '.join(parts)}."
 
 

@@ -6,7 +6,7 @@ from operator import and_, or_
 
 import numpy as np
 
-from core.explain.step_tables import FilledColumn, filled_table, tabulates
+from core.explain.step_tables import FilledColumn, filled_table, primitive_name, tabulates
 from core.explain.step_values import StepValues
 from core.explain.subjects.clipping import CASES, PLANE_SIGNS
 from core.explain.subjects.line_clipping import borders_of, code_text, is_point
@@ -40,7 +40,7 @@ _BOUNDS = (
 )
 _LIANG_BARSKY = (
     FilledColumn(
-        "p", "Below 0 the edge enters, above 0 it leaves.", lambda step: step.number("approach"), "room"
+        "p", "Below 0 the {edge} enters, above 0 it leaves.", lambda step: step.number("approach"), "room"
     ),
     FilledColumn(
         "q", "Room inside at the first end: below 0 is outside.", lambda step: step.number("room"), "room"
@@ -73,8 +73,9 @@ _CYRUS_BECK = (
 def _title(trace: StageTrace, row: int) -> str:
     """Return the clipper and what it clips."""
     method = table.get("line_clipping", str(trace.constants["line_clipping"])).title
-    edge, triangle = int(trace.columns["edge"][row]), int(trace.triangle[row])
-    return f"{method}: edge {edge} of triangle {triangle}"
+    name = primitive_name(trace, row)
+    edge = "" if trace.corner_count < 3 else f"edge {int(trace.columns['edge'][row])} of "
+    return f"{method}: {edge}{name}"
 
 
 @tabulates("raster", (*_WAYS, "clip-kept", "clip-empty"))
@@ -143,7 +144,7 @@ def _distance(corner: int) -> FilledColumn:
     def value(step: StepValues) -> float:
         return step.vector("w" if step.kind == "behind" else "distances")[corner]
 
-    meaning = f"Signed distance of corner {corner} from the plane: below 0 is outside."
+    meaning = f"Signed distance of {{corner}} {corner} from the plane: below 0 is outside."
     return FilledColumn(f"d{str(corner).translate(_DIGITS)}", meaning, value, "applies", vertex=corner)
 
 
@@ -154,7 +155,7 @@ def _side(step: StepValues) -> str:
     return "crosses" if any(bits) else "inside"
 
 
-_VERDICT = FilledColumn("verdict", "Inside: no corner is outside. Rejected: all are.", _side, "applies")
+_VERDICT = FilledColumn("verdict", "Inside: no {corner} is outside. Rejected: all are.", _side, "applies")
 _EQUATIONS = {
     name: f"{name}: w {'+' if sign > 0 else '−'} {axis}" for name, (axis, sign) in PLANE_SIGNS.items()
 }
@@ -167,7 +168,7 @@ def frustum_table(trace: StageTrace, rows: Integers, position: int) -> StepTable
     tests = rows[[trace.kind_of(row) != "kept" for row in rows.tolist()]]
     columns = (*(_distance(corner) for corner in range(corners)), _VERDICT)
     labels = ["w", *(_EQUATIONS[name] for name in PLANES)]
-    title = f"Frustum, plane by plane: triangle {int(trace.triangle[rows[0]])}"
+    title = f"Frustum, plane by plane: {primitive_name(trace, rows[0])}"
     outside = trace.columns["distances"][tests[1:]] < 0
     planes = tests[1:]
     made = filled_table(
@@ -243,7 +244,7 @@ _EDGES = (
 def polygon_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
     """Return the edges of a polygon at one plane, rows (R,): IN and OUT, and the corners that they hand on."""
     plane = str(trace.columns["plane"][rows[0]])
-    title = f"{_EQUATIONS[plane]}: triangle {int(trace.triangle[rows[0]])}"
+    title = f"{_EQUATIONS[plane]}: {primitive_name(trace, rows[0])}"
     labels = [f"edge {edge}" for edge in trace.columns["edge"][rows].tolist()]
     count = sum(CASES[trace.kind_of(row)] for row in rows.tolist())
     note = (

@@ -128,7 +128,7 @@ def corner_in_order(step: StepValues) -> Said:
 @explains("clip.untouched.keep")
 def untouched(step: StepValues) -> Said:
     """A triangle that crosses no plane, or is not clipped."""
-    return f"Triangle {step.triangle} is unchanged: no plane clips it."
+    return f"{step.name.capitalize()} is unchanged: no plane clips it."
 
 
 @explains("clip.divided|mirrored.divide")

@@ -37,12 +37,13 @@ def behind(step: StepValues) -> Said:
     numbers, compared = _each("w", "w", r"\le", w)
     in_front = [k for k, value in enumerate(w) if not value <= 0]
     has_many = len(w) > MOST_CORNERS
-    name, found = f"Triangle {step.triangle}", f"w above 0 ({'' if has_many else 'w = '}{numbers})"
+    name, found = step.name.capitalize(), f"w above 0 ({'' if has_many else 'w = '}{numbers})"
     if step.flag("applies"):
-        text = f"{name} is behind the eye and dropped: no corner has {found}."
+        text = f"{name} is behind the eye and dropped: no {step.nouns.corner} has {found}."
     else:
         verb = "have" if len(in_front) > 1 else "has"
-        corners = counted(len(in_front), "corner") if has_many else numbered("corner", in_front)
+        noun = step.nouns.corner
+        corners = counted(len(in_front), noun) if has_many else numbered(noun, in_front)
         text = f"{name} is not behind the eye: {corners} {verb} {found}."
     return text, formula_of(_dropped(step, *compared))
 
@@ -50,19 +51,22 @@ def behind(step: StepValues) -> Said:
 @explains("cull.plane.test")
 def plane(step: StepValues) -> Said:
     """Whether all corners are outside one plane."""
-    distances, name = step.vector("distances"), step.text("plane")
+    distances, name, noun = step.vector("distances"), step.text("plane"), step.nouns.corner
     numbers, compared = _each("d", "distance", "<", distances)
     inside = sum(not value < 0 for value in distances)
     small = ("no", "one", "two")
     number = "all" if inside == len(distances) else small[inside] if inside < len(small) else str(inside)
-    corners = f"{number} of its corners {'are' if inside > 1 else 'is'} inside"
+    corners = f"{number} of its {noun}s {'are' if inside > 1 else 'is'} inside"
+    outside, lie = f"all its {noun}s are outside", f"all of its {noun}s lie"
+    if is_one := len(distances) == 1:
+        corners, outside, lie = "it is inside", "it is outside", "it lies"
     if not any(distances):
-        corners = "all of its corners lie on it, which counts as inside"
+        corners = f"{lie} on it, which counts as inside"
     verdict = f"is not outside the {name} plane: {corners}"
     if step.flag("applies"):
-        verdict = f"is dropped: all its corners are outside the {name} plane"
-    listed = numbers if len(distances) > MOST_CORNERS else f"distances {numbers}"
-    text = f"Triangle {step.triangle} {verdict} ({listed})."
+        verdict = f"is dropped: {outside} the {name} plane"
+    listed = numbers if len(distances) > MOST_CORNERS else f"distance{'' if is_one else 's'} {numbers}"
+    text = f"{step.name.capitalize()} {verdict} ({listed})."
     return text, formula_of(_dropped(step, *compared))
 
 
@@ -82,7 +86,7 @@ def degenerate(step: StepValues) -> Said:
     text = f"is not degenerate: {name} is {value}, not 0."
     if step.flag("applies"):
         text = f"is degenerate and dropped: {name} is 0."
-    return f"Triangle {step.triangle} {text}", formula_of(_dropped(step, value.compared("=")))
+    return f"{step.name.capitalize()} {text}", formula_of(_dropped(step, value.compared("=")))
 
 
 @explains("cull.facing.test")
@@ -92,7 +96,7 @@ def facing(step: StepValues) -> Said:
     side, sign = ("front", "above") if value > 0 else ("back", "below")
     verdict, does = ("culled", "drops") if step.flag("applies") else ("kept", "keeps")
     text = (
-        f"Triangle {step.triangle} is {verdict}: {name} is {spoken(value)}, {sign} 0, "
+        f"{step.name.capitalize()} is {verdict}: {name} is {spoken(value)}, {sign} 0, "
         f"so we see its {side}, which the cull setting {does}."
     )
     return text, formula_of(concludes("front", side, named(symbol, value).compared(">")))
@@ -101,7 +105,7 @@ def facing(step: StepValues) -> Said:
 @explains("cull.kept.verdict")
 def kept(step: StepValues) -> Said:
     """No test applied."""
-    text = f"Triangle {step.triangle} is kept: none of the tests drops it."
+    text = f"{step.name.capitalize()} is kept: none of the tests drops it."
     if step.has("flat_ring") and step.whole("flat_ring") >= 0:
         text += f" Ring {step.whole('flat_ring')} lies on one line: it encloses nothing."
     return text

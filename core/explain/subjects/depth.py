@@ -56,7 +56,7 @@ def value_made(step: StepValues) -> Said:
             named(symbol, value).equals(call("log2", slash(w, near)) / call("log2", slash(far, near)))
         )
     elif name == "reversed z":
-        where = "along the outline" if step.has("t") else "on the triangle's plane"
+        where = "along the outline" if step.has("t") else f"on the {step.nouns.one}'s plane"
         text = f"{where}, from 1 at the near to 0 at the far plane, the reversed z is {spoken(value)} (z = {depth})"
         made = _reversed(step, value)
     return f"{step.pixel_name}: {text}.", made
@@ -78,7 +78,7 @@ def stored(step: StepValues) -> Said:
     value, (name, symbol, variable) = step.number("stored"), quantity_of(step)
     before = step.number(variable)
     if variable == "stored":
-        text = f"{step.pixel_name}: the cell of triangle {step.triangle} holds {spoken(value)}."
+        text = f"{step.pixel_name}: the cell of {step.name} holds {spoken(value)}."
         return text, formula_of(named(held_name(step, "new")[0], value))
     if name == "z":
         of_steps = f" of {step.whole('scale')} steps" if step.has("scale") else ""
@@ -159,9 +159,9 @@ def written(step: StepValues) -> Said:
     if step.flag("passes") and not step.flag("writes"):
         return _not_stored(step)
     if step.flag("passes"):
-        text = f"now holds {after}, of triangle {step.triangle}, instead of {before}."
+        text = f"now holds {after}, of {step.name}, instead of {before}."
     else:
-        text = f"keeps {before}, and triangle {step.triangle} is hidden here."
+        text = f"keeps {before}, and {step.name} is hidden here."
     return f"{step.pixel_name}: the depth buffer {text}"
 
 

@@ -29,11 +29,6 @@ def code_text(code: int) -> str:
     return f"{code:0{CODE_BITS}b}"
 
 
-def edge_name(step: StepValues) -> str:
-    """Return the edge of the triangle that is clipped."""
-    return f"edge {step.whole('edge')} of triangle {step.triangle}"
-
-
 def is_point(step: StepValues) -> bool:
     """Return whether both ends of an edge are the same: N . D, or p, is 0 at every border."""
     return step.vector("window_start") == step.vector("window_end")
@@ -51,10 +46,10 @@ WAYS = {
 def way_of_edge(step: StepValues) -> Asked:
     """Ask what an edge does at a border."""
     symbol = "N · D" if uses_normals(step) else "p"
-    start = f"{edge_name(step).capitalize()}: {symbol} is {spoken(step.number('approach'))}"
+    start = f"{step.edge_name.capitalize()}: {symbol} is {spoken(step.number('approach'))}"
     found = WAYS[step.kind]
     return choice(
-        f"{start} at the {step.text('border')} border. What does the edge do there?",
+        f"{start} at the {step.text('border')} border. What does the {step.nouns.edge} do there?",
         list(WAYS).index(step.kind),
         f"{symbol} is {spoken(step.number('approach'))}, so {found}.",
         tuple(WAYS.values()),
@@ -67,7 +62,7 @@ def room(step: StepValues) -> Said:
     border, along, distance = step.text("border"), step.number("approach"), step.number("room")
     start, end, point = (step.vector(name) for name in ("window_start", "window_end", "border_point"))
     side = "inside" if distance > 0 else "outside" if distance < 0 else "on it"
-    beginning = f"{border.capitalize()} border, {edge_name(step)}"
+    beginning = f"{border.capitalize()} border, {step.edge_name}"
     if uses_normals(step):
         way = (
             "potentially entering (PE)"
@@ -110,9 +105,8 @@ def crossing(step: StepValues) -> Said:
     if uses_normals(step):
         quotient = "N · (P₀ − Pₑ) / (−N · D)"
         made = named(_FROM_BORDER, -distance) / named(r"-N \cdot D", -along)
-    text = (
-        f"The edge crosses the {step.text('border')} border's line at t = {quotient} = {spoken(t)}, {where}."
-    )
+    line = f"the {step.text('border')} border's line"
+    text = f"The {step.nouns.edge} crosses {line} at t = {quotient} = {spoken(t)}, {where}."
     return text, formula_of(named("t", t).equals(made))
 
 
@@ -162,13 +156,14 @@ def _side(step: StepValues) -> Formula:
 def parallel(step: StepValues) -> Said:
     """A parallel edge that is kept, for now."""
     border = step.text("border")
-    text = f"The edge is parallel to the {border} border and not outside it, so it is not cut there."
+    text = f"The {step.nouns.edge} is parallel to the {border} border and not outside it, so it is not cut there."
     if is_point(step):
-        text = f"The edge is a point, which is not outside the {border} border: there is nothing to cut."
+        what = "point is" if step.nouns.edge == "point" else f"{step.nouns.edge} is a point, which is"
+        text = f"The {what} not outside the {border} border: there is nothing to cut."
     if step.number("room") < 0:
         text = (
-            f"As printed, the {border} border is ignored, because it is parallel to the edge, and the edge is kept; "
-            "it lies outside this border, so the right algorithm drops it."
+            f"As printed, the {border} border is ignored, because it is parallel to the {step.nouns.edge}, "
+            f"and the {step.nouns.edge} is kept; it lies outside this border, so the right algorithm drops it."
         )
     return text, _side(step)
 
@@ -180,7 +175,7 @@ REMARKS["raster.clip-parallel.side"] = lambda columns, rows: columns["room"][row
 def outside(step: StepValues) -> Said:
     """A parallel edge outside."""
     how = "a point" if is_point(step) else "parallel to the border"
-    text = f"The edge is {how} and lies outside {step.text('border')}: nothing of it is drawn."
+    text = f"The {step.nouns.edge} is {how} and lies outside {step.text('border')}: nothing of it is drawn."
     return text, _side(step)
 
 
@@ -190,14 +185,14 @@ def kept(step: StepValues) -> Said:
     enter, leave = step.named("t_enter", "t_E"), step.named("t_leave", "t_L")
     if step.kind == "clip-empty":
         text = (
-            f"The edge would leave at t = {leave} before it enters at {enter}: "
+            f"The {step.nouns.edge} would leave at t = {leave} before it enters at {enter}: "
             "it misses the clip window, and nothing of it is drawn."
         )
     elif (enter.value, leave.value) == (0.0, 1.0):
-        text = "No border cuts the edge: all of it is drawn."
+        text = f"No border cuts the {step.nouns.edge}: all of it is drawn."
     else:
         ends = f"{vector_text(step.vector('kept_start'))} to {vector_text(step.vector('kept_end'))}"
-        text = f"From t = {enter} to {leave} the edge is inside: it is drawn from {ends}."
+        text = f"From t = {enter} to {leave} the {step.nouns.edge} is inside: it is drawn from {ends}."
     found = "nothing" if enter.value > leave.value else "draw"
     return text, formula_of(concludes("draw", found, enter.compared(r"\le", leave)))
 
@@ -223,7 +218,7 @@ def verdict_of_codes(step: StepValues) -> Asked:
     """Ask what the outcodes decide."""
     first, second = (code_text(code) for code in _codes(step))
     return choice(
-        f"{edge_name(step).capitalize()}: its ends have the outcodes {first} and {second}. What becomes of it?",
+        f"{step.edge_name.capitalize()}: its ends have the outcodes {first} and {second}. What becomes of it?",
         list(OUTCODE_VERDICTS).index(step.kind),
         f"With {first} and {second} {OUTCODE_VERDICTS[step.kind]}.",
         tuple(OUTCODE_VERDICTS.values()),
@@ -243,7 +238,7 @@ def codes(step: StepValues) -> Said:
         Written(symbol, upright(code_text(code)))
         for symbol, code in (("c_0", first), ("c_1", second), (r"c_0 \land c_1", first & second))
     )
-    return f"{edge_name(step).capitalize()}: {', '.join(ends)}.", formula_of(*shown)
+    return f"{step.edge_name.capitalize()}: {', '.join(ends)}.", formula_of(*shown)
 
 
 @explains("raster.outcodes-accept.ends")
@@ -251,7 +246,7 @@ def accept(step: StepValues) -> Said:
     """Both ends inside."""
     start, end = (vector_text(step.vector(name)) for name in ("kept_start", "kept_end"))
     tests = (named(f"c_{k}", code).compared("=") for k, code in enumerate(_codes(step)))
-    text = f"Both outcodes are 0000: the edge is drawn from {start} to {end}."
+    text = f"Both outcodes are 0000: the {step.nouns.edge} is drawn from {start} to {end}."
     return text, formula_of(concludes("draw", "draw", *tests))
 
 
@@ -260,7 +255,7 @@ def reject(step: StepValues) -> Said:
     """Both ends outside one border."""
     first, second = _codes(step)
     text = (
-        f"Both outcodes have {code_text(first & second)} in common: the edge lies outside "
+        f"Both outcodes have {code_text(first & second)} in common: the {step.nouns.edge} lies outside "
         f"{borders_of(first & second)}, and nothing of it is drawn."
     )
     test = named(r"c_0 \land c_1", first & second).compared(r"\ne")
@@ -290,7 +285,7 @@ def move(step: StepValues) -> Said:
     """The new end, on the border."""
     start, end, point = (step.vector(name) for name in ("window_start", "window_end", "moved_to"))
     border, moved = step.text("border"), ("first", "second")[step.whole("moved_end")]
-    text = f"The {moved} end moves to {vector_text(point)}, where the edge crosses the {border} border."
+    text = f"The {moved} end moves to {vector_text(point)}, where the {step.nouns.edge} crosses the {border} border."
     ends = zip("xy", point, start, end, strict=True)
     places = [(named(a, at), named(f"{a}_0", first), named(f"{a}_1", last)) for a, at, first, last in ends]
     (a, a0, a1), (b, b0, b1) = places if border in ("left", "right") else places[::-1]

@@ -45,7 +45,7 @@ def octant(step: StepValues) -> Said:
     first, second = vector_text(step.vector("window_start")), vector_text(step.vector("window_end"))
     if traits.takes_pixels:
         first, second = (f"pixel {vector_text(step.vector(name))}" for name in ("first_end", "second_end"))
-    name = f"Edge {step.whole('edge')} of triangle {step.triangle}"
+    name = step.edge_name.capitalize()
     text = f"{name} runs from {first} to {second}"
     steps = "row by row" if is_steep else "column by column"
     level = "as long in x as in y" if run == rise else f"longer in {major}"

@@ -223,7 +223,7 @@ def leaves(step: StepValues) -> Said:
     first, second = step.named("exit_start", "d_0"), step.named("exit_end", "d_1")
     tie = ", a tie that OpenGL's rule decides" if 0.5 in (first.value, second.value) else ""
     text = (
-        f"{step.pixel_name}: its diamond ends at 0.5, the edge begins at {first} and ends at {second}, "
+        f"{step.pixel_name}: its diamond ends at 0.5, the {step.nouns.edge} begins at {first} and ends at {second}, "
         f"so it leaves the diamond{tie}."
     )
     tests = first.compared("<", 0.5), second.compared(r"\ge", 0.5)
@@ -282,9 +282,10 @@ def plotted(step: StepValues) -> Said:
     )
     along = (center - start[k]) / length if length else 0.0
     away = beside_it - start[1 - k] - along * (end[1 - k] - start[1 - k])
-    intensity, edge = step.number("intensity"), f"edge {step.whole('edge')}"
-    if step.explanation.corner_count == 3:
-        edge += f" of triangle {step.triangle}"
+    intensity = step.number("intensity")
+    edge = {2: "the segment", 3: step.edge_name}.get(
+        step.explanation.corner_count, f"edge {step.whole('edge')}"
+    )
     drawn = "is drawn" if intensity == 1 else f"is drawn with intensity {spoken(intensity)}"
     side = (("below", "above"), ("to the left of", "to the right of"))[k][away > 0]
     if not 0 <= along <= 1:

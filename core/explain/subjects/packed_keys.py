@@ -31,10 +31,10 @@ def _key(symbol: str, key: int) -> Written:
     return Written(symbol, rf"{depth} \, | \, {number}")
 
 
-def _holder(key: int) -> str:
+def _holder(step: StepValues, key: int) -> str:
     """Say whose key it is."""
     number = key & ((1 << NUMBER_BITS) - 1)
-    return f"triangle {number - 1}" if number else "the empty buffer"
+    return step.named_primitive(number - 1) if number else "the empty buffer"
 
 
 @explains("depth.*.plane")
@@ -45,7 +45,7 @@ def plane(step: StepValues) -> Said:
     if on_plane != step.whole("stored"):
         return _limited(step, on_plane)
     text = (
-        f"{step.pixel_name}: on the triangle's integer plane the depth is {_whole(step, 'stored')} of "
+        f"{step.pixel_name}: on the {step.nouns.one}'s integer plane the depth is {_whole(step, 'stored')} of "
         f"2³⁸ (z = {spoken(step.number('depth'))})."
     )
     return text, formula_of(step.named("stored", "d").equals(_on_plane(step)))
@@ -59,7 +59,7 @@ def _on_plane(step: StepValues) -> Operation:
 def _limited(step: StepValues, on_plane: int) -> Said:
     """A depth on the plane far outside the triangle, where it leaves the range of the keys."""
     text = (
-        f"{step.pixel_name}: this pixel lies outside the triangle, where its integer plane is at "
+        f"{step.pixel_name}: this pixel lies outside the {step.nouns.one}, where its integer plane is at "
         f"{on_plane:,} of 2³⁸; the depth is limited to −2²⁰ … 2³⁸ + 2²⁰, which gives {_whole(step, 'stored')}."
     ).replace("-", "−")
     there = Named(TermLatex(False).text(_on_plane(step)), Fraction(on_plane))
@@ -72,7 +72,7 @@ def rounded(step: StepValues) -> Said:
     """Depth that is rounded at the pixel."""
     z = step.named("depth", "z")
     text = (
-        f"{step.pixel_name}: triangle {step.triangle} has no integer plane, so z = {z} is rounded here, "
+        f"{step.pixel_name}: {step.name} has no integer plane, so z = {z} is rounded here, "
         f"to {_whole(step, 'stored')} of 2³⁸."
     )
     return text, formula_of(step.named("stored", "d").equals(call("round", _DEPTHS * z)))
@@ -84,7 +84,7 @@ def key(step: StepValues) -> Said:
     number, packed = step.whole("number"), step.whole("key")
     text = (
         f"{step.pixel_name}: its key is {key_text(packed)}, the depth above the lower 24 bits, "
-        f"which hold the number of triangle {number} plus one."
+        f"which hold the number of {step.named_primitive(number)} plus one."
     )
     made = (named("d", step.whole("stored")) + _SLACK) * term(2) ** NUMBER_BITS + (named("n", number) + 1)
     return text, formula_of(Chain((_key(_NEW, packed), made), ("=",)))
@@ -94,7 +94,7 @@ def key(step: StepValues) -> Said:
 def minimum(step: StepValues) -> Said:
     """The depth test as the minimum of two keys."""
     new, old = step.whole("key"), step.whole("before_key")
-    there = _holder(old)
+    there = _holder(step, old)
     if new < old:
         text = f"passes: its key is less than the buffer's {key_text(old)}, of {there}"
     elif new >> NUMBER_BITS == old >> NUMBER_BITS:
@@ -111,9 +111,10 @@ def key_written(step: StepValues) -> Said:
     """The key in the buffer after the test."""
     after = step.whole("after_key")
     verb = "now holds" if step.flag("passes") else "keeps"
-    text = f"the buffer {verb} the smaller key, {key_text(after)}, of {_holder(after)}"
+    text = f"the buffer {verb} the smaller key, {key_text(after)}, of {_holder(step, after)}"
     if step.flag("passes") and not step.flag("writes"):
-        text = f"the buffer keeps {key_text(after)}, of {_holder(after)}, as the line covers under half of the pixel"
+        held = f"{key_text(after)}, of {_holder(step, after)}"
+        text = f"the buffer keeps {held}, as the line covers under half of the pixel"
     upper = rf"\lfloor \min({_NEW}, {_BUFFER}) / 2^{{{NUMBER_BITS}}} \rfloor"
     kept = Written(upper, upright(key_fields(after)[0]))
     made = step.named("after", below("d", "buffer")).equals(kept - _SLACK)

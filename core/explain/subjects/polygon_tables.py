@@ -3,7 +3,7 @@
 from collections.abc import Callable
 
 from core.explain.records import Value
-from core.explain.step_tables import FilledColumn, filled_table, tabulates
+from core.explain.step_tables import FilledColumn, filled_table, primitive_name, tabulates
 from core.explain.step_values import StepValues
 from core.records.arrays import Integers
 from core.records.tables import StepTable
@@ -40,7 +40,7 @@ _EDGE_TABLE = (
 @tabulates("raster", ("table-edge", "table-level"))
 def edge_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
     """Return the edge table of a polygon: rows (R,) of a trace, as far as they are done."""
-    title = f"Edge table of triangle {int(trace.triangle[rows[0]])}"
+    title = f"Edge table of {primitive_name(trace, rows[0])}"
     return filled_table(trace, rows, position, title, "Edge", _edges(trace, rows), _EDGE_TABLE)
 
 
@@ -118,7 +118,7 @@ _CROSSINGS = (
 def crossings_table(trace: StageTrace, rows: Integers, position: int) -> StepTable:
     """Return the entering and leaving crossings of Weiler-Atherton: rows (R,) of a trace."""
     labels = [str(number) for number in range(len(rows))]
-    title = f"Crossings of triangle {int(trace.triangle[rows[0]])}"
+    title = f"Crossings of {primitive_name(trace, rows[0])}"
     return filled_table(trace, rows, position, title, "Crossing", labels, _CROSSINGS)
 
 

@@ -24,9 +24,9 @@ def nearer(step: StepValues) -> Asked:
     is_nearer, nearest = step.flag("passes"), step.whole("nearest")
     how = "nearer" if is_nearer else "not nearer"
     return choice(
-        f"The ray of {step.the_pixel} has met triangle {nearest}. Is triangle {step.triangle} nearer?",
+        f"The ray of {step.the_pixel} has met {step.named_primitive(nearest)}. Is {step.name} nearer?",
         0 if is_nearer else 1,
-        f"compared exactly, triangle {step.triangle} is {how} than triangle {nearest}.",
+        f"compared exactly, {step.name} is {how} than {step.named_primitive(nearest)}.",
     )
 
 
@@ -34,10 +34,10 @@ def nearer(step: StepValues) -> Asked:
 def hit(step: StepValues) -> Said:
     """Where the ray meets the plane of a triangle, in the coordinates X = m/W and Y = n/H."""
     value, error = step.named("nearness", "v"), step.number("error")
-    text = f"the ray meets triangle {step.triangle} at {_measure(step)} = {value}, within {spoken(error)}."
+    text = f"the ray meets {step.name} at {_measure(step)} = {value}, within {spoken(error)}."
     if math.isinf(error):
         text = (
-            f"the ray runs in the plane of triangle {step.triangle}, or so nearly that float64 cannot locate the hit; "
+            f"the ray runs in the plane of {step.name}, or so nearly that float64 cannot locate the hit; "
             f"{value} stands for it."
         )
     a, b, c, d, m, n = (step.named(name, name) for name in "abcdmn")
@@ -60,7 +60,7 @@ def first(step: StepValues) -> Said:
     """The first hit of a ray."""
     if not step.flag("writes"):
         return _not_kept(step, "nothing")
-    return f"{step.pixel_name}: the ray has met nothing before, so triangle {step.triangle} is the nearest so far."
+    return f"{step.pixel_name}: the ray has met nothing before, so {step.name} is the nearest so far."
 
 
 @explains("depth.ray.compare", asks=nearer, decides=True)
@@ -70,8 +70,8 @@ def compared(step: StepValues) -> Said:
     shown, shown_old = pair_text(new, old)
     verdict, than = ("passes", "larger") if step.flag("passes") else ("fails", "smaller")
     text = (
-        f"{step.pixel_name} {verdict}: {_measure(step)} {shown} is {than} than {shown_old} of triangle {nearest}, "
-        "and by more than both errors together."
+        f"{step.pixel_name} {verdict}: {_measure(step)} {shown} is {than} than {shown_old} of "
+        f"{step.named_primitive(nearest)}, and by more than both errors together."
     )
     return text, formula_of(
         concludes("passes", verdict, named(_NEW, new).compared(">", named(_NEAREST, old)))
@@ -86,7 +86,7 @@ def doubted(step: StepValues) -> Said:
     )
     apart = named(f"|{_NEW} - {_NEAREST}|", abs(step.number("nearness") - step.number("nearest_nearness")))
     text = (
-        f"{step.pixel_name}: triangle {step.whole('nearest')} is {apart} away in {_measure(step)}, "
+        f"{step.pixel_name}: {step.named_primitive(step.whole('nearest'))} is {apart} away in {_measure(step)}, "
         f"within the errors of {errors}: float64 cannot decide."
     )
     if math.isinf(errors.value):
@@ -97,7 +97,7 @@ def doubted(step: StepValues) -> Said:
 @explains("depth.ray-exact.exact", asks=nearer, decides=True)
 def exact(step: StepValues) -> Said:
     """The comparison in whole numbers."""
-    sign, nearest = step.whole("sign"), f"triangle {step.whole('nearest')}"
+    sign, nearest = step.whole("sign"), step.named_primitive(step.whole("nearest"))
     verdict, word = ("passes", "nearer") if sign > 0 else ("fails", "farther")
     text = f"{verdict}: compared in whole numbers, without any error, it is {word} than {nearest}."
     if sign == 0:
@@ -110,10 +110,10 @@ def exact(step: StepValues) -> Said:
 def written(step: StepValues) -> Said:
     """Which triangle is the ray's nearest now."""
     if step.flag("passes") and not step.flag("writes"):
-        return _not_kept(step, f"triangle {step.whole('nearest')}")
+        return _not_kept(step, step.named_primitive(step.whole("nearest")))
     seen = step.triangle if step.flag("passes") else step.whole("nearest")
     verb = "is now" if step.flag("passes") else "is still"
-    return f"{step.pixel_name}: triangle {seen} {verb} the nearest on the ray."
+    return f"{step.pixel_name}: {step.named_primitive(seen)} {verb} the nearest on the ray."
 
 
 def _not_kept(step: StepValues, nearest: str) -> str:

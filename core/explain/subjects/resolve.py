@@ -63,7 +63,9 @@ def samples(step: StepValues) -> Said:
         f"{covered} of {counted(len(kept), 'sample')}" if covered < len(kept) else f"all {len(kept)} samples"
     )
     seen = (
-        f"{what} show {noun_of(len(shown), 'triangle')} {names}" if covered else "no sample shows a triangle"
+        f"{what} show {noun_of(len(shown), step.nouns.one)} {names}"
+        if covered
+        else f"no sample shows a {step.nouns.one}"
     )
     text = f"{step.pixel_name}: {seen}; their weights add up to {spoken(sum(weights))}."
     return text, _together(step, "W", "w")
@@ -90,9 +92,9 @@ def pieces(step: StepValues) -> Said:
     parts = [(area, int(triangle)) for area, triangle in zip(areas, triangles, strict=True) if area > 0]
     covered = sum(area for area, triangle in parts if triangle >= 0)
     made = "it is one piece" if len(parts) == 1 else f"edges cut it into {len(parts)} pieces"
-    text = f"{step.pixel_name}: {made}, and triangles cover {spoken(covered)} of its area"
+    text = f"{step.pixel_name}: {made}, and {step.nouns.many} cover {spoken(covered)} of its area"
     if step.has("untold_cuts"):
-        text += "; to step through the cuts, trace one triangle or a smaller part of the picture"
+        text += f"; to step through the cuts, trace one {step.nouns.one} or a smaller part of the picture"
     return f"{text}.", _together(step, "A", "A")
 
 

@@ -26,7 +26,7 @@ def _vertex(step: StepValues) -> str:
     """Return the number of a vertex in its triangle, as the views label it, and that in the scene where it differs."""
     corner, number = step.whole("corner"), step.whole("vertex")
     of_scene = f" (vertex {number} of the scene)" if number != corner else ""
-    return f"Vertex {corner} of triangle {step.triangle}{of_scene}"
+    return f"Vertex {corner} of {step.name}{of_scene}"
 
 
 def _in_space(step: StepValues, axis: str, space: str, value: float) -> Named:

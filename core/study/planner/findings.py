@@ -12,6 +12,7 @@ from core.pipeline import draw
 from core.raster.pixel_runs import make_raster
 from core.records.arrays import Integers
 from core.records.frame import StageCount
+from core.records.nouns import nouns
 from core.scene import AnyScene, Scene, Texture
 from core.settings import Settings
 from core.stages.closed_meshes import is_closed
@@ -92,16 +93,22 @@ def look(scene: AnyScene, everything: Settings, regions: tuple[tuple[int, int, i
 
 def facts_of(seen: Seen) -> tuple[Fact, ...]:
     """Return the facts in pipeline order."""
+    drawn = nouns(seen.corner_count)
+    many = drawn.many.capitalize()
     facts = [
-        Fact("triangles", "Triangles", f"{seen.triangles:,}"),
-        Fact("w-signs", "Triangles with a corner that is not in front of the eye", f"{seen.behind:,}"),
+        Fact("triangles", many, f"{seen.triangles:,}"),
+        Fact(
+            "w-signs",
+            drawn.text("{Many} with {a_corner} that is not in front of the eye"),
+            f"{seen.behind:,}",
+        ),
         Fact(
             "cut",
-            "Triangles that cross a plane of the view volume, or lie beyond one",
+            f"{many} that cross a plane of the view volume, or lie beyond one",
             f"{seen.cut:,} of {seen.triangles:,}",
         ),
-        Fact("backs", "Triangles in view that face away", f"{seen.backs:,} of {seen.in_view:,}"),
-        Fact("w-ratio", "Largest ratio of w in a triangle", f"{seen.w_ratio:.4g}"),
+        Fact("backs", f"{many} in view that face away", f"{seen.backs:,} of {seen.in_view:,}"),
+        Fact("w-ratio", f"Largest ratio of w in a {drawn.one}", f"{seen.w_ratio:.4g}"),
         Fact("closed", "Closed meshes", seen.closed),
         Fact("layers", "Fragments in a pixel, at most", f"{seen.layers:,}"),
         Fact("depth-range", "Window depth", _depth_range(seen)),
@@ -113,7 +120,11 @@ def facts_of(seen: Seen) -> tuple[Fact, ...]:
         facts.append(Fact("texels", "Longest step of a pixel in a texture", f"{figure(seen.texels)} texels"))
     if seen.lean is not None:
         facts.append(
-            Fact("normals", "Largest angle of a normal from its triangle's mean", f"{seen.lean:.3g} degrees")
+            Fact(
+                "normals",
+                f"Largest angle of a normal from its {drawn.one}'s mean",
+                f"{seen.lean:.3g} degrees",
+            )
         )
     return tuple(facts)
 
@@ -127,7 +138,7 @@ def _depth_range(seen: Seen) -> str:
 
 def _closed(scene: AnyScene) -> str:
     if not isinstance(scene, Scene):
-        return "not known: triangles given one by one"
+        return f"not known: {nouns(scene.corner_count).many} given one by one"
     found = sum(is_closed(mesh.positions, mesh.triangles) for mesh in scene.meshes)
     return f"{found:,} of {len(scene.meshes):,}"
 

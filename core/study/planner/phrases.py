@@ -14,7 +14,7 @@ PHRASES = {
         "perspective": "perspective-correct interpolation",
         "affine": "affine interpolation",
         "affine-n": "affine interpolation corrected every few pixels",
-        "flat": "one corner's value for the whole triangle",
+        "flat": "one value without interpolation",
     },
     "texture_filter": {
         "nearest": "the nearest texel",

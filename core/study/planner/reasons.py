@@ -1,5 +1,6 @@
 """Why each method was chosen: what was seen in the scene, and what was measured of the cheaper methods."""
 
+from core.records.nouns import nouns
 from core.records.words import counted, joined
 from core.study.planner.findings import Seen
 from core.study.planner.phrases import capitalized, figure, in_bytes, phrase
@@ -37,7 +38,7 @@ def reason(choice: Choice, tolerance: Tolerance, seen: Seen, is_compared: bool) 
         parts.append(f"{chosen}: {change_text(choice.trial)}.")
     elif choice.rejected or choice.slower or choice.unseen:
         parts.append(f"{chosen}: kept.")
-    return " ".join(part for part in parts if part)
+    return nouns(seen.corner_count).text(" ".join(part for part in parts if part))
 
 
 def _unseen_change(choice: Choice, seen: Seen) -> str:
@@ -58,26 +59,26 @@ def change_text(trial: Trial) -> str:
 
 
 def _fact(choice: Choice, seen: Seen, is_compared: bool) -> str:
-    """Return what of the scene bears on a family."""
+    """Return what of the scene bears on a family, with names of what is drawn in braces."""
     match choice.family:
         case "cull" if seen.corner_count < 3:
             return "Without an area nothing faces away."
         case "cull" if choice.dearest != "none":
             return "The settings leave out front faces."
         case "cull" if not seen.backs:
-            return "No triangle in view faces away."
+            return "No {one} in view faces away."
         case "cull":
             face = "faces" if seen.backs == 1 else "face"
-            return f"{seen.backs:,} of {counted(seen.in_view, 'triangle')} in view {face} away."
+            return f"{seen.backs:,} of {counted(seen.in_view, '{one}', '{many}')} in view {face} away."
         case "clipping" if not seen.cut:
-            return "No triangle crosses a plane of the view volume: there is nothing to clip."
+            return "No {one} crosses a plane of the view volume: there is nothing to clip."
         case "clipping":
             cross = "crosses a plane of the view volume or lies" if seen.cut == 1 else CROSS
-            return f"{seen.cut:,} of {counted(seen.triangles, 'triangle')} {cross} beyond one."
+            return f"{seen.cut:,} of {counted(seen.triangles, '{one}', '{many}')} {cross} beyond one."
         case "interpolation" if seen.w_ratio - 1 < EVEN:
-            return "Within every triangle w is the same."
+            return "Within every {one} w is the same."
         case "interpolation":
-            return f"Within a triangle w changes by a factor of {seen.w_ratio:.4g} at most."
+            return f"Within a {{one}} w changes by a factor of {seen.w_ratio:.4g} at most."
         case "texture_filter":
             return _texture_fact(seen)
         case "shading":
@@ -105,9 +106,9 @@ def _texture_fact(seen: Seen) -> str:
 def _light_fact(seen: Seen) -> str:
     if seen.lean is None:
         return "Nothing is lit, so there is nothing to shade."
-    text = f"Within a triangle normals lean up to {figure(seen.lean)} degrees from their mean"
+    text = f"Within a {{one}} normals lean up to {figure(seen.lean)} degrees from their mean"
     if seen.lean < FLAT:
-        text = "Within every triangle the normals are the same"
+        text = "Within every {one} the normals are the same"
     if seen.highlight is None:
         return f"{text}, and nothing has highlights."
     return f"{text}, and a highlight falls to half its light within {figure(seen.highlight)} degrees."
