@@ -87,13 +87,49 @@ def test_the_pane_offers_what_can_be_done(qtbot) -> None:
     assert not pane.sides.isVisible()
     pane.show_head(PaneHead(is_shown=True, refusal="It cannot be edited."))
     assert not pane.edit_button.isVisible()
-    pane.show_head(PaneHead(is_shown=True, is_edited=True, note="1 line changed"))
+    assert not pane.reset_button.isVisible()
+    pane.show_head(PaneHead(is_shown=True, is_edited=True, note="1 line changed", resets="all changes"))
     assert pane.sides.isVisible()
     assert pane.reset_button.isVisible()
+    assert pane.reset_button.toolTip() == "Take back all changes"
     asked: list[int] = []
     pane.side_chosen.connect(asked.append)
     qtbot.mouseClick(pane.sides, Qt.MouseButton.LeftButton, pos=pane.sides.tabRect(B).center())
     assert asked[-1] == B
+
+
+def test_a_version_is_named_in_the_head_and_escape_leaves_the_name(qtbot) -> None:
+    pane = shown(qtbot, ListingPane(), 420, 300)
+    pane.show_head(PaneHead(is_shown=True, is_edited=True, resets="all changes", name="mine & yours"))
+    assert pane.sides.tabText(B) == "B: mine && yours"
+    given: list[str] = []
+    pane.name_given.connect(given.append)
+    pane.ask_name()
+    assert pane.name_field.isVisible()
+    assert pane.name_field.selectedText() == "mine & yours"
+    qtbot.keyClicks(pane.name_field, " early ")
+    qtbot.keyClick(pane.name_field, Qt.Key.Key_Return)
+    assert given == ["early"]
+    assert not pane.name_field.isVisible()
+    pane.ask_name()
+    qtbot.keyClick(pane.name_field, Qt.Key.Key_Escape)
+    assert given == ["early"]
+    assert not pane.name_field.isVisible()
+    assert pane.note.isVisible()
+
+
+def test_a_step_keeps_its_mark_while_lines_are_typed_above(qtbot) -> None:
+    editor = shown(qtbot, ListingEditor(), 420, 300)
+    source = "def f(x):\n  y = x\n  return y"
+    editor.begin(source, 1)
+    editor.show_step(2, source)
+    assert editor.line == 2
+    editor.show_text("def f(x):\n  z = 1\n  y = x\n  return y")
+    assert editor.line == 3
+    editor.show_text("def f(x):\n  y = x + 1\n  return y")
+    assert editor.line == 2
+    editor.show_text("def f(x):\n  return y")
+    assert editor.line is None
 
 
 def test_a_problem_is_told_without_its_colour(qtbot) -> None:
