@@ -378,7 +378,7 @@ def test_a_light_of_shaders_is_not_edited():
     scene = replace(make_scene("cube"), size=(16, 16))
     shaders = replace(scene, program=preset_program("phong", scene))
     ours = apply_edit(Settings(), Edit("shading", "phong", original("shading", "phong").source))
-    with pytest.raises(ValueError, match="the shaders of the scene light it"):
+    with pytest.raises(ValueError, match="the scene's own shaders do it"):
         render(shaders, ours)
 
 
