@@ -30,8 +30,10 @@ FOLDED_LINES = (3, 3)
 """The same where the difference stands below A and B, with all notes beside it: there they are wider."""
 FOLDED_GAIN = 1.15
 """How many times larger the pictures become at least where the difference is put below A and B."""
+TIGHT_LINES, PICTURE_LINES = (1, 0), 9
+"""The same where pictures would be lower than so many lines of text: in large type in a small window."""
 NOTE_LINES = 4
-"""Lines of a note at most where all stand beside the difference: more would make A and B smaller."""
+"""Lines of a note at least where all stand beside the difference; more where there is room beside it."""
 OLD_OPACITY = 0.4
 """Of a picture that is no longer that of what stands there."""
 SWAP_TIP, USE_TIP = "Swap the settings of A and B", "Give the page the settings of B"
@@ -100,7 +102,7 @@ class CompareView(QWidget):
         self.notes = tuple(CutLabel(self.figure) for _ in self.grids)
         self._settings: tuple[Setting, ...] = ()
         self._sides: tuple[Side, ...] = ()
-        self._is_flipped = False
+        self._is_flipped = self._is_tight = False
         self._buttons: dict[str, QPushButton] = {}
         for box, name, tip in (
             (self.buffer_box, "Buffer", "Which buffer is compared"),
@@ -177,6 +179,13 @@ class CompareView(QWidget):
         """Put the difference below A and B where that makes the pictures larger."""
         super().resizeEvent(event)
         self._fold_if_larger()
+        if self._is_tight != self._has_little_room():
+            self._show_again()
+
+    def _has_little_room(self) -> bool:
+        """Return whether the pictures need the room of most that is said of them."""
+        lines = self.figure.height() / self.fontMetrics().lineSpacing()
+        return lines < sum(LINES) + PICTURE_LINES and not self.linked.is_folded and self._code.isHidden()
 
     def _fold_if_larger(self) -> None:
         is_folded = self._gain() > FOLDED_GAIN
@@ -253,8 +262,14 @@ class CompareView(QWidget):
             sides = sides[1], sides[0], sides[2]
         has_code = any(side.listing is not None for side in sides)
         above, below = LINES_WITH_CODE if has_code else LINES
+        self._is_tight = not has_code and self._has_little_room()
         if self.linked.is_folded:
             above, below = FOLDED_LINES
+        elif self._is_tight:
+            above, below = TIGHT_LINES
+        self._notes.setVisible(below > 0)
+        half = self.figure.height() // (2 * self.fontMetrics().lineSpacing())
+        notes = max(NOTE_LINES, half // len(self.notes))
         for side, grid, title, note in zip(sides, self.grids, self.titles, self.notes, strict=True):
             grid.empty_text = side.reason
             grid.set_pixel_center(side.pixel_center)
@@ -267,7 +282,7 @@ class CompareView(QWidget):
             _grey(grid, side.is_old)
             # Away from its picture a note names it.
             name = f"{side.name}: " if self.linked.is_folded and side.sentence else ""
-            self._write(note, name + side.sentence, NOTE_LINES if self.linked.is_folded else below)
+            self._write(note, name + side.sentence, notes if self.linked.is_folded else below)
             if self.linked.is_folded:
                 note.setMinimumHeight(0)  # No higher than its text: the notes stand one below the other.
         self._code.setVisible(has_code)

@@ -50,3 +50,21 @@ def test_long_sentences_are_whole_beside_the_difference_and_leave_the_pictures_t
     view.show_sides(*(Side(name, name, sentence=long, buffer=buffer) for name in ("A", "B", "D")))
     qtbot.waitUntil(lambda: all(note.height() >= note.heightForWidth(note.width()) for note in view.notes))
     assert sizes(view) == before
+
+
+def test_long_sentences_take_no_room_of_the_pictures(view: CompareView, qtbot: QtBot) -> None:
+    view.resize(700, 600)
+    qtbot.waitUntil(lambda: view.linked.is_folded)
+    buffer = GridBuffer("depth", np.zeros((48, 64)))
+    view.show_sides(
+        *(Side(name, name, sentence="A long story. " * 60, buffer=buffer) for name in ("A", "B", "D"))
+    )
+    qtbot.waitUntil(lambda: len(sizes(view)) == 1)
+
+
+def test_pictures_are_seen_where_large_type_leaves_little_room(view: CompareView, qtbot: QtBot) -> None:
+    view.resize(700, 12 * view.fontMetrics().lineSpacing())
+    qtbot.waitUntil(lambda: min(height for _, height in sizes(view)) > 5 * view.fontMetrics().lineSpacing())
+    assert not any(note.isVisible() for note in view.notes)
+    view.resize(1200, 600)
+    qtbot.waitUntil(lambda: all(note.isVisible() for note in view.notes))
