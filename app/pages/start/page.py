@@ -176,7 +176,8 @@ class StartPage(Page):
             self._show_document()
 
     def _show_document(self) -> None:
-        title = self._session.document.title or "a scene"
+        title = self._session.document.title
+        title = f"“{title}”" if title else "a scene"
         if self._session.is_asked_about:
             self.now_label.setText(f"Open now: a question about {title}. Press Right to go back to it.")
             return

@@ -49,7 +49,7 @@ def test_pictures_are_drawn_by_the_core() -> None:
 
 def test_right_steps_what_is_open(window: MainWindow, page: StartPage) -> None:
     window.session.set_stage("transform", 0)
-    assert "Two triangles sharing an edge" in page.now_label.text()
+    assert "“Two triangles sharing an edge”" in page.now_label.text()
     QTest.keyClick(window, Qt.Key.Key_Right)
     assert (window.pages.current_name, window.session.cursor.position > 0) == ("step", True)
 
