@@ -220,8 +220,8 @@ def draw_both_ends(draws: Draws) -> Draft | None:
 def draw_block(draws: Draws) -> Draft | None:
     """A block is out if one corner is out."""
     a, b = (draws.item((-1, 1)) * draws.whole(1, 5) for _ in range(2))
-    sides = [f"{x} {y}" for x in ("left", "right") for y in ("bottom", "top")]
-    right = f"{'right' if a > 0 else 'left'} {'top' if b > 0 else 'bottom'}"
+    sides = [f"{y} {x}" for x in ("left", "right") for y in ("lower", "upper")]
+    right = f"{'upper' if b > 0 else 'lower'} {'right' if a > 0 else 'left'}"
     refutation = Refutation(
         "E is largest at one corner of a block: only if that one is out, all are. Other blocks hold covered pixels.",
         triangle_scene([[(1, 1), (20, 2), (3, 18)]], (24, 24)),
@@ -249,5 +249,5 @@ TEMPLATES = (
     Template("belief-tie", 2, "Which pixel does D choose?", "raster", 1, draw_tie),
     Template("belief-two-steps", 2, "Two steps up in a row?", "raster", 1, draw_two_steps),
     Template("belief-both-ends", 2, "Is a line the same from both ends?", "raster", 1, draw_both_ends),
-    Template("belief-block-corner", 1, "Which corner rejects a block?", "bin", 1, draw_block),
+    Template("belief-block-corner", 2, "Which corner rejects a block?", "bin", 1, draw_block),
 )
