@@ -39,7 +39,8 @@ def test_window_is_left_open(qapp):
 def test_exit_code_is_the_outcome(tmp_path: Path, expected: bool, code: int) -> None:
     shutil.copy(bootstrap.ROOT / "pyproject.toml", tmp_path)
     (tmp_path / "tests").mkdir()
-    shutil.copy(bootstrap.ROOT / "tests" / "conftest.py", tmp_path / "tests")
+    for name in ("conftest.py", "families.py", "patience.py"):
+        shutil.copy(bootstrap.ROOT / "tests" / name, tmp_path / "tests")
     (tmp_path / "tests" / "test_untidy.py").write_text(UNTIDY_TEST.replace("EXPECTED", str(expected)))
     command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider"]
     environment = {key: value for key, value in os.environ.items() if not key.startswith("PYTEST")}
