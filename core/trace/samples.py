@@ -123,6 +123,7 @@ def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
         ),
         extra=first.extra,
         constants={name: value for name, value in first.constants.items() if name not in differing},
+        given=first.given,
     )
 
 

@@ -106,3 +106,15 @@ def test_spans_are_counted_for_each_sample():
     assert len(np.unique(c["span_count"][rows])) > 1
     assert (c["place"][rows] < c["span_count"][rows]).all()
     assert (c["lane"][rows] < found.variables(int(np.flatnonzero(rows)[0]))["lane_count"]).all()
+
+
+def test_a_step_of_a_sample_knows_what_its_line_is_given():
+    """Without it a line of several samples computed with NaN: "Subtracting 2 · dx = NaN makes D = −14"."""
+    line = {"polygon_mode": "wireframe"}
+    whole, sampled = (
+        trace(SCENES["shared-edge"], Settings(**line, antialiasing=name)).stage("raster")
+        for name in ("none", "msaa-4")
+    )
+    for kind, names in whole.given.items():
+        assert set(names) <= set(sampled.given[kind])
+    assert any(whole.given.values())
