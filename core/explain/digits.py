@@ -28,6 +28,11 @@ def vector_text(values: Sequence[float]) -> str:
     return f"({', '.join(map(spoken, values))})"
 
 
+def listed(values: Sequence[float]) -> str:
+    """Return the marks of numbers as speech joins them."""
+    return joined([spoken(value) for value in values])
+
+
 REMAINDER = 2.0**-46
 """Up to this size beside 1, rounding alone keeps a number from 0: float64 has 52 bits, each operation rounds."""
 

@@ -1,6 +1,6 @@
 """Barycentric coordinates three ways: two equations, areas, distances from the edges."""
 
-from core.explain.digits import remainder_note, spoken
+from core.explain.digits import listed, remainder_note, spoken
 from core.explain.formulas import Named, formula_of, named
 from core.explain.rows import Said, explains
 from core.explain.statements import Chain
@@ -9,11 +9,6 @@ from core.explain.subjects.interpolation import below_zero, first_weight, quotie
 from core.explain.term_latex import Written
 from core.explain.variable_text import GIVEN, VariableText, hides, shows
 from core.records.terms import Colored, Operation
-from core.records.words import joined
-
-
-def _listed(values: list[float]) -> str:
-    return joined([spoken(value) for value in values])
 
 
 def _row(names: tuple[str, str, str], values: list[float]) -> Chain:
@@ -106,7 +101,7 @@ def rest_of_one(step: StepValues) -> Said:
     weights = step.vector("weights")
     text = (
         f"{step.fragment_name}: corner 0 has the rest of 1, so corners 0, 1 and 2 have weights "
-        f"{_listed(weights)}{below_zero(weights)}."
+        f"{listed(weights)}{below_zero(weights)}."
     )
     first, second, third = (named(rf"\lambda_{k}", weight) for k, weight in enumerate(weights))
     return text, formula_of(first.equals(1 - second - third))
@@ -143,7 +138,7 @@ def part_areas(step: StepValues) -> Said:
     text = (
         f"{step.fragment_name}: its centre cuts the triangle into three; twice the areas opposite to "
         "corners 0, 1 and 2 "
-        f"are {_listed(areas)}"
+        f"are {listed(areas)}"
     )
     text += "; an area below 0 lies outside" if min(areas) < 0 else ""
     made = (
@@ -163,7 +158,7 @@ def shares_of_area(step: StepValues) -> Said:
     """The weight of a corner is the part of the area opposite to it."""
     weights = step.vector("weights")
     text = (
-        f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(weights)}, the parts of the area "
+        f"{step.fragment_name}: corners 0, 1 and 2 have weights {listed(weights)}, the parts of the area "
         "opposite to them"
         f"{below_zero(weights)}."
     )
@@ -209,7 +204,7 @@ def at_the_pixel(step: StepValues) -> Said:
     """The three functions at the pixel: distances, each in a unit of its own."""
     values = step.vector("at_pixel")
     text = (
-        f"{step.fragment_name}: the functions of the edges opposite to corners 0, 1 and 2 are {_listed(values)} here, "
+        f"{step.fragment_name}: the functions of the edges opposite to corners 0, 1 and 2 are {listed(values)} here, "
         f"the distances from the edges times their lengths{remainder_note(values)}."
     )
     return text, formula_of(*_lines_at(step, "at_pixel", [step.centre] * 3))
@@ -219,7 +214,7 @@ def at_the_pixel(step: StepValues) -> Said:
 def at_the_corner(step: StepValues) -> Said:
     """The same functions at the corner opposite to each edge."""
     values = step.vector("at_corner")
-    text = f"{step.fragment_name}: at the corner opposite to each edge the functions are {_listed(values)}."
+    text = f"{step.fragment_name}: at the corner opposite to each edge the functions are {listed(values)}."
     return text, formula_of(*_lines_at(step, "at_corner", _corners(step)))
 
 
@@ -228,7 +223,7 @@ def shares_of_distance(step: StepValues) -> Said:
     """The weight of a corner is the pixel's distance from the opposite edge, over the corner's own."""
     weights = step.vector("weights")
     text = (
-        f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(weights)}: how far the pixel is from the "
+        f"{step.fragment_name}: corners 0, 1 and 2 have weights {listed(weights)}: how far the pixel is from the "
         f"opposite edge, as a part of how far the corner is{below_zero(weights)}."
     )
     here, at_corner = (

@@ -1,19 +1,15 @@
 """Culling: the tests that drop a whole triangle."""
 
-from core.explain.digits import spoken
+from core.explain.digits import listed, spoken
 from core.explain.formulas import Conclusion, concludes, formula_of, named
 from core.explain.rows import Said, explains
 from core.explain.statements import Chain
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, shows
-from core.records.words import counted, joined, numbered
+from core.records.words import counted, numbered
 
 MOST_CORNERS = 4
 """Of more corners only the largest number is shown: all are below 0 if it is."""
-
-
-def _listed(values: list[float]) -> str:
-    return joined([spoken(value) for value in values])
 
 
 def _dropped(step: StepValues, *tests: Chain) -> Conclusion:
@@ -25,7 +21,7 @@ def _each(symbol: str, name: str, relation: str, values: list[float]) -> tuple[s
     if len(values) > MOST_CORNERS:
         largest = named(rf"\max_k {symbol}_k", max(values))
         return f"largest {name} {largest}", [largest.compared(relation)]
-    return _listed(values), [
+    return listed(values), [
         named(f"{symbol}_{k}", value).compared(relation) for k, value in enumerate(values)
     ]
 

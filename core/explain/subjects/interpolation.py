@@ -7,7 +7,7 @@ import numpy as np
 
 from core.explain.arithmetic import work_out
 from core.explain.channels import outstanding
-from core.explain.digits import is_remainder, remainder_note, spoken, vector_text
+from core.explain.digits import is_remainder, listed, remainder_note, spoken, vector_text
 from core.explain.formulas import Named, below, call, formula_of, named, total
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
@@ -28,10 +28,6 @@ ATTRIBUTE_NAMES = {
 }
 
 
-def _listed(values: list[float]) -> str:
-    return joined([spoken(value) for value in values])
-
-
 @explains("interpolate.perspective|affine.numerators")
 def numerators(step: StepValues) -> Said:
     """The unsnapped edge functions at the pixel."""
@@ -40,7 +36,7 @@ def numerators(step: StepValues) -> Said:
     if is_affine:
         what = "each multiplied by the w of its corner to leave perspective out"
     text = (
-        f"{step.fragment_name}: the edge functions of the unsnapped corners are {_listed(values)}"
+        f"{step.fragment_name}: the edge functions of the unsnapped corners are {listed(values)}"
         f"{',' if is_affine else ''} {what}."
     )
     x, y = step.centre
@@ -92,11 +88,11 @@ def below_zero(weights: list[float]) -> str:
 def weights(step: StepValues) -> Said:
     """The weights of the corners, parts of the sum."""
     values, whole = step.vector("weights"), step.named("total", "n")
-    text = f"{step.fragment_name}: corners 0, 1 and 2 have weights {_listed(values)}, their parts of the sum"
+    text = f"{step.fragment_name}: corners 0, 1 and 2 have weights {listed(values)}, their parts of the sum"
     w = step.vector("corner_w")
     if step.kind == "perspective" and min(w) != max(w):
         in_window = window_weights(np.array(values), np.array(w)).tolist()
-        text += f" (divided by w; in the window {_listed(in_window)})"
+        text += f" (divided by w; in the window {listed(in_window)})"
     text += below_zero(values)
     if any(map(math.isnan, values)):
         text += "; NaN means that the sum is 0"
@@ -290,7 +286,7 @@ def corrected_weights(step: StepValues) -> Said:
     )
     text = (
         f"{step.fragment_name}: {spoken(1 - t)} of the left and {spoken(t)} of the right anchor's weights give "
-        f"corners 0, 1 and 2 the weights {_listed(values)}{rest}{remainder_note(values)}."
+        f"corners 0, 1 and 2 the weights {listed(values)}{rest}{remainder_note(values)}."
     )
     rest_of_t, at = named("(1 - t)", 1 - t), named("t", t)
     weights = zip(_numbered(r"\lambda", values), _at_anchor("l", left), _at_anchor("r", right), strict=True)
