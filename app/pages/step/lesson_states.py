@@ -1,6 +1,6 @@
 """The states of a lesson on the Step page: traced off the GUI thread, the next one ahead, each one entry of undo."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from threading import Lock
@@ -117,8 +117,11 @@ class LessonStates(QObject):
     def _leave_out(self, error: Exception) -> None:
         """Say nothing: who goes to that step is told."""
 
-    def show(self, shown: OpenState, *, is_hidden: bool) -> None:
-        """Show a state, and hide what comes after it if it ``is_hidden``: one entry of undo, or none."""
+    def show(self, shown: OpenState, *, is_hidden: bool, panes: Sequence[str] = ()) -> None:
+        """Show a state, and hide what comes after it if it ``is_hidden``: one entry of undo, or none.
+
+        ``panes`` are shown beside it; none: those that are there.
+        """
         page, state, session = self._page, shown.state, self._page.session
         page.timeline.show_playing(False)
         page.grids.look_only_at(shown.cursor.stage, state.buffer)
@@ -137,6 +140,8 @@ class LessonStates(QObject):
             if session.moment is before:
                 page.grids.show_again()
             page.main_area.views_by_hand.clear()
+            if panes and set(panes) != set(page.desk_panes()):
+                page.show_desk_panes(panes)  # Before the pictures of A | B find their places.
             self._show_view(state)
         if state.pixel is not None and state.other is not None:
             page.comparing.meet_at(state.pixel)

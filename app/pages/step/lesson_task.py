@@ -1,5 +1,6 @@
 """One step of a lesson in its pane: what it asks or wants done, what the learner does, and what is shown for it."""
 
+from collections.abc import Sequence
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -112,9 +113,7 @@ class LessonTask(QObject):
             kept = [name for name in page.desk_panes() if name in panes]
             if kept != page.desk_panes():
                 page.show_desk_panes(kept)  # What goes need not show the new state first.
-            self._show(shown, is_hidden=is_hidden)
-            if set(panes) != set(page.desk_panes()):
-                page.show_desk_panes(panes)
+            self._show(shown, is_hidden=is_hidden, panes=panes)
             if stage := "" if part is None else edited_shader(part):
                 page.shader_pane.show_source(stage)
             page.column.fold_listing("listing" not in shown.state.panes)
@@ -147,13 +146,13 @@ class LessonTask(QObject):
 
     # Showing.
 
-    def _show(self, shown: OpenState, *, is_hidden: bool) -> None:
-        """Show a state, as the lesson's own doing."""
+    def _show(self, shown: OpenState, *, is_hidden: bool, panes: Sequence[str] = ()) -> None:
+        """Show a state, as the lesson's own doing, beside its ``panes``; none: those that are there."""
         self._is_showing = True
         digest = scene_digest(shown.document.scene) if is_hidden else ""
         self._session.set_asked(digest, is_open=is_hidden, by="lesson")
         self._page.main_area.gives_room = is_hidden
-        self.states.show(shown, is_hidden=is_hidden)
+        self.states.show(shown, is_hidden=is_hidden, panes=panes)
         self._is_showing = False
         self._show_away()
 
