@@ -5,7 +5,7 @@ corners and edges 0, 1, 2 get their colours from `FormulaView`, which knows them
 ``\vertex{k}{...}``.
 """
 
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import isnan
@@ -49,16 +49,14 @@ class Conclusion:
 
     chains: tuple[Chain, ...]
     then: Term
-    word: str = r"\land"
-    """What stands between them."""
 
 
 Stated = Chain | Term | Conclusion
 
 
-def concludes(wanted: str, found: str, *chains: Chain, word: str = r"\land") -> Conclusion:
+def concludes(wanted: str, found: str, *chains: Chain) -> Conclusion:
     """Return what is asked of all statements together, over what was found."""
-    return Conclusion(chains, Written(rf"\text{{{wanted}}}", rf"\text{{{found}}}"), word)
+    return Conclusion(chains, Written(rf"\text{{{wanted}}}", rf"\text{{{found}}}"))
 
 
 def formula_of(*stated: Stated) -> Formula:
@@ -76,19 +74,11 @@ def formula_of(*stated: Stated) -> Formula:
         checked; between sides that are equal only about, ``=`` becomes ``\approx`` in the line of numbers.
     """
     pieces = list(_pieces(stated))
-    known = [piece for piece in pieces if isinstance(piece, Chain) and piece.is_arithmetic]
-    digits = checkable_digits(known)
-    printers = TermLatex(False, digits), TermLatex(True, digits)
-    lines: tuple[list[str], list[str]] = [], []
-    for piece in pieces:
-        if isinstance(piece, Chain):
-            about = about_equal(piece, digits) if piece in known else ()
-            for cells, one in zip(lines, printers, strict=True):
-                cells += _cells(piece, one, about)
-        else:
-            for cells, one in zip(lines, printers, strict=True):
-                cells += [piece] if isinstance(piece, str) else one.cells(piece)
-    symbols, numbers = (" & ".join(cells) for cells in lines)
+    digits = checkable_digits([piece for piece in pieces if isinstance(piece, Chain) and piece.is_arithmetic])
+    symbols, numbers = (
+        " & ".join(cell for piece in pieces for cell in _cells(piece, TermLatex(puts_in, digits)))
+        for puts_in in (False, True)
+    )
     return Formula(symbols, numbers, digits)
 
 
@@ -102,20 +92,24 @@ def _pieces(stated: Sequence[Stated]) -> Iterator[Chain | Term | str]:
             continue
         for number, chain in enumerate(piece.chains):
             if number:
-                yield piece.word
+                yield r"\land"
             yield chain
         yield r"\Rightarrow"
         yield piece.then
 
 
-def _cells(chain: Chain, printer: TermLatex, about: Container[int]) -> list[str]:
-    """Return the cells of a statement; ``about``: which of its relations hold only about."""
-    made = printer.cells(chain.sides[0])
-    for place, (sign, side) in enumerate(zip(chain.relations, chain.sides[1:], strict=True)):
+def _cells(piece: Chain | Term | str, printer: TermLatex) -> list[str]:
+    if isinstance(piece, str):
+        return [piece]
+    if isinstance(piece, Term):
+        return printer.cells(piece)
+    about = about_equal(piece, printer.digits) if printer.puts_in and piece.is_arithmetic else ()
+    made = printer.cells(piece.sides[0])
+    for place, (sign, side) in enumerate(zip(piece.relations, piece.sides[1:], strict=True)):
         shown = sign if isinstance(sign, str) else sign[printer.puts_in]
-        made += [r"\approx" if printer.puts_in and place in about else shown, *printer.cells(side)]
-    if chain.modulus:
-        made += [r"\quad", rf"(\mathrm{{mod}} \, 2^{{{chain.modulus}}})"]
+        made += [r"\approx" if place in about else shown, *printer.cells(side)]
+    if piece.modulus:
+        made += [r"\quad", rf"(\mathrm{{mod}} \, 2^{{{piece.modulus}}})"]
     return made
 
 

@@ -5,7 +5,7 @@ Each number has the fewest digits with which all that is stated can be checked f
 
 import math
 import operator
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -90,8 +90,7 @@ class Chain:
 
     def is_exact(self, place: int, count: Count) -> bool:
         """Return whether the sides beside a relation are equal to the last digit."""
-        first, second = (work_out(side, count)[0] for side in self.sides[place : place + 2])
-        return first == second or (is_nan(first) and is_nan(second))
+        return is_same(*(work_out(side, count)[0] for side in self.sides[place : place + 2]))
 
 
 def held(relations: Sequence[Relation]) -> tuple[str, ...]:
@@ -156,7 +155,7 @@ def _growing(statement: Chain, digits: dict[float, int]) -> set[float]:
     return set()
 
 
-def about_equal(statement: Chain, digits: dict[float, int]) -> set[int]:
+def about_equal(statement: Chain, digits: Mapping[float, int]) -> set[int]:
     """Return the places of relations ``=`` between sides that are equal only about, as they are shown."""
     return {
         place
@@ -165,5 +164,5 @@ def about_equal(statement: Chain, digits: dict[float, int]) -> set[int]:
     }
 
 
-def _shown(value: float, digits: dict[float, int]) -> Fraction | float:
+def _shown(value: float, digits: Mapping[float, int]) -> Fraction | float:
     return shown_value(value, digits.get(abs(value), DIGITS))

@@ -5,17 +5,23 @@ import re
 from collections import Counter
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from pytestqt.qtbot import QtBot
 
 from core import ClipScene, Settings, trace
 from core.explain import formula
+from core.explain.arithmetic import work_out
 from core.explain.formulas import Stated, call, formula_of, named, on_grid
 from core.explain.latex import split_cells
 from core.explain.number_text import latex_text
 from core.explain.records import Formula
+from core.explain.statements import is_same
+from core.explain.term_latex import TermLatex
+from core.records.terms import Operation, Term, term
 from core.trace import Explanation
 from tests.core.explain.explained_steps import all_said, rare_trace, steps_of
-from tests.core.explain.read_formulas import BREAKS, RELATIONS, holds, statements
+from tests.core.explain.read_formulas import BREAKS, RELATIONS, holds, read, statements
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.typesetter import Typesetter
 
@@ -195,6 +201,26 @@ def test_negative_numbers_stand_in_brackets_behind_operators() -> None:
     assert split_cells(made.substituted) == (
         *("-5", r"\approx", "-2", "+", "(-3)", "+", r"({-1 \cdot 10^{-9}})"),
     )
+
+
+TERMS = st.recursive(
+    st.builds(lambda number: named("a", number / 4), st.integers(-9, 9)) | st.integers(-9, 9).map(term),
+    lambda inner: st.one_of(
+        st.builds(Operation, st.sampled_from(["+", "-", "*", "@", "/", "÷", "//"]), inner, inner),
+        st.builds(lambda base, power: base**power, inner, st.integers(2, 3)),
+        st.builds(Term.__neg__, inner),
+        st.builds(call, st.sampled_from(["floor", "ceil", "round"]), inner),
+        st.builds(call, st.sampled_from(["min", "max"]), inner, inner),
+    ),
+    max_leaves=6,
+)
+
+
+@given(TERMS)
+def test_what_is_printed_means_what_was_written(written: Term) -> None:
+    """Brackets stand where the numbers need them."""
+    found, _ = work_out(read(" ".join(TermLatex(True).cells(written))))
+    assert is_same(found, work_out(written)[0])
 
 
 def shown(*stated: Stated) -> str:
