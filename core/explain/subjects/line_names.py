@@ -1,10 +1,6 @@
 """What the numbers of a line are called: as in its listing, which swaps x and y of a steep line."""
 
-from core.explain.listed_code import (
-    assigned_name,
-    code_of,
-    symbols,
-)
+from core.explain.listed_code import assigned_name, code_of, symbols
 from core.explain.listed_code import tested as tested_by
 from core.explain.step_values import StepValues
 from core.explain.variable_text import VariableText, hides, shows

@@ -8,14 +8,7 @@ from core.explain.listed_code import assignment, code_of
 from core.explain.records import Asked, number
 from core.explain.rows import Said, explains
 from core.explain.step_values import StepValues
-from core.explain.subjects.line_names import (
-    MAJOR,
-    MINOR,
-    axes,
-    is_swapped,
-    line_method,
-    sum_name,
-)
+from core.explain.subjects.line_names import MAJOR, MINOR, axes, is_swapped, line_method, sum_name
 from core.explain.variable_text import given, shows
 from core.raster.lines.traits import line_traits
 from core.records.terms import Leaf, Term

@@ -14,14 +14,7 @@ from core.explain.records import Asked, choice, number
 from core.explain.rows import REMARKS, Said, explains
 from core.explain.statements import Chain
 from core.explain.step_values import StepValues
-from core.explain.subjects.line_names import (
-    MAJOR,
-    MINOR,
-    axes,
-    is_swapped,
-    line_method,
-    sum_name,
-)
+from core.explain.subjects.line_names import MAJOR, MINOR, axes, is_swapped, line_method, sum_name
 from core.explain.subjects.line_setup import amount, listed_ends
 from core.methods import table
 from core.records.arrays import Flags, Integers

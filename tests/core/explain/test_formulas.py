@@ -25,18 +25,11 @@ from tests.core.explain.read_formulas import BREAKS, RELATIONS, holds, read, sta
 from widgets.inspector.formula_view import FormulaView
 from widgets.inspector.typesetter import Typesetter
 
-SUMS = re.compile(
-    r"transform\..*-to-|clip\..*\.distances|raster\.test\.edge|interpolate\..*\.(total|value)"
-    r"|interpolate\..*\.numerators|shade\..*\.(position|albedo|sums)"
-    r"|shade\..*\.product|blend\.over\.color|edges\.edge\.[abc]|clip\..*\.corner|bin\.box\.high|raster\.span\.span"
-)
-"""Keys whose formulas are sums and products, which can be worked out from what is shown."""
-
 
 def test_every_formula_can_be_checked_from_what_it_shows() -> None:
     """Numbers stand under their symbols; all that is stated holds for the digits that are printed."""
-    summed, stated, read, long = 0, 0, 0, 0
-    for number, (explanation, _, _, made, _) in enumerate(all_said()):
+    stated, found_count, long = 0, 0, 0
+    for explanation, _, _, made, _ in all_said():
         if made is None:
             continue
         symbols, numbers = split_cells(made.symbolic), split_cells(made.substituted)
@@ -44,12 +37,9 @@ def test_every_formula_can_be_checked_from_what_it_shows() -> None:
         assert not re.search(r"\bnan\b|\binf\b|None|−|e[-+]\d|num", made.substituted), (explanation.key, made)
         found = statements(made.substituted)
         assert all(map(holds, found)), (explanation.key, made)
-        stated, read = stated + relation_count(numbers), read + len(found)
+        stated, found_count = stated + relation_count(numbers), found_count + len(found)
         long += max(made.digits.values(), default=0) > 8
-        if number % 2 == 0 and SUMS.match(explanation.key) and "NaN" not in made.substituted:
-            summed += sums_that_come_out(made)
-    assert summed > 500
-    assert read > 0.95 * stated, (read, stated)
+    assert found_count > 0.95 * stated, (found_count, stated)
     assert long < 0.005 * stated, "few steps need more than eight digits"
 
 
@@ -57,30 +47,6 @@ def relation_count(cells: tuple[str, ...]) -> int:
     """Return how many statements, read or not, the cells of a line of numbers have."""
     parts = " & ".join("|" if cell in BREAKS else cell for cell in cells).split("|")
     return sum(any(cell in RELATIONS for cell in part.split(" & ")) for part in parts)
-
-
-def worked_out(cells: tuple[str, ...]) -> float:
-    """Return the value of cells that hold numbers, products, sums and brackets."""
-    text = " ".join(cells)
-    text = re.sub(r"\{(\S+) \\cdot 10\^\{(-?\d+)\}\}", r"\1e\2", text).replace(r"\cdot", "*")
-    text = re.sub(r"\\frac\{([^{}]*)\}\{([^{}]*)\}", r"((\1) / (\2))", text)
-    assert re.fullmatch(r"[-+*/().\de\s]+", text), text
-    return float(eval(text, {"__builtins__": {}}))
-
-
-def sums_that_come_out(made: Formula) -> int:
-    """Check that the equations of a formula hold for the numbers that they show; return how many they are."""
-    checked = 0
-    for line in " & ".join(split_cells(made.substituted)).split(r" & \quad & "):
-        line = line.replace(r" & \approx & ", " & = & ")
-        if " & = & " not in line:
-            assert r"\equiv" in line or "mod" in line, line
-            continue
-        left, right = line.split(" & = & ")
-        result = worked_out(tuple(right.split(" & ")))
-        assert math.isclose(worked_out((left,)), result, rel_tol=1.1e-3, abs_tol=1e-12), made
-        checked += 1
-    return checked
 
 
 def test_formulas_can_be_typeset(qtbot: QtBot) -> None:
