@@ -129,7 +129,7 @@ def record_rows(lane_count: int, lanes: Integers, run: Callable[[Watch], object]
 
 
 def side_by_side(parts: Sequence[tuple[Integers, LaneRows]]) -> LaneRows:
-    """Join the rows of the lanes of several meshes, lane by lane; each part has the numbers of its lanes."""
+    """Join the rows of the lanes of several meshes, lane by lane; each part has the numbers (L,) int64 of its lanes."""
     if len(parts) == 1:
         return parts[0][1]
     stored: dict[str, list[tuple[Integers, Any]]] = {}

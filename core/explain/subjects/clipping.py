@@ -37,9 +37,10 @@ def distances(step: StepValues) -> Said:
     axis, sign = PLANE_SIGNS[step.text("plane")]
     ends = {name: (step.number(f"{name}_distance"), step.vector(name)) for name in ("start", "end")}
     place, start, end = AXES.index(axis), ends["start"][0], ends["end"][0]
+    edge = "" if step.nouns.edge != "edge" else f", edge {step.whole('edge')}"
     text = (
-        f"Triangle {step.triangle}, {step.text('plane')} plane (w {'+' if sign > 0 else '−'} {axis} = 0), "
-        f"edge {step.whole('edge')}: its start is {_side(start)}, its end is {_side(end)}."
+        f"{step.name.capitalize()}, {step.text('plane')} plane (w {'+' if sign > 0 else '−'} {axis} = 0){edge}: "
+        f"its start is {_side(start)}, its end is {_side(end)}."
     )
     made = []
     for name, (value, at) in ends.items():
@@ -88,9 +89,9 @@ def crossing(step: StepValues) -> Said:
     inner, outer = _inner_and_outer(step)
     d_in, d_out = (step.number(f"{name}_distance") for name in (inner, outer))
     text = (
-        f"The edge {'leaves' if step.kind == 'in-out' else 'enters'} through the {step.text('plane')} plane at "
-        f"t = {spoken(step.number('t'))} from its inside end, the {inner}: that end is {spoken(d_in)} inside, "
-        f"and the two ends are {spoken(d_in - d_out)} apart."
+        f"The {step.nouns.edge} {'leaves' if step.kind == 'in-out' else 'enters'} through the "
+        f"{step.text('plane')} plane at t = {spoken(step.number('t'))} from its inside end, the {inner}: that end "
+        f"is {spoken(d_in)} inside, and the two ends are {spoken(d_in - d_out)} apart."
     )
     return text, _crossing(step, ("in", "out"), (inner, outer))
 
@@ -100,7 +101,7 @@ def new_corner(step: StepValues) -> Said:
     """The corner made where an edge crosses the plane."""
     rest = "dropped" if step.kind == "in-out" else "kept after it"
     end = "outside" if step.kind == "in-out" else "inside"
-    text = f"A new corner {vector_text(step.vector('corner'))} is added, and the {end} end is {rest}."
+    text = f"A new {step.nouns.corner} {vector_text(step.vector('corner'))} is added, and the {end} end is {rest}."
     return text, _corner(step, ("in", "out"), _inner_and_outer(step))
 
 
