@@ -6,7 +6,6 @@ run as it is, but with names that mean counting loops, roots and tables. What ad
 
 from collections import Counter
 from collections.abc import Callable, Iterator
-from fractions import Fraction
 from math import isqrt, sqrt
 from types import FunctionType, SimpleNamespace
 from typing import Any
@@ -60,11 +59,6 @@ def used_names(listing: FunctionType) -> dict[str, Any]:
     }
 
 
-def is_counted(line: str) -> bool:
-    """Return whether the listing of a line method is plain arithmetic: a fraction costs what no number does."""
-    return not any(value is Fraction for value in used_names(line_listing(line)).values())
-
-
 def counting_listing(listing: FunctionType, tally: Counter[str]) -> Callable[..., Any]:
     """Return the same listing with loops, square roots and tables that make counted numbers."""
 
@@ -101,7 +95,6 @@ def count_line_operations(segments: Floats, size: tuple[int, int], settings: Set
         Window x and y in pixels.
     size : (width, height)
     settings : Settings
-        Their ``line`` `is_counted`.
     """
     tally: Counter[str] = Counter()
     for ends in listing_ends(segments, size, settings):

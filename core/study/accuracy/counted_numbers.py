@@ -29,14 +29,12 @@ class CountedNumber:
         written = [each for each in (first, second) if not isinstance(each, CountedNumber)]
         if rule is operator.mul and type(result) is int and written == [2]:
             name = "doublings"  # A shift or an addition: Bresenham (1965) counts no multiplication.
-        exact = KINDS.get(type(result), "rational")
-        self.tally[f"{exact} {name}"] += 1
+        self.tally[f"{KINDS[type(result)]} {name}"] += 1
         return CountedNumber(result, self.tally)
 
     def _compared(self, rule: Callable[[Any, Any], bool], other: Any) -> bool:
-        kinds = {KINDS.get(type(value), "rational") for value in (self.value, plain(other))}
-        kind = next(kind for kind in ("float", "rational", "integer") if kind in kinds)
-        self.tally[f"{kind} comparisons"] += 1
+        kinds = {KINDS[type(value)] for value in (self.value, plain(other))}
+        self.tally[f"{'float' if 'float' in kinds else 'integer'} comparisons"] += 1
         return rule(self.value, plain(other))
 
     def __add__(self, other: Any) -> CountedNumber:
@@ -65,6 +63,9 @@ class CountedNumber:
 
     def __floordiv__(self, other: Any) -> CountedNumber:
         return self._done("divisions", operator.floordiv, self, other)
+
+    def __mod__(self, other: Any) -> CountedNumber:
+        return self._done("divisions", operator.mod, self, other)
 
     def __neg__(self) -> CountedNumber:
         return CountedNumber(-self.value, self.tally)

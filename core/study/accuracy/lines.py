@@ -10,7 +10,7 @@ from core.raster.lines.records import LinePixels
 from core.records.arrays import Floats, Integers
 from core.records.cached import cached_property
 from core.settings import Settings
-from core.study.accuracy.counted_listings import count_line_operations, is_counted
+from core.study.accuracy.counted_listings import count_line_operations
 from core.study.accuracy.family import Assignment, Errors, StudyFamily, Task
 from core.study.accuracy.frame_task import per_million, scalar_pictures
 from core.study.accuracy.record import Dial, ErrorMeasure, Opening, Pictures, WorkKind
@@ -72,12 +72,10 @@ class LineTask(Task):
     def counts(self, settings: Settings, made: LinePixels) -> dict[str, int]:
         """Return pixels, and the arithmetic of the method's listing by kind."""
         counts = {"pixels drawn": len(made.pixels), "bytes": made.pixels.nbytes + made.intensities.nbytes}
-        if is_counted(settings.line):
-            chosen = self.segments[:: COUNT // COUNTED_LINES]
-            operations = count_line_operations(chosen, self.size, settings)
-            scale = COUNT / len(chosen)
-            counts |= {name: round(scale * number) for name, number in operations.items()}
-        return counts
+        chosen = self.segments[:: COUNT // COUNTED_LINES]
+        operations = count_line_operations(chosen, self.size, settings)
+        scale = COUNT / len(chosen)
+        return counts | {name: round(scale * number) for name, number in operations.items()}
 
     def errors(self, settings: Settings, made: LinePixels) -> Errors:
         """Compare with the ideal line and with its area."""

@@ -10,7 +10,6 @@ from core.settings import Settings
 from core.study.accuracy.counted_listings import (
     count_line_operations,
     counting_listing,
-    is_counted,
     line_listing,
     listing_ends,
 )
@@ -19,7 +18,7 @@ from core.study.accuracy.workloads import random_lines
 
 SIZE = (64, 64)
 SEGMENTS = random_lines(SIZE, 12, 24.0, 3, False)
-COUNTED = [name for name in table.names("line") if is_counted(name)]
+COUNTED = table.names("line")
 FLOATING = [name for name in COUNTED if not line_traits(name).takes_pixels]
 
 
@@ -27,10 +26,6 @@ def level_line(line: str, length: int) -> dict[str, int]:
     """Count a level line between pixel centres."""
     segment = [[[2.5, 8.5], [2.5 + length, 8.5]]]
     return count_line_operations(segment, SIZE, Settings(line=line))
-
-
-def test_every_line_method_is_counted_but_the_one_with_fractions() -> None:
-    assert set(table.names("line")) - set(COUNTED) == {"diamond-exit"}
 
 
 @pytest.mark.parametrize("line", COUNTED)
