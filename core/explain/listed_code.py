@@ -14,6 +14,7 @@ from core.explain.term_latex import TermLatex
 from core.explain.variable_text import held_values
 from core.methods import table
 from core.records.listing import source_listing
+from core.records.python_text import read_statements
 from core.records.terms import Term, term
 
 BEFORE = r"_{\mathrm{before}}"
@@ -28,7 +29,7 @@ def _code(function: Callable[..., Any], label: str) -> ast.stmt | None:
     if label not in shown.lines:
         return None
     line = shown.source.splitlines()[shown.lines[label] - 1].strip()
-    return ast.parse(f"{line} pass" if line.endswith(":") else line).body[0]
+    return read_statements(f"{line} pass" if line.endswith(":") else line).body[0]
 
 
 def code_of(step: StepValues, label: str = "") -> ast.stmt | None:

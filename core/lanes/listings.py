@@ -1,7 +1,6 @@
 """A listing as a program over lanes: the one way from a text to something that runs."""
 
 import ast
-import warnings
 from collections.abc import Mapping
 from typing import Any
 
@@ -11,6 +10,7 @@ from core.lanes.program import Program
 from core.lanes.python_dialect import PythonDialect
 from core.lanes.python_messages import check_text, problem_of
 from core.lanes.python_syntax import Reader
+from core.records.python_text import read_statements
 
 
 def compile_listing(
@@ -38,8 +38,7 @@ def compile_listing(
     text = text.replace("\r\n", "\n").replace("\r", "\n")
     check_text(text, limits)
     try:
-        with warnings.catch_warnings(action="ignore"):
-            tree = ast.parse(text)
+        tree = read_statements(text)
     except SyntaxError as error:
         raise problem_of(error, text) from None
     except (ValueError, RecursionError, MemoryError):

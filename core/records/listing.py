@@ -14,6 +14,7 @@ from textwrap import dedent
 from typing import Any
 
 from core.records.cached import cached_property
+from core.records.python_text import read_statements
 
 _LABEL = re.compile(r"\s*#: (?P<name>[\w-]+)\s*$")
 _CHANGING = frozenset({"append", "remove", "sort"})
@@ -69,7 +70,7 @@ class Listing:
     def _statements(self) -> dict[int, ast.stmt]:
         """The statement of every line; of a compound one, of the lines before its body."""
         found: dict[int, ast.stmt] = {}
-        for node in ast.walk(ast.parse(self.source)):
+        for node in ast.walk(read_statements(self.source)):
             if isinstance(node, ast.stmt):
                 body = getattr(node, "body", None)
                 end = body[0].lineno if body else (node.end_lineno or node.lineno) + 1
@@ -226,7 +227,7 @@ def source_listing(function: Callable[..., Any]) -> Listing:
 def _plain_lines(source: str) -> list[str]:
     """Return the lines of a function: signatures in one line, no docstring, no types, every indent half as wide."""
     lines = source.splitlines()
-    tree = ast.parse(source)
+    tree = read_statements(source)
     typed = [node for node in ast.walk(tree) if isinstance(node, ast.FunctionDef | ast.AnnAssign)]
     for node in sorted(typed, key=lambda node: -node.lineno):
         first, indent = node.lineno - 1, " " * node.col_offset

@@ -7,7 +7,6 @@ a reader offers functions, calls of these, too. The text is parsed, never execut
 import ast
 import operator
 import re
-import warnings
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
@@ -15,6 +14,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from core.records.arrays import Flags
+from core.records.python_text import read_expression
 from core.trace.stage_trace import StageTrace
 from core.trace.symbols import column_of, symbols_of
 
@@ -138,8 +138,7 @@ def parse_condition(text: str, functions: Collection[str] = ()) -> Condition:
     if len(text) > TEXT_LIMIT:
         raise ValueError(f"a condition must be at most {TEXT_LIMIT} characters, got {len(text)}")
     try:
-        with warnings.catch_warnings(action="ignore"):
-            tree = ast.parse(text.strip(), mode="eval").body
+        tree = read_expression(text.strip())
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         raise ValueError(f"{_WANTED}; {text.strip()} cannot be read") from None
     _check(tree, functions)

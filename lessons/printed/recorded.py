@@ -7,6 +7,7 @@ from math import nan
 from typing import Any
 
 from core.records.listing import source_listing
+from core.records.python_text import read_statements
 
 Note = tuple[str, Any]
 """A label, and the value that its line gave a variable; ``None``: it gave none."""
@@ -34,7 +35,7 @@ class _Noting(ast.NodeTransformer):
         label = self.labels.get(node.lineno)
         if label is None:
             return [node]
-        note = ast.parse(f"_notes.append(({label!r}, {ast.unparse(target)}))").body[0]
+        note = read_statements(f"_notes.append(({label!r}, {ast.unparse(target)}))").body[0]
         return [node, note]
 
 
@@ -43,7 +44,7 @@ def _noting(function: Callable[..., Any]) -> Any:
     """Return the code of a function that appends to a list ``_notes``."""
     shown = source_listing(function)
     labels = {number: label for label, number in shown.lines.items()}
-    tree = _Noting(labels).visit(ast.parse(shown.source))
+    tree = _Noting(labels).visit(read_statements(shown.source))
     return compile(ast.fix_missing_locations(tree), "<listing>", "exec")
 
 
