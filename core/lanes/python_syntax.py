@@ -1,4 +1,4 @@
-"""Listings read to nodes. Python only reads them to a tree: what it finds is looked at node by node, and never executed."""
+"""Listings read to nodes: what Python reads to a tree is looked at node by node, and never executed."""
 
 import ast
 from collections.abc import Sequence
