@@ -41,6 +41,8 @@ class FormulaView(QWidget):
     """The pointer is on another `FormulaNumber`: `show_where` says where it comes from."""
     number_clicked = Signal(object)
     """The user asks where a `FormulaNumber` comes from."""
+    typeset = Signal()
+    """Everything shown is typeset, which may be higher or lower than what stood there for it."""
 
     BUDGET_SECONDS = 0.004
     """Typesetting that one `show_formula` may do at once; the rest follows when the event loop is free."""
@@ -312,6 +314,7 @@ class FormulaView(QWidget):
         self._typeset_within(self.TURN_SECONDS, is_catching_up=True)
         if self.is_complete():
             self._refresh()
+            self.typeset.emit()
 
     def _refresh(self) -> None:
         self._kept_lines = None

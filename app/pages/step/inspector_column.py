@@ -85,6 +85,7 @@ class InspectorColumn(QTabWidget):
         self.addTab(self.history, "Pixel history")
         self.tabBarClicked.connect(self._choose)
         self.listing.room_changed.connect(self.fit)
+        self.formula.typeset.connect(self._make_room_for_typeset)
         theme_notifier().theme_changed.connect(self._forget_heights)
         self.fit()
 
@@ -146,14 +147,21 @@ class InspectorColumn(QTabWidget):
     def show_formula(self, formula: Formula | None, is_new_stage: bool) -> None:
         """Show the formula of a step; one that is the tallest of its stage so far moves what is below."""
         self.formula.show_formula(formula)
-        before = self._tallest
-        self._tallest = max(self._wanted_height(), 0 if is_new_stage else before)
+        self._make_room(0 if is_new_stage else self._tallest)
+
+    def _make_room(self, least: int) -> None:
+        """Give the formula the height that it wants, but no less than ``least``."""
+        before, self._tallest = self._tallest, max(self._wanted_height(), least)
         if self._tallest != before:
             self.fit()
             self.formula_grown.emit()
 
+    @Slot()
+    def _make_room_for_typeset(self) -> None:
+        self._make_room(self._tallest)
+
     def _wanted_height(self) -> int:
-        return self.formula.heightForWidth(max(self.formula.width(), 1))
+        return self.formula.heightForWidth(max(self._width, 1))
 
     @Slot()
     def _forget_heights(self) -> None:
@@ -161,10 +169,8 @@ class InspectorColumn(QTabWidget):
         self.tabBar().setFont(
             text_font(current_theme())
         )  # Qt leaves it as it was while the column is hidden.
-        before, self._tallest = self._tallest, self._wanted_height()
         self.fit()
-        if self._tallest != before:
-            self.formula_grown.emit()
+        self._make_room(0)
 
     @Slot()
     def fit(self) -> None:
