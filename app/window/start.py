@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QSize, Qt
 from PySide6.QtWidgets import QApplication
 
+from app.background.collecting import Collecting
 from app.background.workers import is_work_left
 from app.export.views import export_widget
 from app.files.open_any import open_any
@@ -65,6 +66,7 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
     """
     gc.freeze()  # What is imported stays: without it a full pass of the collector takes 8 ms in place of 45.
     application = the_application()
+    collecting = Collecting(application)
     application.setApplicationName("Rasterscope")
     preferences, warning = load_preferences()
     apply_theme(application, theme_of(preferences.theme, application, preferences.text_size))
@@ -106,6 +108,7 @@ def run_window(target: str | None = None, allows_outside: bool = False) -> int:
             if stream is not None:
                 stream.flush()
         os._exit(code)
+    collecting.stop()
     return code
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from PySide6.QtGui import QGuiApplication
 
+from app.background.collecting import Collecting
 from app.bench.machine import this_machine
 from app.bench.meshes import lit_sphere
 from app.bench.scenes import lights_of, mesh_of, view_of
@@ -38,8 +39,10 @@ def measure_window(
     scenes: Sequence[str], sizes: Iterable[tuple[int, int]], folder: Path | None, is_quick: bool
 ) -> int:
     """Measure windows of some sizes with some scenes, print a table for each, and write ``window.csv``."""
-    gc.freeze()  # as when the window is started
-    apply_theme(the_application(), LIGHT)
+    gc.freeze()  # these as when the window is started
+    application = the_application()
+    collecting = Collecting(application)
+    apply_theme(application, LIGHT)
     machine, display = this_machine(), QGuiApplication.platformName()
     print(
         f"{machine.sentence()}; display {display}\n"
@@ -63,4 +66,5 @@ def measure_window(
         print(f"\n{table_text(samples, shown)}", flush=True)
     if folder is not None:
         write_file(folder / FILE_NAME, csv_text(windows, machine, display).encode())
+    collecting.stop()
     return 0
