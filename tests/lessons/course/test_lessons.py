@@ -7,11 +7,13 @@ from pathlib import Path
 import pytest
 
 from lessons.course.catalogue import FOLDER, chapters, explorations, shipped, with_folders
+from lessons.course.conditions import is_done
 from lessons.course.lesson_file import Lesson, read_lesson
 from lessons.course.pace import estimated_minutes
+from lessons.course.record import SolutionPart
 from lessons.course.slides import coverage, slides
-from lessons.course.state import States
-from lessons.course.validation import validate
+from lessons.course.state import States, solved
+from lessons.course.validation import situation_of, validate
 from tests.lessons.course.lesson_texts import GOOD
 
 FILES = sorted(path for path in FOLDER.glob("*.toml") if path.name not in ("order.toml", "slides.toml"))
@@ -26,6 +28,15 @@ def lesson_of(folder: Path, text: str, name: str = "whose-pixel") -> Lesson:
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_a_lesson_says_what_is_so(path: Path) -> None:
     validate(read_lesson(path), shipped().lessons)
+
+
+@pytest.mark.parametrize("matrices", ["modelViewMatrix * projectionMatrix", "projectionMatrix"])
+def test_matrices_in_a_wrong_order_do_not_write_a_shader(matrices: str) -> None:
+    lesson = shipped().named("write-a-shader")
+    state, until = States(lesson).of_step(2), lesson.steps[2].until
+    assert until is not None
+    written = solved(state, SolutionPart(edit=[["vertex", "= modelViewMatrix", f"= {matrices}"]]))
+    assert not is_done(until, situation_of(written), situation_of(state))
 
 
 def test_the_minutes_of_all_lessons_mean_the_same() -> None:
