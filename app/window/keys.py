@@ -6,7 +6,15 @@ from typing import TypeVar
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent
-from PySide6.QtWidgets import QAbstractButton, QAbstractSpinBox, QComboBox, QSplitterHandle, QTabBar, QWidget
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QAbstractSpinBox,
+    QComboBox,
+    QRadioButton,
+    QSplitterHandle,
+    QTabBar,
+    QWidget,
+)
 
 
 @dataclass(frozen=True)
@@ -182,6 +190,7 @@ _UP_DOWN = frozenset({Qt.Key.Key_Up, Qt.Key.Key_Down})
 KEYS: tuple[tuple[type[QWidget], frozenset[Qt.Key]], ...] = (
     (QAbstractButton, _PRESS),
     (QComboBox, _PRESS),
+    (QRadioButton, _UP_DOWN),
     (QAbstractSpinBox, _UP_DOWN),
     (QTabBar, _SIDEWAYS),
     (QSplitterHandle, _SIDEWAYS | _UP_DOWN),

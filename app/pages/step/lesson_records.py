@@ -67,7 +67,7 @@ def recall_record(
     draft, template = question.draft, question.template
     others = (each for each in course.lessons.values() if each is not lesson)
     closed = next((each.title for each in others if template.name in each.part.exercises), "")
-    whence = f"From the lesson “{closed}”" if closed else f"From an earlier lesson: “{template.title}”"
+    whence = f"From the lesson “{closed}”" if closed else f"From the exercise “{template.title}”"
     return LessonStepRecord(
         title=lesson.title,
         text="\n".join(filter(None, (draft.text, numbers_of(draft)))),

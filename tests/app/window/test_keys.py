@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QComboBox, QLabel, QMenu, QPushButton, QTabBar
+from PySide6.QtWidgets import QComboBox, QLabel, QMenu, QPushButton, QRadioButton, QTabBar
 from pytestqt.qtbot import QtBot
 
 import bootstrap
@@ -98,12 +98,14 @@ def test_what_controls_need_while_they_have_the_keyboard(qtbot: QtBot) -> None:
     def pressed(key: Qt.Key, modifiers: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier) -> QKeyEvent:
         return QKeyEvent(QKeyEvent.Type.ShortcutOverride, key, modifiers)
 
-    button, combo, tabs = QPushButton(), QComboBox(), QTabBar()
-    for widget in (button, combo, tabs):
+    button, radio, combo, tabs = QPushButton(), QRadioButton(), QComboBox(), QTabBar()
+    for widget in (button, radio, combo, tabs):
         qtbot.addWidget(widget)
     assert has_use_for(button, pressed(Qt.Key.Key_Space))
     assert not has_use_for(button, pressed(Qt.Key.Key_Right))
     assert not has_use_for(button, pressed(Qt.Key.Key_Space, Qt.KeyboardModifier.ControlModifier))
+    assert has_use_for(radio, pressed(Qt.Key.Key_Down))
+    assert has_use_for(radio, pressed(Qt.Key.Key_Space))
     assert has_use_for(combo, pressed(Qt.Key.Key_Space))
     assert not has_use_for(combo, pressed(Qt.Key.Key_Down)), (
         "Down makes steps smaller, also after a look at a list"

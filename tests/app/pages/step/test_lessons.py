@@ -410,6 +410,7 @@ def test_an_exercise_without_a_picture_has_none_and_names_its_lesson(
     assert window.page.main_view() is walk.task.grid
     text = text.replace("edge-values", "divide-by-w")
     walk = opened(window, qtbot, tmp_path / "without-picture", 0, text)
+    assert walk.view.lead.text() == "From the exercise “The divide by w”. You may skip it: choose Begin."
     shown = window.page.main_view()
     assert isinstance(shown, PixelGrid)
     assert shown.buffer() is None
