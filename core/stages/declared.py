@@ -195,7 +195,7 @@ DECLARED = (
         heading="Framebuffer",
         tracer="core.trace.depth.trace_depth",
         initial="No fragment has been tested yet: the depth buffer is unchanged.",
-        outcomes=("stored", "passes"),
+        outcomes=("stored", "passes", "after"),
     ),
     Stage(
         name="blend",

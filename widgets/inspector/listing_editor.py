@@ -105,12 +105,28 @@ class ListingEditor(CodeView):
         self.setFocus(Qt.FocusReason.ShortcutFocusReason)
 
     def show_step(self, line: int | None, source: str) -> None:
-        """Mark the line of the step just done, which stands in the text that ran; what is typed stays in sight.
+        """Mark the line of the step just done, which stands in the text that ran, and bring it into sight.
 
-        The mark follows its line while lines are typed above it, and goes where the line is taken out.
+        While something is typed, that stays in sight instead. The mark follows its line while lines are typed above it,
+        and goes where the line is taken out.
         """
-        self._step = line, source
+        before, self._step = self._step, (line, source)
         self._follow_text()
+        # A text that has just run shows its step anew, where it is being typed.
+        is_stepped = line != before[0] and (before[0] is None or source == before[1])
+        if is_stepped and not self.is_pausing and self._line is not None:
+            self._show_line(self._line)
+
+    def _show_line(self, line: int) -> None:
+        """Scroll as little as brings a line into sight; the cursor stays where it is."""
+        in_sight = [
+            number for number, box in self.visible_lines() if box.bottom() <= self.viewport().height()
+        ]
+        if not in_sight or line in in_sight:
+            return
+        bar = self.verticalScrollBar()
+        # In lines: the bar of a plain text counts them.
+        bar.setValue(bar.value() + (line - (in_sight[0] if line < in_sight[0] else in_sight[-1])))
 
     @Slot()
     def _follow_text(self) -> None:

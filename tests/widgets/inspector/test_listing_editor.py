@@ -132,6 +132,28 @@ def test_a_step_keeps_its_mark_while_lines_are_typed_above(qtbot) -> None:
     assert editor.line is None
 
 
+def test_a_step_comes_into_sight_unless_something_is_typed(qtbot) -> None:
+    editor = shown(qtbot, ListingEditor(), 420, 200)
+    source = "\n".join(f"a{number} = {number}" for number in range(60))
+    editor.begin(source, 1)
+
+    def in_sight() -> list[int]:
+        room = editor.viewport().height()
+        return [line for line, box in editor.visible_lines() if box.bottom() <= room]
+
+    editor.show_step(3, source)
+    assert editor.verticalScrollBar().value() == 0
+    for line in (40, 60, 20):
+        editor.show_step(line, source)
+        assert line in in_sight()
+    at = editor.verticalScrollBar().value()
+    editor.show_step(50, source + " ")
+    qtbot.keyClicks(editor, "b")
+    at = editor.verticalScrollBar().value()
+    editor.show_step(55, source + " ")
+    assert editor.verticalScrollBar().value() == at
+
+
 def test_a_problem_is_told_without_its_colour(qtbot) -> None:
     pane = shown(qtbot, ListingPane(), 420, 300)
     pane.begin_editing(SOURCE, 1)

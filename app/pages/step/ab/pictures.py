@@ -228,6 +228,8 @@ DIFFERING = {
     "bytes": "the displayed bytes",
 }
 """Words for variables in which two runs can differ first."""
+AFTER = {"transform": "the vertex's place in the window", "depth": "the depth that is kept"}
+"""Words for what comes out of a stage, where it is no colour."""
 
 
 def _words_of(found: "Divergence", first: Trace) -> list[str]:
@@ -236,7 +238,7 @@ def _words_of(found: "Divergence", first: Trace) -> list[str]:
     assert row is not None
     done = run.explain(run.steps.position_after(row))
     shown = () if done is None else variables(done)
-    known = DIFFERING | ({"after": "the vertex's place in the window"} if found.stage == "transform" else {})
+    known = DIFFERING | ({"after": AFTER[found.stage]} if found.stage in AFTER else {})
     words = []
     for name in found.names:
         ours, theirs = (np.atleast_1d(values[name]) for values in found.values)
@@ -260,7 +262,7 @@ def divergence_text(found: "Divergence | None", first: Trace, second: Trace) -> 
         is_same_order = all(
             is_same_schedule(first.stage(stage), second.stage(stage)) for stage in ORDERED_STAGES
         )
-        return ALIKE if is_same_order else REORDERED
+        return _alike_text(first, second) if is_same_order else REORDERED
     if found.variable:
         return _shader_text(found, first, second)
     where = f"pixel {found.pixel}" if found.pixel is not None else f"triangle {found.triangle}"
@@ -269,6 +271,16 @@ def divergence_text(found: "Divergence | None", first: Trace, second: Trace) -> 
     else:
         said = f"A and B differ in {joined(_words_of(found, first))}"
     return f"First divergence, at {where}: {said}. Ctrl+[ goes back."
+
+
+def _alike_text(first: Trace, second: Trace) -> str:
+    """Return that two runs do the same, or the first buffer that still differs once its stage is done."""
+    for stage in STAGES:
+        mine, theirs = (Step(run, Cursor(stage, run.stage(stage).steps.count)) for run in (first, second))
+        if name := differing_buffer(mine, theirs):
+            label = next(buffer.label for buffer in buffers_of(mine) if buffer.name == name)
+            return f"No step decides otherwise in B, but “{label}” differs in the stage {stage}."
+    return ALIKE
 
 
 def _shader_text(found: "Divergence", first: Trace, second: Trace) -> str:

@@ -62,7 +62,7 @@ def test_a_depth_test_that_fails_parts_at_the_pixel() -> None:
     scene = flat_scene(cyclic_triangles(SIZE), SIZE)
     found = first_divergence(scene, Settings(), Settings(visibility="last-drawn"))
     assert found is not None
-    assert (found.stage, found.names) == ("depth", ("passes",))
+    assert (found.stage, found.names) == ("depth", ("passes", "after"))
     assert found.values[0]["passes"] != found.values[1]["passes"]
 
 

@@ -2,6 +2,7 @@
 
 import re
 
+import numpy as np
 import pytest
 
 from app.pages.step.ab.pictures import DIFFERING, divergence_text
@@ -41,3 +42,18 @@ def test_what_differs_first_is_named_in_words(part: str) -> None:
 
 def test_every_outcome_of_a_stage_has_words() -> None:
     assert {name for stage in DECLARED for name in stage.outcomes} <= DIFFERING.keys()
+
+
+def test_a_depth_test_that_keeps_the_wrong_depth_parts_where_it_is_kept() -> None:
+    scene, plain = make_scene("intersecting"), Settings(depth="z-float32")
+    source = original("depth_test", "z-float32").source.replace(
+        "return new if writes else old, True", "return old, True"
+    )
+    runs = trace(scene, plain), trace(scene, apply_edit(plain, Edit("depth_test", "z-float32", source)))
+    found = diverge(*runs, by_outcome=True)
+    assert found is not None
+    kept = [run.stage("depth").columns["after"] for run in runs]
+    assert (found.stage, found.rows[0]) == ("depth", int(np.flatnonzero(kept[0] != kept[1])[0]))
+    assert "the depth that is kept" in divergence_text(found, *runs)
+    # Where no outcome is compared, a buffer that differs is named all the same.
+    assert "differs in the stage depth" in divergence_text(None, *runs)
