@@ -50,6 +50,7 @@ DRAFT_KEPT = "Your text has not run"
 LISTING_CHANGES = "all changes of this listing"
 OLD_STEP = " The step and its numbers are those of the last version that ran."
 HAS_NONE = "This step has no listing."
+SLEEPS = "Your edited listing stays, but it does not run on this scene"
 FIRST = '<a href="first">First difference</a>'
 SAME = "On this scene your version draws the same picture as the method."
 
@@ -368,13 +369,17 @@ class ListingPresenter(QObject):
 
     def show_edited(self) -> str:
         """Show A | B with the edited listings; return why they cannot run on the open scene, else nothing."""
+        document = self._session.document
+        if self._comparing.edits_sleep(document):
+            why = document.edits[-1].passed_over(document.settings, document.scene)
+            return f"{SLEEPS}: {why[0].lower()}{why[1:].rstrip('.')}."
         before = self._page.current_view()
         self._page.show_view("compare")
         if self._comparing.second is not None or self._comparing.is_drawing:
             return ""
         said = self._comparing.refusal.removeprefix("B cannot be drawn: ")
         self._page.show_view(before)
-        return f"Your edited listing stays, but it does not run on this scene: {said}"
+        return f"{SLEEPS}: {said}"
 
     @Slot(str)
     def _try(self, text: str) -> None:

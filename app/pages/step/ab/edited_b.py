@@ -50,23 +50,29 @@ class EditedB(QObject):
         self._trial.stop()
 
     def find(self, document: Document) -> str:
-        """Find what B is beside a document; return why it cannot be drawn, empty: it can."""
+        """Find what B is beside a document; return why it cannot be drawn, empty: it can.
+
+        Edits that the scene would pass over sleep: B is without them.
+        """
         self.side = None
-        edits = document.edits or (() if self.begun is None else (self.begun,))
+        awake = tuple(
+            edit for edit in document.edits if not edit.passed_over(document.settings, document.scene)
+        )
+        edits = awake or (() if self.begun is None else (self.begun,))
         if not edits:
             return ""
         from app.session.edited_run import settings_of, title_of  # Wanted by few, long after the start.
 
         title = title_of(edits)
-        if not document.edits:
+        if not awake:
             self.side = SideB({}, title, edits=edits)
             return ""
         try:
-            other = settings_of(document)[1]
+            other = settings_of(replace(document, edits=awake))[1]
         except ValueError as error:
-            self.side = SideB({}, title, edits=document.edits)
+            self.side = SideB({}, title, edits=awake)
             return f"B cannot be drawn: {error}"
-        self.side = SideB(document.settings.differences(other), title, edits=document.edits)
+        self.side = SideB(document.settings.differences(other), title, edits=awake)
         return ""
 
     def try_edit(self, document: Document, stage: str, earlier: Trace) -> None:

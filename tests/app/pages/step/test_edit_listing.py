@@ -402,6 +402,14 @@ def test_an_edit_that_does_not_fit_the_scene_sleeps(window: MainWindow) -> None:
     assert window.page.editing.side == A
     assert "D" in pane_of(window).listing.toPlainText()
     assert pane_of(window).message.text() == ""
+    window.page.show_view("compare")
+    sides = window.page.comparing._titles(window.session.moment)
+    assert "Bounding box" not in "".join(sides)
+    assert "cannot be drawn" not in window.page.comparing.refusal
+    assert pane_of(window).note.text().startswith("Edited: inside test")
+    pane_of(window).reset_button.click()
+    assert window.session.document.edits == ()
+    window.session.undo()
     QTest.keyClicks(edit(window, "if D >= 0"), ".5")
     wait(lambda: len(window.session.document.edits) == 2)
     wait_for_b(window)
