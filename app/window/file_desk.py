@@ -122,14 +122,14 @@ class FileActions(QObject):
         page.timeline.show_playing(False)
         if state is None:
             place = opened.place
-            kept, shaders = session.document.edits, page.shading.kept
+            kept, shaders = page.editing.typed, page.shading.kept
             document = edits_beside(opened.document)
             trace = (
                 trace_now(document, place.stage)
                 if trace is None or document is not opened.document
                 else trace
             )
-            # What was edited stays, where it runs on this scene; A | B says where it does not.
+            # What was typed stays, where it runs on this scene; A | B says where it does not.
             document = replace(document, edits=document.edits or kept)
             session.open(document, trace, cursor_at(place, trace, session.cursor.level))
             page.stepping.set_places()

@@ -140,11 +140,12 @@ class QuestionView(QWidget):
         for button in (
             self.check_button,
             self.hint_button,
-            self.twin_button,
             self.model_button,
             self.variant_button,
             self.again_button,
+            # Behind those that stay: what comes and goes must not push another one under the pointer.
             self.step_button,
+            self.twin_button,
             self.lesson_button,
         ):
             buttons.addWidget(button)

@@ -26,6 +26,7 @@ from widgets.inspector.listing_pane import A, B, ListingPane, PaneHead
 if TYPE_CHECKING:
     from app.pages.step.page import StepPage
     from app.session.named_mistakes import Outcome
+    from core.edits import Edit  # As in app.session.document.
 
 HIDDEN = "While you predict, or a question is asked about this scene, no listing can be edited."
 ASKED = "A's listing is hidden: it is asked for"
@@ -80,6 +81,8 @@ class ListingPresenter(QObject):
         """Texts that did not run when the editor was left, by part and method."""
         self._asked: AnyScene | None = None
         """The scene of an exercise that asks for a listing; ``None``: none does."""
+        self._lent: tuple[Edit, ...] = ()
+        """Edits that an exercise has brought along."""
         self._naming = Job(self)
         """Looks for the mistake that an edit is."""
         self._naming.succeeded.connect(self._name_mistake)
@@ -153,6 +156,15 @@ class ListingPresenter(QObject):
         if is_asked:
             self.show_side(B)
         self._show_head(self._inspector.shown_listing)
+
+    def show_lent(self, edits: "tuple[Edit, ...]") -> None:
+        """Take edits as those of an exercise: unless they are edited on, they end with its scene."""
+        self._lent = edits
+
+    @property
+    def typed(self) -> "tuple[Edit, ...]":
+        """The edits that the user has typed here, which go along to the next scene."""
+        return tuple(edit for edit in self._session.document.edits if edit not in self._lent)
 
     def begin_anew(self) -> None:
         """Leave the editor: another scene was opened. What did not run is kept, as what ran is."""

@@ -68,6 +68,7 @@ class StepOpening(QObject):
         if ready.request.edits:
             self._page.show_view("compare")
             self._page.comparing.begin_at(pixel)
+            self._page.editing.show_lent(ready.request.edits)
             self._page.editing.show_right(is_asked=ready.request.hides_right)
         elif other is None:
             self._page.show_view("pixels")

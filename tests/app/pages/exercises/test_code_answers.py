@@ -6,6 +6,7 @@ from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
 from app.files.attempts import attempt_file
+from app.files.open_any import open_any
 from app.pages.exercises.evidence import OPEN
 from app.pages.step.page import StepPage
 from app.window.main_window import MainWindow
@@ -114,8 +115,12 @@ def test_the_smallest_input_is_opened_in_a_b_and_escape_ends_a_check(
     assert view.note.text() == "Not checked: you have stopped it."
     shown.settle()
     assert view.verdict.text() == ""
+    places = [button.geometry() for button in (view.hint_button, view.model_button)]
     assert "Every centre on an edge was counted" in check(shown)
     assert view.twin_button.text() == OPEN
+    # The new button stands behind the others: no click that is meant for it shows the model answer.
+    assert view.twin_button.geometry() not in places
+    assert [button.x() for button in (view.hint_button, view.model_button)] == [each.x() for each in places]
     view.twin_button.click()
     qtbot.waitUntil(lambda: isinstance(window.pages.current, StepPage))
     step = window.pages.current
@@ -146,6 +151,9 @@ def test_the_smallest_input_is_opened_in_a_b_and_escape_ends_a_check(
     qtbot.waitUntil(lambda: isinstance(window.pages.current, StepPage))
     step.settle()
     assert pane.sides.isVisible()
+    # What the exercise has brought along ends with its scene.
+    window.files.show_opened(open_any("shared-edge"))
+    assert window.session.document.edits == ()
 
 
 def test_what_differs_is_shown_where_depths_are_alike(page: Page, window: MainWindow, qtbot: QtBot) -> None:
