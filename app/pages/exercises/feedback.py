@@ -5,13 +5,14 @@ from app.pages.exercises.evidence import EXPLAIN
 from app.pages.exercises.work import Checked, Tried
 from core.records.words import counted
 from lessons.attempts.practice import MISSES_IN_A_ROW
+from lessons.attempts.record import Attempt
 from lessons.exercises.question import Question
 from widgets.exercises.answer_view import AnswerView
 from widgets.exercises.code_answer import problem_text
 from widgets.exercises.records import Feedback
 
 SHOWN = "What is right was shown before, so this earns nothing."
-CORRECTED = "The first check of a question counts. A new variant earns points of its own."
+CORRECTED = "A new variant earns points of its own."
 
 
 EXPLAINED = (
@@ -42,18 +43,23 @@ def marks_are_shown(question: Question, checked: Checked, *, is_corrected: bool)
 
 
 def feedback_of(
-    question: Question, checked: Checked, *, is_corrected: bool, is_explained: bool = False
+    question: Question, checked: Checked, *, first: Attempt | None, is_explained: bool = False
 ) -> Feedback:
-    """Return what is said; ``is_corrected``: there was a check before; ``is_explained``: its step is offered."""
+    """Return what is said.
+
+    ``first``: the earlier check that counts, if there was one; ``is_explained``: its step is offered.
+    """
     judgement, double = checked.judgement, checked.marks.get("double")
     heading = f"{judgement.points:.3g} of {counted(question.template.points, 'point')}"
+    if first is not None:
+        heading += f" now; the first check counted, with {first.points:.3g}"
     is_right = judgement.verdict.score == 1
     counts = judgement.verdict.counts
     if double:
         counts += f", {len(double)} of these double"
     reveal = (question.draft.reveal,) if is_right and question.draft.reveal else ()
-    is_marked = marks_are_shown(question, checked, is_corrected=is_corrected)
+    is_marked = marks_are_shown(question, checked, is_corrected=first is not None)
     where = () if is_marked else (question.draft.answer.first_wrong(checked.response),)
-    before = (SHOWN,) if checked.attempt is None else (CORRECTED,) if is_corrected else ()
+    before = (SHOWN,) if checked.attempt is None else (CORRECTED,) if first is not None else ()
     offer = (EXPLAINED[question.draft.scene is None],) if is_explained else ()
     return Feedback(heading, counts, (*judgement.sentences, *where, *reveal, *before, *offer), is_right)

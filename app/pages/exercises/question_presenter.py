@@ -80,7 +80,9 @@ class QuestionPresenter(QObject):
         self._checked: Checked | None = None
         """What the last check found; ``None``: nothing was checked since the question was asked."""
         self._hints = 0
-        self._has_answer = self._is_checked = self._is_corrected = self._is_shown = self._is_sure = False
+        self._first: Attempt | None = None
+        """The check that counts, where the last one corrects it."""
+        self._has_answer = self._is_checked = self._is_shown = self._is_sure = False
         self._left_out: object = None
         """The answer of which was said that it leaves something empty."""
         self._is_explained = False
@@ -380,7 +382,8 @@ class QuestionPresenter(QObject):
     def _show_checked(self, checked: Checked) -> None:
         """Show marks, points and the mistake."""
         attempt = checked.attempt
-        self._is_corrected = attempt is not None and is_correction(self._attempts(), attempt)
+        is_corrected = attempt is not None and is_correction(self._attempts(), attempt)
+        self._first = self._counted(attempt) if attempt is not None and is_corrected else None
         self._is_explained = (
             attempt is not None and attempt.score < 1 and self._misses(attempt) >= MISSES_IN_A_ROW
         )
@@ -393,6 +396,12 @@ class QuestionPresenter(QObject):
         if attempt is not None:
             self.checked.emit(attempt)
 
+    def _counted(self, attempt: Attempt) -> Attempt:
+        """Return the earlier attempt at the same question that counts in the place of this one."""
+        question = (attempt.template, attempt.version, attempt.seed)
+        tries = first_tries(self._attempts())
+        return next(each for each in reversed(tries) if (each.template, each.version, each.seed) == question)
+
     def _misses(self, attempt: Attempt) -> int:
         """Return how often its exercise was missed in a row, this attempt among them."""
         return misses_in_a_row(first_tries((*self._attempts(), attempt)))[attempt.template]
@@ -402,10 +411,10 @@ class QuestionPresenter(QObject):
         if self._checked is None or self.question is None or self._view.answer is None:
             return
         is_stale = self._view.answer.given() != self._checked.given
-        are_shown = marks_are_shown(self.question, self._checked, is_corrected=self._is_corrected)
+        are_shown = marks_are_shown(self.question, self._checked, is_corrected=self._first is not None)
         self._view.answer.show_marks(self._checked.marks if are_shown and not is_stale else None)
         feedback = feedback_of(
-            self.question, self._checked, is_corrected=self._is_corrected, is_explained=self._is_explained
+            self.question, self._checked, first=self._first, is_explained=self._is_explained
         )
         self._view.show_feedback(feedback, is_stale=is_stale)
 
@@ -471,7 +480,7 @@ class QuestionPresenter(QObject):
             view.set_open(False)
             self._draw_live("model answer")
             self._view.show_note(
-                "This is the model answer. Start again empties it; a new variant earns points."
+                "This is the model answer. Start again gives the question anew; a new variant earns points."
             )
             self._show_state()
             self._keep(given=None)

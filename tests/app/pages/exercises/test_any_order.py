@@ -118,9 +118,7 @@ class Student(QObject):
         self.kept.append(attempt)
         mine = [each for each in self.kept if each.user == attempt.user]
         is_corrected = len(first_tries(mine)) == len(first_tries(mine[:-1]))
-        assert ("The first check of a question counts." in verdict) == (
-            is_corrected and not verdict.startswith("Last check: ")
-        )
+        assert (CORRECTED in verdict) == (is_corrected and not verdict.startswith("Last check: "))
 
     def look(self) -> None:
         """Compare what is shown: the question, its form and the verdict."""
@@ -214,6 +212,7 @@ def test_a_verdict_is_that_of_the_answer_that_was_checked(page: ExercisesPage) -
         page.questions.show_model()
         page.settle()
         assert view.verdict.text().endswith(said)
+        assert ("now; the first check counted, with 2:" in view.verdict.text()) == (said == CORRECTED)
     assert len(student.kept) == 2
 
 

@@ -285,7 +285,7 @@ def test_only_a_pixel_that_another_triangle_covers_is_double(tmp_path: Path) -> 
     double = frozenset({(0, 5), (1, 4)})
     right = question.draft.answer.reference
     assert found.marks == {"right": right, "missing": nothing, "extra": nothing, "double": double}
-    said = feedback_of(question, found, is_corrected=False)
+    said = feedback_of(question, found, first=None)
     assert said.counts.endswith("2 extra, 2 of these double")
     question = ask(TEMPLATES["below-half"], 7)
     assert question.draft.scene is not None
