@@ -2,10 +2,13 @@
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 from core import STAGES, Trace
 from core.explain.stage_texts import skipped_because
 from core.records.steps import Level
 from core.scene import AnyScene
+from core.trace.stage_trace import StageTrace
 from lessons.run_place import RunPlace
 
 
@@ -46,6 +49,27 @@ def placed(cursor: Cursor, trace: Trace, position: int | None, stage: str = "") 
     stage = stage or cursor.stage
     count = trace.stage(stage).steps.count
     return replace(cursor, stage=stage, position=count if position is None else min(max(position, 0), count))
+
+
+def kept_at_pixel(cursor: Cursor, before: StageTrace, row: int, trace: Trace) -> Cursor:
+    """Return a cursor at the triangle and pixel that a row of the stage was about, where shaders are stepped.
+
+    It is after as many rows of the pixel as before, or after its last one where it was after that. Without shaders, or
+    where nothing is about the pixel any more, the cursor stays at its position.
+    """
+    now = trace.stage(cursor.stage)
+    if row < 0 or now is before or not any("statement" in stage.steps.kinds for stage in (before, now)):
+        return placed(cursor, trace, cursor.position)
+    mine, theirs = (
+        np.flatnonzero(
+            (stage.triangle == before.triangle[row]) & (stage.pixel == before.pixel[row]).all(axis=1)
+        )
+        for stage in (before, now)
+    )
+    if not len(theirs):
+        return placed(cursor, trace, cursor.position)
+    number = len(theirs) - 1 if row == mine[-1] else min(int(np.searchsorted(mine, row)), len(theirs) - 1)
+    return replace(cursor, position=now.steps.position_after(int(theirs[number])))
 
 
 def stepped(cursor: Cursor, trace: Trace, direction: int, level: Level) -> Cursor:

@@ -5,7 +5,7 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
-from app.session.cursor import Cursor, cursor_for, placed, stepped
+from app.session.cursor import Cursor, cursor_for, kept_at_pixel, placed, stepped
 from app.session.document import Document, edits_beside
 from app.session.held_bytes import held_arrays
 from app.session.history import History
@@ -293,7 +293,9 @@ class Session(QObject):
         """Show the present document of the history, and what stays of the present moment."""
         before = self._moment
         was_at_end = before.is_stage_done and before.steps.count > 0
-        cursor = cursor or placed(before.cursor, trace, None if was_at_end else before.cursor.position)
+        if cursor is None and was_at_end:
+            cursor = placed(before.cursor, trace, None)
+        cursor = cursor or kept_at_pixel(before.cursor, before.stage_trace, before.row, trace)
         bare = Step(trace, cursor)
         pin, hover = (
             None if pixel is None or not bare.has_pixel(pixel) else pixel

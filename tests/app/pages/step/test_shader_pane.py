@@ -167,6 +167,23 @@ def test_a_preset_and_its_uniforms(lab, qtbot):
     qtbot.waitUntil(lambda: _program(lab) is None)
 
 
+def test_other_shaders_leave_the_steps_at_their_pixel(lab, qtbot):
+    session = lab.session
+    session.set_stage("shade", 0)
+    rows = session.stage_trace.rows_at_pixel(*session.stage_trace.pixel[len(session.stage_trace.pixel) // 2])
+    session.go_to(session.stage_trace.steps.position_after(int(rows[-1])))
+    at = tuple(session.stage_trace.pixel[session.moment.row])
+    for preset in ("toon", "", "task"):
+        _choose(lab.page.shader_pane._preset, preset)
+        qtbot.waitUntil(lambda: not lab.page.shading.is_working)
+        lab.page.settle()
+        shade, row = session.stage_trace, session.moment.row
+        assert tuple(shade.pixel[row]) == at
+        assert row == shade.rows_at_pixel(*at)[-1]
+    session.undo()
+    assert tuple(session.stage_trace.pixel[session.moment.row]) == at
+
+
 def test_lanes_together_are_stepped_from_the_same_statement_on(lab):
     session, pane = lab.session, lab.page.shader_pane
     session.go_to(101)
