@@ -178,21 +178,21 @@ def shown(value: Any) -> str:
     return str(value)
 
 
-def in_symbols(term: Term) -> str:
+def in_symbols(term: Term, *, is_glsl: bool = False) -> str:
     """Print a term as it was typed."""
-    return _printed(term, False)[0]
+    return _printed(term, False, is_glsl)[0]
 
 
-def in_numbers(term: Term) -> str:
+def in_numbers(term: Term, *, is_glsl: bool = False) -> str:
     """Print a term with the numbers of its step put in."""
-    return _printed(term, True)[0]
+    return _printed(term, True, is_glsl)[0]
 
 
-def _printed(term: Term, puts_in: bool) -> tuple[str, int]:
-    """Return the text of a term, and how tightly it holds together."""
+def _printed(term: Term, puts_in: bool, is_glsl: bool) -> tuple[str, int]:
+    """Return the text of a term, and how tightly it holds together; ``is_glsl``: a shader's choice has ``? :``."""
 
     def inner(part: Term, least: int) -> str:
-        text, tight = _printed(part, puts_in)
+        text, tight = _printed(part, puts_in, is_glsl)
         return f"({text})" if tight < least else text
 
     match term:
@@ -215,6 +215,8 @@ def _printed(term: Term, puts_in: bool) -> tuple[str, int]:
             word = "and" if is_and else "or"
             tight = TIGHTNESS[word]
             return f" {word} ".join(inner(part, tight + 1) for part in parts), tight
+        case Choice(test, yes, no) if is_glsl:
+            return f"{inner(test, 1)} ? {inner(yes, 0)} : {inner(no, 0)}", CHOICE
         case Choice(test, yes, no):
             return f"{inner(yes, 1)} if {inner(test, 1)} else {inner(no, 0)}", CHOICE
         case Applied(function, arguments):
@@ -242,13 +244,14 @@ def _applied(function: str, arguments: Sequence[str]) -> tuple[str, int]:
     return f"{function}({', '.join(arguments)})", LEAF
 
 
-def said(step: LaneStep) -> str:
+def said(step: LaneStep, *, is_glsl: bool = False) -> str:
     """Return a step in plain words: its line, the line with its numbers, and what came out."""
-    return "; ".join(_said(equality, step.kind) for equality in equalities(step))
+    return "; ".join(_said(equality, step.kind, is_glsl) for equality in equalities(step))
 
 
-def _said(equality: Equality, kind: str) -> str:
-    texts = [in_symbols(equality.right), in_numbers(equality.right), shown(equality.result)]
+def _said(equality: Equality, kind: str, is_glsl: bool) -> str:
+    right = equality.right
+    texts = [in_symbols(right, is_glsl=is_glsl), in_numbers(right, is_glsl=is_glsl), shown(equality.result)]
     parts = [text for k, text in enumerate(texts) if k == 0 or text != texts[k - 1]]
     if kind in ("if", "while"):
         condition = parts if len(parts) == 1 else parts[:-1]

@@ -115,12 +115,12 @@ def words_of(step: LaneStep) -> str:
         return LEAVES[type(node)]
     if isinstance(node, Evaluate):
         now = Typed(step.before)
-        return f"{in_symbols(term_of(now.expression(node.value), now.values))} runs"
+        return f"{in_symbols(term_of(now.expression(node.value), now.values), is_glsl=True)} runs"
     if isinstance(node, Return) and node.value is None:
         return "return: this function ends here"
     if isinstance(node, Declare) and node.value is None:
         return f"{typed_name(node.name)} begins without a value: here it is 0"
-    told = said(_typed_step(step))
+    told = said(_typed_step(step), is_glsl=True)
     if isinstance(node, Loop):
         return f"{told}: {'one more round' if step.value else 'the loop ends'}"
     return told

@@ -69,7 +69,9 @@ class QuestionView(QWidget):
         self.check_button.setProperty("role", "primary")
         self.hint_button = self._button("Hint", "Show the next hint (Ctrl+H)")
         self.variant_button = self._button("New variant", "Ask the same with other numbers (Ctrl+N)")
-        self.again_button = self._button("Start again", "Empty the answer: the same question again (Ctrl+R)")
+        self.again_button = self._button(
+            "Start again", "The same question again, without your answer (Ctrl+R)"
+        )
         self.twin_button = self._button(
             "Show that run", "Step the right run beside the one with this mistake (Ctrl+D)"
         )

@@ -18,7 +18,7 @@ LANES = (
     "A lane is one vertex or one fragment. One lane at a time: each runs the whole shader, one after the other. "
     "Lanes together: all lanes of a triangle run each statement together, as on a graphics card."
 )
-HINT = "Choose shaders to begin with, or type your own. They run without a graphics card."
+HINT = "Choose shaders to begin with: then you can change them here. They run without a graphics card."
 
 
 @dataclass(frozen=True)

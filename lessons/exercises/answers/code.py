@@ -90,9 +90,9 @@ class CodeAnswer(Answer):
         """How points are given."""
         count, classes = len(self.task.all_cases), len(self.task.cases)
         return (
-            f"It is run on {count} hidden inputs of {classes} classes. A class counts if all of its inputs are right; "
-            "those that the listing has right at first earn nothing. Another way to write the same is right. What "
-            "cannot run costs nothing."
+            f"It is run on {count} inputs that are not shown, sorted by kind into {classes} classes. A class counts if "
+            "all of its inputs are right; those that the listing has right at first earn nothing. Another way to write "
+            "the same is right. A text that cannot run is not checked, and no points are lost."
         )
 
     @property

@@ -82,10 +82,7 @@ def test_a_step_says_its_line_its_numbers_and_what_came_out():
     ]
     assert said[5].startswith("Line 12: i < 2: 0 < 2 is true: one more round; ")
     assert said[6].startswith("Line 13: p.x > 0.2: −0.0625 > 0.2 is false; ")
-    assert (
-        "k[i] = k[i] + (r if p.x > 0 else 1 − r) = 0 + (0.8839 if −0.0625 > 0 else 1 − 0.8839) = 0.1161"
-        in said[7]
-    )
+    assert "k[i] = k[i] + (p.x > 0 ? r : 1 − r) = 0 + (−0.0625 > 0 ? 0.8839 : 1 − 0.8839) = 0.1161" in said[7]
     assert "25 of 36 fragments run this line." in said[5]
     corner = _sentences(stage, stage.rows_at_pixel(0, 0))
     assert corner[-1].startswith("Line 10: discard: the fragment ends here, and nothing of it is written; ")

@@ -33,7 +33,9 @@ def test_bresenham_as_printed_steps_up_one_column_early(window: MainWindow) -> N
     assert window.session.document.settings.line == "bresenham-float"
     assert window.session.cursor.stage == "raster"
     assert "as printed: Bresenham loop (Pellacini)" in view.titles[1].text()
-    assert said[-1].startswith("Step 2 is the first that differs: A draws (1, 0), B draws (1, 1).")
+    assert said[-1].startswith(
+        "In the order of drawing, pixel 2 is the first that differs: A draws (1, 0), B draws (1, 1)."
+    )
     # The same loop, line by line, but that A tests before it adds.
     texts = [listing.toPlainText() for listing in view.listings]
     assert sorted(texts[0].splitlines()) == sorted(texts[1].splitlines())
@@ -49,7 +51,9 @@ def test_dda_as_printed_ends_before_the_last_pixel(window: MainWindow) -> None:
     said: list[str] = []
     window.page.message_sent.connect(said.append)
     window.show_printed("pellacini-dda")
-    assert said[-1].startswith("Step 6 is the first that differs: A draws (5, 2), B has ended.")
+    assert said[-1].startswith(
+        "In the order of drawing, pixel 6 is the first that differs: A draws (5, 2), B has ended."
+    )
 
 
 def test_it_stands_in_no_menu_of_methods_and_the_page_cannot_take_it(window: MainWindow) -> None:
