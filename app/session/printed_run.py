@@ -84,7 +84,5 @@ def first_other_pixel(right: StageTrace, printed: StageTrace) -> tuple[tuple[int
         for pixels in (mine, theirs)
     ]
     at = [int(each[min(step, len(each) - 1)]) for each in rows]
-    return (
-        at[0],
-        at[1],
-    ), f"In the order of drawing, pixel {step + 1} is the first that differs: A {said[0]}, B {said[1]}."
+    told = f"In the order of drawing, pixel {step + 1} is the first that differs: A {said[0]}, B {said[1]}."
+    return (at[0], at[1]), told
