@@ -33,8 +33,8 @@ WORDS = "the ends that are left, and the numbers of each border"
 SHAPE = ("list", "list")
 BLOCK = 1024
 """Segments that run at once."""
-PASS_NUMBERS, CUT_NUMBERS = 4, 6
-"""Numbers of a pass that decides, and of one that moves an end."""
+PASS_NUMBERS, CUT_NUMBERS, BORDER_NUMBERS = 4, 6, 5
+"""Numbers of a pass that decides, of one that moves an end, and of a border."""
 
 
 @dataclass(frozen=True)
@@ -106,22 +106,25 @@ def _passes(
 
 def _check_pass(made: Any, is_last: bool, place: Place) -> None:
     """Raise `Problem` for a pass that is none."""
-    numbers = made if isinstance(made, list) and all(map(is_number, made)) else []
-    is_cut = len(numbers) == CUT_NUMBERS and numbers[2] in range(4) and numbers[3] in (0, 1)
-    if not is_cut and not (is_last and len(numbers) == PASS_NUMBERS):
+    is_cut = _has_numbers(made, CUT_NUMBERS) and made[2] in range(4) and made[3] in (0, 1)
+    if not is_cut and not (is_last and _has_numbers(made, PASS_NUMBERS)):
         raise Problem(
             place, "a pass must be (code, code, edge, end, x, y), the last one (code, code, -1, -1)"
         )
 
 
+def _has_numbers(made: Any, count: int) -> bool:
+    return isinstance(made, list) and len(made) == count and all(map(is_number, made))
+
+
 def _kept_ends(left: list[Any], place: Place) -> list[Any]:
-    if left and np.shape(left) != (2, 2):
+    if left and not (len(left) == 2 and all(_has_numbers(end, 2) for end in left)):
         raise Problem(place, "the ends that are left must be two, each (x, y), or none")
     return left
 
 
 def _rows(numbers: list[Any], borders: int, place: Place) -> list[Any]:
-    if len(numbers) > borders or any(np.shape(row) != (5,) for row in numbers):
+    if len(numbers) > borders or not all(_has_numbers(row, BORDER_NUMBERS) for row in numbers):
         raise Problem(
             place,
             f"the numbers of a border must be (p, q, t, t_enter, t_leave), of {borders} borders at most",

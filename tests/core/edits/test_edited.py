@@ -454,3 +454,12 @@ def test_an_endless_loop_of_a_line_ends_with_its_line():
     with pytest.raises(Problem, match="does it ever end") as caught:
         render(make_scene("segment"), apply_edit(Settings(), edit("line", "x += sx", "x = x")))
     assert caught.value.line == 12
+
+
+@pytest.mark.parametrize("end", ["[]", "[x1]", "[x1, [y1]]", "x1"])
+def test_an_end_of_a_clipper_is_two_numbers(end):
+    source = original("line_clipping", "liang-barsky").source
+    text = source.replace("[[x0, y0], [x1, y1]]", f"[{end}, {end}]").replace("if k >= 0:", "if k < -1:")
+    settings = apply_edit(Settings(polygon_mode="wireframe"), Edit("line_clipping", "liang-barsky", text))
+    with pytest.raises(Problem, match="the ends that are left must be two, each"):
+        render(make_scene("clipped-segment"), settings)
