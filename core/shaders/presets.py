@@ -254,8 +254,8 @@ def _textured(fragment: str) -> str:
     return fragment
 
 
-def retyped(program: ShaderProgram, scene: Scene, vertex: str, fragment: str) -> ShaderProgram:
-    """Return the shaders of a scene with other texts, and the same uniforms.
+def retyped(program: ShaderProgram, vertex: str, fragment: str) -> ShaderProgram:
+    """Return shaders with other texts, and the same uniforms.
 
     Raises `ShaderProblem` or ValueError as `ShaderProgram`.
     """

@@ -95,7 +95,7 @@ def with_changed_shaders(scene: AnyScene, changes: Sequence[Change]) -> AnyScene
     sources = {stage: getattr(program, stage) for stage in STAGES}
     for part, old, new in wanted:
         sources[part] = _replaced(sources[part], old, new, f"the {part} shader")
-    return replace(scene, program=retyped(program, scene, **sources))
+    return replace(scene, program=retyped(program, **sources))
 
 
 def with_changed_listings(

@@ -127,9 +127,7 @@ class ShaderPresenter(QObject):
             self._job.cancel()
             self._pane.show_accepted(notes_of(program))
             return
-        scene = self._session.latest.scene
-        assert isinstance(scene, Scene)
-        self._edit(partial(retyped, program, scene, sources["vertex"], sources["fragment"]))
+        self._edit(partial(retyped, program, sources["vertex"], sources["fragment"]))
 
     @Slot(str)
     def show_divergence(self, said: str) -> None:
