@@ -357,6 +357,7 @@ class QuestionPresenter(QObject):
             return
         self._view.show_note("")
         seconds = monotonic() - self._begun
+        self._trying.cancel()  # What the check finds holds.
         self._checking.start(
             checking(question, given, response, self.user, seconds, is_kept=not self._is_shown)
         )

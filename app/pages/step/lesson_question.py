@@ -211,6 +211,7 @@ class LessonAnswers(QObject):
             marks = marks_of(asked.question, outcome.judgement.verdict)
             return JudgedAnswer(asked, given, response, outcome, marks, monotonic() - begun)
 
+        self._trying.cancel()  # What the check finds holds.
         self._judging.start(work)
 
     @Slot()

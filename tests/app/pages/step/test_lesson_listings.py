@@ -1,11 +1,16 @@
 """A listing that a lesson asks for: judged on hidden inputs, and not charged where it cannot run."""
 
+from collections.abc import Callable
 from pathlib import Path
+from threading import Event
 
+import pytest
 from pytestqt.qtbot import QtBot
 
+from app.pages.exercises import work
 from app.window.main_window import MainWindow
 from lessons.course.catalogue import FOLDER
+from lessons.exercises.question import Draft
 from tests.app.pages.step.test_lessons import answered, kept, opened, settled
 from widgets.exercises.code_answer import CodeAnswerView
 from widgets.lessons.records import Standing
@@ -58,6 +63,31 @@ def test_a_step_names_the_buffer_of_a_and_b(window: MainWindow, qtbot: QtBot, tm
     walk.go(0)
     settled(window, qtbot)
     assert window.page.compare_view.buffer_box.currentData() == "overdraw"
+
+
+def test_what_a_check_finds_stays_marked(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A listing that is tried while it is typed may take longer than its check: the check holds."""
+    walk = opened(window, qtbot, tmp_path, 2, lesson_text("repair-a-listing"))
+    assert walk.answers.asked is not None
+    checked = Event()
+
+    def tried_late(draft: Draft, given: object) -> Callable[..., work.Tried]:
+        def tried(*_: object) -> work.Tried:
+            checked.wait()
+            return work.Tried(given, None)
+
+        return tried
+
+    monkeypatch.setattr("app.pages.step.lesson_question.trying", tried_late)
+    form = walk.view.answer
+    assert isinstance(form, CodeAnswerView)
+    endless = walk.answers.asked.question.draft.answer.reference.replace("x += sx", "x += 0")
+    assert answered(walk, qtbot, endless) == ""
+    checked.set()
+    settled(window, qtbot)
+    assert form.editor.has_problem
 
 
 def test_a_lesson_asks_for_a_listing(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
