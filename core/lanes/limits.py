@@ -30,7 +30,7 @@ class Limits:
     steps: int = 20_000
     """Steps of a run that is recorded."""
     seconds: float = 3.0
-    """Seconds of a run."""
+    """Seconds of a run: those in which the processor works for it, so that a busy machine ends none."""
 
 
 LISTING = Limits()

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
-from time import perf_counter
+from time import thread_time
 from typing import Any, Protocol
 
 from core.lanes.limits import Limits
@@ -24,11 +24,11 @@ _bounds: ContextVar[tuple[float, float, Stop | None] | None] = ContextVar("bound
 
 @contextmanager
 def bounded(seconds: float, stop: Stop | None = None) -> Iterator[None]:
-    """Let all runs in the block share one clock, and end them where ``stop()`` says so; see `Problem`.
+    """Let all runs in the block share one clock of processor time; end them where ``stop()`` says so, see `Problem`.
 
     A block within another one ends no later than that, and where that is stopped.
     """
-    outer, end = _bounds.get(), perf_counter() + seconds
+    outer, end = _bounds.get(), thread_time() + seconds
     if outer is not None:
         (end, seconds), stop = min((end, seconds), outer[:2]), stop or outer[2]
     token = _bounds.set((end, seconds, stop))
@@ -66,7 +66,7 @@ class Run:
         self.unset: list[tuple[str, Flags]] = []
         """Variables that lanes (L,) have read before they had a value, where that is allowed; while watched."""
         bounds = _bounds.get()
-        self._end, self._seconds, self._stop = perf_counter() + limits.seconds, limits.seconds, stop
+        self._end, self._seconds, self._stop = thread_time() + limits.seconds, limits.seconds, stop
         if bounds is not None:
             self._end, self._seconds = min((self._end, self._seconds), bounds[:2])
             self._stop = stop or bounds[2]
@@ -77,7 +77,7 @@ class Run:
         self.place = place
         self._ticks += 1
         if not self._ticks & TICKS:
-            if perf_counter() > self._end:
+            if thread_time() > self._end:
                 raise Problem(place, f"this takes longer than {self._seconds:g} seconds: stopped here")
             if self._stop is not None and self._stop():
                 raise Problem(place, "stopped")

@@ -39,7 +39,7 @@ class BoundedRun(QObject):
         if not is_long:
             began = perf_counter()
             try:
-                with bounded(QUICK_SECONDS):
+                with bounded(QUICK_SECONDS, lambda: perf_counter() - began > QUICK_SECONDS):
                     result = work()
             except (ValueError, MemoryError) as error:
                 if perf_counter() - began < QUICK_SECONDS:
