@@ -20,7 +20,8 @@ from app.session.document import Document
 from app.session.document_edits import DocumentEdits
 from app.session.moment import Change
 from app.session.session import Session
-from app.window.actions import ACTIONS, ACTIONS_BY_NAME, ActionWindow
+from app.window.action import ActionWindow
+from app.window.actions import ACTIONS, ACTIONS_BY_NAME
 from app.window.appearance import Appearance, the_application
 from app.window.export_desk import ExportActions
 from app.window.file_desk import READ_OUTSIDE, FileActions

@@ -14,7 +14,6 @@ from widgets.grid.outline_layer import OutlineLayer
 from widgets.grid.overlay import Overlay, bounds, changed_cells, union
 from widgets.grid.overlay_paint import paint_above, paint_below
 from widgets.grid.paint import (
-    Rulers,
     Writing,
     centres_are_free,
     number_writing,
@@ -25,9 +24,8 @@ from widgets.grid.paint import (
     paint_nan,
     paint_numbers,
     paint_pale_edges,
-    paint_rulers,
-    rulers_of,
 )
+from widgets.grid.rulers import Rulers, paint_rulers, rulers_of
 from widgets.grid.sample_dots import SampleDots, paint_samples
 from widgets.grid.view import GridPlacement
 

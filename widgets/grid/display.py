@@ -17,7 +17,8 @@ from widgets.grid.geometry import GridGeometry, NameBox, name_boxes, paint_focus
 from widgets.grid.marks import StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
 from widgets.grid.outline_layer import OutlineLayer
 from widgets.grid.overlay import CenterOverlay, Overlay
-from widgets.grid.paint import is_on_numbers, number_boxes, paint_ruler_pixel, ruler_areas, ruler_size
+from widgets.grid.paint import is_on_numbers, number_boxes
+from widgets.grid.rulers import paint_ruler_pixel, ruler_areas, ruler_size
 from widgets.grid.sample_dots import SampleDots
 from widgets.grid.view import FIT, GridPlacement, GridView, clamped, place
 

@@ -17,8 +17,9 @@ from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry, handle_part, name_boxes
 from widgets.grid.marks import StepMark
 from widgets.grid.overlay import Mark, MaskOverlay
-from widgets.grid.paint import number_boxes, number_writing, ruler_labels
+from widgets.grid.paint import number_boxes, number_writing
 from widgets.grid.pixel_grid import PixelGrid
+from widgets.grid.rulers import ruler_labels
 from widgets.grid.view import FIT, GridView
 
 
