@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
 
 from app.help.pane import HelpPane
 from app.pages.step.lesson_presenter import WAY_BACK
-from app.pages.step.page import PANES, Pane, SidePane, StepPage
+from app.pages.step.page import StepPage
+from app.pages.step.panes import PANES, Pane, SidePane
 from app.pages.step.stepping_presenter import SteppingPresenter
 from app.views.view_space import LARGEST_WITH_CAMERA
 from app.window.focus_walk import FocusWalk

@@ -2,11 +2,10 @@
 
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from functools import partial
 
-from PySide6.QtCore import QCoreApplication, QEvent, Qt, QThread, Signal, Slot
-from PySide6.QtWidgets import QScrollArea, QSplitter, QStackedWidget, QWidget
+from PySide6.QtCore import QCoreApplication, QEvent, QThread, Signal, Slot
+from PySide6.QtWidgets import QSplitter, QStackedWidget, QWidget
 
 from app.pages.page_bar import Caption, Page
 from app.pages.step.ab.presenter import ComparePresenter
@@ -21,6 +20,7 @@ from app.pages.step.listing_presenter import ListingPresenter
 from app.pages.step.main_area import MainArea
 from app.pages.step.narrator import StepNarrator
 from app.pages.step.navigator_presenter import NavigatorPresenter
+from app.pages.step.panes import PANES, SIDE_PANES
 from app.pages.step.pixel_menu import PixelMenu
 from app.pages.step.prediction_presenter import PredictionPresenter
 from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
@@ -494,61 +494,3 @@ class StepPage(Page):
             "step thumbnails": self.main_area.rows,
             "step inspector": self.column.rows,
         }
-
-
-@dataclass(frozen=True)
-class Pane:
-    """What can be shown on the Step page or folded away."""
-
-    name: str
-    title: str
-    """Of its tab, or of its entry in the menu."""
-    key: str
-
-
-@dataclass(frozen=True)
-class SidePane(Pane):
-    """One of the panes that open beside the strip at the left, one at a time."""
-
-    make: Callable[[StepPage], QWidget]
-
-
-def _scrolled(widget: QWidget) -> QScrollArea:
-    scroll = QScrollArea()
-    scroll.setWidgetResizable(True)
-    scroll.setFrameShape(QScrollArea.Shape.NoFrame)
-    scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-    scroll.setWidget(widget)
-    return scroll
-
-
-def _scene_pane(page: StepPage) -> QWidget:
-    pane = QWidget()
-    layout = column_layout(pane, 0)
-    layout.addWidget(page.outline, 1)
-    layout.addWidget(page.depth_tables, 6)
-    return pane
-
-
-def _overlay_pane(page: StepPage) -> QWidget:
-    pane = QWidget()
-    layout = column_layout(pane, 8, margins=(8, 8, 8, 8))
-    layout.addWidget(page.legend)
-    layout.addStretch(1)
-    return pane
-
-
-SIDE_PANES = (
-    SidePane("scene", "Scene", "S", _scene_pane),
-    SidePane("methods", "Methods", "M", lambda page: _scrolled(page.settings_panel)),
-    SidePane("overlays", "Overlays", "O", _overlay_pane),
-    SidePane("shaders", "Shaders", "L", lambda page: page.shader_pane),
-)
-PANES = (
-    *SIDE_PANES,
-    Pane("inspector", "Inspector", "I"),
-    Pane("details", "Variables", "H"),
-    Pane("thumbnails", "Thumbnails of all buffers", "T"),
-    Pane("navigator", "Navigator", "G"),
-    Pane("run", "Run: stages and timeline", "R"),
-)

@@ -9,7 +9,8 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 import bootstrap
 from app.files.state_files import load_state, save_state
-from app.pages.step.page import PANES, PANES_AT_FIRST, SIDE_PANES, Pane
+from app.pages.step.page import PANES_AT_FIRST
+from app.pages.step.panes import PANES, SIDE_PANES, Pane
 from app.window.actions import ACTIONS_BY_NAME
 from app.window.main_window import MainWindow
 from widgets.basics.focus_order import tab_stops
