@@ -61,8 +61,6 @@ SIDE_PANES = (
     SidePane("overlays", "Overlays", "O", _overlay_pane),
     SidePane("shaders", "Shaders", "L", lambda page: page.shader_pane),
 )
-
-
 PANES = (
     *SIDE_PANES,
     Pane("inspector", "Inspector", "I"),
