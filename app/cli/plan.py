@@ -10,7 +10,6 @@ from app.cli.arguments import (
     add_size,
     chosen_settings,
     open_file,
-    progress_line,
     sized,
 )
 from app.cli.commands import MOST_ROUNDS, add_allow_outside, whole_number
@@ -18,7 +17,6 @@ from app.cli.study import aligned
 from app.usage import UsageError
 from core import Settings
 from core.study import PlanReport, Tolerance, plan_and_check
-from core.study.planner.corpus import corpus_scene
 from core.study.planner.measuring import ROUNDS
 
 DESCRIPTION = """Try cheaper methods at every stage and choose the cheapest whose error stays within a tolerance.
@@ -27,19 +25,15 @@ then measured."""
 EXAMPLES = """examples:
   rasterscope plan teapot.obj
   rasterscope plan cube --tolerance 8 --pixels 500 --size 640x480
-  rasterscope plan --corpus 200
 
 At most N pixels (--pixels) may differ by more than C (--tolerance, in 1/255 of the display's sRGB). A choice that is
-measured to be too inaccurate is withdrawn. --corpus plans random scenes and reports the time that plans save.
+measured to be too inaccurate is withdrawn.
 """
-CORPUS = 200
-MOST_SCENES = 100000
-QUANTILES = (0, 0.1, 0.25, 0.5, 0.75, 0.9, 1)
 
 
 def add_arguments(parser: argparse.ArgumentParser) -> None:
     """Say what the command takes."""
-    parser.add_argument("file", metavar="FILE", nargs="?", help=FILE_HELP)
+    parser.add_argument("file", metavar="FILE", help=FILE_HELP)
     add_allow_outside(parser)
     parser.add_argument(
         *("--tolerance", "-t"),
@@ -60,29 +54,14 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
         help=f"timed drawings ({ROUNDS})",
     )
     add_settings(parser, "what to draw, not its quality: wrap, polygon_mode, pixel_center, shading=unlit ...")
-    parser.add_argument(
-        "--corpus",
-        metavar="N",
-        nargs="?",
-        type=whole_number(1, MOST_SCENES),
-        const=CORPUS,
-        help=f"plan N scenes made from seeds ({CORPUS}) instead of FILE",
-    )
 
 
 def run(options: argparse.Namespace) -> int:
     """Plan, measure and print."""
-    if (options.file is None) == (options.corpus is None):
-        raise UsageError("either FILE or --corpus is required")
     try:
         tolerance = Tolerance(options.tolerance, options.pixels)
     except ValueError as problem:
         raise UsageError(str(problem)) from problem
-    if options.corpus is not None:
-        if options.size is not None:
-            raise UsageError("argument --size: the scenes of --corpus have sizes of their own")
-        print("\n".join(corpus_text(options, tolerance)))
-        return 0
     opened = open_file(options)
     scene, settings = sized(opened.document.scene, options), Settings()
     if opened.state is not None:
@@ -131,31 +110,3 @@ def report_text(report: PlanReport) -> list[str]:
             f"chosen {predicted[1]:,.4g} ms."
         )
     return [*lines, report.text]
-
-
-def corpus_text(options: argparse.Namespace, tolerance: Tolerance) -> list[str]:
-    """Return what is printed of many plans: how many held, and the time saved as a distribution."""
-    saved: dict[str, list[float]] = {}
-    fallen_back = wrong = 0
-    base = chosen_settings(Settings(), options.set)
-    with progress_line() as progress:
-        for seed in range(options.corpus):
-            kind, scene = corpus_scene(seed)
-            if progress is not None:
-                progress(seed / options.corpus, f"scene {seed}, {kind}")
-            report = plan_and_check(scene, tolerance, base, options.rounds)
-            saved.setdefault(kind, []).append(report.time_saved)
-            fallen_back += bool(report.fallen_back)
-            wrong += sum(not outcome.is_right for outcome in report.outcomes)
-    every = [value for values in saved.values() for value in values]
-    rows = [["scenes", "count", *(f"{100 * quantile:g} %" for quantile in QUANTILES)]]
-    for name, values in [*saved.items(), ("all", every)]:
-        parts = [f"{100 * value:.0f} %" for value in np.quantile(values, QUANTILES)]
-        rows.append([name, f"{len(values):,}", *parts])
-    return [
-        f"{len(every) - fallen_back:,} of {len(every):,} plans stayed within the tolerance of {tolerance.color:g}/255 "
-        f"and {tolerance.pixels:,} pixels; {fallen_back:,} had to withdraw a choice.",
-        f"{wrong:,} predictions were wrong.",
-        "Time saved against the reference settings, quantiles over the scenes (below 0: it took longer):",
-        *aligned(rows),
-    ]

@@ -1,6 +1,6 @@
 """The plan: try cheaper methods family by family, keep the cheapest within the tolerance, and say why.
 
-Measured, not bounded: on 56 scenes of ``corpus``, chosen settings take 0.43 of the time of the reference
+Measured, not bounded: on 56 random scenes, chosen settings take 0.43 of the time of the reference
 settings (geometric mean). Bounds of light, texels, depth and coverage took 3,000 lines and as long to plan, and
 left 0.56: they reject whatever they cannot prove.
 """
@@ -34,7 +34,7 @@ CHEAPER = {
 """Methods that are tried instead of the reference method, the cheaper first; families in the order of choosing.
 
 Samples come first, as everything after them is drawn that much faster. Not tried: exact areas, which take 0.8 to 60
-times as long as 4 x 4 samples, and 3 x 3 samples, which are within 8/255 on 25 of 70 scenes of ``corpus`` where 2 x 2
+times as long as 4 x 4 samples, and 3 x 3 samples, which are within 8/255 on 25 of 70 random scenes where 2 x 2
 are on 23."""
 STAGES = (
     "cull",

@@ -28,22 +28,12 @@ def test_a_scene_is_planned_and_measured() -> None:
         assert word in run.stdout
 
 
-def test_the_corpus_tells_the_time_saved() -> None:
-    run = run_program("plan", "--corpus", "2", "--rounds", "1")
-    assert run.returncode == 0, run.stderr
-    assert run.stdout.startswith("2 of 2 plans stayed within the tolerance of 2/255 and 0 pixels; 0 had")
-    assert "all" in run.stdout
-    assert "50 %" in run.stdout
-
-
 @pytest.mark.parametrize(
     ("arguments", "said"),
     [
-        ((), "either FILE or --corpus is required"),
-        (("cube", "--corpus", "3"), "either FILE or --corpus is required"),
+        ((), "FILE"),
         (("cube", "--tolerance", "300"), "tolerance color must be from 0 to 255, got 300"),
         (("cube", "--pixels", "-1"), "tolerance pixels must be a whole number from 0 on, got -1"),
-        (("--corpus", "0"), "must be a whole number from 1 to 100000, got 0"),
     ],
 )
 def test_what_is_wrong_is_told(arguments: tuple[str, ...], said: str) -> None:
