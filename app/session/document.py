@@ -155,10 +155,10 @@ class Document:
             f"stepping {triangles:,} triangles together" if triangles > 1 else "stepping one triangle",
         )
 
-    def make_trace(self, settings: Settings | None = None, earlier: Trace | None = None) -> Trace:
-        """Prepare the trace, under other settings if they are given; see ``core.trace`` for the ``earlier`` one."""
+    def make_trace(self, settings: Settings | None = None) -> Trace:
+        """Prepare the trace, under other settings if they are given."""
         run = self.traced_scene, settings or self.settings, self.triangle, self.region, self.before
-        return trace(*run, earlier=earlier, lanes=self.lanes)
+        return trace(*run, lanes=self.lanes)
 
 
 NEAR_THE_MIDDLE = 64

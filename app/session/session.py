@@ -230,14 +230,14 @@ class Session(QObject):
         if document is None:
             return
         if not self._is_same_run(document) and document.estimated_seconds > RESTING_SECONDS:
-            self.tracing.start(Order(document, "", stage, direction, self.trace))
+            self.tracing.start(Order(document, "", stage, direction))
             return
         self.tracing.cancel()
         if self._is_same_run(document):
             self._move_in_history(direction)
             self._become(Change.EDITS, document=document)
             return
-        self._take_neighbour(direction, trace_now(document, stage, self.trace))
+        self._take_neighbour(direction, trace_now(document, stage))
 
     def _is_same_run(self, document: Document) -> bool:
         """Return whether a document differs from the open one in its edited listings only: they run in side B."""
@@ -271,11 +271,11 @@ class Session(QObject):
             return
         if document.estimated_seconds > QUICK_SECONDS:
             document.check_length()
-            self.tracing.start(Order(document, gesture, stage, earlier=self.trace))
+            self.tracing.start(Order(document, gesture, stage))
             return
         # An edit that is ready takes the place of one that is still being traced.
         self.tracing.cancel()
-        self._take(document, gesture, trace_now(document, stage, self.trace))
+        self._take(document, gesture, trace_now(document, stage))
 
     @Slot(object)
     def _take_traced(self, traced: Traced) -> None:
@@ -302,7 +302,6 @@ class Session(QObject):
             for pixel in (before.pin, before.hover)
         )
         also |= NOTHING if pin == before.pin else Change.PIN
-        # The previous trace stays until everything shows the new one, which takes over what did not change.
         self._become(
             Change.DOCUMENT | also,
             document=self._history.present,

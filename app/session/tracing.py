@@ -25,8 +25,6 @@ class Order:
     stage: str
     direction: int = 0
     """-1: it comes from undoing, 1: from redoing, 0: it is a new edit."""
-    earlier: Trace | None = None
-    """What is shown until then: triangles that are the same in it are not traced again."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,14 +35,13 @@ class Traced:
     trace: Trace
 
 
-def trace_now(document: Document, stage: str, earlier: Trace | None = None) -> Trace:
+def trace_now(document: Document, stage: str) -> Trace:
     """Trace a document and one of its stages, and draw its picture, so that nothing can fail later.
 
-    Triangles that are the same in the ``earlier`` trace are not traced again. Raises ValueError if the document has
-    more steps than can be held, or a method does not serve the scene.
+    Raises ValueError if the document has more steps than can be held, or a method does not serve the scene.
     """
     document.check_length()
-    trace = document.make_trace(earlier=earlier)
+    trace = document.make_trace()
     trace.stage(stage)
     assert trace.source.picture is not None
     if resolve(trace.source.settings).sampling.count == 1:
@@ -97,7 +94,7 @@ class Tracing(QObject):
         if self._job.is_running:
             self._waiting = order
             return
-        self._job.call(lambda: Traced(order, trace_now(order.document, order.stage, order.earlier)))
+        self._job.call(lambda: Traced(order, trace_now(order.document, order.stage)))
         self.busy_changed.emit(f"Tracing {order.document.title or 'the scene'}")
 
     @Slot()

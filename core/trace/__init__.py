@@ -64,7 +64,6 @@ def trace(
     triangle: int | None = None,
     region: tuple[int, int, int, int] | None = None,
     before: str = "earlier",
-    earlier: Trace | None = None,
     lanes: str = "one",
 ) -> Trace:
     """Prepare the trace of a scene, or of one of its triangles.
@@ -77,9 +76,6 @@ def trace(
         Pixels of the image that the buffers show; the whole image by default.
     before : str
         Buffers at the start: as the ``"earlier"`` triangles left them, or ``"cleared"``.
-    earlier : Trace, optional
-        Of the scene before an edit: what it has computed of triangles that did not change is taken over, while it is
-        kept in memory by others. The result is the same.
     lanes : str
         Order of a shader's steps: ``"one"`` vertex or fragment after another, or all of a triangle ``"together"``.
 
@@ -98,10 +94,6 @@ def trace(
     from core.trace.source import TraceSource
 
     source = TraceSource(scene, settings or Settings(), triangle, region, before, lanes)
-    if earlier is not None:
-        from core.trace.incremental.retrace import after_edit
-
-        source = after_edit(source, earlier.source)
     if min(source.raster.shape) <= 0:
         width, height = scene.size
         raise ValueError(f"region must contain pixels of the {width}x{height} image, got {region}")

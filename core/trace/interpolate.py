@@ -46,7 +46,7 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
     """Return one row for every fragment."""
     geometry, mode = source.geometry, source.settings.interpolation
     outline_kind = _outline_kind(source)
-    rows = source.rows_of("interpolate", _rows)
+    rows = _rows(source)
     values_of_layout = tuple(
         Operation(f"value-{name}", "value", {name: "value"}) for name in geometry.primitives.layout
     )

@@ -48,7 +48,6 @@ def trace_raster(source: TraceSource) -> StageTrace:
     }
     order: SpanOrder | None = None
     if fill_traits(fill).has_lanes:
-        # Where a triangle's lane stands among the others is known only of all of them.
         order = _order(source)
         table = rows_of_spans(source, order)
         rows = _rows(source, table)
@@ -57,7 +56,7 @@ def trace_raster(source: TraceSource) -> StageTrace:
         coverage, *others = _buffers(source, rows.columns)
         buffers = (coverage, pass_track(source, columns), *others)
     else:
-        rows = source.rows_of("raster", _rows_of_runs)
+        rows = _rows(source, rows_of_runs(source))
         columns = {**rows.columns, **_edge_columns(rows.columns)}
         buffers = _buffers(source, rows.columns)
     triangle = geometry.primitives.triangle[columns["primitive"]]
@@ -92,11 +91,6 @@ def trace_raster(source: TraceSource) -> StageTrace:
 def _order(source: TraceSource) -> SpanOrder:
     owners = tie_owners(source.settings.fill_rule)
     return order_of_spans(source.geometry.edges, source.raster, owners)
-
-
-def _rows_of_runs(source: TraceSource) -> StageRows:
-    """Return the rows of all fills but ``spans``."""
-    return _rows(source, rows_of_runs(source))
 
 
 def _rows(source: TraceSource, table: RowTable) -> StageRows:

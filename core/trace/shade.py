@@ -35,7 +35,7 @@ def trace_shade(source: TraceSource) -> StageTrace:
         from core.trace.shader_stages import trace_fragment_shader
 
         return trace_fragment_shader(source)
-    rows, is_lit = source.rows_of("shade", _rows), source.surface.diffuse_light is not None
+    rows, is_lit = _rows(source), source.surface.diffuse_light is not None
     is_textured = rows.kind % 2 > 0
     has_normals = "normal" in source.geometry.primitives.layout
     triangle = source.triangle_of_fragment

@@ -1,6 +1,5 @@
 """What the stage traces are made from: the pipeline run on the traced triangles, every stage at most once."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -31,7 +30,6 @@ from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
 from core.stages.needs import check_edits
 from core.stages.vertex_program import vertex_stage
 from core.stages.vertices import Geometry, drawing_order, process_geometry
-from core.trace.stage_rows import StageRows
 from core.visibility.ray_casting import RayTests
 
 
@@ -218,16 +216,6 @@ class TraceSource:
             left = before.copy()
             left[keeps] = tests.left
         return DepthTests(before, passes, left)
-
-    @cached_property
-    def known_rows(self) -> dict[str, StageRows]:
-        """The rows that stages have asked for, by name of the stage."""
-        return {}
-
-    def rows_of(self, stage: str, make: "Callable[[TraceSource], StageRows]") -> StageRows:
-        """Return the rows of a stage, which ``make`` makes of a source."""
-        self.known_rows[stage] = make(self)
-        return self.known_rows[stage]
 
     @cached_property
     def picture(self) -> Frame:

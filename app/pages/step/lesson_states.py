@@ -170,12 +170,12 @@ def _both_settings(state: State) -> tuple[Settings, Settings | None]:
     return settings_of(state.printed, Document(state.scene, raster, state.settings))
 
 
-def _second(document: Document, stage: str, other: Settings, earlier: Trace) -> tuple[Document, Trace] | None:
+def _second(document: Document, stage: str, other: Settings) -> tuple[Document, Trace] | None:
     """Trace what B draws up to a stage; ``None`` where it cannot: A | B says why."""
     second = replace(document, settings=other)
     try:
         second.check_length()
-        run = second.make_trace(earlier=earlier)
+        run = second.make_trace()
         run.stage(stage)
     except ValueError:
         return None
@@ -196,5 +196,5 @@ def opened(state: State, asked: LessonQuestion | None, known: tuple[OpenState, .
         run = trace_now(document, state.stage)
     run.stage(state.stage)
     cursor = cursor_at(state.place, run, Level.PIXEL)
-    second = None if other is None else _second(document, cursor.stage, other, run)
+    second = None if other is None else _second(document, cursor.stage, other)
     return OpenState(state, document, run, cursor, second, asked)

@@ -258,7 +258,7 @@ class ShaderPresenter(QObject):
         document = self._session.latest
         assert isinstance(document.scene, Scene)
         self._make, self._began_with = make, document.scene.program
-        run = partial(try_shaders, document, self._session.cursor.stage, self._session.trace, make)
+        run = partial(try_shaders, document, self._session.cursor.stage, make)
         self._job.start(lambda _progress, is_cancelled: run(is_cancelled))
         self._later.start()
 

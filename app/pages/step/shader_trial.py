@@ -35,9 +35,7 @@ class Tried:
     """What is said of them: a mistake of the shelf that makes their picture, and notes."""
 
 
-def try_shaders(
-    beside: Document, stage: str, earlier: Trace, make: Make, is_cancelled: Callable[[], bool]
-) -> Tried:
+def try_shaders(beside: Document, stage: str, make: Make, is_cancelled: Callable[[], bool]) -> Tried:
     """Read shaders, step them as far as a stage, and draw both pictures of the scene by them.
 
     Raises ValueError (`core.shaders.record.ShaderProblem` with a place) where they cannot be read, do not end, or are
@@ -49,7 +47,7 @@ def try_shaders(
     with bounded(TRIAL_SECONDS, is_cancelled):
         program = make()
         document = replace(beside, scene=replace(beside.scene, program=program))
-        trace = trace_now(document, stage, earlier)
+        trace = trace_now(document, stage)
         if document.traced_scene is not document.scene:
             render(document.scene, document.settings)
     said = _accepted(document, program, [*_unset(trace, stage)], is_cancelled)

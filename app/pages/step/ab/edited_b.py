@@ -75,11 +75,11 @@ class EditedB(QObject):
         self.side = SideB(document.settings.differences(other), title, edits=awake)
         return ""
 
-    def try_edit(self, document: Document, stage: str, earlier: Trace) -> None:
+    def try_edit(self, document: Document, stage: str) -> None:
         """Run the edited listings of a document as B would; `ran` or `failed` follows."""
         self._trying = document
         is_long = document.estimated_seconds > QUICK_SECONDS
-        self._trial.do(partial(_traced, document, stage, earlier), is_long=is_long)
+        self._trial.do(partial(_traced, document, stage), is_long=is_long)
 
     def run_of(self, document: Document) -> Trace | None:
         """Return the run of B beside a document that was tried last."""
@@ -92,8 +92,8 @@ class EditedB(QObject):
         self.ran.emit(self._tried[0])
 
 
-def _traced(document: Document, stage: str, earlier: Trace) -> Trace:
+def _traced(document: Document, stage: str) -> Trace:
     """Trace a stage with the edited listings of a document; raises ValueError where one of them cannot run."""
     from app.session.edited_run import settings_of
 
-    return trace_now(replace(document, settings=settings_of(document)[1]), stage, earlier)
+    return trace_now(replace(document, settings=settings_of(document)[1]), stage)

@@ -267,7 +267,7 @@ class ComparePresenter(QObject):
         """Trace B anew, and show both runs."""
         if self._is_held:
             return
-        earlier, before, self._moment = self._second or moment.trace, self._moment, moment
+        before, self._moment = self._moment, moment
         self._job.cancel()
         self._bounded.cancel()
         self._search.cancel()
@@ -297,7 +297,7 @@ class ComparePresenter(QObject):
         def work() -> Trace:
             """Trace B up to the stage that is shown."""
             other.check_length()
-            trace = other.make_trace(earlier=earlier)
+            trace = other.make_trace()
             trace.stage(stage)
             return trace
 
@@ -310,7 +310,7 @@ class ComparePresenter(QObject):
                 # The last picture stays until the next one is there.
                 self._second, self._steps = kept
             self._refusal = "Drawing B …"
-            self._bounded.do(partial(trace_now, other, stage, earlier), is_long=is_long)
+            self._bounded.do(partial(trace_now, other, stage), is_long=is_long)
             if self._bounded.is_running:
                 self._show()
             return
@@ -365,7 +365,7 @@ class ComparePresenter(QObject):
 
     def try_edit(self, document: Document) -> None:
         """Run the edited listings of a document as B would, see `edited`; what B shows stays till then."""
-        self.edited.try_edit(document, self._moment.cursor.stage, self._second or self._moment.trace)
+        self.edited.try_edit(document, self._moment.cursor.stage)
 
     @property
     def is_drawing(self) -> bool:

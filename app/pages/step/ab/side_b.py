@@ -77,7 +77,7 @@ def first_difference(
         if other.estimated_seconds > QUICK_SECONDS:
             return {family: method}
         try:
-            mine, theirs = trace.stage(stage), other.make_trace(earlier=trace).stage(stage)
+            mine, theirs = trace.stage(stage), other.make_trace().stage(stage)
         except ValueError:
             continue
         by_outcome = stage in BY_OUTCOME
