@@ -285,6 +285,10 @@ class PythonDialect:
         if np.ndim(index):
             check_inside(index, len(parts), mask, place)
             if not all(is_number(part) for part in parts):
+                # Lanes that have left a loop may hold another index.
+                here = np.unique(index if mask is None else index[mask])
+                if len(here) == 1:
+                    return parts[here[0]]
                 raise Problem(place, "an index that is not the same in every lane takes numbers only")
             chosen = np.clip(index, 0, len(parts) - 1)
             made = np.stack(np.broadcast_arrays(chosen, *parts)[1:])

@@ -5,7 +5,7 @@ from dataclasses import fields, replace
 import numpy as np
 import pytest
 
-from core import Settings, Texture, draw_lines, render, trace
+from core import Settings, Texture, clip_lines, draw_lines, render, trace
 from core.edits import EDITABLE, Edit, apply_edit, edits_of, original, place_of, refusal, without_edits
 from core.edits.typed import Typed
 from core.explain import variables
@@ -141,6 +141,17 @@ def test_lines_of_all_octants_ties_and_points(of, last_pixel):
         if field.name not in left_open(of):
             found, wanted = getattr(ours.steps, field.name), getattr(right.steps, field.name)
             np.testing.assert_array_equal(found, wanted, err_msg=field.name)
+
+
+@pytest.mark.parametrize("of", [of for part, of in CASES if part == "line_clipping"])
+def test_clippers_cut_many_segments_by_different_edges(of):
+    segments = np.random.default_rng(4).integers(-8, 20, (200, 2, 2)) * 1.25
+    right, ours = (
+        clip_lines(segments, (0, 0, 12, 9), method)
+        for method in (of, unedited("line_clipping", of).line_clipping)
+    )
+    np.testing.assert_array_equal(ours.segments, right.segments)
+    np.testing.assert_array_equal(ours.cut_by, right.cut_by)
 
 
 @pytest.mark.parametrize("of", [of for part, of in CASES if part == "line"])
