@@ -3,10 +3,9 @@
 import ast
 import inspect
 import sys
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import cache
-from itertools import pairwise
 from pathlib import Path
 from textwrap import dedent
 from types import CodeType, FrameType
@@ -24,9 +23,6 @@ FOLLOWED_ROWS = 25 if is_everything() else 10
 
 Ran = dict[CodeType, list[list[int]]]
 """Function to the lines of its listing of each of its calls, in the order in which they ran, from 1."""
-
-State = tuple[int, dict[str, object], dict[str, object]]
-"""Line of a listing, and all variables before and after it ran."""
 
 
 def rows_of_kind(found: StageTrace, kind: str) -> Iterator[int]:
@@ -80,27 +76,6 @@ def lines_that_run() -> Iterator[Ran]:
         yield ran
     finally:
         sys.settrace(before)
-
-
-def states_of(function: Callable[..., object], *arguments: object) -> Iterator[State]:
-    """Yield the lines of a listing that ran, from 1, each with its variables before and after it."""
-    code, states = function.__code__, []
-
-    def stepped(frame: FrameType, event: str, argument: object) -> object:
-        if frame.f_code is code and event in ("line", "return"):
-            states.append(
-                (frame.f_lineno - code.co_firstlineno + 1 - _lines_joined(code), dict(frame.f_locals))
-            )
-        return stepped
-
-    before = sys.gettrace()
-    sys.settrace(stepped)
-    try:
-        function(*arguments)
-    finally:
-        sys.settrace(before)
-    for (line, earlier), (_, later) in pairwise(states):
-        yield line, earlier, later
 
 
 def check_marks(found: StageTrace, row: int, ran: Ran) -> None:

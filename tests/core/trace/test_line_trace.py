@@ -8,7 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, Trace, render, trace
+from core.edits import original
+from core.edits.typed import Typed
 from core.explain import sentence, variables
+from core.lanes.notes import record_steps
 from core.methods import table
 from core.raster.lines.smooth import FILTER_TABLE
 from core.raster.lines.traits import OFF, has_intensities, line_traits
@@ -18,7 +21,7 @@ from core.trace import StageTrace
 from core.trace.lines import SET_UP
 from lessons.small_scenes import segment_scene
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
-from tests.core.trace.executed_rows import Ran, lines_that_run, states_of
+from tests.core.trace.executed_rows import Ran, lines_that_run
 from tests.core.trace.trace_cases import SCENES, settings_of
 from tests.covering import every_pair
 
@@ -122,17 +125,17 @@ def test_every_assignment_is_a_step_and_every_variable_holds_what_the_listing_ho
     for start, end in pairwise([0, *steps.group_ends.tolist()]):
         ends = [*c["first_end"][start], *c["second_end"][start]]
         ends = [int(end) for end in ends] if line_traits(line).takes_pixels else ends
-        function = table.get("line", line).listing
-        ran = iter(states_of(function, *ends, False))
+        listed = original("line", line)
+        ran = iter(record_steps(Typed(listed.function, listed.source).program, [*ends, False]))
         for position in range(steps.starts[start] + 1, steps.starts[end] + 1):
             made = found.explain(position)
             row = steps.row_at(position)[0]
             now, held = next(
-                (now, held)
-                for number, now, held in ran
+                (noted.before, noted.after)
+                for noted in ran
                 # A rectangle looks at pixels that it does not draw.
-                if number == made.line
-                and [held.get("column", c["column"][row]), held.get("row", c["row"][row])]
+                if noted.line == made.line
+                and [noted.after.get("column", c["column"][row]), noted.after.get("row", c["row"][row])]
                 == [*found.pixel[row]]
             )
             shown = {variable.name: variable for variable in variables(made) if variable.name in held}
