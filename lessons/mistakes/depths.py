@@ -8,12 +8,10 @@ from typing import Any
 import numpy as np
 
 from core import Settings
-from core.framebuffer.blending import over
 from core.framebuffer.depth import DepthFormat
 from core.methods import table
-from core.records.arrays import Floats, Singles
 from core.scene import ClipScene
-from lessons.mistakes.fragments import CLEAR_RED, OPAQUE, RED_AND_BLUE, WINDOW, with_blend
+from lessons.mistakes.fragments import ALPHA, CLEAR_RED, COLOR, OPAQUE, RED_AND_BLUE, WINDOW, in_over
 from lessons.mistakes.transforms import Vector
 from lessons.mistakes.twin import Case, Twin, WrongRule, frame_colors
 from lessons.small_scenes import triangle_scene
@@ -46,28 +44,6 @@ def first_is_nearest(scene: ClipScene) -> ClipScene:
     depths = (np.arange(len(clip)) + 0.5) / len(clip)
     clip[..., 2] = (2 * depths - 1)[:, None] * clip[..., 3]
     return replace(scene, clip=clip)
-
-
-def squared_alpha(source: Floats, destination: Singles) -> Singles:
-    """Weigh the source's alpha by itself: a a + (1 - a) times what is there."""
-    mixed = over(source, destination)
-    a = source[:, 3]
-    mixed[:, 3] = a * a + (1 - a) * destination[:, 3]
-    return mixed
-
-
-def alpha_kept(source: Floats, destination: Singles) -> Singles:
-    """Keep the alpha that was there."""
-    mixed = over(source, destination)
-    mixed[:, 3] = destination[:, 3]
-    return mixed
-
-
-def not_multiplied(source: Floats, destination: Singles) -> Singles:
-    """Take a straight colour for one that was multiplied by its alpha."""
-    mixed = over(source, destination)
-    mixed[:, :3] = source[:, :3] + (1 - source[:, 3:]) * destination[:, :3]
-    return mixed
 
 
 def window_depth(near: Any, far: Any, distance: Any) -> Vector:
@@ -193,21 +169,21 @@ TWINS = (
         "The alpha of the result is a a + (1 - a) d. It is a + (1 - a) d.",
         CLEAR_RED,
         OPAQUE,
-        change_settings=with_blend(squared_alpha),
+        change_settings=in_over(ALPHA, "result.append(alpha * alpha + (1 - alpha) * destination[3])"),
     ),
     Twin(
         "alpha-kept",
         "The alpha that was there was kept. The result has a + (1 - a) times it.",
         Case(cards([0.5] * 3, alpha=0.5), BLENDED),
         RED_AND_BLUE,
-        change_settings=with_blend(alpha_kept),
+        change_settings=in_over(ALPHA, "result.append(destination[3])"),
     ),
     Twin(
         "not-multiplied",
         "The colour was not multiplied by its alpha, and the result is too bright.",
         CLEAR_RED,
         OPAQUE,
-        change_settings=with_blend(not_multiplied),
+        change_settings=in_over(COLOR, "color[k] + (1 - alpha) * destination[k]"),
     ),
 )
 

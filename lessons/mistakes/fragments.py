@@ -13,7 +13,7 @@ from core.methods import table
 from core.records.arrays import Floats, Singles
 from core.records.frame import Frame
 from core.scene import AnyScene, ClipScene
-from lessons.mistakes.twin import Case, Twin, frame_colors
+from lessons.mistakes.twin import Case, Twin, edited, frame_colors
 from lessons.small_scenes import triangle_scene
 
 WINDOW = [(-20, -20), (40, -20), (-20, 40)]
@@ -118,17 +118,6 @@ def original_numbers(frame: Frame, scene: ClipScene) -> Frame:
     return replace(frame, primitive=primitive.astype(np.int32))
 
 
-def multiplied_twice(source: Floats, destination: Singles) -> Singles:
-    """Blend a colour that was multiplied by its alpha already."""
-    return over(np.concatenate([source[:, :3] * source[:, 3:], source[:, 3:]], axis=1), destination)
-
-
-def factors_exchanged(source: Floats, destination: Singles) -> Singles:
-    """Weigh the source by 1 - alpha and what is there by alpha; the alpha of the result is right."""
-    mixed = over(np.concatenate([source[:, :3], 1 - source[:, 3:]], axis=1), destination)
-    return np.concatenate([mixed[:, :3], over(source, destination)[:, 3:]], axis=1)
-
-
 def blended_in_srgb(source: Floats, destination: Singles) -> Singles:
     """Blend encoded colours as if they were linear."""
     encoded = np.concatenate([srgb(source[:, :3]), source[:, 3:]], axis=1)
@@ -138,16 +127,14 @@ def blended_in_srgb(source: Floats, destination: Singles) -> Singles:
     return mixed
 
 
-def alpha_of_source(source: Floats, destination: Singles) -> Singles:
-    """Keep the alpha of the source as that of the result."""
-    mixed = over(source, destination)
-    mixed[:, 3] = source[:, 3]
-    return mixed
+COLOR = "color[k] * alpha + destination[k] * (1 - alpha)"
+ALPHA = "result.append(alpha + destination[3] * (1 - alpha))"
 
 
-def with_blend(rule: Callable[[Floats, Singles], Singles]) -> Callable[[Settings], Settings]:
-    """Return what replaces the blending of settings that blend at all."""
-    return lambda settings: settings if settings.blend == "opaque" else settings.replaced(blend=rule)
+def in_over(old: str, new: str) -> Callable[[Settings], Settings]:
+    """Return what runs the listing of ``over`` with a changed line, if settings blend at all."""
+    change = edited("blend", "over", (old, new))
+    return lambda settings: settings if settings.blend == "opaque" else change(settings)
 
 
 TWINS = (
@@ -244,27 +231,29 @@ TWINS = (
         "The colour was multiplied by its alpha twice.",
         CLEAR_RED,
         OPAQUE,
-        change_settings=with_blend(multiplied_twice),
+        change_settings=in_over(COLOR, COLOR.replace("alpha +", "alpha * alpha +")),
     ),
     Twin(
         "factors-exchanged",
         "The factors are exchanged: the source counts alpha, what is there counts 1 - alpha.",
         CLEAR_RED,
         RED_AND_BLUE,
-        change_settings=with_blend(factors_exchanged),
+        change_settings=in_over(COLOR, "color[k] * (1 - alpha) + destination[k] * alpha"),
     ),
     Twin(
         "blended-in-srgb",
         "sRGB values were mixed as if they were linear. Decode them, mix, encode the result.",
         CLEAR_RED,
         OPAQUE,
-        change_settings=with_blend(blended_in_srgb),
+        change_settings=lambda settings: (
+            settings if settings.blend == "opaque" else settings.replaced(blend=blended_in_srgb)
+        ),
     ),
     Twin(
         "alpha-of-source",
         "The result got the alpha of the source. It is a + (1 - a) times the alpha that was there.",
         CLEAR_RED,
         OPAQUE,
-        change_settings=with_blend(alpha_of_source),
+        change_settings=in_over(ALPHA, "result.append(alpha)"),
     ),
 )

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from core import Settings, clip_lines, draw_lines, render
+from core.edits import Edit, apply_edit, original
 from core.raster.edges.snapping import window_position
 from core.records.arrays import Floats
 from core.records.frame import Frame
@@ -17,13 +18,36 @@ Reading = Callable[[ClipScene, Settings], object]
 """What is compared of a run that draws no frame; two readings are the same run where they compare equal."""
 
 
-def _same_settings(settings: Settings) -> Settings:
+def same_settings(settings: Settings) -> Settings:
+    """Return the settings themselves: the mistake is not in them."""
     return settings
 
 
 def same_scene(scene: ClipScene) -> ClipScene:
     """Return the scene itself: the mistake is not in it."""
     return scene
+
+
+Change = tuple[str, str]
+"""What a listing has once, and what stands there instead."""
+
+
+def edited(part: str, of: str, *changes: Change) -> Callable[[Settings], Settings]:
+    """Return what runs an edited listing of a method: the mistake is a line of it.
+
+    Settings that would pass the edit over are returned unchanged.
+    """
+
+    def change_settings(settings: Settings) -> Settings:
+        text = original(part, of).source
+        for old, new in changes:
+            if text.count(old) != 1:
+                raise ValueError(f"the listing of {of} must have {old!r} once, got {text.count(old)}")
+            text = text.replace(old, new)
+        edit = Edit(part, of, text)
+        return settings if edit.passed_over(settings, None) else apply_edit(settings, edit)
+
+    return change_settings
 
 
 def _same_frame(frame: Frame, scene: AnyScene) -> Frame:
@@ -50,7 +74,7 @@ class Twin:
     """What was done, and what is right, in a sentence or two that a learner reads."""
     shows: Case
     hides: Case
-    change_settings: Callable[[Settings], Settings] = _same_settings
+    change_settings: Callable[[Settings], Settings] = same_settings
     """Chooses another method, or replaces its function."""
     change_scene: Callable[[ClipScene], ClipScene] = same_scene
     change_frame: Callable[[Frame, ClipScene], Frame] = _same_frame

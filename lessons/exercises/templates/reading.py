@@ -14,7 +14,8 @@ from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.coverage import RULE, row_hint, twice_area
 from lessons.exercises.templates.line_methods import moves_text
-from lessons.mistakes.lines import LECTURE, faulty_listing
+from lessons.mistakes.lines import LECTURE
+from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.twin import line_pixels
 from lessons.printed.catalogue import printed_listing
 from lessons.small_scenes import pixel_segments, triangle_scene
@@ -48,9 +49,7 @@ SIZE = (14, 9)
 
 def listed_pixels(fault: str, ends: tuple[tuple[int, int], tuple[int, int]]) -> Pixels:
     """Return the pixels that the listing with a fault draws in the window."""
-    columns, rows = SIZE
-    pixels = ((x, y) for x, y, _ in faulty_listing(fault, *ends[0], *ends[1]))
-    return frozenset((x, y) for x, y in pixels if 0 <= x < columns and 0 <= y < rows)
+    return line_pixels(pixel_segments([ends], SIZE), SHELF[fault].change_settings(LECTURE))
 
 
 def draw_line(draws: Draws) -> Draft | None:

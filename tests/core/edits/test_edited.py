@@ -1,4 +1,4 @@
-"""Edited lines draw what they say: each mistake that is an edit of a line is its twin of the shelf."""
+"""Edited lines draw what they say: a mistake of the shelf that replaces a function is also an edit of a line."""
 
 import pickle
 import re
@@ -33,34 +33,18 @@ from core.pixel_history import why
 from core.records.listing import EditedListing
 from core.settings import families
 from core.shaders.presets import preset_program
-from lessons.mistakes import clipping, coverage, depths, fragments, lighting, lines, textures
-from lessons.mistakes.twin import line_pixels
+from lessons.mistakes import clipping, coverage, depths, fragments, lighting, textures
 from lessons.scenes import make_scene
-from lessons.small_scenes import pixel_segments
 from tests.core.trace.trace_cases import lit_scene
 
 TWINS = {
-    twin.name: twin
-    for module in (clipping, coverage, depths, fragments, lines, textures)
-    for twin in module.TWINS
+    twin.name: twin for module in (clipping, coverage, depths, fragments, textures) for twin in module.TWINS
 }
-DRAW = "pixels.append((y, x, D) if is_steep else (x, y, D))"
-ROW = "y0 + sy * (x - x0) * dy // max(dx, 1)"
 PLACE = "u * width, v * height"
 WIDE = "len(pixels[0])"
 ACROSS = f"u * {WIDE}"
-COLOR = "color[k] * alpha + destination[k] * (1 - alpha)"
 ALPHA = "result.append(alpha + destination[3] * (1 - alpha))"
 MISTAKES = {
-    "ties-step": ("line", "if D > 0:", "if D >= 0:"),
-    "not-corrected": ("line", "D -= 2 * dx", "D -= 0"),
-    "one-octant": ("line", "not abs(y1 - y0) < abs(x1 - x0)", "False"),
-    "ends-not-ordered": ("line", "if x0 > x1:", "if False:"),
-    "slope-always-up": ("line", "(-1 if y1 < y0 else 1)", "1"),
-    "start-not-doubled": ("line", "D = 2 * dy - dx", "D = dy - dx"),
-    "last-pixel-lost": ("line", "while x <= x1:", "while x < x1:"),
-    "first-pixel-lost": ("line", DRAW, f"if x > x0: {DRAW}"),
-    "row-truncated": ("line", DRAW, f"pixels.append(({ROW}, x, D) if is_steep else (x, {ROW}, D))"),
     "parallel-kept": ("line_clipping", "if q < 0:", "if False:"),
     "normals-inward": (
         "line_clipping",
@@ -93,12 +77,6 @@ MISTAKES = {
         "weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]",
         "weights[0] * values[2] + weights[1] * values[0] + weights[2] * values[1]",
     ),
-    "multiplied-twice": ("blend", COLOR, f"color[k] * alpha * alpha + {COLOR[19:]}"),
-    "factors-exchanged": ("blend", COLOR, "color[k] * (1 - alpha) + destination[k] * alpha"),
-    "not-multiplied": ("blend", COLOR, "color[k] + (1 - alpha) * destination[k]"),
-    "alpha-of-source": ("blend", ALPHA, "result.append(alpha)"),
-    "alpha-kept": ("blend", ALPHA, "result.append(destination[3])"),
-    "alpha-squared": ("blend", ALPHA, "result.append(alpha * alpha + (1 - alpha) * destination[3])"),
 }
 """By twin: what is edited, and one line of it, before and after."""
 OF = {
@@ -139,16 +117,6 @@ def test_a_mistake_that_is_an_edit_of_a_line_is_its_twin(name):
         assert same.read(case) == twin.read(case)
         right = replace(twin, change_settings=lambda settings: settings, change_scene=lambda s: s).read(case)
         assert (same.read(case) != right) == differs
-
-
-@pytest.mark.parametrize("name", [name for name, (part, *_) in MISTAKES.items() if part == "line"])
-def test_a_mistake_in_lines_is_its_twin_in_all_octants(name):
-    rng = np.random.default_rng(8)
-    ends = [tuple(map(tuple, pair)) for pair in rng.integers(0, 20, (60, 2, 2)).tolist()]
-    scene, settings = pixel_segments(ends, (20, 20)), Settings(line="bresenham-lecture")
-    assert line_pixels(scene, mistaken(name, settings)) == line_pixels(
-        scene, TWINS[name].change_settings(settings)
-    )
 
 
 def test_values_come_from_the_listing_not_only_weights():
@@ -283,7 +251,7 @@ def test_several_edits_stand_beside_each_other_in_one_family_too():
 
 
 def test_an_edit_is_a_value():
-    settings = apply_edit(Settings(line="dda"), edit("line", *MISTAKES["ties-step"][1:]))
+    settings = apply_edit(Settings(line="dda"), edit("line", "if D > 0:", "if D >= 0:"))
     assert settings == deepcopy(settings) == pickle.loads(pickle.dumps(settings))
     assert len({settings, deepcopy(settings)}) == 1
     by_test = [

@@ -5,8 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from core import render
+from core import Settings, render
 from core.edits import edits_of, original
+from core.methods import table
 from lessons.attempts.imports import judged_again
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.answers.answer import NotCheckedError
@@ -18,7 +19,6 @@ from lessons.exercises.coding.tasks import TASKS
 from lessons.exercises.coding.triangles import INSIDE
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.question import Question, ask, judge
-from lessons.mistakes.lines import faulty_listing
 from lessons.mistakes.shelf import SHELF
 
 WRITTEN = CodeAnswer(LECTURE, head_alone(LECTURE))
@@ -39,15 +39,10 @@ def test_lines_with_a_named_fault_have_the_pixels_of_the_mistake() -> None:
         for fault in task.faults:
             if not fault.mistake:
                 continue
-            is_lecture = name == "bresenham-lecture"
+            method = table.get("line", SHELF[fault.mistake].change_settings(Settings(line=name)).line)
             results = zip(task.all_cases, task.results(task.with_fault(fault)), strict=True)
             for (_, case), found in results:
-                x0, y0, x1, y1, _ = case.values
-                if abs(x1 - x0) == abs(y1 - y0):  # Either axis may count there, and they do not fail alike.
-                    continue
-                listed = faulty_listing(
-                    fault.mistake, *case.values[:4], is_lecture, is_lecture or case.values[4]
-                )
+                listed = method.listing(*case.values)
                 assert found == sorted([x, y] for x, y, _ in listed), (name, fault.mistake, case.said)
 
 
@@ -60,7 +55,7 @@ def test_a_named_fault_draws_what_the_mistake_draws() -> None:
             if isinstance(opened, Beside):
                 assert opened.differs, (task.name, name)
                 continue
-            if opened is None or task.name == "bresenham":  # Its smallest input is a diagonal, see above.
+            if opened is None:
                 continue
             if (task.name, name) == ("depth-test", "farther-wins"):  # It clears the buffer otherwise, too.
                 continue
