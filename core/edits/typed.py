@@ -97,7 +97,7 @@ def surroundings(function: Callable[..., Any]) -> tuple[dict[str, Any], dict[str
             constants[name] = value
         elif isinstance(value, np.ndarray | tuple | list) and _is_table(value):
             constants[name] = Many([float(number) for number in value])
-        elif isfunction(value) and value.__module__.startswith("core."):
+        elif isfunction(value) and _package(value) in ("core", _package(function)):
             known = surroundings(value)
             try:
                 helpers[name] = compile_listing(listing(value).source, *known)
@@ -106,6 +106,10 @@ def surroundings(function: Callable[..., Any]) -> tuple[dict[str, Any], dict[str
             # The text that is edited has that function, too.
             constants, helpers = {**known[0], **constants}, {**known[1], **helpers}
     return constants, helpers
+
+
+def _package(function: Callable[..., Any]) -> str:
+    return function.__module__.partition(".")[0]
 
 
 def with_called(function: Callable[..., Any]) -> str:

@@ -1,75 +1,62 @@
-"""Runs of a listing with a note for every labelled line: what it was when, and which value it gave its variable."""
+"""Runs of a printed line listing: its pixels, and the sum that decided each as the lines before have left it."""
 
-import ast
 from collections.abc import Callable
-from functools import cache
-from math import nan
+from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from core.edits.typed import Typed
+from core.lanes.limits import LISTING
+from core.lanes.masks import Some
+from core.lanes.nodes import Statement
+from core.lanes.run import Frame
+from core.raster.lines.records import STEP_LIMIT
+from core.records.arrays import Floats
 from core.records.listing import source_listing
-from core.records.python_text import read_statements
 
-Note = tuple[str, Any]
-"""A label, and the value that its line gave a variable; ``None``: it gave none."""
-Sums = tuple[float, float, float]
-"""Of one pixel: the sum that decides before it, after it was corrected, and after it was advanced; NaN: it was not."""
 _ADVANCED = ("first-sum", "advance", "advance-step", "evaluate")
+_LIMITS = replace(LISTING, rounds=STEP_LIMIT + 1)
 
 
-class _Noting(ast.NodeTransformer):
-    """Puts a note behind each labelled assignment and each drawn pixel."""
+class _Pixels:
+    """Looks on while a listing runs for L lines, and notes what its labelled lines store."""
 
-    def __init__(self, labels: dict[int, str]) -> None:
-        self.labels = labels
+    def __init__(self, labels: dict[int, str], lanes: int) -> None:
+        self._labels = labels
+        self._sums = np.full((4, lanes), np.nan)
+        """The sum as it is; of the pixel that comes: before it, after it was corrected, and after it was advanced."""
+        self.drawn = [np.empty((7, 0))]
+        """Of every draw: the lines (P,) that draw, column, row and decision, and the three sums of the pixel."""
 
-    def visit_Assign(self, node: ast.Assign) -> list[ast.stmt]:
-        return self._noted(node, node.targets[0])
+    def begin(self, statement: Statement, mask: Some, frame: Frame) -> None:
+        """Note nothing."""
 
-    def visit_AugAssign(self, node: ast.AugAssign) -> list[ast.stmt]:
-        return self._noted(node, node.target)
-
-    def visit_Expr(self, node: ast.Expr) -> list[ast.stmt]:
-        return self._noted(node, ast.Constant(None))
-
-    def _noted(self, node: ast.stmt, target: ast.expr) -> list[ast.stmt]:
-        label = self.labels.get(node.lineno)
-        if label is None:
-            return [node]
-        note = read_statements(f"_notes.append(({label!r}, {ast.unparse(target)}))").body[0]
-        return [node, note]
-
-
-@cache
-def _noting(function: Callable[..., Any]) -> Any:
-    """Return the code of a function that appends to a list ``_notes``."""
-    shown = source_listing(function)
-    labels = {number: label for label, number in shown.lines.items()}
-    tree = _Noting(labels).visit(read_statements(shown.source))
-    return compile(ast.fix_missing_locations(tree), "<listing>", "exec")
+    def end(self, statement: Statement, mask: Some, frame: Frame, value: Any) -> None:
+        """Note a pixel, or what a sum is now."""
+        label = self._labels.get(statement.place.line)
+        here = np.arange(self._sums.shape[1]) if mask is None else np.flatnonzero(mask)
+        if label == "draw":
+            pixel = [np.broadcast_to(number, self._sums.shape[1:])[here] for number in value]
+            self.drawn.append(np.array([here, *pixel, *self._sums[1:, here]], float))
+            self._sums[1, here], self._sums[2:, here] = self._sums[0, here], np.nan
+        elif label == "correct" or label in _ADVANCED:
+            new = np.broadcast_to(value, self._sums.shape[1:])[here]
+            self._sums[0, here] = self._sums[2 if label == "correct" else 3, here] = new
 
 
-def recorded(function: Callable[..., Any], *arguments: Any) -> tuple[Any, list[Sums]]:
-    """Run a listing of a line.
+def recorded(function: Callable[..., Any], ends: np.ndarray, last_pixel: bool) -> Floats:
+    """Run a listing for lines with ends (L, 2, 2), in step.
 
     Returns
     -------
-    result
-        What it returns.
-    sums : list of Sums
-        Of every pixel that it draws.
+    pixels : (7, P) float64
+        Line, column, row and decision of each pixel, line by line; and the sum that decides: before it, after it was
+        corrected, and after it was advanced; NaN: it was not.
     """
-    notes: list[Note] = []
-    names = {**function.__globals__, "_notes": notes}
-    exec(_noting(function), names)
-    result = names[function.__name__](*arguments)
-    found, held = [], nan
-    before, corrected, advanced = nan, nan, nan
-    for label, value in notes:
-        if label == "draw":
-            found.append((before, corrected, advanced))
-            before, corrected, advanced = held, nan, nan
-        elif label == "correct":
-            held = corrected = float(value)
-        elif label in _ADVANCED:
-            held = advanced = float(value)
-    return result, found
+    shown, columns = source_listing(function), ends.reshape(-1, 4).T
+    watch = _Pixels({line: label for label, line in shown.lines.items()}, len(ends))
+    program = Typed(function, shown.source).program
+    program.run([*map(np.ascontiguousarray, columns), last_pixel], len(ends), limits=_LIMITS, watch=watch)
+    pixels = np.concatenate(watch.drawn, axis=1)
+    return np.asarray(pixels[:, np.argsort(pixels[0], kind="stable")])

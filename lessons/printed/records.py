@@ -23,7 +23,7 @@ Listed = list[tuple[int, int, float]]
 
 @dataclass(frozen=True)
 class ListedLines:
-    """The rule of a line method that runs a scalar listing for every segment.
+    """The rule of a line method that runs a listing for all segments.
 
     Two rules of one listing are equal, so settings that hold them are too.
     """
@@ -51,16 +51,12 @@ class ListedLines:
             first = ends[int(np.argmin(is_meant))].tolist()
             raise ValueError(f"the slide prints this for x0 < x1 and slopes {slopes}, got {first}")
         limited_steps(self.listing.__name__, np.zeros(len(dx), np.int64), np.ceil(dx).astype(np.int64))
-        rows = [
-            (owner, index, *pixel, *sums)
-            for owner, (x0, y0, x1, y1) in enumerate(ends.reshape(-1, 4).tolist())
-            for index, (pixel, sums) in enumerate(
-                zip(*recorded(self.listing, x0, y0, x1, y1, last_pixel), strict=True)
-            )
-        ]
-        table_of_rows = np.array(rows, float).reshape(-1, 8)
-        owner, index, column, row = table_of_rows[:, :4].T.astype(np.int64)
-        decision, before, corrected, advanced = table_of_rows[:, 4:].T
+        pixels = recorded(self.listing, ends, last_pixel)
+        (owner, column, row), (decision, before, corrected, advanced) = (
+            pixels[:3].astype(np.int64),
+            pixels[3:],
+        )
+        index = np.arange(len(owner)) - np.searchsorted(owner, owner)
         has_stepped = (index > 0) & (row != np.roll(row, 1))
         is_tie = decision - np.floor(decision) == 0.5 if self.tie is None else decision == self.tie
         return LineRun(
