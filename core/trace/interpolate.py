@@ -18,13 +18,12 @@ from core.raster.lines.wireframe import (
     take_point_value,
     values_at_ends,
 )
-from core.records.arrays import Floats
+from core.records.arrays import Floats, Integers
 from core.records.listing import listing
 from core.records.operation import Operation
 from core.records.primitives import interpolation_form
 from core.records.steps import Steps, ends_of
 from core.trace.source import TraceSource
-from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace
 
 ALONG_LINES: dict[str, tuple[Callable[..., Any], tuple[Operation, ...]]] = {
@@ -46,11 +45,12 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
     """Return one row for every fragment."""
     geometry, mode = source.geometry, source.settings.interpolation
     outline_kind = _outline_kind(source)
-    rows = _rows(source)
+    fragments, values = source.fragments, source.interpolated[1]
+    columns = _columns(source, outline_kind)
     values_of_layout = tuple(
         Operation(f"value-{name}", "value", {name: "value"}) for name in geometry.primitives.layout
     )
-    of_layout = {name: source.interpolated[1][:, part] for name, part in geometry.primitives.layout.items()}
+    of_layout = {name: values[:, part] for name, part in geometry.primitives.layout.items()}
     triangle = source.triangle_of_fragment
     method = table.get("interpolation", mode)
     kinds = (mode, outline_kind) if outline_kind else tuple(method.operations)
@@ -59,20 +59,23 @@ def trace_interpolate(source: TraceSource) -> StageTrace:
     listings |= {kind: made for kind, (made, _) in ALONG_LINES.items()}
     steps = Steps(
         kinds=kinds,
-        kind=rows.kind,
+        kind=_kinds(columns, outline_kind),
         operations={kind: (*operations[kind], *values_of_layout) for kind in kinds},
         triangle_ends=ends_of(triangle),
-        group_ends=rows.group_ends,
+        group_ends=ends_of(fragments.primitive, fragments.row),
     )
     return StageTrace(
         stage="interpolate",
         method=f"interpolation={mode}",
         steps=steps,
-        columns={**rows.columns, **of_layout},
+        columns={**columns, **of_layout},
         triangle=triangle,
-        pixel=rows.pixel,
+        pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings={kind: listing(made) for kind in kinds if (made := listings[kind])},
-        marks=rows.marks,
+        marks={
+            "covered": np.ones(len(fragments), bool),
+            "nan": np.any(~np.isfinite(values), axis=1),
+        },
         buffers=_buffers(source),
         extra={"layout": geometry.primitives.layout, "planes": geometry.planes},
     )
@@ -89,13 +92,12 @@ def _outline_kind(source: TraceSource) -> str:
     return "line-affine" if form == "affine" else "line-perspective"
 
 
-def _rows(source: TraceSource) -> StageRows:
-    """Return the numbers of every fragment."""
+def _columns(source: TraceSource, outline_kind: str) -> dict[str, np.ndarray]:
+    """Return the numbers of every fragment; see `_outline_kind`."""
     geometry, fragments = source.geometry, source.fragments
     weights, values = source.interpolated
-    outline_kind, corners = _outline_kind(source), weights.shape[1]
     x, y = source.centers
-    kind = np.full(len(fragments), int(outline_kind != ""))
+    corners = weights.shape[1]
     varyings = geometry.primitives.varyings[fragments.primitive]
     columns: dict[str, np.ndarray] = {
         "column": fragments.column,
@@ -118,19 +120,19 @@ def _rows(source: TraceSource) -> StageRows:
     elif source.settings.interpolation in WAYS:
         columns["corner_window"] = geometry.planes.window.take(fragments.primitive, axis=2).transpose(2, 0, 1)
         columns |= numbers_at(source.settings.interpolation, geometry.planes, fragments.primitive, x, y)
-        kind = (~columns["has_area"]).astype(np.int64)
     else:
         is_corrected = (
             "correction_interval" in table.get("interpolation", source.settings.interpolation).takes
         )
         columns |= _between_anchors(source) if is_corrected else _over_areas(source)
-    return StageRows(
-        columns,
-        kind,
-        is_last_of(fragments.primitive, fragments.row),
-        np.stack([fragments.column, fragments.row], axis=1),
-        {"covered": np.ones(len(fragments), bool), "nan": np.any(~np.isfinite(values), axis=1)},
-    )
+    return columns
+
+
+def _kinds(columns: dict[str, np.ndarray], outline_kind: str) -> Integers:
+    """Return (F,) int64, which kind each row is: the way, or what stands beside it."""
+    if "has_area" in columns:
+        return (~columns["has_area"]).astype(np.int64)
+    return np.full(len(columns["row"]), int(outline_kind != ""))
 
 
 def _between_anchors(source: TraceSource) -> dict[str, np.ndarray]:

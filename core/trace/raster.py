@@ -24,7 +24,6 @@ from core.trace.right_pixels import right_spans
 from core.trace.row_table import RowTable, printed_columns, rows_of_runs
 from core.trace.source import TraceSource
 from core.trace.spans import pass_track, rows_of_spans, span_columns, span_constants, span_listings
-from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace
 
 
@@ -46,26 +45,21 @@ def trace_raster(source: TraceSource) -> StageTrace:
         "rounding": geometry.edges.numbers.rounding,
         "value_layout": geometry.edges.numbers.value_layout,
     }
-    order: SpanOrder | None = None
-    if fill_traits(fill).has_lanes:
-        order = _order(source)
-        table = rows_of_spans(source, order)
-        rows = _rows(source, table)
-        columns = {**rows.columns, **_edge_columns(rows.columns), **span_columns(source, table, order)}
+    order = _order(source) if fill_traits(fill).has_lanes else None
+    table = rows_of_runs(source) if order is None else rows_of_spans(source, order)
+    columns, is_pixel = _columns(source, table), table.test >= 0
+    buffers = _buffers(source, columns)
+    if order is not None:
+        columns |= span_columns(source, table, order)
         constants |= span_constants(source, order)
-        coverage, *others = _buffers(source, rows.columns)
-        buffers = (coverage, pass_track(source, columns), *others)
-    else:
-        rows = _rows(source, rows_of_runs(source))
-        columns = {**rows.columns, **_edge_columns(rows.columns)}
-        buffers = _buffers(source, rows.columns)
-    triangle = geometry.primitives.triangle[columns["primitive"]]
+        buffers = (buffers[0], pass_track(source, columns), *buffers[1:])
+    triangle = geometry.primitives.triangle[table.primitive]
     steps = Steps(
         kinds=tuple(FILL_OPERATIONS),
-        kind=rows.kind,
+        kind=table.kind,
         operations=FILL_OPERATIONS,
         triangle_ends=ends_of(triangle),
-        group_ends=rows.group_ends,
+        group_ends=ends_of(table.primitive, table.group),
     )
     return StageTrace(
         stage="raster",
@@ -73,9 +67,9 @@ def trace_raster(source: TraceSource) -> StageTrace:
         steps=steps,
         columns=columns,
         triangle=triangle,
-        pixel=rows.pixel,
+        pixel=np.stack([columns["column"], np.where(is_pixel, table.row, -1)], axis=1),
         listings=_listings(source.runs, fill_traits(fill).test_listing),
-        marks=rows.marks,
+        marks=_marks(columns, is_pixel),
         buffers=buffers,
         extra={
             "runs": source.runs,
@@ -91,18 +85,6 @@ def trace_raster(source: TraceSource) -> StageTrace:
 def _order(source: TraceSource) -> SpanOrder:
     owners = tie_owners(source.settings.fill_rule)
     return order_of_spans(source.geometry.edges, source.raster, owners)
-
-
-def _rows(source: TraceSource, table: RowTable) -> StageRows:
-    """Return what every row of a table is about, and its numbers."""
-    columns, is_pixel = _columns(source, table), table.test >= 0
-    return StageRows(
-        columns,
-        table.kind,
-        is_last_of(table.primitive, table.group),
-        np.stack([columns["column"], np.where(is_pixel, table.row, -1)], axis=1),
-        _marks(columns, is_pixel),
-    )
 
 
 def _columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
@@ -151,12 +133,9 @@ def _columns(source: TraceSource, table: RowTable) -> dict[str, np.ndarray]:
         columns |= {f"before_{k}": before[:, k] for k in range(3)}
     if source.runs.walk is not None:
         columns |= printed_columns(source.runs.walk, table) | right_spans(source, table)
-    return columns | {f"crossing_{k}": table.crossings[:, k] for k in range(3)}
-
-
-def _edge_columns(columns: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """Return the value (R,) of each edge, which is set by a step of its own."""
-    return {f"value_{k}": columns["values"][:, k] for k in range(3)}
+    columns |= {f"crossing_{k}": table.crossings[:, k] for k in range(3)}
+    # The value of each edge is set by a step of its own.
+    return columns | {f"value_{k}": values[:, k] for k in range(3)}
 
 
 def _marks(columns: dict[str, np.ndarray], is_pixel: Flags) -> dict[str, Flags]:

@@ -21,7 +21,6 @@ from core.scene import ClipScene, Scene, Texture
 from core.stages.vertex_light import material_of, viewpoint
 from core.stages.vertex_program import has_program
 from core.trace.source import TraceSource
-from core.trace.stage_rows import StageRows, is_last_of
 from core.trace.stage_trace import BufferTrack, StageTrace
 from core.trace.texture_columns import SLOPE_LISTINGS, sample_columns, slope_kind, texture_operations
 
@@ -35,16 +34,18 @@ def trace_shade(source: TraceSource) -> StageTrace:
         from core.trace.shader_stages import trace_fragment_shader
 
         return trace_fragment_shader(source)
-    rows, is_lit = _rows(source), source.surface.diffuse_light is not None
-    is_textured = rows.kind % 2 > 0
+    fragments, surface = source.fragments, source.surface
+    mesh, is_lit = source.geometry.primitives.mesh[fragments.primitive], surface.diffuse_light is not None
+    columns = _columns(source, mesh)
+    is_textured = np.array([texture is not None for texture in _textures(source)], bool)[mesh]
     has_normals = "normal" in source.geometry.primitives.layout
     triangle = source.triangle_of_fragment
     steps = Steps(
         kinds=KINDS,
-        kind=rows.kind,
+        kind=is_textured + 2 * np.full(len(fragments), is_lit),
         operations=_operations(source, has_normals),
         triangle_ends=ends_of(triangle),
-        group_ends=rows.group_ends,
+        group_ends=ends_of(fragments.primitive, fragments.row),
     )
     return StageTrace(
         stage="shade",
@@ -52,24 +53,22 @@ def trace_shade(source: TraceSource) -> StageTrace:
         if is_lit
         else f"texture_filter={source.settings.texture_filter}",
         steps=steps,
-        columns=rows.columns,
+        columns=columns,
         triangle=triangle,
-        pixel=rows.pixel,
+        pixel=np.stack([fragments.column, fragments.row], axis=1),
         listings=_listings(source, has_normals),
-        marks=rows.marks,
-        buffers=_buffers(source, rows.columns, is_textured),
-        extra={
-            "textures": _textures(source),
-            "mesh": source.geometry.primitives.mesh[source.fragments.primitive],
+        marks={
+            "covered": np.ones(len(fragments), bool),
+            "nan": np.any(np.isnan(surface.color), axis=1),
         },
+        buffers=_buffers(source, columns, is_textured),
+        extra={"textures": _textures(source), "mesh": mesh},
     )
 
 
-def _rows(source: TraceSource) -> StageRows:
-    """Return the numbers of every fragment."""
+def _columns(source: TraceSource, mesh: Integers) -> dict[str, np.ndarray]:
+    """Return the numbers of every fragment, of these meshes (F,)."""
     fragments, surface = source.fragments, source.surface
-    count = len(fragments)
-    mesh = source.geometry.primitives.mesh[fragments.primitive]
     columns: dict[str, np.ndarray] = {
         "column": fragments.column,
         "row": fragments.row,
@@ -82,27 +81,19 @@ def _rows(source: TraceSource) -> StageRows:
     layout, values = source.geometry.primitives.layout, source.interpolated[1]
     if "color" in layout:
         columns["vertex_color"] = values[:, layout["color"]]
-    textured = np.zeros(count, bool)
     for index, texture in enumerate(_textures(source)):
         if texture is not None:
             chosen = np.flatnonzero(mesh == index)
-            textured[chosen] = True
             uv = values[chosen, layout["uv"]]
             _add_columns(columns, chosen, sample_columns(source, texture, uv, chosen))
             height, width, _ = texture.pixels.shape
-            columns.setdefault("texture_size", np.zeros((count, 2), np.int64))[chosen] = width, height
+            columns.setdefault("texture_size", np.zeros((len(mesh), 2), np.int64))[chosen] = width, height
             columns["uv"] = values[:, layout["uv"]]
     if surface.diffuse_light is not None and surface.specular_light is not None:
         columns["diffuse_light"], columns["specular_light"] = surface.diffuse_light, surface.specular_light
     if "normal" in layout:
         columns |= _light_columns(source, mesh)
-    return StageRows(
-        columns,
-        textured + 2 * np.full(count, surface.diffuse_light is not None),
-        is_last_of(fragments.primitive, fragments.row),
-        np.stack([fragments.column, fragments.row], axis=1),
-        {"covered": np.ones(count, bool), "nan": np.any(np.isnan(surface.color), axis=1)},
-    )
+    return columns
 
 
 def _light_columns(source: TraceSource, mesh: Integers) -> dict[str, np.ndarray]:
