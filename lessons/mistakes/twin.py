@@ -1,4 +1,4 @@
-"""A faulty twin: a run with another function, a changed input, or a changed output; or a wrong formula."""
+"""A faulty twin: a run with an edited line, another function, a changed input or output; or a wrong formula."""
 
 from collections.abc import Callable
 from dataclasses import dataclass

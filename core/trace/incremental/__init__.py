@@ -1,1 +1,1 @@
-"""Tracing again after an edit: what did not change is found, and taken over."""
+"""Tracing while a triangle is dragged: it alone, until the drag rests."""

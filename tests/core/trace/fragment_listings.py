@@ -1,19 +1,21 @@
 """The listings of interpolation, textures and shading, executed on the rows."""
 
 from itertools import chain
+from typing import Any
 
 import numpy as np
 
 from core import Scene
-from core.fragments.barycentric import NO_AREA, WAYS
-from core.fragments.corrected_affine import interpolate_corrected_at
-from core.fragments.interpolation import interpolate_affine_at, interpolate_at, take_provoking_value
+from core.edits.interpolation import GIVEN
+from core.edits.typed import parameters_of
+from core.fragments.barycentric import NO_AREA
 from core.fragments.level_of_detail import level_of_detail, mipmap_color, nearest_mipmap_color
 from core.fragments.lighting import blinn_phong, plain_lights, plain_material
 from core.fragments.mipmaps import mipmap_levels
 from core.fragments.shading import shaded_color, unlit_color
 from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
 from core.fragments.uv_slopes import slopes_at, slopes_of_one_value
+from core.fragments.value_rule import ValuePlaces
 from core.methods import table
 from core.raster.lines.slopes import affine_line_slopes_at, line_slopes_at
 from core.stages.vertex_light import viewpoint
@@ -23,39 +25,28 @@ from tests.core.trace.executed_rows import check_marks, equal, lines_that_run, r
 
 
 def check_interpolate(traced: Trace) -> None:
-    found = traced.stage("interpolate")
-    c, planes, settings = found.columns, traced.source.geometry.planes, traced.source.settings
-    is_way = settings.interpolation in WAYS
-    way = table.get("interpolation", settings.interpolation).listing
-    kinds = (settings.interpolation, NO_AREA) if is_way else (settings.interpolation,)
-    kinds = [kind for kind in kinds if kind in found.steps.kinds]
+    found, settings = traced.stage("interpolate"), traced.source.settings
+    c, provoking = found.columns, 0 if settings.provoking == "first" else 2
+    planes, centers = traced.source.geometry.planes, (c["x"], c["y"])
+    at = ValuePlaces(planes, c["primitive"], *centers, provoking, settings.correction_interval)
+    listed = table.get("interpolation", settings.interpolation).listing
+    kinds = [kind for kind in (settings.interpolation, NO_AREA) if kind in found.steps.kinds]
     for row in chain.from_iterable(rows_of_kind(found, kind) for kind in kinds):
-        p = c["primitive"][row]
-        plane = planes.a[p], planes.b[p], planes.c[p]
+        names = [name for name in parameters_of(listed) if name != "values"]
+        given = {name: only(GIVEN[name](at, slice(row, row + 1))) for name in names}
         for k in range(c["values"].shape[1]):
-            corners = c["corner_values"][row][:, k]
             with np.errstate(all="ignore"):
-                if settings.interpolation == "flat":
-                    provoking = 0 if settings.provoking == "first" else 2
-                    weights, value = take_provoking_value(provoking, corners)
-                elif is_way:
-                    weights, value = way(c["corner_window"][row], c["x"][row], c["y"][row], corners)
-                elif settings.interpolation == "affine":
-                    w = planes.w[p]
-                    weights, total, value = interpolate_affine_at(
-                        *plane, w, c["x"][row], c["y"][row], corners
-                    )
-                    assert equal(total, c["total"][row])
-                elif settings.interpolation == "affine-n":
-                    center, interval = (c["x"][row], c["y"][row]), settings.correction_interval
-                    weights, value = interpolate_corrected_at(
-                        *plane, planes.determinant[p], *center, interval, corners
-                    )
-                else:
-                    weights, total, value = interpolate_at(*plane, c["x"][row], c["y"][row], corners)
-                    assert equal(total, c["total"][row])
+                weights, *total, value = listed(**given, values=c["corner_values"][row][:, k])
+            assert equal(total, [c["total"][row]] if total else [])
             assert equal(weights, c["weights"][row])
             assert equal(value, c["values"][row, k])
+
+
+def only(value: Any) -> Any:
+    """Return the one number of an array (1,), and so of lists of them."""
+    if isinstance(value, list):
+        return [only(part) for part in value]
+    return value[0] if isinstance(value, np.ndarray) else value
 
 
 def check_shade(traced: Trace) -> None:
