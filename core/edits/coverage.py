@@ -27,8 +27,6 @@ class TypedTest:
         self, edges: EdgeFunctions, primitive: Integers, x: Floats, y: Floats
     ) -> tuple[Floats, Flags]:
         """Return values (Q, 3) and coverage (Q,) of triangles at pixel centres (Q,)."""
-        count = len(primitive)
-        values, covered = np.empty((3, count)), np.empty(count, bool)
         rows = [[np.ascontiguousarray(part[:, k]) for k in range(3)] for part in (edges.a, edges.b, edges.c)]
         owns_tie = [np.ascontiguousarray(edges.owns_tie[:, k]) for k in range(3)]
 
@@ -38,11 +36,8 @@ class TypedTest:
             return [*triples, x[part], y[part]]
 
         shape = (("number",) * 3, "flag")
-        for part, (three, inside) in self.typed.over_blocks(of_block, count, shape, VALUES):
-            covered[part] = inside
-            for k in range(3):
-                values[k, part] = three[k]
-        return values.T, covered
+        values, covered = self.typed.run_blocks(of_block, len(primitive), shape, VALUES)
+        return np.array(values).T, covered
 
 
 def check_test(typed: Typed) -> None:
@@ -89,11 +84,8 @@ class TypedFillRule:
     def __call__(self, a: np.ndarray, b: np.ndarray) -> Flags:
         """Return who owns the centres on its edge; any shape, as a and b."""
         a, b = np.broadcast_arrays(a, b)
-        flat_a, flat_b, owns = a.ravel(), b.ravel(), np.empty(a.size, bool)
-        for part, found in self.typed.over_blocks(
-            lambda part: [flat_a[part], flat_b[part]], a.size, "flag", OWNS
-        ):
-            owns[part] = found
+        flat_a, flat_b = a.ravel(), b.ravel()
+        owns: Flags = self.typed.run_blocks(lambda part: [flat_a[part], flat_b[part]], a.size, "flag", OWNS)
         return owns.reshape(a.shape)
 
 

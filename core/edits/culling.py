@@ -30,19 +30,14 @@ class TypedLook:
     def __call__(self, eye: EyeTriangles) -> NormalView:
         """Return N . V of T triangles, and what the text drops."""
         seen = self.right(eye)
-        count = len(seen.product)
-        normal, product, drops = np.empty((3, count)), np.empty(count), np.empty(count, bool)
 
         def of_block(part: slice) -> list[Any]:
             return look_inputs(
                 self.typed, eye.corners[..., part], eye.given[..., part], eye.carry[part], seen
             )
 
-        for part, (n, n_dot_v, is_dropped) in self.typed.over_blocks(of_block, count, SHAPE, WORDS):
-            for axis in range(3):
-                normal[axis, part] = n[axis]
-            product[part], drops[part] = n_dot_v, is_dropped
-        return replace(seen, normal=normal.T, product=product, drops=drops)
+        normal, product, drops = self.typed.run_blocks(of_block, len(seen.product), SHAPE, WORDS)
+        return replace(seen, normal=np.array(normal).T, product=product, drops=drops)
 
 
 def look_inputs(typed: Typed, corners: Floats, given: Floats, carry: Floats, seen: NormalView) -> list[Any]:

@@ -35,13 +35,13 @@ class TypedDepths(OrderedDepths):
     def try_depths(self, new: Stored, old: Stored, writes: Flags | None) -> Flags:
         """Return which depths (F,) pass; ``old`` (F,) becomes what the text says."""
         assert self.typed is not None
-        passes, writes = np.empty(len(new), bool), np.ones(len(new), bool) if writes is None else writes
+        writes = np.ones(len(new), bool) if writes is None else writes
 
         def of_block(part: slice) -> list[Any]:
-            return [new[part], old[part].copy(), self.larger_is_nearer, writes[part]]
+            return [new[part], old[part], self.larger_is_nearer, writes[part]]
 
-        for part, (held, passed) in self.typed.over_blocks(of_block, len(new), ("number", "flag"), TESTED):
-            passes[part], old[part] = passed, held
+        passes: Flags
+        old[:], passes = self.typed.run_blocks(of_block, len(new), ("number", "flag"), TESTED)
         return passes
 
     def is_nearer(self, new: Stored, old: Stored) -> Flags:
@@ -78,12 +78,9 @@ class TypedStore:
         """Return depths (F,) as they are stored; what is not finite is never seen, and stays as it is."""
         stored = depth.astype(np.float32)
         known = np.flatnonzero(np.isfinite(depth))
-        finite, found = depth.take(known), np.empty(len(known))
+        finite = depth.take(known)
         steps = [self.scale] * (len(parameters_of(self.typed.of)) - 1)
-        for part, value in self.typed.over_blocks(
-            lambda part: [finite[part], *steps], len(known), "number", STORED
-        ):
-            found[part] = value
+        found = self.typed.run_blocks(lambda part: [finite[part], *steps], len(known), "number", STORED)
         stored[known] = as_float32(found)
         return stored
 
@@ -152,16 +149,13 @@ class TypedBlend:
 
     def __call__(self, source: Floats, destination: Singles) -> Singles:
         """Return colours (F, 4) float32, of fragments (F, 4) over those of their pixels (F, 4)."""
-        result = np.empty(destination.shape, np.float32)
 
         def of_block(part: slice) -> list[Any]:
             both = (source, destination) if self.takes_both else (source,)
             return [[np.ascontiguousarray(color[part, k]) for k in range(4)] for color in both]
 
-        for part, found in self.typed.over_blocks(of_block, len(source), FOUR, COLOR):
-            for k in range(4):
-                result[part, k] = found[k]
-        return result
+        found = self.typed.run_blocks(of_block, len(source), FOUR, COLOR)
+        return np.stack(found, axis=1).astype(np.float32)
 
 
 def _takes_both(typed: Typed) -> bool:

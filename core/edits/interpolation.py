@@ -64,18 +64,13 @@ class TypedInterpolation(ValueRule):
 
     def weights_and_values(self, at: ValuePlaces, corners: Floats) -> tuple[Floats, Floats]:
         """Return weights (3, F) and values (F,) between those of the corners (3, F)."""
-        count = len(at.primitive)
-        weights, values = np.empty((3, count)), np.empty(count)
 
         def of_block(part: slice) -> list[Any]:
             at_corners = list(corners[:, part])
             return [at_corners if name == "values" else GIVEN[name](at, part) for name in self._parameters]
 
-        for part, found in self.typed.over_blocks(of_block, count, self._shape, self._words):
-            for k in range(3):
-                weights[k, part] = found[0][k]
-            values[part] = found[-1]
-        return weights, values
+        weights, *_, values = self.typed.run_blocks(of_block, len(at.primitive), self._shape, self._words)
+        return np.array(weights), values
 
     def check(self) -> None:
         """Raise `Problem` for a text that cannot run."""

@@ -33,7 +33,6 @@ class TypedShading(LightRule):
         self, position: Floats, normal: Floats, eye: Floats, lights: Sequence[Light], material: Surface
     ) -> tuple[Floats, Floats]:
         """Return diffuse and specular light (F, 3) of points."""
-        sums = np.empty((2, 3, len(position)))
         eyes = np.broadcast_to(eye, position.shape)
         shared = plain_lights(lights)
 
@@ -42,11 +41,8 @@ class TypedShading(LightRule):
             places = [_components(vectors[part]) for vectors in (position, normal, eyes)]
             return [*places, shared, list(plain_material(here)), False]
 
-        for part, found in self.typed.over_blocks(of_block, len(position), SHAPE, WORDS):
-            for kind, light in enumerate(found):
-                for channel in range(3):
-                    sums[kind, channel, part] = light[channel]
-        return sums[0].T, sums[1].T
+        diffuse, specular = self.typed.run_blocks(of_block, len(position), SHAPE, WORDS)
+        return np.array(diffuse).T, np.array(specular).T
 
 
 def _components(vectors: Floats) -> list[Floats]:

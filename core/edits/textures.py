@@ -55,10 +55,7 @@ class TypedFilter(ColorRule):
             (u, v), levels = uv[:, part], None if lod is None else lod[part]
             return filter_inputs(self.typed, texture, u, v, levels, wrap)
 
-        shape = ("number",) * channels
-        for part, found in self.typed.over_blocks(of_block, uv.shape[1], shape, COLOR):
-            for channel in range(channels):
-                color[channel, part] = found[channel]
+        color[:channels] = self.typed.run_blocks(of_block, uv.shape[1], ("number",) * channels, COLOR)
         fill_missing_channels(color.T, channels)
         return color
 

@@ -1,6 +1,6 @@
 """A typed text as a rule: compiled once, run on lanes in blocks, and what it returns checked."""
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 from inspect import isfunction, signature
@@ -56,13 +56,15 @@ class Typed(TypedText):
             accept=lambda value, place: returned(value, shape, words, place),
         )
 
-    def over_blocks(
+    def run_blocks(
         self, values: Callable[[slice], Sequence[Any]], lanes: int, shape: Shape, words: str
-    ) -> Iterator[tuple[slice, Any]]:
-        """Run blocks of lanes; yield each with what it gives. ``values`` are those of a block."""
+    ) -> Any:
+        """Run blocks of L lanes, with the ``values`` of each; return arrays (L,) in lists of the shape."""
+        made = _unfilled(shape, lanes)
         for first in range(0, lanes, BLOCK):
             part = slice(first, min(first + BLOCK, lanes))
-            yield part, self.run(values(part), part.stop - part.start, shape, words)
+            _fill(made, part, self.run(values(part), part.stop - part.start, shape, words))
+        return made
 
     def _check_parameters(self) -> None:
         wanted, function = parameters_of(self.of), self.program.functions[self.program.name]
@@ -71,6 +73,20 @@ class Typed(TypedText):
             raise Problem(
                 function.place, f"{function.name} is given {given}, and takes {len(function.parameters)}"
             )
+
+
+def _unfilled(shape: Shape, lanes: int) -> Any:
+    if isinstance(shape, str):
+        return np.empty(lanes, bool if shape == "flag" else float)
+    return [_unfilled(part, lanes) for part in shape]
+
+
+def _fill(made: Any, part: slice, found: Any) -> None:
+    if isinstance(made, np.ndarray):
+        made[part] = found
+        return
+    for array, value in zip(made, found, strict=True):
+        _fill(array, part, value)
 
 
 @lru_cache(maxsize=64)
