@@ -37,7 +37,7 @@ class TypedTest:
 
         shape = (("number",) * 3, "flag")
         values, covered = self.typed.run_blocks(of_block, len(primitive), shape, VALUES)
-        return np.array(values).T, covered
+        return values.T, covered
 
 
 def check_test(typed: Typed) -> None:

@@ -37,7 +37,7 @@ class TypedLook:
             )
 
         normal, product, drops = self.typed.run_blocks(of_block, len(seen.product), SHAPE, WORDS)
-        return replace(seen, normal=np.array(normal).T, product=product, drops=drops)
+        return replace(seen, normal=normal.T, product=product, drops=drops)
 
 
 def look_inputs(typed: Typed, corners: Floats, given: Floats, carry: Floats, seen: NormalView) -> list[Any]:

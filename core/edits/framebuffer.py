@@ -155,7 +155,7 @@ class TypedBlend:
             return [[np.ascontiguousarray(color[part, k]) for k in range(4)] for color in both]
 
         found = self.typed.run_blocks(of_block, len(source), FOUR, COLOR)
-        return np.stack(found, axis=1).astype(np.float32)
+        return np.asarray(found.T.astype(np.float32, order="C"))
 
 
 def _takes_both(typed: Typed) -> bool:

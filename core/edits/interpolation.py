@@ -70,7 +70,7 @@ class TypedInterpolation(ValueRule):
             return [at_corners if name == "values" else GIVEN[name](at, part) for name in self._parameters]
 
         weights, *_, values = self.typed.run_blocks(of_block, len(at.primitive), self._shape, self._words)
-        return np.array(weights), values
+        return weights, values
 
     def check(self) -> None:
         """Raise `Problem` for a text that cannot run."""

@@ -42,7 +42,7 @@ class TypedShading(LightRule):
             return [*places, shared, list(plain_material(here)), False]
 
         diffuse, specular = self.typed.run_blocks(of_block, len(position), SHAPE, WORDS)
-        return np.array(diffuse).T, np.array(specular).T
+        return diffuse.T, specular.T
 
 
 def _components(vectors: Floats) -> list[Floats]:

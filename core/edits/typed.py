@@ -59,7 +59,7 @@ class Typed(TypedText):
     def run_blocks(
         self, values: Callable[[slice], Sequence[Any]], lanes: int, shape: Shape, words: str
     ) -> Any:
-        """Run blocks of L lanes, with the ``values`` of each; return arrays (L,) in lists of the shape."""
+        """Run blocks of L lanes, with the ``values`` of each; return arrays (L,), and (n, L) for n values alike."""
         made = _unfilled(shape, lanes)
         for first in range(0, lanes, BLOCK):
             part = slice(first, min(first + BLOCK, lanes))
@@ -78,11 +78,13 @@ class Typed(TypedText):
 def _unfilled(shape: Shape, lanes: int) -> Any:
     if isinstance(shape, str):
         return np.empty(lanes, bool if shape == "flag" else float)
-    return [_unfilled(part, lanes) for part in shape]
+    parts = [_unfilled(part, lanes) for part in shape]
+    are_alike = len(set(shape)) == 1 and isinstance(parts[0], np.ndarray)
+    return np.empty((len(parts), *parts[0].shape), parts[0].dtype) if are_alike else parts
 
 
 def _fill(made: Any, part: slice, found: Any) -> None:
-    if isinstance(made, np.ndarray):
+    if isinstance(made, np.ndarray) and made.ndim == 1:
         made[part] = found
         return
     for array, value in zip(made, found, strict=True):
