@@ -1,14 +1,12 @@
 """What `core.settings.Settings` declares of its fields, for menus, command line and tests; and where they matter."""
 
-from collections.abc import Callable
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 from core.methods import is_registered, table
+from core.records.nouns import nouns
 from core.scene import AnyScene, ClipScene
-
-Reason = Callable[[Any, AnyScene | None], str]
-"""Of settings and a scene: why a setting changes nothing with them, as a sentence; empty: it does."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -21,8 +19,6 @@ class SettingField:
     """The family whose chosen method decides, by its ``takes``, whether this setting matters; empty: it always does."""
     otherwise: str = ""
     """Why it does not matter, where the chosen method does not take it."""
-    reason: Reason | None = None
-    """Another reason why it does not matter."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -68,32 +64,6 @@ def number_field(
     return field(default=default, metadata={"field": number})
 
 
-def has_no_texture(settings: Any, scene: AnyScene | None) -> str:
-    """Return why textures do not matter."""
-    if scene is None:
-        return ""
-    textures = [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
-    return "" if any(texture is not None for texture in textures) else "This scene has no texture."
-
-
-def has_no_light(settings: Any, scene: AnyScene | None) -> str:
-    """Return why light does not matter."""
-    if scene is not None and scene.program is not None:
-        return "The scene's own shaders do it. The pane Shaders (L) takes them off."
-    return "Typed triangles have no lights: they are unlit." if isinstance(scene, ClipScene) else ""
-
-
-def draws_lines(settings: Any, scene: AnyScene | None) -> str:
-    """Return why an interval between corrections does not matter."""
-    is_outlined = table.get("polygon_mode", settings.polygon_mode).function()
-    return "Lines are interpolated with perspective at every pixel." if is_outlined else ""
-
-
-def has_no_polygons(settings: Any, scene: AnyScene | None) -> str:
-    """Return why methods of polygons do not matter."""
-    return "" if scene is None or scene.corner_count > 3 else "This scene has no polygons."
-
-
 OF_TRIANGLES = {
     "clipping": "The planes of the view volume cut no polygon: all its corners lie in front of the eye.",
     "coverage": "A polygon's corners are snapped to 1/256 pixel, and its crossings are exact.",
@@ -105,10 +75,43 @@ OF_TRIANGLES = {
     "block_size": "Polygons are filled row by row, from an edge table.",
 }
 """Settings that do not matter to polygons, and why."""
+_OF_AREAS = ("cull", "polygon_mode", "fill", "fill_rule")
+_OF_LINES = {"line": "", "line_clipping": ""}
+NOT_FOR: Mapping[str, Mapping[str, str]] = {
+    "polygons": OF_TRIANGLES,
+    "segments": {**dict.fromkeys(_OF_AREAS, "Segments have no area."), **_OF_LINES},
+    "points": {
+        **dict.fromkeys(_OF_AREAS, "Points have no area."),
+        **_OF_LINES,
+        "line": "A point is one pixel.",
+    },
+    "patches": {
+        "visibility": "",
+        "blend": "",
+        "": "A table of depths begins at the depth test, and has its own.",
+    },
+    "no polygons": dict.fromkeys(("polygon_clipping", "polygon_fill"), "This scene has no polygons."),
+    "no texture": dict.fromkeys(("texture_filter", "wrap"), "This scene has no texture."),
+    "own shaders": {"shading": "The scene's own shaders do it. The pane Shaders (L) takes them off."},
+    "no lights": {"shading": "Typed triangles have no lights: they are unlit."},
+    "outlined": {"correction_interval": "Lines are interpolated with perspective at every pixel."},
+}
+"""By a fact, the settings that do not matter then, and why; "" as the reason: they do; as the setting: all others."""
 
 
-OF_TABLES = ("visibility", "blend")
-"""Settings that matter to a table of depths."""
+def facts(scene: AnyScene | None) -> list[str]:
+    """Return which keys of `NOT_FOR` hold of a scene; those that decide first come first."""
+    if scene is None:
+        return []
+    textures = [scene.texture] if isinstance(scene, ClipScene) else [mesh.texture for mesh in scene.meshes]
+    holds = {
+        nouns(scene.corner_count).many: scene.corner_count != 3,
+        "no polygons": scene.corner_count <= 3,
+        "no texture": all(texture is None for texture in textures),
+        "own shaders": scene.program is not None,
+        "no lights": isinstance(scene, ClipScene),
+    }
+    return [fact for fact, is_so in holds.items() if is_so]
 
 
 def suited(settings: Any, scene: AnyScene) -> Any:

@@ -4,20 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, fields, replace
 from typing import Any
 
-from core.families import (
-    OF_TABLES,
-    OF_TRIANGLES,
-    Family,
-    SettingField,
-    WholeNumber,
-    choice,
-    draws_lines,
-    has_no_light,
-    has_no_polygons,
-    has_no_texture,
-    number_field,
-    suited,
-)
+from core.families import NOT_FOR, Family, SettingField, WholeNumber, choice, facts, number_field, suited
 from core.methods import Method, ReplacedName, table
 from core.scene import AnyScene
 
@@ -118,7 +105,6 @@ class Settings:
         "core.geometry.ring_clipping.records",
         "core.geometry.ring_clipping.sutherland_hodgman",
         "core.geometry.ring_clipping.weiler_atherton",
-        reason=has_no_polygons,
         classical=("sutherland-hodgman", "weiler-atherton"),
     )
     polygon_fill: str = choice(
@@ -126,7 +112,6 @@ class Settings:
         "Polygon fill",
         "raster",
         "core.raster.polygon_fills.active_edges",
-        reason=has_no_polygons,
         asks=("listing", "operations"),
         is_look=True,
         classical=("even-odd", "non-zero"),
@@ -156,7 +141,6 @@ class Settings:
         "shade",
         "core.fragments.textures",
         "core.fragments.level_of_detail",
-        reason=has_no_texture,
         asks=("listing", "operations"),
         classical=("nearest", "bilinear", "trilinear"),
     )
@@ -165,7 +149,6 @@ class Settings:
         "Texture wrap",
         "shade",
         "core.fragments.textures",
-        reason=has_no_texture,
         asks=("traits",),
         is_look=True,
     )
@@ -174,7 +157,6 @@ class Settings:
         "Shading",
         "shade",
         "core.fragments.shading",
-        reason=has_no_light,
         asks=("traits",),
         is_look=True,
         classical=("flat", "gouraud", "phong"),
@@ -237,7 +219,6 @@ class Settings:
         "{0} px",
         taken_by="interpolation",
         otherwise="Only corrected affine interpolation has an interval.",
-        reason=draws_lines,
     )
     """Columns between corrections (interpolation ``affine-n``), 1 to 256."""
     samples_across: int = number_field(
@@ -324,27 +305,17 @@ def families() -> tuple[str, ...]:
 
 def no_effect(settings: Settings, name: str, scene: AnyScene | None = None) -> str:
     """Return why a setting changes nothing with the others and this scene, as a sentence; empty: it may."""
-    declared = FIELDS[name]
-    by = declared.taken_by
-    if scene is not None and scene.corner_count > 3:
-        if name in OF_TRIANGLES:
-            return OF_TRIANGLES[name]
+    if scene is not None:
         settings = suited(settings, scene)
-    if scene is not None and scene.corner_count == 0:
-        return "" if name in OF_TABLES else "A table of depths begins at the depth test, and has its own."
-    if scene is not None and scene.corner_count < 3:
-        noun = "Segments have" if scene.corner_count == 2 else "Points have"
-        if name == "line" and scene.corner_count == 1:
-            return "A point is one pixel."
-        if name in ("cull", "polygon_mode"):
-            return f"{noun} no area."
-        settings = suited(settings, scene)
-        if by == "polygon_mode":
-            return "" if name in table.get(by, settings.polygon_mode).takes else f"{noun} no area."
+    for reasons in (NOT_FOR[fact] for fact in facts(scene)):
+        if name in reasons or "" in reasons:
+            return reasons.get(name, reasons.get("", ""))
+    by = FIELDS[name].taken_by
     if by and name not in table.get(by, getattr(settings, by)).takes:
-        return declared.otherwise
-    reason = declared.reason(settings, scene) if declared.reason else ""
-    return reason or (no_effect(settings, by, scene) if by else "")
+        return FIELDS[name].otherwise
+    if name in NOT_FOR["outlined"] and table.get("polygon_mode", settings.polygon_mode).function():
+        return NOT_FOR["outlined"][name]
+    return no_effect(settings, by, scene) if by else ""
 
 
 DEFAULTS = Settings()

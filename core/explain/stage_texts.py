@@ -175,12 +175,9 @@ def initial_sentence(stage: str, corner_count: int = 3) -> str:
 
 def skipped_because(stage: str, corner_count: int) -> str:
     """Return why primitives of so many corners do not go through a stage; empty: they do."""
-    if corner_count > 3:
-        return stage_of(stage).not_of_polygons
     if corner_count == 0:
         return BEFORE_TABLES if STAGES.index(stage) < STAGES.index("depth") else ""
-    reason = stage_of(stage).needs_area if corner_count < 3 else ""
-    return reason.format(kind=nouns(corner_count).one)
+    return stage_of(stage).not_for.get(nouns(corner_count).many, "")
 
 
 def summary_sentence(
@@ -245,7 +242,7 @@ def stage_card(stage: str, method: str = "", corner_count: int = 3) -> StageCard
     """
     declared = stage_of(stage)
     draws_lines = method.startswith("line=") and corner_count > 0
-    drawn = TRIANGLES if declared.needs_area else nouns(corner_count)
+    drawn = TRIANGLES if declared.not_for else nouns(corner_count)
     texts = LINE_CARD if draws_lines else _own_texts(declared, drawn)
     if drawn.one == "point" or not draws_lines:
         texts = {**texts, **CARDS.get((stage, drawn.one), {})}

@@ -1,6 +1,7 @@
 """The stages of the pipeline, each declared once: chapters, cards, keys, settings and traces read it here."""
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -43,10 +44,8 @@ class Stage:
     """Whether multisampling does it once for a pixel and triangle, at the centre."""
     is_schedule: bool = False
     """Whether it only decides what is looked at: methods may differ there and still do the same."""
-    needs_area: str = ""
-    """Why what has no area does not go through it, with ``{kind}`` for a segment or point; empty: it does."""
-    not_of_polygons: str = ""
-    """Why polygons do not go through it; empty: they do."""
+    not_for: Mapping[str, str] = field(default_factory=dict)
+    """Why ``polygons``, ``segments`` or ``points`` do not go through it."""
     outcomes: tuple[str, ...] = ()
     """What comes of a pixel, by columns of its trace."""
 
@@ -117,8 +116,11 @@ DECLARED = (
         heading="Raster",
         tracer="core.trace.edges.trace_edges",
         initial="No edge function has been set up yet.",
-        needs_area="A {kind} has no edge functions: it has no inside.",
-        not_of_polygons="A polygon needs no edge functions: its edge table is filled in the stage Raster.",
+        not_for={
+            "polygons": "A polygon needs no edge functions: its edge table is filled in the stage Raster.",
+            "segments": "A segment has no edge functions: it has no inside.",
+            "points": "A point has no edge functions: it has no inside.",
+        },
         group="one part of the set-up",
         group_label="All corners, edges",
         row_label="Corner or edge",
@@ -135,8 +137,11 @@ DECLARED = (
         heading="Raster",
         tracer="core.trace.binning.trace_bin",
         initial="No box and no block has been tested yet.",
-        needs_area="A {kind} has no area: its pixels are found without boxes and blocks.",
-        not_of_polygons="A polygon's spans are computed row by row, without boxes and blocks.",
+        not_for={
+            "polygons": "A polygon's spans are computed row by row, without boxes and blocks.",
+            "segments": "A segment has no area: its pixels are found without boxes and blocks.",
+            "points": "A point has no area: its pixels are found without boxes and blocks.",
+        },
         group="one block with its parts",
         group_label="Large block",
         row_label="Block",
