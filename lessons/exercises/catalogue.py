@@ -3,81 +3,18 @@
 import tomllib
 from collections.abc import Mapping
 from difflib import get_close_matches
+from importlib import import_module
 from pathlib import Path
+from pkgutil import iter_modules
 
 from lessons.exercises import templates
 from lessons.exercises.exercise_file import read_exercise
-from lessons.exercises.question import Template
-from lessons.exercises.templates import (
-    beliefs_looks,
-    beliefs_pixels,
-    beliefs_space,
-    clipping,
-    coverage,
-    depths,
-    edges,
-    faces,
-    filling,
-    fragments,
-    interpolation,
-    lighting,
-    line_methods,
-    lines,
-    mixing,
-    next_steps,
-    on_picture,
-    placing,
-    polygon_rows,
-    polygons,
-    reading,
-    repairs,
-    running,
-    stepping,
-    stepping_numbers,
-    textures,
-    transforms,
-    wrong_lines,
-)
+from lessons.exercises.question import WRITTEN, Template
 
-_MODULES = (
-    on_picture,
-    transforms,
-    faces,
-    polygons,
-    edges,
-    coverage,
-    filling,
-    polygon_rows,
-    lines,
-    line_methods,
-    clipping,
-    interpolation,
-    textures,
-    lighting,
-    fragments,
-    depths,
-    mixing,
-    placing,
-    reading,
-    stepping,
-    running,
-    next_steps,
-    beliefs_space,
-    beliefs_pixels,
-    beliefs_looks,
-    wrong_lines,
-    stepping_numbers,
-    repairs,
-)
-
+for _module in iter_modules(templates.__path__):
+    import_module(f"{templates.__name__}.{_module.name}")
 _FILES = Path(templates.__file__).parent.glob("*.toml")
-_FOUND = {
-    template.name: template
-    for template in [
-        *(each for module in _MODULES for each in module.TEMPLATES),
-        *(read_exercise(path, revision=1) for path in _FILES),
-    ]
-}
+_FOUND = WRITTEN | {path.stem: read_exercise(path, revision=1) for path in _FILES}
 _ORDER: dict[str, dict[str, list[str]]] = tomllib.loads(
     Path(__file__).with_name("order.toml").read_text(encoding="utf-8")
 )

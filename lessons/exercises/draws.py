@@ -15,6 +15,16 @@ SEED_LIMIT = 10**9
 """Seeds are whole numbers from 0 up to this."""
 
 
+class NoQuestionError(ValueError):
+    """No question comes of one draw; another may make one."""
+
+
+def reject(is_useless: bool) -> None:
+    """Leave a draw of which no question comes, for the next one."""
+    if is_useless:
+        raise NoQuestionError("this draw makes no question")
+
+
 class Draws:
     """What a template draws its question from."""
 

@@ -12,10 +12,10 @@ from core.scene import AnyScene, ClipScene
 from core.settings import settings_from_texts
 from lessons.exercises.answer_parts import AnswerPart, ChoicePart, PixelPart, PlacePart
 from lessons.exercises.answers.code import CodeAnswer
-from lessons.exercises.answers.pixels import NothingToMarkError, Pixels
+from lessons.exercises.answers.pixels import Pixels
 from lessons.exercises.drawn_scene import Corner, draw_scene, seen_pixels
-from lessons.exercises.draws import Draws
-from lessons.exercises.file_answers import NoQuestionError, answer_of
+from lessons.exercises.draws import Draws, NoQuestionError
+from lessons.exercises.file_answers import answer_of
 from lessons.exercises.question import Draft, Template, ask
 from lessons.exercises.record import Exercise
 from lessons.exercises.templates.drafting import factor_text
@@ -83,8 +83,8 @@ def has_ranges(exercise: Exercise) -> bool:
     return exercise.scene is not None and exercise.scene.has_ranges
 
 
-def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:
-    """Draw the question of an exercise; ``None``: this draw makes none, but another may."""
+def draft_of(exercise: Exercise, draws: Draws) -> Draft:
+    """Draw the question of an exercise; NoQuestionError: this draw makes none, but another may."""
     drawn = None if exercise.scene is None else draw_scene(exercise.scene, draws)
     settings = settings_from_texts(exercise.settings, Settings())
     part, text, told = exercise.answer, exercise.question, exercise.hints
@@ -94,10 +94,10 @@ def draft_of(exercise: Exercise, draws: Draws) -> Draft | None:
         text, *told = (one.replace("{case}", case.ask) for one in (text, *told, *filter(None, [case.hint])))
     try:
         answer, given = answer_of(part, drawn, settings, draws)
-    except (NothingToMarkError, NoQuestionError):
+    except NoQuestionError as problem:
         if has_ranges(exercise):
-            return None
-        raise
+            raise
+        raise ValueError(str(problem)) from None
     scene = None if drawn is None else drawn.scene
     mistakes: dict[str, Any] = {}
     if isinstance(answer, CodeAnswer):

@@ -38,7 +38,7 @@ from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family, Values
 from lessons.exercises.coding.tasks import task_named
 from lessons.exercises.drawn_scene import DrawnScene, different_pixels, frame_art, seen_pixels
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, NoQuestionError
 from lessons.mistakes.shelf import SHELF
 
 SEARCH_LIMIT = 400
@@ -46,10 +46,6 @@ SEARCH_LIMIT = 400
 SCENES_SEARCHED = 3
 """Scenes of one question in which such a place is looked for in vain before its file is refused."""
 FAILS = {"differs": "the picture differs from the right one", "twice": "a pixel is drawn twice"}
-
-
-class NoQuestionError(ValueError):
-    """No question comes of one draw; another may make one."""
 
 
 def answer_of(

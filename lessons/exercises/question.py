@@ -9,7 +9,7 @@ from core.records.sketch import Sketch
 from core.scene import AnyScene
 from core.settings import DEFAULTS
 from lessons.exercises.answers.answer import Answer, Response, Verdict
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, NoQuestionError
 from lessons.exercises.refutation import Refutation
 from lessons.mistakes.shelf import MISTAKES
 
@@ -48,6 +48,10 @@ class Draft:
     """What the outline shows in place of the scene: more than is drawn; ``None``: the scene itself."""
 
 
+Make = Callable[[Draws], Draft]
+"""Draws a question; NoQuestionError where this draw makes none."""
+
+
 @dataclass(frozen=True, eq=False)
 class Template:
     """What questions of one kind are drawn from."""
@@ -59,14 +63,38 @@ class Template:
     stage: str
     """Of ``core.STAGES``."""
     points: int
-    make: Callable[[Draws], Draft | None]
-    """Draws a question; ``None``: this draw makes none."""
+    make: Make
+    """Draws a question."""
     alike: tuple[frozenset[str], ...] = ()
     """Mistakes that may give the same answer: then both are named."""
     is_fixed: bool = False
     """Every draw is the same."""
     path: str = ""
     """File that it was read from; empty: it is written in Python."""
+
+
+WRITTEN: dict[str, Template] = {}
+"""The templates of all modules that are imported, by name."""
+
+
+def template(
+    name: str,
+    version: int,
+    title: str,
+    stage: str,
+    points: int,
+    alike: tuple[frozenset[str], ...] = (),
+    is_fixed: bool = False,
+) -> Callable[[Make], Make]:
+    """Declare a template above the function that draws its questions: see the fields of `Template`."""
+
+    def declared(make: Make) -> Make:
+        if name in WRITTEN:
+            raise ValueError(f"two templates are called {name}")
+        WRITTEN[name] = Template(name, version, title, stage, points, make, alike, is_fixed)
+        return make
+
+    return declared
 
 
 @dataclass(frozen=True, eq=False)
@@ -124,8 +152,9 @@ def ask(template: Template, seed: int) -> Question:
     left = tries
     while left:
         left -= 1
-        draft = template.make(draws)
-        if draft is None:
+        try:
+            draft = template.make(draws)
+        except NoQuestionError:
             continue
         hidden = [name for name in draft.mistakes if not _shows(draft, draft.mistakes[name])]
         if hidden:

@@ -23,7 +23,7 @@ from lessons.exercises.answers.answer import Answer
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.fields import NumberAnswer
 from lessons.exercises.drawn_scene import window_text
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, NoQuestionError
 from lessons.exercises.next_step import TOLERANCE, row_draft
 from lessons.exercises.question import Draft, Template
 from lessons.exercises.templates.next_steps import known_text, step_variables
@@ -201,8 +201,8 @@ def _varied(scene: AnyScene, draws: Draws) -> AnyScene:
     return _at(scene, places)
 
 
-def _draw(screen: Screen, scene: AnyScene, settings: Settings, draws: Draws) -> Draft | None:
-    """Ask about the step or the value; ``None``: in this draw there is none."""
+def _draw(screen: Screen, scene: AnyScene, settings: Settings, draws: Draws) -> Draft:
+    """Ask about the step or the value."""
     varied = _varied(scene, draws)
     run = trace(varied, settings)
     stage = run.stage(screen.stage)
@@ -211,9 +211,8 @@ def _draw(screen: Screen, scene: AnyScene, settings: Settings, draws: Draws) -> 
     else:
         asked = row_draft(stage, screen.row) if screen.row < stage.steps.row_count else None
     if asked is None:
-        if draws.seed == 0:
-            raise ValueError("nothing can be asked about this step or value")
-        return None
+        kind = NoQuestionError if draws.seed else ValueError
+        raise kind("nothing can be asked about this step or value")
     known = known_text(step_variables(stage, screen.row)) if screen.row >= 0 else ""
     given = "\n".join(filter(None, (_corners_text(varied), known)))
     hints = ("Step the scene up to here: the Step page hides what comes next.",)

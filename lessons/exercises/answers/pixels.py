@@ -6,7 +6,7 @@ from typing import ClassVar
 
 from core.records.cells import Form
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, NoQuestionError
 
 Pixel = tuple[int, int]
 """Column and row; row 0 is the bottom row."""
@@ -16,7 +16,7 @@ SIDE_LIMIT = 128
 """Most pixels on a side that files may ask for: each can be pointed at."""
 
 
-class NothingToMarkError(ValueError):
+class NothingToMarkError(NoQuestionError):
     """All pixels must be marked, or none: there is nothing to ask."""
 
 

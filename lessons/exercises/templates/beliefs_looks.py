@@ -10,7 +10,7 @@ from core.framebuffer.display import to_display
 from core.scene import ClipScene, Texture
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.refutation import Refutation
 from lessons.exercises.templates.believing import believed
 from lessons.small_scenes import EVERYWHERE, rectangle_corners, triangle_scene
@@ -31,7 +31,8 @@ TWICE, NOTHING, NEITHER = (
 ON_TIE = "(tie[0] or tie[1] or tie[2])"
 
 
-def draw_inclusive(draws: Draws) -> Draft | None:
+@template("belief-inclusive", 2, "Is E >= 0 harmless?", "blend", 1)
+def draw_inclusive(draws: Draws) -> Draft:
     """``>=`` is harmless, nobody sees it."""
     side, quarters = draws.whole(3, 6), draws.whole(1, 3)
     alpha = Fraction(quarters, 4)
@@ -91,7 +92,8 @@ def draw_inclusive(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], [other], refutation, hints)
 
 
-def draw_multisampling(draws: Draws) -> Draft | None:
+@template("belief-multisampling", 1, "What does multisampling store?", "shade", 1)
+def draw_multisampling(draws: Draws) -> Draft:
     """Multisampling shades every sample, or scales the colour by coverage when it is written."""
     count = draws.whole(2, 3)
     refutation = Refutation(
@@ -112,7 +114,8 @@ def draw_multisampling(draws: Draws) -> Draft | None:
     return believed(draws, text, right, beliefs, ["4 times; the mean in the pixel"], refutation, hints)
 
 
-def draw_bilinear(draws: Draws) -> Draft | None:
+@template("belief-bilinear", 2, "Does bilinear always mix?", "shade", 1)
+def draw_bilinear(draws: Draws) -> Draft:
     """Bilinear always mixes texels evenly."""
     width = draws.item((4, 8))
     texel = draws.whole(1, width - 2)
@@ -171,7 +174,8 @@ def srgb_byte(light: Fraction) -> int:
     return int(shown.pixels[0, 0, 0])
 
 
-def draw_half_byte(draws: Draws) -> Draft | None:
+@template("belief-half-byte", 1, "Is half the byte half the light?", "resolve", 1)
+def draw_half_byte(draws: Draws) -> Draft:
     """Half the byte is half the light."""
     light = Fraction(draws.whole(1, 3), 4)
     right, belief = srgb_byte(light), int(255 * light + Fraction(1, 2))
@@ -193,7 +197,8 @@ def draw_half_byte(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], [(right + belief) // 2, 255 - right], refutation, hints)
 
 
-def draw_alphas(draws: Draws) -> Draft | None:
+@template("belief-alphas-add", 1, "Do alphas add up?", "blend", 1)
+def draw_alphas(draws: Draws) -> Draft:
     """Alpha values add up."""
     first, second = (Fraction(draws.whole(1, 3), 4) for _ in range(2))
     right, belief = (1 - first) * (1 - second), max(Fraction(0), 1 - first - second)
@@ -237,7 +242,8 @@ CHAIN = triangle_scene(
 """Three triangles, each hidden by those before it; the middle of the last one is nearer than that of the second one."""
 
 
-def draw_ring(draws: Draws) -> Draft | None:
+@template("belief-mean-distance", 2, "Is sorting by distance enough?", "depth", 1)
+def draw_ring(draws: Draws) -> Draft:
     """Sorting by the mean distance is enough."""
     size, is_ring = draws.whole(16, 24), draws.whole(0, 1)
     front, middle, back = draws.shuffled("ABC")
@@ -264,13 +270,3 @@ def draw_ring(draws: Draws) -> Draft | None:
         f"{back}.",
     )
     return believed(draws, text, right, [by_mean], [other, "any of the three"], refutation, hints)
-
-
-TEMPLATES = (
-    Template("belief-inclusive", 2, "Is E >= 0 harmless?", "blend", 1, draw_inclusive),
-    Template("belief-multisampling", 1, "What does multisampling store?", "shade", 1, draw_multisampling),
-    Template("belief-bilinear", 2, "Does bilinear always mix?", "shade", 1, draw_bilinear),
-    Template("belief-half-byte", 1, "Is half the byte half the light?", "resolve", 1, draw_half_byte),
-    Template("belief-alphas-add", 1, "Do alphas add up?", "blend", 1, draw_alphas),
-    Template("belief-mean-distance", 2, "Is sorting by distance enough?", "depth", 1, draw_ring),
-)

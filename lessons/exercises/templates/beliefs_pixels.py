@@ -1,8 +1,8 @@
 """Beliefs about pixels, ties, lines and blocks."""
 
 from core import Settings
-from lessons.exercises.draws import Draws
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.draws import Draws, reject
+from lessons.exercises.question import Draft, template
 from lessons.exercises.refutation import Refutation
 from lessons.exercises.templates.believing import believed
 from lessons.exercises.templates.coverage import SIZE
@@ -12,7 +12,8 @@ from lessons.small_scenes import pixel_segments, rectangle_corners, triangle_sce
 TESTED = Settings(fill="bounding-box")
 
 
-def draw_square(draws: Draws) -> Draft | None:
+@template("belief-little-square", 2, "Is a pixel a little square?", "raster", 1)
+def draw_square(draws: Draws) -> Draft:
     """A pixel is a little square."""
     column, is_inside = draws.whole(3, 8), draws.whole(0, 1)
     share = draws.item((20, 25, 30, 35, 40) if is_inside else (40, 42, 44, 46, 48))
@@ -49,7 +50,8 @@ def draw_square(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], [f"with {share} percent of the colour"], refutation, hints)
 
 
-def draw_sample_point(draws: Draws) -> Draft | None:
+@template("belief-sample-point", 1, "Where is a pixel tested?", "raster", 1)
+def draw_sample_point(draws: Draws) -> Draft:
     """The pixel's name is its sample point."""
     column, row = draws.whole(1, 6), draws.whole(1, 4)
     refutation = Refutation(
@@ -72,7 +74,8 @@ def draw_sample_point(draws: Draws) -> Draft | None:
     return believed(draws, text, names[0], names[1:2], names[2:], refutation, hints)
 
 
-def draw_rounding(draws: Draws) -> Draft | None:
+@template("belief-rounding", 2, "Does rounding remove cracks?", "edges", 1)
+def draw_rounding(draws: Draws) -> Draft:
     """Rounding the vertices removes cracks; or every diagonal runs through centres."""
     width, is_square = draws.whole(4, 7), draws.whole(0, 1)
     height = width if is_square else width + 1
@@ -105,7 +108,8 @@ def draw_rounding(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], ["no: rounding opens cracks"], refutation, hints)
 
 
-def draw_tie(draws: Draws) -> Draft | None:
+@template("belief-tie", 2, "Which pixel does D choose?", "raster", 1)
+def draw_tie(draws: Draws) -> Draft:
     """At a tie one pixel is right; else D decides."""
     x, y, dy = draws.whole(0, 4), draws.whole(0, 3), draws.item((1, 3, 5))
     ends = (x, y), (x + 8, y + dy)
@@ -113,8 +117,7 @@ def draw_tie(draws: Draws) -> Draft | None:
     values = d_values((ends[0], ends[1]), Settings(line="bresenham-lecture"))
     numbers = [int(d) for (d,) in values]
     found = [k for k, d in enumerate(numbers) if (d > 0) - (d < 0) == wanted]
-    if not found:
-        return None
+    reject(not found)
     step = draws.item(found)
     d, column = numbers[step], x + step + 1
     upper, lower, either = "the upper one", "the lower one", "either: the stated rule decides"
@@ -155,7 +158,8 @@ def draw_tie(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], [*others, "both are drawn"], refutation, hints)
 
 
-def draw_two_steps(draws: Draws) -> Draft | None:
+@template("belief-two-steps", 2, "Two steps up in a row?", "raster", 1)
+def draw_two_steps(draws: Draws) -> Draft:
     """Two steps up in a row cannot happen; or they always can."""
     dx, is_steep = draws.whole(8, 11), draws.whole(0, 1)
     dy = dx - draws.whole(1, 2) if is_steep else draws.whole(2, 3)
@@ -184,7 +188,8 @@ def draw_two_steps(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], ["only after a tie"], refutation, hints)
 
 
-def draw_both_ends(draws: Draws) -> Draft | None:
+@template("belief-both-ends", 2, "Is a line the same from both ends?", "raster", 1)
+def draw_both_ends(draws: Draws) -> Draft:
     """A line is the same from both ends; or never."""
     x, y, has_tie = draws.whole(0, 3), draws.whole(0, 4), draws.whole(0, 1)
     dx, dy = draws.item(((8, 3), (8, 1), (10, 3)) if has_tie else ((7, 3), (9, 4), (9, 2)))
@@ -217,7 +222,8 @@ def draw_both_ends(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], ["none"], refutation, hints)
 
 
-def draw_block(draws: Draws) -> Draft | None:
+@template("belief-block-corner", 2, "Which corner rejects a block?", "bin", 1)
+def draw_block(draws: Draws) -> Draft:
     """A block is out if one corner is out."""
     a, b = (draws.item((-1, 1)) * draws.whole(1, 5) for _ in range(2))
     sides = [f"{y} {x}" for x in ("left", "right") for y in ("lower", "upper")]
@@ -240,14 +246,3 @@ def draw_block(draws: Draws) -> Draft | None:
     )
     others = [corner for corner in sides if corner != right][:2]
     return believed(draws, text, right, ["any corner"], others, refutation, hints)
-
-
-TEMPLATES = (
-    Template("belief-little-square", 2, "Is a pixel a little square?", "raster", 1, draw_square),
-    Template("belief-sample-point", 1, "Where is a pixel tested?", "raster", 1, draw_sample_point),
-    Template("belief-rounding", 2, "Does rounding remove cracks?", "edges", 1, draw_rounding),
-    Template("belief-tie", 2, "Which pixel does D choose?", "raster", 1, draw_tie),
-    Template("belief-two-steps", 2, "Two steps up in a row?", "raster", 1, draw_two_steps),
-    Template("belief-both-ends", 2, "Is a line the same from both ends?", "raster", 1, draw_both_ends),
-    Template("belief-block-corner", 2, "Which corner rejects a block?", "bin", 1, draw_block),
-)

@@ -6,7 +6,7 @@ from fractions import Fraction
 from core.scene import Scene
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.refutation import Refutation
 from lessons.exercises.templates.believing import believed, eye_scene
 from lessons.exercises.templates.transforms import sketched
@@ -24,7 +24,8 @@ def _with_point(x: float, y: float, z: float, near: float = 1.0, far: float = 10
     return eye_scene([(x, y, z), *BASE], near, far)
 
 
-def draw_w(draws: Draws) -> Draft | None:
+@template("belief-w-is-one", 1, "Is w always 1?", "transform", 1)
+def draw_w(draws: Draws) -> Draft:
     """W is always 1."""
     x, y, d = draws.whole(1, 3), draws.whole(1, 3), draws.whole(2, 9)
     refutation = Refutation(
@@ -46,7 +47,8 @@ RANGES = ("in [-w, w]", "in [-1, 1]", "in [0, W], in pixels")
 """Of a visible x after the perspective matrix, the divide and the viewport."""
 
 
-def draw_divide(draws: Draws) -> Draft | None:
+@template("belief-divide-in-matrix", 2, "Does the matrix divide?", "transform", 1)
+def draw_divide(draws: Draws) -> Draft:
     """The division is part of the matrix."""
     d, done = draws.whole(3, 9), draws.whole(0, 2)
     step, sentence, condition, belief = (
@@ -80,7 +82,8 @@ def draw_divide(draws: Draws) -> Draft | None:
     return believed(draws, text, RANGES[done], [belief], [*others, "anywhere"], refutation, hints)
 
 
-def draw_late_clip(draws: Draws) -> Draft | None:
+@template("belief-clip-later", 2, "May clipping wait?", "clip", 1)
+def draw_late_clip(draws: Draws) -> Draft:
     """Clipping may wait until after the divide: two points have the same quotients, one lies behind the eye."""
     a, b, c = draws.whole(1, 2), draws.whole(1, 2), draws.whole(3, 6)
     side = draws.item((1, -1))
@@ -115,7 +118,8 @@ def draw_late_clip(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], [other], refutation, hints)
 
 
-def draw_viewport(draws: Draws) -> Draft | None:
+@template("belief-viewport-last", 2, "Must the viewport follow the divide?", "transform", 1)
+def draw_viewport(draws: Draws) -> Draft:
     """The viewport must follow the divide."""
     d, is_matrix = draws.whole(2, 6), draws.whole(0, 1)
     answers = ("no: the result is another one", "yes: the result is the same")
@@ -146,7 +150,8 @@ def draw_viewport(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], ["only on the left half of the window"], refutation, hints)
 
 
-def draw_linear_depth(draws: Draws) -> Draft | None:
+@template("belief-depth-linear", 1, "Is depth linear in distance?", "depth", 1)
+def draw_linear_depth(draws: Draws) -> Draft:
     """Depth is linear in distance."""
     f, d = draws.item((4, 5, 6, 9, 10, 11)), draws.whole(2, 3)
     right, belief = Fraction(f * (d - 1), (f - 1) * d), Fraction(d - 1, f - 1)
@@ -178,7 +183,8 @@ WIDE = ((0.5, 0.5), (8.5, 0.5), (0.5, 6.5))
 MIDDLE = "column == 4 and row == 0"
 
 
-def draw_corrected_depth(draws: Draws) -> Draft | None:
+@template("belief-depth-corrected", 2, "Is depth corrected?", "depth", 1)
+def draw_corrected_depth(draws: Draws) -> Draft:
     """Depth, like every attribute, needs the perspective correction."""
     w = draws.whole(3, 10)
     near, far = ends = draws.item(
@@ -207,7 +213,8 @@ def draw_corrected_depth(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], [turned, near + (far - near) / w], refutation, hints)
 
 
-def draw_middle(draws: Draws) -> Draft | None:
+@template("belief-middle-stays", 1, "Does the middle stay the middle?", "interpolate", 1)
+def draw_middle(draws: Draws) -> Draft:
     """The middle of an edge in space is its middle in the window."""
     w = draws.whole(2, 6)
     depth, weights = _deep(w)
@@ -227,7 +234,8 @@ def draw_middle(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [Fraction(1, 2)], [1 - right, Fraction(1, w + 2)], refutation, hints)
 
 
-def draw_behind(draws: Draws) -> Draft | None:
+@template("belief-order-behind", 2, "Depth behind the eye", "clip", 1)
+def draw_behind(draws: Draws) -> Draft:
     """Depth order also holds behind the eye."""
     f, d = draws.item((3, 4, 5, 6, 9, 10)), draws.whole(1, 2)
     behind, before = (Fraction(f + 1, f - 1) - Fraction(2 * f, (f - 1) * each) for each in (-d, d))
@@ -252,7 +260,8 @@ def draw_behind(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], ["equal"], refutation, hints)
 
 
-def draw_parallel(draws: Draws) -> Draft | None:
+@template("belief-all-converge", 2, "Do all parallels converge?", "transform", 1)
+def draw_parallel(draws: Draws) -> Draft:
     """All parallel lines converge; or none do."""
     d, is_level = draws.whole(2, 7), draws.whole(0, 1)
     stay, meet = "no: they stay parallel", "yes: prolonged, they meet in one point"
@@ -284,7 +293,8 @@ def draw_parallel(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], ["only where both are equally long"], refutation, hints)
 
 
-def draw_far_plane(draws: Draws) -> Draft | None:
+@template("belief-far-precision", 2, "What costs precision of depth?", "depth", 1)
+def draw_far_plane(draws: Draws) -> Draft:
     """The far plane decides the precision."""
     n = draws.item((Fraction(1, 10), Fraction(1, 5), Fraction(1, 2)))
     verb, near, far = draws.item((("costs", "smaller", "larger"), ("gains", "larger", "smaller")))
@@ -309,7 +319,8 @@ def draw_far_plane(draws: Draws) -> Draft | None:
     return believed(draws, text, right, [belief], ["both alike", "neither"], refutation, hints)
 
 
-def draw_larger_z(draws: Draws) -> Draft | None:
+@template("belief-larger-z", 1, "Which z is nearer?", "transform", 1)
+def draw_larger_z(draws: Draws) -> Draft:
     """Larger z is nearer, or farther, always."""
     a = draws.whole(2, 4)
     b = draws.whole(a + 1, 9)
@@ -336,7 +347,8 @@ def draw_larger_z(draws: Draws) -> Draft | None:
     )
 
 
-def draw_factors(draws: Draws) -> Draft | None:
+@template("belief-left-to-right", 2, "Which factor acts first?", "transform", 1)
+def draw_factors(draws: Draws) -> Draft:
     """Factors act from left to right."""
     a, first = draws.whole(2, 4), draws.item("RT")
     model = [list(row) for row in TURN]
@@ -364,7 +376,8 @@ def draw_factors(draws: Draws) -> Draft | None:
     return believed(draws, text, first, [last], ["the order does not matter"], refutation, hints)
 
 
-def draw_own_center(draws: Draws) -> Draft | None:
+@template("belief-own-centre", 1, "About which point does it turn?", "transform", 1)
+def draw_own_center(draws: Draws) -> Draft:
     """An object turns about its own centre."""
     a = draws.whole(2, 4)
     model = [list(row) for row in TURN]
@@ -383,23 +396,4 @@ def draw_own_center(draws: Draws) -> Draft | None:
     )
     asked = believed(draws, text, f"(0, {a})", [f"({a}, 0)"], [f"(0, -{a})", f"(-{a}, 0)"], refutation, hints)
     square = ((a - 1, -1), (a + 1, -1), (a + 1, 1), (a - 1, 1))
-    return None if asked is None else replace(asked, sketch=sketched({"centre": (a, 0)}, square))
-
-
-TEMPLATES = (
-    Template("belief-w-is-one", 1, "Is w always 1?", "transform", 1, draw_w),
-    Template("belief-divide-in-matrix", 2, "Does the matrix divide?", "transform", 1, draw_divide),
-    Template("belief-clip-later", 2, "May clipping wait?", "clip", 1, draw_late_clip),
-    Template(
-        "belief-viewport-last", 2, "Must the viewport follow the divide?", "transform", 1, draw_viewport
-    ),
-    Template("belief-depth-linear", 1, "Is depth linear in distance?", "depth", 1, draw_linear_depth),
-    Template("belief-depth-corrected", 2, "Is depth corrected?", "depth", 1, draw_corrected_depth),
-    Template("belief-middle-stays", 1, "Does the middle stay the middle?", "interpolate", 1, draw_middle),
-    Template("belief-order-behind", 2, "Depth behind the eye", "clip", 1, draw_behind),
-    Template("belief-all-converge", 2, "Do all parallels converge?", "transform", 1, draw_parallel),
-    Template("belief-far-precision", 2, "What costs precision of depth?", "depth", 1, draw_far_plane),
-    Template("belief-larger-z", 1, "Which z is nearer?", "transform", 1, draw_larger_z),
-    Template("belief-left-to-right", 2, "Which factor acts first?", "transform", 1, draw_factors),
-    Template("belief-own-centre", 1, "About which point does it turn?", "transform", 1, draw_own_center),
-)
+    return replace(asked, sketch=sketched({"centre": (a, 0)}, square))

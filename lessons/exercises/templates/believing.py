@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from core.scene import Camera, Mesh, Scene
 from lessons.exercises.answers.choices import ChoiceAnswer
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft
 from lessons.exercises.refutation import Refutation
@@ -30,12 +30,11 @@ def believed(
     others: Sequence[Choice],
     refutation: Refutation,
     hints: tuple[str, ...],
-) -> Draft | None:
-    """Ask for one of several choices; ``None`` where two of them are the same."""
+) -> Draft:
+    """Ask for one of several choices that all differ."""
     wrong = [choice_text(belief) for belief in beliefs]
     options = draws.shuffled((choice_text(right), *wrong, *map(choice_text, others)))
-    if len(set(options)) < len(options):
-        return None
+    reject(len(set(options)) < len(options))
     answer = ChoiceAnswer(options, frozenset({options.index(choice_text(right))}))
     refutations = {frozenset({options.index(belief)}): refutation for belief in wrong}
     return Draft(text, "", answer, hints, reveal=refutation.sentence, refutations=refutations)

@@ -8,9 +8,9 @@ from core.geometry.line_clipping.records import ENTER, LEAVE, ParameterRows
 from core.scene import ClipScene
 from lessons.exercises.answers.cells import ENTERS, LEAVES, Value
 from lessons.exercises.answers.fields import Column, Row, Rows, TableAnswer
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import Number
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.drafting import TOLERANCE, factor_text
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import segment_scene
@@ -121,12 +121,12 @@ def _ends(draws: Draws) -> Ends:
     return start, (draws.whole(6, 14), draws.whole(4, 11))
 
 
-def draw_parameters(draws: Draws) -> Draft | None:
+@template("liang-barsky-table", 1, "Liang-Barsky's p, q and t", "raster", 6)
+def draw_parameters(draws: Draws) -> Draft:
     """Liang-Barsky's p, q and t."""
     ends = _ends(draws)
     clipped = clip_lines([ends], (0, 0, *SIZE))
-    if not clipped.is_kept[0] or (clipped.cut_by < 0).any():
-        return None
+    reject(not clipped.is_kept[0] or bool((clipped.cut_by < 0).any()))
     names = ("normals-inward", "entries-and-exits", "top-and-bottom")
     wrong = {name: parameter_rows(ends, SHELF[name].change_settings(PARAMETERS)) for name in names}
     text = (
@@ -143,12 +143,12 @@ def draw_parameters(draws: Draws) -> Draft | None:
     return Draft(text, _given(ends), parameter_table(ends), hints, wrong, _scene(ends), PARAMETERS)
 
 
-def draw_outcodes(draws: Draws) -> Draft | None:
+@template("cohen-sutherland-table", 1, "Cohen-Sutherland's outcodes", "raster", 6)
+def draw_outcodes(draws: Draws) -> Draft:
     """Cohen-Sutherland's cuts."""
     ends = _ends(draws)
     count = cut_count(ends)
-    if count < 2:
-        return None
+    reject(count < 2)
     text = (
         "Fill in Cohen-Sutherland's cuts. An outcode has the bits top, bottom, right, left, such as 0101. Write the "
         "outcodes of both ends before each cut; then the first end that is outside moves to the first of left, right, "
@@ -171,9 +171,3 @@ def _scene(ends: Ends) -> ClipScene:
 
 def _given(ends: Ends) -> str:
     return f"Window 0..{SIZE[0]} x 0..{SIZE[1]}, segment from {ends[0]} to {ends[1]}."
-
-
-TEMPLATES = (
-    Template("liang-barsky-table", 1, "Liang-Barsky's p, q and t", "raster", 6, draw_parameters),
-    Template("cohen-sutherland-table", 1, "Cohen-Sutherland's outcodes", "raster", 6, draw_outcodes),
-)

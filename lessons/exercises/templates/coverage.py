@@ -8,9 +8,9 @@ import numpy as np
 from core import Settings, render
 from core.scene import ClipScene
 from lessons.exercises.answers.choices import ChoiceAnswer
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.drafting import factor_text, pictured
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import triangle_scene
@@ -48,17 +48,15 @@ def row_hint(corners: list[Corner], y: str = "j + 1/2") -> str:
     return f"At y = {y} the side from {start} to {end} is at x = {crossing_text(*side, y)}"
 
 
-def _covered(
-    corners: list[Corner], text: str, hints: tuple[str, ...], names: tuple[str, ...]
-) -> Draft | None:
-    """Ask for the pixels of a triangle; ``None`` where it is small or clockwise."""
-    if twice_area(corners) < 16:
-        return None
+def _covered(corners: list[Corner], text: str, hints: tuple[str, ...], names: tuple[str, ...]) -> Draft:
+    """Ask for the pixels of a triangle that is neither small nor clockwise."""
+    reject(twice_area(corners) < 16)
     scene = triangle_scene(np.array([corners], float), SIZE)
     return pictured(f"{text} {RULE}", f"Triangle A: {corner_text(corners)}", scene, names, hints)
 
 
-def draw_triangle(draws: Draws) -> Draft | None:
+@template("triangle-coverage", 2, "Pixels of a triangle", "raster", 4)
+def draw_triangle(draws: Draws) -> Draft:
     """A triangle with corners on half pixels, so that edges meet centres."""
     half = Fraction(1, 2)
     corners = [(draws.step(half, Fraction(11), half), draws.step(half, Fraction(8), half)) for _ in range(3)]
@@ -71,7 +69,8 @@ def draw_triangle(draws: Draws) -> Draft | None:
     return _covered(corners, "Which pixels does triangle A cover?", hints, names)
 
 
-def draw_shared_edge(draws: Draws) -> Draft | None:
+@template("shared-edge", 2, "Centres on a shared edge", "raster", 4)
+def draw_shared_edge(draws: Draws) -> Draft:
     """One of two triangles whose common edge runs through centres."""
     half = Fraction(1, 2)
     left, right = draws.whole(0, 3) + half, draws.whole(7, 10) + half
@@ -92,8 +91,6 @@ def draw_shared_edge(draws: Draws) -> Draft | None:
     draft = _covered(
         mine, "Triangles A and B share an edge. Which pixels belong to triangle A?", hints, names
     )
-    if draft is None:
-        return None
     both = triangle_scene(np.array([mine, other], float), SIZE)
     return replace(draft, given=f"{draft.given}\nTriangle B: {corner_text(other)}", outlined=both)
 
@@ -108,18 +105,17 @@ def facing_text(corners: list[Corner]) -> str:
     return f"({x1} - {x0})({y2} - {y0}) - ({y1} - {y0})({x2} - {x0})"
 
 
-def draw_facing(draws: Draws) -> Draft | None:
+@template("facing", 1, "Facing by the determinant", "cull", 2)
+def draw_facing(draws: Draws) -> Draft:
     """Triangles side by side, of which some face away."""
     triangles = [
         [(Fraction(6 * k + draws.whole(0, 5)), Fraction(draws.whole(0, 6))) for _ in range(3)]
         for k in range(len(FACES))
     ]
     areas = [twice_area(corners) for corners in triangles]
-    if min(map(abs, areas)) < 5:
-        return None
+    reject(min(map(abs, areas)) < 5)
     away = frozenset(k for k, area in enumerate(areas) if area < 0)
-    if not 1 <= len(away) <= 3:
-        return None
+    reject(not 1 <= len(away) <= 3)
     scene = triangle_scene(np.array(triangles, float), FACING_SIZE)
     settings = Settings(cull="back")
     wrong = culled(SHELF["facing-exchanged"].change_settings(settings), scene)
@@ -143,10 +139,3 @@ def culled(settings: Settings, scene: ClipScene) -> frozenset[int]:
     """Return the triangles of a scene of which no pixel is seen."""
     seen = set(np.unique(render(scene, settings).primitive).tolist())
     return frozenset(range(len(scene.clip))) - seen
-
-
-TEMPLATES = (
-    Template("triangle-coverage", 2, "Pixels of a triangle", "raster", 4, draw_triangle),
-    Template("shared-edge", 2, "Centres on a shared edge", "raster", 4, draw_shared_edge),
-    Template("facing", 1, "Facing by the determinant", "cull", 2, draw_facing),
-)

@@ -15,9 +15,9 @@ from core.scene import ClipScene
 from lessons.exercises.answers.cells import Value
 from lessons.exercises.answers.choices import OrderAnswer
 from lessons.exercises.answers.fields import Column, Follow, Row, Rows, TableAnswer
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.drafting import by_rule, numbers, one_of, place_text, several, table
 from lessons.mistakes.depths import cards
 from lessons.mistakes.shelf import RULES, SHELF
@@ -25,6 +25,7 @@ from lessons.mistakes.shelf import RULES, SHELF
 NAMES = tuple("ABCD")
 
 
+@template("window-depth", 1, "Window depth at a distance", "depth", 2)
 def draw_window_depth(draws: Draws) -> Draft:
     """Window depth at a distance."""
     near, far = draws.whole(1, 2), draws.item((5, 9, 10, 20))
@@ -42,6 +43,7 @@ def draw_window_depth(draws: Draws) -> Draft:
     return by_rule(text, given, (near, far, distance), ("depth-linear", "near-plane-tiny"), hints)
 
 
+@template("depth-steps", 1, "A depth buffer of 16 bits", "depth", 2)
 def draw_steps(draws: Draws) -> Draft:
     """Whole steps of a 16-bit buffer between two surfaces."""
     near, far = 1, draws.item((100, 1000))
@@ -64,13 +66,13 @@ def draw_steps(draws: Draws) -> Draft:
     return numbers(text, given, right, hints, {"depth-linear": wrong}, ("first", "second"))
 
 
-def draw_fighting(draws: Draws) -> Draft | None:
+@template("fighting-pairs", 1, "Surfaces that fight", "depth", 3)
+def draw_fighting(draws: Draws) -> Draft:
     """Pairs of surfaces that a 16-bit buffer cannot tell apart."""
     near, far = 1, 1000
     gap = Fraction(draws.item((1, 2, 5)), 10)
     distances = sorted({draws.whole(2, 60) for _ in range(4)} | {draws.whole(300, 900)})[-4:]
-    if len(distances) < 4:
-        return None
+    reject(len(distances) < 4)
     depth = RULES["depth-linear"].right
     stored = [
         [unsigned_depth(float(depth(near, far, d + shift)[0]), 2**16 - 1) for shift in (0, gap)]
@@ -101,11 +103,11 @@ def follow_nearest(values: Sequence[tuple[int, Fraction]]) -> Follow:
     return follow
 
 
-def draw_inverse(draws: Draws) -> Draft | None:
+@template("inverse-w-table", 2, "A buffer of 1/w", "depth", 4)
+def draw_inverse(draws: Draws) -> Draft:
     """A buffer of 1/w, fragment by fragment."""
     fragments = [(draws.whole(0, 1), Fraction(1, draws.whole(2, 20))) for _ in range(6)]
-    if len(set(fragments)) < len(fragments):
-        return None
+    reject(len(set(fragments)) < len(fragments))
 
     def stored(pick: Callable[[Fraction, Fraction], Fraction]) -> list[list[Fraction]]:
         rows: list[list[Fraction]] = []
@@ -136,6 +138,7 @@ def draw_inverse(draws: Draws) -> Draft | None:
 GRID = 4
 
 
+@template("z-buffer-grid", 1, "A z-buffer of whole numbers", "depth", 4)
 def draw_grid(draws: Draws) -> Draft:
     """A z-buffer of whole numbers, cell by cell."""
     empty = float("nan")
@@ -170,11 +173,11 @@ def draw_grid(draws: Draws) -> Draft:
     return Draft(text, given, TableAnswer(columns, labels, cells(right)), hints, wrong, scene)
 
 
-def draw_painter(draws: Draws) -> Draft | None:
+@template("painter-order", 1, "A painter's order", "depth", 2)
+def draw_painter(draws: Draws) -> Draft:
     """An order by the farthest vertex."""
     depths = [tuple(draws.whole(1, 30) for _ in range(3)) for _ in NAMES]
-    if len({max(d) for d in depths}) < 4 or len({sum(d) for d in depths}) < 4:
-        return None
+    reject(len({max(d) for d in depths}) < 4 or len({sum(d) for d in depths}) < 4)
     rule = RULES["sorted-by-mean"]
     order = rule.right(depths)
     options = tuple(NAMES[k] for k in order)
@@ -201,6 +204,7 @@ def card_seen(scene: ClipScene, settings: Settings) -> int:
 CARDS = ("red", "blue", "green", "the background")
 
 
+@template("equal-depths", 1, "Cards at equal depths", "depth", 1)
 def draw_ties(draws: Draws) -> Draft:
     """Cards at equal depths."""
     first, second = Fraction(draws.whole(1, 4), 8), Fraction(draws.whole(5, 7), 8)
@@ -225,14 +229,3 @@ def draw_ties(draws: Draws) -> Draft:
         f"The nearest is at {number_text(first)}: does a fragment pass against the same depth?",
     )
     return one_of(text, given, CARDS, right, hints, wrong, scene)
-
-
-TEMPLATES = (
-    Template("window-depth", 1, "Window depth at a distance", "depth", 2, draw_window_depth),
-    Template("depth-steps", 1, "A depth buffer of 16 bits", "depth", 2, draw_steps),
-    Template("fighting-pairs", 1, "Surfaces that fight", "depth", 3, draw_fighting),
-    Template("inverse-w-table", 2, "A buffer of 1/w", "depth", 4, draw_inverse),
-    Template("z-buffer-grid", 1, "A z-buffer of whole numbers", "depth", 4, draw_grid),
-    Template("painter-order", 1, "A painter's order", "depth", 2, draw_painter),
-    Template("equal-depths", 1, "Cards at equal depths", "depth", 1, draw_ties),
-)

@@ -10,8 +10,9 @@ from core.scene import AnyScene, ClipScene
 from core.settings import DEFAULTS
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.fields import Column, Follow, NumberAnswer, Numbers, TableAnswer, number_rows
-from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer, Pixels
+from lessons.exercises.answers.pixels import PixelAnswer, Pixels
 from lessons.exercises.drawn_scene import seen_pixels, window_text
+from lessons.exercises.draws import reject
 from lessons.exercises.numbers import Number, number_text
 from lessons.exercises.question import Draft
 from lessons.mistakes.shelf import RULES, SHELF
@@ -88,15 +89,9 @@ def pictured(
     hints: tuple[str, ...],
     settings: Settings = DEFAULTS,
     read: Callable[[Frame], Pixels] = seen_pixels,
-) -> Draft | None:
-    """Ask for the pixels that are read from the picture of a scene; the mistakes draw it, too.
-
-    ``None`` where there are none, or where all must be marked.
-    """
-    try:
-        answer = PixelAnswer(scene.size, read(render(scene, settings)))
-    except NothingToMarkError:
-        return None
+) -> Draft:
+    """Ask for the pixels that are read from the picture of a scene; the mistakes draw it, too."""
+    answer = PixelAnswer(scene.size, read(render(scene, settings)))
     wrong = {name: read(SHELF[name].draw(scene, settings)) for name in names}
     return Draft(text, f"{window_text(scene.size)}\n{given}", answer, hints, wrong, scene, settings)
 
@@ -110,11 +105,10 @@ def several(
     wrong: Mapping[str, Iterable[int]] | None = None,
     scene: AnyScene | None = None,
     settings: Settings = DEFAULTS,
-) -> Draft | None:
-    """Ask which of several options hold; ``None`` where all do, or none."""
+) -> Draft:
+    """Ask which of several options hold: neither all, nor none."""
     chosen = frozenset(right)
-    if not 0 < len(chosen) < len(options):
-        return None
+    reject(not 0 < len(chosen) < len(options))
     mistakes = {name: frozenset(response) for name, response in (wrong or {}).items()}
     answer = ChoiceAnswer(tuple(options), chosen, is_several=True)
     return Draft(text, given, answer, hints, mistakes, scene, settings)

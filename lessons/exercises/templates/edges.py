@@ -12,9 +12,9 @@ from core.raster.edges.fill_rule import shared_edge
 from core.raster.edges.snapping import snap_one
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.drawn_scene import window_text
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
 from lessons.exercises.templates.drafting import (
     by_rule,
@@ -53,18 +53,19 @@ def first_edge(corners: list[Corner]) -> str:
     return f"The edge from 0 to 1 has a = {y0} - {y1}, b = {x1} - {x0}"
 
 
-def triangle(draws: Draws, size: tuple[int, int] = SIZE, least: int = 16) -> list[Corner] | None:
-    """Draw a counter-clockwise triangle with whole corners; ``None`` where it is small."""
+def triangle(draws: Draws, size: tuple[int, int] = SIZE, least: int = 16) -> list[Corner]:
+    """Draw a counter-clockwise triangle with whole corners, none that is small."""
     corners = [(Fraction(draws.whole(0, size[0])), Fraction(draws.whole(0, size[1]))) for _ in range(3)]
     area = twice_area(corners)
-    return None if abs(area) < least else corners if area > 0 else corners[::-1]
+    reject(abs(area) < least)
+    return corners if area > 0 else corners[::-1]
 
 
-def draw_coefficients(draws: Draws) -> Draft | None:
+@template("edge-coefficients", 1, "Coefficients of an edge", "edges", 2)
+def draw_coefficients(draws: Draws) -> Draft:
     """a, b and c of an edge."""
     start, end = wholes(draws, 2, 0, 9), wholes(draws, 2, 0, 9)
-    if start == end:
-        return None
+    reject(start == end)
     text = f"What are a, b and c of this edge function? {INWARD} Take whole numbers with a = y0 - y1."
     hints = (
         "It is zero at both ends.",
@@ -77,11 +78,10 @@ def draw_coefficients(draws: Draws) -> Draft | None:
     return replace(draft, sketch=sketched({"start": start, "end": end}, (start, end)))
 
 
-def draw_values(draws: Draws) -> Draft | None:
+@template("edge-values", 1, "Edge functions at a pixel", "edges", 3)
+def draw_values(draws: Draws) -> Draft:
     """The three edge functions at a pixel."""
     corners = triangle(draws)
-    if corners is None:
-        return None
     pixel = draws.whole(1, 9), draws.whole(1, 7)
 
     def values(shift: Fraction) -> list[list[Any]]:
@@ -102,11 +102,11 @@ def draw_values(draws: Draws) -> Draft | None:
     return table(text, given, ("E",), NAMES, right, hints, wrong, scene=scene, pixel=pixel)
 
 
-def draw_stepped(draws: Draws) -> Draft | None:
+@template("edge-stepping", 1, "An edge function along a row", "edges", 3)
+def draw_stepped(draws: Draws) -> Draft:
     """An edge function along a row, by adding a."""
     start, end = wholes(draws, 2, 0, 9), wholes(draws, 2, 0, 9)
-    if start[1] == end[1]:
-        return None
+    reject(start[1] == end[1])
     a, b, c = coefficients(start, end)
     first, row = draws.whole(0, 4), draws.whole(0, 6)
     columns = range(first, first + 6)
@@ -129,7 +129,8 @@ def draw_stepped(draws: Draws) -> Draft | None:
 WITHIN_ROW = "Each cell is computed from the one before."
 
 
-def draw_inverse(draws: Draws) -> Draft | None:
+@template("edge-matrix", 1, "Edge functions by a matrix", "edges", 4)
+def draw_inverse(draws: Draws) -> Draft:
     """The matrix of all coefficients, by inversion."""
     rows = [(*wholes(draws, 2, -2, 3), Fraction(draws.whole(1, 2))) for _ in range(3)]
     (x0, y0, w0), (x1, y1, w1), (x2, y2, w2) = rows
@@ -139,8 +140,7 @@ def draw_inverse(draws: Draws) -> Draft | None:
         [x1 * y2 - y1 * x2, y0 * x2 - x0 * y2, x0 * y1 - y0 * x1],
     ]
     determinant = x0 * adjugate[0][0] + y0 * adjugate[1][0] + w0 * adjugate[2][0]
-    if abs(determinant) not in (1, 2, 3, 4):
-        return None
+    reject(abs(determinant) not in (1, 2, 3, 4))
     text = (
         "Which matrix holds the coefficients of the edge functions alpha, beta, gamma? Its columns are theirs, its "
         "rows are a, b and c: it is the inverse of the matrix whose rows are (x, y, w) of the vertices. Row by row."
@@ -156,16 +156,21 @@ def draw_inverse(draws: Draws) -> Draft | None:
     return numbers(text, given, right, hints, shape=(3, 3))
 
 
-def draw_owned(draws: Draws) -> Draft | None:
+@template(
+    "owned-edges",
+    2,
+    "Edges that own their centres",
+    "edges",
+    2,
+    alike=(frozenset({"leftmost-vertex", "level-edges-always"}),),
+)
+def draw_owned(draws: Draws) -> Draft:
     """Edges that own the centres on them."""
     corners = triangle(draws)
-    if corners is None:
-        return None
     if draws.fraction() < 0.5:
         level = min(corners[0][1], corners[1][1])
         corners = [(corners[0][0], level), (corners[1][0], level), corners[2]]
-        if twice_area(corners) < 16:
-            return None
+        reject(twice_area(corners) < 16)
     a, b, _ = np.array(edges_of(corners), float).T
     rules = {"level-edges-never": owns_slanted, "level-edges-always": owns_level}
     right = np.flatnonzero(shared_edge(a, b)).tolist()
@@ -187,6 +192,7 @@ def draw_owned(draws: Draws) -> Draft | None:
     return several(text, given, NAMES, right, hints, shown, triangle_scene(np.array([corners], float), SIZE))
 
 
+@template("snapped-vertex", 1, "A vertex in 256ths", "edges", 1)
 def draw_snapped(draws: Draws) -> Draft:
     """A vertex on the grid of 1/256 pixel."""
     x = Fraction(draws.whole(100, 900), 100)
@@ -200,6 +206,7 @@ def draw_snapped(draws: Draws) -> Draft:
     return numbers(text, f"x = {float(x)} pixels", [right], hints, wrong)
 
 
+@template("area-in-bits", 1, "An area in 64 bits", "edges", 2)
 def draw_bits(draws: Draws) -> Draft:
     """A product that does not fit."""
     width, height = draws.whole(190, 250), draws.whole(190, 250)
@@ -223,6 +230,7 @@ CASES = (
 )
 
 
+@template("binning-case", 1, "The three cases of binning", "bin", 1)
 def draw_case(draws: Draws) -> Draft:
     """The three cases of binning."""
     wanted = draws.whole(0, 2)
@@ -243,12 +251,11 @@ LEAST = 20
 """Blocks that must be marked, and that must not: with fewer, guesses earn too much."""
 
 
-def draw_blocks(draws: Draws) -> Draft | None:
+@template("blocks-discarded", 2, "Blocks that are discarded", "bin", 4)
+def draw_blocks(draws: Draws) -> Draft:
     """Blocks that are discarded."""
     side = BLOCK * BLOCKS
     corners = triangle(draws, (side, side), 150)
-    if corners is None:
-        return None
     scene = triangle_scene(np.array([corners], float), (side, side))
     edges = [(float(a), float(b), float(c), a > 0 or (a == 0 and b > 0)) for a, b, c in edges_of(corners)]
     rule = RULES["block-by-one-corner"]
@@ -257,8 +264,7 @@ def draw_blocks(draws: Draws) -> Draft | None:
         "all their pixel centres lie outside of one edge. Left edges and level bottom edges own the centres on them."
     )
     right = rule.right(edges, BLOCKS, BLOCK)
-    if not LEAST <= len(right) <= BLOCKS * BLOCKS - LEAST:
-        return None
+    reject(not LEAST <= len(right) <= BLOCKS * BLOCKS - LEAST)
     answer = PixelAnswer((BLOCKS, BLOCKS), right, noun="blocks")
     hints = (
         "Take one edge at a time.",
@@ -273,11 +279,11 @@ def draw_blocks(draws: Draws) -> Draft | None:
 CORNERS = ("lower left", "lower right", "upper left", "upper right")
 
 
-def draw_corner(draws: Draws) -> Draft | None:
+@template("deciding-corner", 1, "The corner that decides", "bin", 1)
+def draw_corner(draws: Draws) -> Draft:
     """The pixel of a block that decides."""
     a, b, c = draws.whole(-9, 9), draws.whole(-9, 9), draws.whole(-40, 40)
-    if not a or not b:
-        return None
+    reject(not a or not b)
     right = 2 * (b > 0) + (a > 0)
     text = (
         "Which pixel of a block decides whether the whole block is outside of this edge? Outside is where "
@@ -295,11 +301,10 @@ def draw_corner(draws: Draws) -> Draft | None:
     return one_of(text, given.replace("+ -", "- "), CORNERS, right, hints, wrong)
 
 
-def draw_tests(draws: Draws) -> Draft | None:
+@template("pixels-tested", 1, "Pixels that are tested", "bin", 2)
+def draw_tests(draws: Draws) -> Draft:
     """Pixels that are tested."""
     corners = triangle(draws)
-    if corners is None:
-        return None
     scene = triangle_scene(np.array([corners], float), SIZE)
     right = [
         render(scene, Settings(fill=fill)).statistics["bin"].outgoing
@@ -321,26 +326,3 @@ def draw_tests(draws: Draws) -> Draft | None:
     return numbers(
         text, given, right, hints, names=names, scene=scene, settings=Settings(fill="bounding-box")
     )
-
-
-TEMPLATES = (
-    Template("edge-coefficients", 1, "Coefficients of an edge", "edges", 2, draw_coefficients),
-    Template("edge-values", 1, "Edge functions at a pixel", "edges", 3, draw_values),
-    Template("edge-stepping", 1, "An edge function along a row", "edges", 3, draw_stepped),
-    Template("edge-matrix", 1, "Edge functions by a matrix", "edges", 4, draw_inverse),
-    Template(
-        "owned-edges",
-        2,
-        "Edges that own their centres",
-        "edges",
-        2,
-        draw_owned,
-        alike=(frozenset({"leftmost-vertex", "level-edges-always"}),),
-    ),
-    Template("snapped-vertex", 1, "A vertex in 256ths", "edges", 1, draw_snapped),
-    Template("area-in-bits", 1, "An area in 64 bits", "edges", 2, draw_bits),
-    Template("binning-case", 1, "The three cases of binning", "bin", 1, draw_case),
-    Template("blocks-discarded", 2, "Blocks that are discarded", "bin", 4, draw_blocks),
-    Template("deciding-corner", 1, "The corner that decides", "bin", 1, draw_corner),
-    Template("pixels-tested", 1, "Pixels that are tested", "bin", 2, draw_tests),
-)

@@ -7,9 +7,9 @@ import numpy as np
 
 from core import Settings
 from core.geometry.culling import plane_distances
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import FACES, corner_text, culled, facing_text, twice_area
 from lessons.exercises.templates.drafting import factor_text, numbers, place_text, several
 from lessons.exercises.templates.transforms import wholes
@@ -18,11 +18,11 @@ from lessons.mistakes.shelf import RULES, SHELF
 from lessons.small_scenes import triangle_scene
 
 
-def draw_order(draws: Draws) -> Draft | None:
+@template("face-order", 1, "Vertex orders that face away", "cull", 2)
+def draw_order(draws: Draws) -> Draft:
     """Vertex orders that face the camera."""
     corners = [(Fraction(draws.whole(0, 5)), Fraction(draws.whole(0, 5))) for _ in range(3)]
-    if abs(twice_area(corners)) < 5:
-        return None
+    reject(abs(twice_area(corners)) < 5)
     orders = list(permutations(range(3)))
     placed = [[(corners[k][0] + 6 * n, corners[k][1]) for k in order] for n, order in enumerate(orders)]
     scene, settings = triangle_scene(np.array(placed, float), (36, 6)), Settings(cull="back")
@@ -42,7 +42,8 @@ def draw_order(draws: Draws) -> Draft | None:
     return several(text, given, options, back, hints, {"facing-exchanged": wrong})
 
 
-def draw_eye(draws: Draws) -> Draft | None:
+@template("faces-from-eye", 1, "Faces that face away from the eye", "cull", 3)
+def draw_eye(draws: Draws) -> Draft:
     """N . V for faces seen in perspective."""
     eye = wholes(draws, 3, -2, 2)
     faces = [
@@ -52,8 +53,7 @@ def draw_eye(draws: Draws) -> Draft | None:
     cosines = [
         sum(n * r for n, r in zip(face[0], ray, strict=True)) for face, ray in zip(faces, rays, strict=True)
     ]
-    if not all(cosines) or not all(normal[2] for normal, _ in faces):
-        return None
+    reject(not all(cosines) or not all(normal[2] for normal, _ in faces))
     text = (
         "Which faces are culled? N points outward, V from the eye to a point of the face: a face is culled where "
         "N . V > 0."
@@ -77,13 +77,13 @@ def draw_eye(draws: Draws) -> Draft | None:
 WINDOW = (8, 6)
 
 
-def draw_outside(draws: Draws) -> Draft | None:
+@template("outside-one-border", 1, "Triangles outside of one border", "cull", 3)
+def draw_outside(draws: Draws) -> Draft:
     """Triangles outside of one border."""
     triangles = [
         [(Fraction(draws.whole(-4, 12)), Fraction(draws.whole(-4, 10))) for _ in range(3)] for _ in FACES
     ]
-    if min(abs(twice_area(corners)) for corners in triangles) < 5:
-        return None
+    reject(min(abs(twice_area(corners)) for corners in triangles) < 5)
     scene = triangle_scene(np.array(triangles, float), WINDOW)
     outside = np.asarray(plane_distances(scene.clip) < 0)
     dropped = np.flatnonzero(np.any(np.all(outside, axis=1), axis=1)).tolist()
@@ -106,6 +106,7 @@ def draw_outside(draws: Draws) -> Draft | None:
     return several(text, given, FACES, dropped, hints, wrong, scene)
 
 
+@template("bounding-box", 1, "An axis-aligned bounding box", "cull", 1)
 def draw_box(draws: Draws) -> Draft:
     """An axis-aligned bounding box."""
     corners = [wholes(draws, 3, -9, 9) for _ in range(3)]
@@ -121,13 +122,13 @@ def draw_box(draws: Draws) -> Draft:
     return numbers(text, "\n".join(map(place_text, corners)), right, hints, names=names)
 
 
-def draw_determinant(draws: Draws) -> Draft | None:
+@template("homogeneous-determinant", 1, "The determinant of (x, y, w)", "cull", 3)
+def draw_determinant(draws: Draws) -> Draft:
     """The determinant of (x, y, w)."""
     rows = [(*wholes(draws, 2, -4, 4), Fraction(draws.item((1, 2, 3, -1)))) for _ in range(3)]
     (a, b, c), (d, e, f), (g, h, i) = rows
     determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
-    if not determinant:
-        return None
+    reject(not determinant)
     text = (
         "What is the determinant of the matrix whose rows are (x, y, w) of the vertices? It is negative for a back "
         "face, whatever the signs of w, and 0 where there is nothing to draw."
@@ -141,12 +142,3 @@ def draw_determinant(draws: Draws) -> Draft | None:
         first,
     )
     return numbers(text, given, [determinant], hints)
-
-
-TEMPLATES = (
-    Template("face-order", 1, "Vertex orders that face away", "cull", 2, draw_order),
-    Template("faces-from-eye", 1, "Faces that face away from the eye", "cull", 3, draw_eye),
-    Template("outside-one-border", 1, "Triangles outside of one border", "cull", 3, draw_outside),
-    Template("bounding-box", 1, "An axis-aligned bounding box", "cull", 1, draw_box),
-    Template("homogeneous-determinant", 1, "The determinant of (x, y, w)", "cull", 3, draw_determinant),
-)

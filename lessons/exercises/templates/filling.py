@@ -8,9 +8,9 @@ import numpy as np
 from core import Settings, render
 from core.records.frame import Frame
 from lessons.exercises.drawn_scene import window_text
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, row_hint, twice_area
 from lessons.exercises.templates.drafting import numbers, pictured, place_text, table
 from lessons.exercises.templates.edges import coefficients
@@ -38,12 +38,9 @@ def is_decided(corners: list[Corner]) -> bool:
     )
 
 
-def of_triangle(
-    corners: list[Corner], text: str, names: tuple[str, ...], hints: tuple[str, ...]
-) -> Draft | None:
+def of_triangle(corners: list[Corner], text: str, names: tuple[str, ...], hints: tuple[str, ...]) -> Draft:
     """Ask for the pixels of one triangle."""
-    if abs(twice_area(corners)) < 8 or not is_decided(corners):
-        return None
+    reject(abs(twice_area(corners)) < 8 or not is_decided(corners))
     scene = triangle_scene(np.array([corners], float), SIZE)
     return pictured(f"{text} {RULE}", f"Triangle: {corner_text(corners)}", scene, names, hints)
 
@@ -53,7 +50,8 @@ def tenths(draws: Draws, low: int, high: int) -> Fraction:
     return Fraction(draws.whole(10 * low, 10 * high), 10)
 
 
-def draw_flat(draws: Draws) -> Draft | None:
+@template("flat-side", 2, "A triangle with a level side", "raster", 4)
+def draw_flat(draws: Draws) -> Draft:
     """A triangle with a level side."""
     level, other = draws.shuffled((draws.whole(1, 3), draws.whole(5, 8)))
     left, right = draws.whole(0, 4) + HALF, draws.whole(7, 11) + HALF
@@ -67,7 +65,8 @@ def draw_flat(draws: Draws) -> Draft | None:
     return of_triangle(corners, "Which pixels does this triangle with a level side cover?", names, hints)
 
 
-def draw_thin(draws: Draws) -> Draft | None:
+@template("thin-triangle", 3, "A thin triangle", "raster", 4)
+def draw_thin(draws: Draws) -> Draft:
     """A thin triangle."""
     x = tenths(draws, 2, 8)
     corners = [
@@ -84,7 +83,8 @@ def draw_thin(draws: Draws) -> Draft | None:
     return of_triangle(corners, "Which pixels does this thin triangle cover?", names, hints)
 
 
-def draw_border(draws: Draws) -> Draft | None:
+@template("right-border", 3, "Beyond the right border", "raster", 3)
+def draw_border(draws: Draws) -> Draft:
     """A triangle across the right border."""
     corners = [
         (tenths(draws, 5, 9), tenths(draws, 0, 3)),
@@ -100,12 +100,12 @@ def draw_border(draws: Draws) -> Draft | None:
     return of_triangle(corners, text, ("column-wrapped", "corner-for-center"), hints)
 
 
-def draw_points(draws: Draws) -> Draft | None:
+@template("point-pixels", 2, "Pixels of points", "raster", 3)
+def draw_points(draws: Draws) -> Draft:
     """Points, some of them left of the window."""
     places = [(Fraction(draws.whole(-9, 115), 10), tenths(draws, 0, 9)) for _ in range(6)]
     places.append((-Fraction(draws.whole(1, 9), 10), tenths(draws, 1, 8)))
-    if any(c.denominator == 1 for place in places for c in place):
-        return None
+    reject(any(c.denominator == 1 for place in places for c in place))
     x, y = np.array(places, float).T
     scene = assembled("points", x, y, SIZE)
     text = "Which pixels do these points light? Pixel (i, j) reaches from i to i + 1 and from j to j + 1."
@@ -117,26 +117,24 @@ def draw_points(draws: Draws) -> Draft | None:
     return pictured(text, ", ".join(map(place_text, places)), scene, ("truncated-to-zero",), hints)
 
 
-def draw_ends(draws: Draws) -> Draft | None:
+@template("row-ends", 1, "First and last pixel of a row", "raster", 2)
+def draw_ends(draws: Draws) -> Draft:
     """First and last pixel of a row."""
     corners = [(draws.whole(0, 11) + HALF, draws.whole(0, 8) + HALF) for _ in range(3)]
     row = draws.whole(2, 6)
-    if abs(twice_area(corners)) < 16:
-        return None
+    reject(abs(twice_area(corners)) < 16)
     scene = triangle_scene(np.array([corners], float), SIZE)
 
-    def ends(frame: Frame) -> list[int] | None:
+    def ends(frame: Frame) -> list[int]:
         columns = np.flatnonzero(frame.primitive[row] >= 0).tolist()
-        return [columns[0], columns[-1]] if columns else None
+        return [*columns[:1], *columns[-1:]]
 
     right = ends(render(scene))
     names = ("right-end-drawn", "all-edges-exclusive", "corner-for-center")
     wrong = {name: ends(SHELF[name].draw(scene, Settings())) for name in names}
-    if right is None or right[0] == right[1]:
-        return None
-    shown = {name: response for name, response in wrong.items() if response not in (None, right)}
-    if not shown:
-        return None
+    reject(len({*right}) < 2)
+    shown = {name: response for name, response in wrong.items() if response not in ([], right)}
+    reject(not shown)
     text = f"Which are the first and the last column that this triangle covers in row {row}? {RULE}"
     hints = (
         f"The centres of the row lie at y = {row} + 1/2.",
@@ -147,12 +145,12 @@ def draw_ends(draws: Draws) -> Draft | None:
     return numbers(text, given, right, hints, shown, ("first", "last"), scene=scene)
 
 
-def draw_rows(draws: Draws) -> Draft | None:
+@template("row-crossings", 1, "Where edges cross rows", "raster", 4)
+def draw_rows(draws: Draws) -> Draft:
     """Left and right x of rows."""
     corners = sorted(((tenths(draws, 0, 11), tenths(draws, 0, 9)) for _ in range(3)), key=lambda c: c[1])
     heights = [corners[b][1] - corners[a][1] for a, b in SORTED_EDGES]
-    if min(heights) < 1 or abs(twice_area(corners)) < 20:
-        return None
+    reject(min(heights) < 1 or abs(twice_area(corners)) < 20)
     rows = range(ceil(corners[0][1] - HALF), floor(corners[2][1] - HALF) + 1)[:5]
 
     def crossings(rule: str, is_right: bool = False) -> list[list[Fraction]]:
@@ -169,8 +167,7 @@ def draw_rows(draws: Draws) -> Draft | None:
 
     names = ("crossing-from-vertex", "height-plus-one")
     right = crossings(names[0], is_right=True)
-    if any(len(row) != 2 or row[0] == row[1] for row in right):
-        return None
+    reject(any(len(row) != 2 or row[0] == row[1] for row in right))
     text = "Where do the edges cross the centres of these rows, y = j + 1/2: left x and right x?"
     hints = (
         "Which two edges does each row cross?",
@@ -185,12 +182,12 @@ def draw_rows(draws: Draws) -> Draft | None:
     return table(text, given, ("left", "right"), labels, right, hints, wrong, scene=scene, settings=settings)
 
 
-def draw_fourth(draws: Draws) -> Draft | None:
+@template("fourth-vertex", 1, "The vertex that splits a triangle", "raster", 2)
+def draw_fourth(draws: Draws) -> Draft:
     """The point on the long edge that splits a triangle."""
     corners = [wholes(draws, 2, 0, 12) for _ in range(3)]
     v1, v2, v3 = sorted(corners, key=lambda c: -c[1])
-    if len({v[1] for v in corners}) < 3:
-        return None
+    reject(len({v[1] for v in corners}) < 3)
     text = (
         "A scanline fill splits a triangle at the height of its middle vertex. Where on the long edge, x and y, does "
         "the new vertex v4 lie?"
@@ -208,7 +205,8 @@ def draw_fourth(draws: Draws) -> Draft | None:
     return numbers(text, given, [x, v2[1]], hints, names=("x", "y"), scene=scene)
 
 
-def draw_fan(draws: Draws) -> Draft | None:
+@template("fan-count", 1, "How often a centre is drawn", "raster", 2)
+def draw_fan(draws: Draws) -> Draft:
     """How often triangles around a pixel centre draw it."""
     center = (draws.whole(3, 8) + HALF, draws.whole(3, 5) + HALF)
     around = sorted(
@@ -216,8 +214,7 @@ def draw_fan(draws: Draws) -> Draft | None:
         key=lambda p: atan2(p[1] - center[1], p[0] - center[0]),
     )
     triangles = [[center, a, b] for a, b in zip(around, [*around[1:], around[0]], strict=True)]
-    if min(twice_area(corners) for corners in triangles) < 1:
-        return None
+    reject(min(twice_area(corners) for corners in triangles) < 1)
     scene = triangle_scene(np.array(triangles, float), SIZE)
     counts = [
         int(render(scene, Settings(fill_rule=rule)).cover_count[int(center[1]), int(center[0])])
@@ -234,15 +231,3 @@ def draw_fan(draws: Draws) -> Draft | None:
     )
     given = f"Centre {place_text(center)}; around it, counter-clockwise, lie {', '.join(map(place_text, around))}."
     return numbers(text, given, counts, hints, names=("shared edges", ">=", ">"), scene=scene)
-
-
-TEMPLATES = (
-    Template("flat-side", 2, "A triangle with a level side", "raster", 4, draw_flat),
-    Template("thin-triangle", 3, "A thin triangle", "raster", 4, draw_thin),
-    Template("right-border", 3, "Beyond the right border", "raster", 3, draw_border),
-    Template("point-pixels", 2, "Pixels of points", "raster", 3, draw_points),
-    Template("row-ends", 1, "First and last pixel of a row", "raster", 2, draw_ends),
-    Template("row-crossings", 1, "Where edges cross rows", "raster", 4, draw_rows),
-    Template("fourth-vertex", 1, "The vertex that splits a triangle", "raster", 2, draw_fourth),
-    Template("fan-count", 1, "How often a centre is drawn", "raster", 2, draw_fan),
-)

@@ -21,9 +21,9 @@ from lessons.exercises.answers.fields import (
     TableAnswer,
     number_rows,
 )
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
 from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text
 from lessons.mistakes.shelf import SHELF
@@ -37,17 +37,16 @@ def attributes_at(frame: Frame, pixel: tuple[int, int]) -> Numbers:
     return tuple(float(value) for value in frame.attributes[pixel[1], pixel[0]])
 
 
-def draw_weights(draws: Draws) -> Draft | None:
+@template("barycentric-weights", 2, "Barycentric weights", "interpolate", 3)
+def draw_weights(draws: Draws) -> Draft:
     """Barycentric weights at a centre."""
     corners = [(Fraction(draws.whole(0, 10)), Fraction(draws.whole(0, 8))) for _ in range(3)]
     pixel = draws.whole(2, 8), draws.whole(2, 6)
     center = (pixel[0] + Fraction(1, 2), pixel[1] + Fraction(1, 2))
     area = twice_area(corners)
-    if area < 20:
-        return None
+    reject(area < 20)
     weights = tuple(twice_area([center, corners[(k + 1) % 3], corners[(k + 2) % 3]]) / area for k in range(3))
-    if min(weights) < Fraction(1, 20):
-        return None
+    reject(min(weights) < Fraction(1, 20))
     scene = triangle_scene(np.array([corners], float), (11, 9), attributes=np.eye(3)[None])
     wrong = {"weights-permuted": attributes_at(SHELF["weights-permuted"].draw(scene, Settings()), pixel)}
     shifted = SHELF["corner-for-center"].draw(scene, Settings())
@@ -69,13 +68,20 @@ def draw_weights(draws: Draws) -> Draft | None:
     return Draft(text, given, answer, hints, wrong, scene, pixel=pixel)
 
 
-def draw_perspective(draws: Draws) -> Draft | None:
+@template(
+    "perspective-u",
+    1,
+    "Perspective against affine",
+    "interpolate",
+    3,
+    alike=(frozenset({"affine-for-perspective", "w-overwritten"}),),
+)
+def draw_perspective(draws: Draws) -> Draft:
     """An attribute under perspective; the weights are given."""
     pixel = draws.whole(1, 6), draws.whole(1, 6)
     beta, gamma = Fraction(pixel[0], 8), Fraction(pixel[1], 8)
     weights = (1 - beta - gamma, beta, gamma)
-    if weights[0] <= 0:
-        return None
+    reject(weights[0] <= 0)
     w = [Fraction(draws.item((1, 2, 4, 5))) for _ in range(3)]
     u = [Fraction(draws.whole(0, 8)) for _ in range(3)]
     over_w = sum((weight / each for weight, each in zip(weights, w, strict=True)), Fraction(0))
@@ -148,11 +154,11 @@ def depth_table(fragments: Sequence[Fragment]) -> TableAnswer:
     return TableAnswer((Column("stored"),), labels, stored_depths(fragments), follow)
 
 
-def draw_depths(draws: Draws) -> Draft | None:
+@template("z-buffer-table", 1, "Z-buffer, fragment by fragment", "depth", 4)
+def draw_depths(draws: Draws) -> Draft:
     """A z-buffer, fragment by fragment."""
     fragments = [(draws.whole(0, FRAGMENT_PIXELS - 1), draws.whole(10, 99)) for _ in range(FRAGMENT_COUNT)]
-    if len(set(fragments)) < len(fragments):
-        return None
+    reject(len(set(fragments)) < len(fragments))
     wrong = {name: stored_depths(fragments, name) for name in ("farther-wins", "no-depth-test")}
     text = (
         "These fragments are drawn in order. What does the z-buffer hold at the pixel of each right after it was "
@@ -169,6 +175,7 @@ def draw_depths(draws: Draws) -> Draft | None:
 COLORS = {"red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1), "yellow": (1, 1, 0), "white": (1, 1, 1)}
 
 
+@template("blend-over", 1, "Layers blended in order", "blend", 3)
 def draw_blend(draws: Draws) -> Draft:
     """Layers blended in order."""
     names = draws.shuffled(tuple(COLORS))[:2]
@@ -201,6 +208,7 @@ def draw_blend(draws: Draws) -> Draft:
     return Draft(text, given, answer, hints, wrong, scene, settings, (0, 0))
 
 
+@template("stage-order", 2, "Order of the stages", "transform", 2)
 def draw_stages(draws: Draws) -> Draft:
     """Stages in an order that all pipelines share: others clip before they cull, or test depth before they shade."""
     left_out = {"edges", draws.item(("cull", "clip")), *draws.item((("depth",), ("interpolate", "shade")))}
@@ -214,20 +222,3 @@ def draw_stages(draws: Draws) -> Draft:
     )
     answer = OrderAnswer(options, shown)
     return Draft("Put these stages of the pipeline in order, first to last.", "", answer, hints)
-
-
-TEMPLATES = (
-    Template("barycentric-weights", 2, "Barycentric weights", "interpolate", 3, draw_weights),
-    Template(
-        "perspective-u",
-        1,
-        "Perspective against affine",
-        "interpolate",
-        3,
-        draw_perspective,
-        alike=(frozenset({"affine-for-perspective", "w-overwritten"}),),
-    ),
-    Template("z-buffer-table", 1, "Z-buffer, fragment by fragment", "depth", 4, draw_depths),
-    Template("blend-over", 1, "Layers blended in order", "blend", 3, draw_blend),
-    Template("stage-order", 2, "Order of the stages", "transform", 2, draw_stages),
-)

@@ -8,9 +8,9 @@ import numpy as np
 
 from core import Settings, render
 from lessons.exercises.answers.fields import Numbers
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import Corner, corner_text, facing_text, twice_area
 from lessons.exercises.templates.drafting import by_rule, numbers, place_text, table
 from lessons.exercises.templates.edges import coefficients
@@ -28,26 +28,25 @@ def weights_at(corners: Sequence[Corner], point: Corner) -> list[Fraction]:
     return [twice_area([point, corners[(k + 1) % 3], corners[(k + 2) % 3]]) / whole for k in range(3)]
 
 
-def triangle_and_pixel(draws: Draws) -> tuple[list[Corner], tuple[int, int], list[Fraction]] | None:
-    """Draw a triangle and a pixel inside; ``None``: it is not."""
+def triangle_and_pixel(draws: Draws) -> tuple[list[Corner], tuple[int, int], list[Fraction]]:
+    """Draw a triangle and a pixel inside, with the weights of its centre."""
     corners = [(Fraction(draws.whole(0, 10)), Fraction(draws.whole(0, 8))) for _ in range(3)]
     pixel = draws.whole(2, 8), draws.whole(2, 6)
-    if twice_area(corners) < 20:
-        return None
+    reject(twice_area(corners) < 20)
     half = Fraction(1, 2)
     weights = weights_at(corners, (pixel[0] + half, pixel[1] + half))
-    return None if min(weights) < Fraction(1, 20) else (corners, pixel, weights)
+    reject(min(weights) < Fraction(1, 20))
+    return corners, pixel, weights
 
 
-def draw_two_points(draws: Draws) -> Draft | None:
+@template("weights-of-two-points", 1, "Weights inside and outside", "interpolate", 3)
+def draw_two_points(draws: Draws) -> Draft:
     """A point inside, and one outside."""
     corners = [(Fraction(draws.whole(0, 9)), Fraction(draws.whole(0, 9))) for _ in range(3)]
     points = [(Fraction(draws.whole(0, 9)), Fraction(draws.whole(0, 9))) for _ in range(2)]
-    if twice_area(corners) < 10:
-        return None
+    reject(twice_area(corners) < 10)
     rows = [weights_at(corners, point) for point in points]
-    if min(rows[0]) <= 0 or min(rows[1]) >= 0:
-        return None
+    reject(min(rows[0]) <= 0 or min(rows[1]) >= 0)
     turned = [[row[2], row[0], row[1]] for row in rows]
     text = "What are alpha, beta and gamma of P and of Q? One lies inside of the triangle, the other one outside."
     given = (
@@ -63,12 +62,10 @@ def draw_two_points(draws: Draws) -> Draft | None:
     return table(text, given, NAMES, ("P", "Q"), rows, hints, {"weights-permuted": turned}, scene=scene)
 
 
-def draw_color(draws: Draws) -> Draft | None:
+@template("color-at-pixel", 1, "A colour between three vertices", "interpolate", 3)
+def draw_color(draws: Draws) -> Draft:
     """A colour between three vertices."""
-    drawn = triangle_and_pixel(draws)
-    if drawn is None:
-        return None
-    corners, pixel, weights = drawn
+    corners, pixel, weights = triangle_and_pixel(draws)
     colors = [[Fraction(draws.whole(0, 4), 4) for _ in RGB] for _ in range(3)]
     right = [sum((w * c[k] for w, c in zip(weights, colors, strict=True)), Fraction(0)) for k in range(3)]
     scene = triangle_scene(np.array([corners], float), SIZE, attributes=np.array([colors], float))
@@ -87,12 +84,10 @@ def draw_color(draws: Draws) -> Draft | None:
     return numbers(text, given, right, hints, wrong, RGB, scene=scene, pixel=pixel)
 
 
-def draw_sorted(draws: Draws) -> Draft | None:
+@template("sorted-attributes", 1, "Values of sorted vertices", "interpolate", 3)
+def draw_sorted(draws: Draws) -> Draft:
     """A value after the vertices were sorted."""
-    drawn = triangle_and_pixel(draws)
-    if drawn is None:
-        return None
-    corners, pixel, weights = drawn
+    corners, pixel, weights = triangle_and_pixel(draws)
     q = [Fraction(draws.whole(0, 20)) for _ in range(3)]
     scene = triangle_scene(np.array([corners], float), SIZE, attributes=np.array(q, float).reshape(1, 3, 1))
     wrong = {
@@ -115,12 +110,10 @@ def draw_sorted(draws: Draws) -> Draft | None:
     return numbers(text, given, right, hints, wrong, scene=scene, pixel=pixel)
 
 
-def draw_flat(draws: Draws) -> Draft | None:
+@template("flat-value", 1, "The provoking vertex", "interpolate", 1)
+def draw_flat(draws: Draws) -> Draft:
     """The provoking vertex."""
-    drawn = triangle_and_pixel(draws)
-    if drawn is None:
-        return None
-    corners, pixel, _ = drawn
+    corners, pixel, _ = triangle_and_pixel(draws)
     q = [Fraction(value) for value in draws.shuffled(range(10, 60))[:3]]
     provoking = draws.item(("first", "last"))
     settings = Settings(interpolation="flat", provoking=provoking)
@@ -143,6 +136,7 @@ def draw_flat(draws: Draws) -> Draft | None:
     return numbers(text, given, whole, hints, scene=scene, settings=settings, pixel=pixel)
 
 
+@template("edge-middle", 1, "The middle of an edge", "interpolate", 2)
 def draw_edge_middle(draws: Draws) -> Draft:
     """Which point of an edge is at its middle in the window."""
     near, far = Fraction(draws.whole(1, 4)), Fraction(draws.whole(5, 12))
@@ -165,12 +159,12 @@ def draw_edge_middle(draws: Draws) -> Draft:
     return numbers(text, given, [right], hints, wrong)
 
 
-def draw_reciprocal(draws: Draws) -> Draft | None:
+@template("reciprocal-w", 3, "1/w along an edge", "interpolate", 1)
+def draw_reciprocal(draws: Draws) -> Draft:
     """1/w between two ends."""
     w = [Fraction(draws.item((1, 2, 4, 5, 8, 10))) for _ in range(2)]
     t = Fraction(draws.whole(1, 7), 8)
-    if w[0] == w[1]:
-        return None
+    reject(w[0] == w[1])
     text = "What is 1/w at this point of an edge? t is its share of the way in the window."
     given = f"w = {w[0]} at t = 0, w = {w[1]} at t = 1.\nThe point: t = {number_text(t)}"
     hints = (
@@ -183,15 +177,14 @@ def draw_reciprocal(draws: Draws) -> Draft | None:
     return numbers(text, given, right, hints, {rule.name: wrong})
 
 
-def draw_plane(draws: Draws) -> Draft | None:
+@template("attribute-plane", 1, "u/w over the window", "interpolate", 4)
+def draw_plane(draws: Draws) -> Draft:
     """Coefficients of u/w over the window."""
     corners = [(Fraction(draws.whole(0, 6)), Fraction(draws.whole(0, 6))) for _ in range(3)]
     area = twice_area(corners)
-    if area not in (4, 5, 8, 10, 16, 20):
-        return None
+    reject(area not in (4, 5, 8, 10, 16, 20))
     w, u = ([Fraction(draws.item(items)) for _ in range(3)] for items in ((1, 2, 4), (0, 2, 4, 8)))
-    if len(set(u)) == 1:
-        return None
+    reject(len(set(u)) == 1)
     edges = [coefficients(corners[(k + 1) % 3], corners[(k + 2) % 3]) for k in range(3)]
     right = [
         sum((edge[k] / area * a / b for edge, a, b in zip(edges, u, w, strict=True)), Fraction(0))
@@ -219,6 +212,7 @@ def edge_shares(draws: Draws) -> tuple[Fraction, tuple[Any, ...]]:
     return Fraction(draws.whole(1, 7), 8), (Fraction(draws.whole(1, 3)), Fraction(draws.whole(5, 12)))
 
 
+@template("depth-along-edge", 1, "Window depth along an edge", "interpolate", 2)
 def draw_depth(draws: Draws) -> Draft:
     """Window depth along an edge."""
     t, distances = edge_shares(draws)
@@ -239,6 +233,7 @@ def draw_depth(draws: Draws) -> Draft:
     return by_rule(text, given, (t, depths, distances), ("depth-corrected-twice",), hints)
 
 
+@template("distance-along-edge", 1, "Distance along an edge", "interpolate", 2)
 def draw_distance(draws: Draws) -> Draft:
     """The distance along an edge."""
     t, distances = edge_shares(draws)
@@ -250,16 +245,3 @@ def draw_distance(draws: Draws) -> Draft:
         f"1 / ((1 - {number_text(t)})/{distances[0]} + {number_text(t)}/{distances[1]}).",
     )
     return by_rule(text, given, (t, distances), ("distance-linear",), hints)
-
-
-TEMPLATES = (
-    Template("weights-of-two-points", 1, "Weights inside and outside", "interpolate", 3, draw_two_points),
-    Template("color-at-pixel", 1, "A colour between three vertices", "interpolate", 3, draw_color),
-    Template("sorted-attributes", 1, "Values of sorted vertices", "interpolate", 3, draw_sorted),
-    Template("flat-value", 1, "The provoking vertex", "interpolate", 1, draw_flat),
-    Template("edge-middle", 1, "The middle of an edge", "interpolate", 2, draw_edge_middle),
-    Template("reciprocal-w", 3, "1/w along an edge", "interpolate", 1, draw_reciprocal),
-    Template("attribute-plane", 1, "u/w over the window", "interpolate", 4, draw_plane),
-    Template("depth-along-edge", 1, "Window depth along an edge", "interpolate", 2, draw_depth),
-    Template("distance-along-edge", 1, "Distance along an edge", "interpolate", 2, draw_distance),
-)

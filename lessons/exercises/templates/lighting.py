@@ -4,9 +4,9 @@ from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.drafting import TOLERANCE, by_rule, factor_text, numbers, one_of, place_text
 from lessons.exercises.templates.transforms import vectors_sketched, wholes
 from lessons.mistakes.shelf import RULES
@@ -24,13 +24,13 @@ VECTORS: tuple[tuple[Any, ...], ...] = (
 )
 
 
-def draw_lambert(draws: Draws) -> Draft | None:
+@template("lambert", 2, "Diffuse light", "shade", 2)
+def draw_lambert(draws: Draws) -> Draft:
     """Diffuse light at a point that faces the light, and at one that faces away."""
     ambient = Fraction(draws.whole(1, 3), 4)
     facing, away, to_light = (draws.item(VECTORS) for _ in range(3))
     normals = tuple(2 * c for c in facing), tuple(-c for c in away)
-    if dot(facing, to_light) <= 0 or dot(away, to_light) <= 0 or facing == to_light:
-        return None
+    reject(dot(facing, to_light) <= 0 or dot(away, to_light) <= 0 or facing == to_light)
     text = (
         "How bright are the points P and Q? The light is a + (1 - a) max(0, N . L), with N and L of length 1; L points "
         "to the light."
@@ -56,6 +56,7 @@ def draw_lambert(draws: Draws) -> Draft | None:
     return replace(draft, sketch=vectors_sketched(vectors))
 
 
+@template("normal-between", 1, "An interpolated normal", "shade", 3)
 def draw_between(draws: Draws) -> Draft:
     """An interpolated normal."""
     normals = [draws.item(VECTORS), draws.item(VECTORS)]
@@ -83,14 +84,14 @@ def draw_between(draws: Draws) -> Draft:
     return replace(draft, sketch=vectors_sketched(vectors))
 
 
-def draw_highlight(draws: Draws) -> Draft | None:
+@template("highlight", 2, "The highlight", "shade", 3)
+def draw_highlight(draws: Draws) -> Draft:
     """Blinn and Phong."""
     normal, to_light, to_eye = (draws.item(VECTORS) for _ in range(3))
     shininess = draws.item((2, 4, 8))
     arguments = (normal, to_light, to_eye, shininess)
     names = ("highlight-at-light", "highlight-at-eye", "shininess-inverted")
-    if dot(normal, to_light) <= 0 or RULES[names[0]].right(*arguments)[0] < 10 * TOLERANCE:
-        return None
+    reject(dot(normal, to_light) <= 0 or RULES[names[0]].right(*arguments)[0] < 10 * TOLERANCE)
     text = (
         "What is the highlight max(0, N . H)^s of Blinn and Phong? H is halfway between L and V; all vectors are "
         "made to length 1."
@@ -109,6 +110,7 @@ def draw_highlight(draws: Draws) -> Draft | None:
     return replace(draft, sketch=vectors_sketched({"N": normal, "L": to_light, "V": to_eye}))
 
 
+@template("scaled-normal", 1, "A normal under scaling", "shade", 3)
 def draw_normal(draws: Draws) -> Draft:
     """A normal under scaling."""
     scale, shift = wholes(draws, 3, 1, 4), wholes(draws, 3, -3, 3)
@@ -129,6 +131,7 @@ def draw_normal(draws: Draws) -> Draft:
     return replace(draft, sketch=vectors_sketched({"N": normal}))
 
 
+@template("camera-normal", 1, "The matrix of normals", "shade", 2)
 def draw_camera_normal(draws: Draws) -> Draft:
     """The matrix of normals."""
     c, s = draws.item(((Fraction(3, 5), Fraction(4, 5)), (Fraction(4, 5), Fraction(-3, 5))))
@@ -151,11 +154,11 @@ def draw_camera_normal(draws: Draws) -> Draft:
     return replace(draft, sketch=vectors_sketched({"N": normal}))
 
 
-def draw_byte(draws: Draws) -> Draft | None:
+@template("light-byte", 2, "A sum of lights as a byte", "shade", 1)
+def draw_byte(draws: Draws) -> Draft:
     """A sum of lights."""
     ambient, diffuse = Fraction(draws.whole(15, 60), 100), Fraction(draws.whole(42, 98), 100)
-    if (255 * (ambient + diffuse)).denominator == 2:
-        return None
+    reject((255 * (ambient + diffuse)).denominator == 2)
     text = "Ambient and diffuse light are added and stored as a byte, 255 for 1, rounded. Which byte is it?"
     given = f"Ambient: {number_text(ambient)}, diffuse: {number_text(diffuse)}"
     hints = (
@@ -168,6 +171,7 @@ def draw_byte(draws: Draws) -> Draft | None:
     return numbers(text, given, rule.right(*lights), hints, wrong)
 
 
+@template("light-evaluations", 1, "Where light is evaluated", "shade", 2)
 def draw_evaluations(draws: Draws) -> Draft:
     """Where light is evaluated."""
     triangles, fragments = draws.whole(10, 60), draws.whole(300, 900)
@@ -186,6 +190,7 @@ def draw_evaluations(draws: Draws) -> Draft:
     return by_rule(text, given, (triangles, vertices, fragments), ("phong-at-vertices",), hints, names)
 
 
+@template("shading-of-highlight", 1, "Which shading shows it", "shade", 1)
 def draw_shading(draws: Draws) -> Draft:
     """What a highlight inside a triangle needs."""
     methods = ("flat", "Gouraud", "Phong")
@@ -203,15 +208,3 @@ def draw_shading(draws: Draws) -> Draft:
     )
     wrong = {"phong-at-vertices": 1} if seen[1] == 2 else {}
     return one_of(text, "", methods, seen[1], hints, wrong)
-
-
-TEMPLATES = (
-    Template("lambert", 2, "Diffuse light", "shade", 2, draw_lambert),
-    Template("normal-between", 1, "An interpolated normal", "shade", 3, draw_between),
-    Template("highlight", 2, "The highlight", "shade", 3, draw_highlight),
-    Template("scaled-normal", 1, "A normal under scaling", "shade", 3, draw_normal),
-    Template("camera-normal", 1, "The matrix of normals", "shade", 2, draw_camera_normal),
-    Template("light-byte", 2, "A sum of lights as a byte", "shade", 1, draw_byte),
-    Template("light-evaluations", 1, "Where light is evaluated", "shade", 2, draw_evaluations),
-    Template("shading-of-highlight", 1, "Which shading shows it", "shade", 1, draw_shading),
-)

@@ -8,9 +8,9 @@ from core import Settings
 from lessons.exercises.answers.fields import Row
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.drawn_scene import window_text
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.drafting import factor_text, numbers, place_text, table
 from lessons.exercises.templates.lines import RULE, SIZE, Ends, gentle_ends
 from lessons.mistakes.lines import LECTURE
@@ -49,6 +49,7 @@ def of_segments(
     return Draft(text, given, answer, hints, wrong, scene, LECTURE)
 
 
+@template("line-octants", 2, "Lines in other octants", "raster", 4)
 def draw_octants(draws: Draws) -> Draft:
     """A steep line, and one that falls from right to left."""
     steep: Ends = ((draws.whole(0, 3), 0), (draws.whole(4, 6), draws.whole(7, 8)))
@@ -67,6 +68,7 @@ def draw_octants(draws: Draws) -> Draft:
     return of_segments(text, [steep, falling], ("one-octant", "ends-not-ordered", "slope-always-up"), hints)
 
 
+@template("line-from-right", 2, "A line given from the right", "raster", 3)
 def draw_direction(draws: Draws) -> Draft:
     """A line with ties, given from right to left."""
     start, end = gentle_ends(draws)
@@ -80,6 +82,7 @@ def draw_direction(draws: Draws) -> Draft:
     return of_segments(text, [(end, start)], ("from-other-end", "last-pixel-lost"), hints, direction)
 
 
+@template("dda-table", 1, "y and rows of a DDA", "raster", 4)
 def draw_dda(draws: Draws) -> Draft:
     """The y and the row in every column."""
     ends = gentle_ends(draws)
@@ -108,6 +111,7 @@ def draw_dda(draws: Draws) -> Draft:
     return table(text, given, ("y", "row"), labels, right, hints, wrong, follow, scene, Settings(line="dda"))
 
 
+@template("error-table", 1, "The error of Bresenham's line", "raster", 3)
 def draw_error(draws: Draws) -> Draft:
     """The error e before each move."""
     ends = gentle_ends(draws)
@@ -138,7 +142,8 @@ def draw_error(draws: Draws) -> Draft:
     return table(text, given, ("e",), labels, right, hints, None, follow, scene, LECTURE)
 
 
-def draw_printed(draws: Draws) -> Draft | None:
+@template("printed-line", 2, "A listing with a slip", "raster", 4)
+def draw_printed(draws: Draws) -> Draft:
     """A listing that slips."""
     printed = printed_listing(draws.item(("pellacini-dda", "pellacini-bresenham")))
     ends = gentle_ends(draws)
@@ -148,8 +153,7 @@ def draw_printed(draws: Draws) -> Draft | None:
         frozenset(pixel[:2] for pixel in rule(*map(Fraction, (x0, y0, x1, y1)), True))
         for rule in (listing, next(iter(meant.values())))
     )
-    if drawn == right or not all(0 <= y < SIZE[1] for _, y in drawn):
-        return None
+    reject(drawn == right or not all(0 <= y < SIZE[1] for _, y in drawn))
     text = (
         f"This listing is printed on a slide ({printed.lecture}, {printed.slide}). It slips: which pixels does it "
         "draw, executed as printed with exact numbers? Pixel centres are whole numbers, write(x, y) lights pixel "
@@ -165,15 +169,15 @@ def draw_printed(draws: Draws) -> Draft | None:
     return Draft(text, given, answer, hints)
 
 
-def draw_wu(draws: Draws) -> Draft | None:
+@template("wu-column", 1, "Two intensities of a column", "raster", 2)
+def draw_wu(draws: Draws) -> Draft:
     """Two intensities of a column."""
     ends = gentle_ends(draws)
     (x0, y0), (x1, y1) = ends
     x = draws.whole(x0 + 1, x1 - 1)
     y = y0 + slope(ends) * (x - x0)
     share = y - floor(y)
-    if not share:
-        return None
+    reject(not share)
     text = (
         f"Wu's line lights two pixels of column {x}, on both sides of the line's y there. What are the intensities of "
         "the lower one and of the upper one? Pixel centres are whole numbers; the two sum to 1."
@@ -190,6 +194,7 @@ def draw_wu(draws: Draws) -> Draft | None:
     return numbers(text, given, [1 - share, share], hints, None, ("lower", "upper"), None, scene, settings)
 
 
+@template("wu-end", 1, "The first column of Wu's line", "raster", 3)
 def draw_end(draws: Draws) -> Draft:
     """Two intensities of the first column of a line that begins inside of it."""
     x0, y0 = (
@@ -225,6 +230,7 @@ def draw_end(draws: Draws) -> Draft:
     return numbers(text, given, right, hints, wrong, names, None, scene, Settings(line="wu"))
 
 
+@template("line-value", 1, "A value along a line", "interpolate", 1)
 def draw_value(draws: Draws) -> Draft:
     """A parameter along a line."""
     ends = gentle_ends(draws)
@@ -239,15 +245,3 @@ def draw_value(draws: Draws) -> Draft:
         f"s = ({x} - {x0}) / ({x1} - {x0}), q0 = {number_text(q[0])}, q1 = {number_text(q[1])}.",
     )
     return numbers(text, given, [q[0] * (1 - s) + q[1] * s], hints, scene=pixel_segments([ends], SIZE))
-
-
-TEMPLATES = (
-    Template("line-octants", 2, "Lines in other octants", "raster", 4, draw_octants),
-    Template("line-from-right", 2, "A line given from the right", "raster", 3, draw_direction),
-    Template("dda-table", 1, "y and rows of a DDA", "raster", 4, draw_dda),
-    Template("error-table", 1, "The error of Bresenham's line", "raster", 3, draw_error),
-    Template("printed-line", 2, "A listing with a slip", "raster", 4, draw_printed),
-    Template("wu-column", 1, "Two intensities of a column", "raster", 2, draw_wu),
-    Template("wu-end", 1, "The first column of Wu's line", "raster", 3, draw_end),
-    Template("line-value", 1, "A value along a line", "interpolate", 1, draw_value),
-)

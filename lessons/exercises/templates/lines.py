@@ -9,7 +9,7 @@ from lessons.exercises.answers.fields import Column, Row, Rows, TableAnswer, num
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.twin import line_pixels, segment_ends
@@ -60,6 +60,7 @@ def _lengths(ends: Ends) -> str:
     return f"dx = {x1} - {x0}, dy = {y1} - {y0}"
 
 
+@template("bresenham-pixels", 2, "Pixels of Bresenham's line", "raster", 4)
 def draw_pixels(draws: Draws) -> Draft:
     """Pixels of a line."""
     ends = gentle_ends(draws)
@@ -84,6 +85,7 @@ def draw_pixels(draws: Draws) -> Draft:
     return Draft(f"Which pixels does the line draw? {RULE}", given, answer, hints, wrong, scene, LECTURE)
 
 
+@template("bresenham-table", 1, "Bresenham's D", "raster", 4)
 def draw_table(draws: Draws) -> Draft:
     """D before each move."""
     ends = gentle_ends(draws)
@@ -97,9 +99,3 @@ def draw_table(draws: Draws) -> Draft:
     text = f"What is D before each move? {RULE}"
     given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
     return Draft(text, given, d_table(ends), hints, wrong, scene, LECTURE)
-
-
-TEMPLATES = (
-    Template("bresenham-pixels", 2, "Pixels of Bresenham's line", "raster", 4, draw_pixels),
-    Template("bresenham-table", 1, "Bresenham's D", "raster", 4, draw_table),
-)

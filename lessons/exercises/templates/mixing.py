@@ -11,7 +11,7 @@ from core.framebuffer.display import srgb_byte
 from core.framebuffer.resolve import tent
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.drafting import by_rule, numbers
 from lessons.mistakes.depths import Layer, cards
 from lessons.mistakes.shelf import SHELF
@@ -20,6 +20,7 @@ from lessons.small_scenes import EVERYWHERE, triangle_scene
 BLENDED = Settings(blend="over", visibility="last-drawn")
 
 
+@template("result-alpha", 1, "The alpha of the result", "blend", 2)
 def draw_alpha(draws: Draws) -> Draft:
     """The alpha of the result."""
     alphas = [Fraction(draws.whole(1, 4), 5) for _ in range(2)]
@@ -40,6 +41,7 @@ def draw_alpha(draws: Draws) -> Draft:
     return numbers(text, given, [right], hints, wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
 
 
+@template("straight-color", 1, "A straight colour", "blend", 2)
 def draw_straight(draws: Draws) -> Draft:
     """A straight colour over another."""
     alpha, color, there = (Fraction(draws.whole(1, 9), 10) for _ in range(3))
@@ -61,6 +63,7 @@ def draw_straight(draws: Draws) -> Draft:
     return numbers(text, given, [right], hints, wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
 
 
+@template("panes-of-glass", 1, "Glass that is drawn too early", "blend", 2)
 def draw_panes(draws: Draws) -> Draft:
     """Two panes of glass, the nearer one first."""
     alpha, red, blue = (Fraction(draws.whole(1, 3), 4) for _ in range(3))
@@ -88,6 +91,7 @@ def draw_panes(draws: Draws) -> Draft:
     return numbers(text, given, right, hints, wrong, ("red", "blue"), scene=scene, settings=BLENDED)
 
 
+@template("additive-layers", 1, "Lights that add up", "blend", 1)
 def draw_additive(draws: Draws) -> Draft:
     """Lights that add up."""
     values = [(Fraction(draws.whole(1, 9), 10), Fraction(draws.whole(1, 4), 4)) for _ in range(2)]
@@ -117,6 +121,7 @@ def layers_text(layers: Sequence[Layer]) -> str:
     )
 
 
+@template("samples-of-two", 1, "Two triangles in a pixel", "resolve", 3)
 def draw_samples(draws: Draws) -> Draft:
     """Two triangles in one pixel."""
     near = frozenset(draws.shuffled(range(SAMPLES))[: draws.whole(1, 3)])
@@ -137,6 +142,7 @@ def draw_samples(draws: Draws) -> Draft:
     return by_rule(text, layers_text(layers), (layers, SAMPLES), names, hints)
 
 
+@template("box-filter", 1, "The box filter", "resolve", 1)
 def draw_coverage(draws: Draws) -> Draft:
     """A pixel half covered."""
     side = draws.whole(2, 4)
@@ -153,6 +159,7 @@ def draw_coverage(draws: Draws) -> Draft:
     return by_rule(text, given, (layer, side * side), ("one-sample-filled",), hints)
 
 
+@template("line-samples", 1, "A line and its samples", "resolve", 1)
 def draw_line_samples(draws: Draws) -> Draft:
     """A line with more and more samples a pixel."""
     grey = draws.whole(3, 15) * 16
@@ -169,6 +176,7 @@ def draw_line_samples(draws: Draws) -> Draft:
     return by_rule(text, f"Grey: {grey}", (grey, (1, 4, 16)), ("line-in-one-sample",), hints, names)
 
 
+@template("tent-filter", 1, "The tent filter", "resolve", 1)
 def draw_tent(draws: Draws) -> Draft:
     """The tent filter."""
     side = 4
@@ -189,6 +197,7 @@ def draw_tent(draws: Draws) -> Draft:
     return numbers(text, given, right, hints)
 
 
+@template("mean-of-bytes", 1, "The mean of two bytes", "resolve", 2)
 def draw_mean(draws: Draws) -> Draft:
     """The mean of two bytes."""
     black, white = draws.shuffled((0, draws.whole(180, 255)))
@@ -208,6 +217,7 @@ def draw_mean(draws: Draws) -> Draft:
     return numbers(text, f"Bytes: {black} and {white}", [right], hints, wrong)
 
 
+@template("multisampling-cost", 1, "What multisampling costs", "resolve", 2)
 def draw_cost(draws: Draws) -> Draft:
     """What multisampling costs."""
     count, inside, edge = draws.item((2, 4, 8)), draws.whole(100, 400), draws.whole(20, 90)
@@ -224,17 +234,3 @@ def draw_cost(draws: Draws) -> Draft:
     )
     right = [inside + edge, count * inside + half * edge]
     return numbers(text, given, right, hints, names=("shader runs", "depth tests"))
-
-
-TEMPLATES = (
-    Template("result-alpha", 1, "The alpha of the result", "blend", 2, draw_alpha),
-    Template("straight-color", 1, "A straight colour", "blend", 2, draw_straight),
-    Template("panes-of-glass", 1, "Glass that is drawn too early", "blend", 2, draw_panes),
-    Template("additive-layers", 1, "Lights that add up", "blend", 1, draw_additive),
-    Template("samples-of-two", 1, "Two triangles in a pixel", "resolve", 3, draw_samples),
-    Template("box-filter", 1, "The box filter", "resolve", 1, draw_coverage),
-    Template("line-samples", 1, "A line and its samples", "resolve", 1, draw_line_samples),
-    Template("tent-filter", 1, "The tent filter", "resolve", 1, draw_tent),
-    Template("mean-of-bytes", 1, "The mean of two bytes", "resolve", 2, draw_mean),
-    Template("multisampling-cost", 1, "What multisampling costs", "resolve", 2, draw_cost),
-)

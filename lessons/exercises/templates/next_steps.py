@@ -14,9 +14,9 @@ from core.trace import StageTrace
 from lessons.exercises.answers.answer import Answer
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.drawn_scene import window_text
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, NoQuestionError, reject
 from lessons.exercises.next_step import row_draft
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.small_scenes import triangle_scene
 
 SIZE = (12, 9)
@@ -107,29 +107,24 @@ def is_shown(answer: Answer, shown: Sequence[Variable]) -> bool:
     return any(answer.is_same((float(coordinate),), answer.reference) for coordinate in before)
 
 
-def draw_step(stage_name: str, draws: Draws) -> Draft | None:
+def draw_step(stage_name: str, draws: Draws) -> Draft:
     """A step of a run with two triangles."""
     corners = [_corners(draws), _corners(draws)]
     depths = [[draws.whole(1, 9) / 10 for _ in range(3)] for _ in corners]
-    if min(abs(np.linalg.det(np.diff(np.array(one, float), axis=0))) for one in corners) < 12:
-        return None
+    reject(min(abs(np.linalg.det(np.diff(np.array(one, float), axis=0))) for one in corners) < 12)
     # With w = 1 the divide would change nothing, and its result would stand in the question.
     w = [[draws.item((2, 4, 5)) for _ in range(3)] for _ in corners] if stage_name == "transform" else 1.0
     scene = triangle_scene(corners, SIZE, depth=depths, w=w)
     stage = trace(scene, SETTINGS).stage(stage_name)
-    for _ in range(ROW_LIMIT):
-        row = draws.whole(0, stage.steps.row_count - 1)
-        draft = row_draft(stage, row)
-        if draft is not None:
-            break
-    else:
-        return None
-    if isinstance(draft.answer, ChoiceAnswer) and stage_name == "depth" and "holds 1 " in draft.text:
-        # Nothing is there yet: every fragment passes.
-        return None
+    rows = (draws.whole(0, stage.steps.row_count - 1) for _ in range(ROW_LIMIT))
+    asked = ((row, draft) for row in rows if (draft := row_draft(stage, row)) is not None)
+    row, draft = next(asked, (-1, None))
+    if draft is None:
+        raise NoQuestionError(f"nothing is asked about {ROW_LIMIT} rows")
+    # Nothing is there yet: every fragment passes.
+    reject(isinstance(draft.answer, ChoiceAnswer) and stage_name == "depth" and "holds 1 " in draft.text)
     shown_variables = step_variables(stage, row)
-    if stage_name == "transform" and is_shown(draft.answer, shown_variables):
-        return None
+    reject(stage_name == "transform" and is_shown(draft.answer, shown_variables))
     places = "\n".join(
         f"Triangle {number}: {', '.join(map(str, one))}, depth {', '.join(map(str, depth))}"
         for number, (one, depth) in enumerate(zip(corners, depths, strict=True))
@@ -150,14 +145,6 @@ def draw_step(stage_name: str, draws: Draws) -> Draft | None:
     )
 
 
-TEMPLATES = tuple(
-    Template(
-        f"next-{stage}",
-        1 + (stage == "transform"),
-        f"What comes next: {stage}",
-        stage,
-        1,
-        partial(draw_step, stage),
-    )
-    for stage in HINTS
-)
+for _stage in HINTS:
+    _version = 1 + (_stage == "transform")
+    template(f"next-{_stage}", _version, f"What comes next: {_stage}", _stage, 1)(partial(draw_step, _stage))

@@ -11,11 +11,11 @@ from core import Settings, Texture, render
 from core.records.arrays import Flags
 from core.records.frame import Frame
 from core.scene import ClipScene
-from lessons.exercises.answers.pixels import NothingToMarkError, PixelAnswer, Pixels
+from lessons.exercises.answers.pixels import PixelAnswer, Pixels
 from lessons.exercises.drawn_scene import seen_pixels, window_text
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, Corner, corner_text, facing_text, row_hint, twice_area
 from lessons.exercises.templates.drafting import factor_text, pictured, place_text
 from lessons.exercises.templates.edges import coefficients
@@ -25,6 +25,8 @@ from lessons.small_scenes import rectangle_corners, triangle_scene
 
 SIZE = (12, 9)
 HALF = Fraction(1, 2)
+LEAST = 24
+"""Twice the area of a triangle that is not small."""
 WINDOW = window_text(SIZE)
 
 
@@ -41,28 +43,24 @@ def ask_pixels(
     hints: tuple[str, ...],
     scene: ClipScene,
     settings: Settings,
-) -> Draft | None:
-    """Ask for pixels; ``None`` where there are none, or where all must be marked."""
-    try:
-        answer = PixelAnswer(SIZE, right)
-    except NothingToMarkError:
-        return None
+) -> Draft:
+    """Ask for pixels."""
+    answer = PixelAnswer(SIZE, right)
     return Draft(text, "\n".join([WINDOW, *given]), answer, hints, wrong, scene, settings)
 
 
-def halves(draws: Draws) -> list[Corner] | None:
-    """Draw a counter-clockwise triangle with corners on half pixels; ``None`` where it is small."""
+def halves(draws: Draws) -> list[Corner]:
+    """Draw a counter-clockwise triangle with corners on half pixels."""
     corners = [(draws.step(HALF, Fraction(11), HALF), draws.step(HALF, Fraction(8), HALF)) for _ in range(3)]
-    area = twice_area(corners)
-    return None if abs(area) < 24 else corners if area > 0 else corners[::-1]
+    return corners if twice_area(corners) > 0 else corners[::-1]
 
 
-def draw_vertices(draws: Draws) -> Draft | None:
+@template("vertex-pixels", 2, "Pixels of the vertices", "transform", 2)
+def draw_vertices(draws: Draws) -> Draft:
     """Pixels of three vertices given in NDC."""
     ndc = [(Fraction(draws.whole(-11, 11), 12), Fraction(draws.whole(-8, 8), 9)) for _ in range(3)]
     places = [((x + 1) * SIZE[0] / 2, (y + 1) * SIZE[1] / 2) for x, y in ndc]
-    if any(c.denominator == 1 for place in places for c in place) or abs(twice_area(places)) < 8:
-        return None
+    reject(any(c.denominator == 1 for place in places for c in place) or abs(twice_area(places)) < 8)
     scene = triangle_scene(np.array([places], float), SIZE)
 
     def pixels(of: ClipScene) -> Pixels:
@@ -82,14 +80,14 @@ def draw_vertices(draws: Draws) -> Draft | None:
     return ask_pixels(text, given, pixels(scene), wrong, hints, scene, Settings())
 
 
-def draw_culled(draws: Draws) -> Draft | None:
+@template("front-pixels", 2, "Pixels of front faces", "cull", 3)
+def draw_culled(draws: Draws) -> Draft:
     """What is left of two triangles when back faces are culled."""
     triangles = [
         [(6 * k + draws.whole(0, 10) * HALF, draws.whole(0, 16) * HALF) for _ in range(3)] for k in range(2)
     ]
     areas = [twice_area(corners) for corners in triangles]
-    if areas[0] * areas[1] >= 0 or min(map(abs, areas)) < 9:
-        return None
+    reject(areas[0] * areas[1] >= 0 or min(map(abs, areas)) < 9)
     scene, settings = triangle_scene(np.array(triangles, float), SIZE), Settings(cull="back")
     names = ("facing-exchanged", "corner-for-center")
     text = f"Back faces are culled: counter-clockwise is the front. Which pixels are drawn? {RULE}"
@@ -102,11 +100,11 @@ def draw_culled(draws: Draws) -> Draft | None:
     return pictured(text, given, scene, names, hints, settings)
 
 
-def draw_clipped(draws: Draws) -> Draft | None:
+@template("pixels-beyond-near", 3, "Pixels beyond the near plane", "clip", 3)
+def draw_clipped(draws: Draws) -> Draft:
     """What the near plane leaves of a triangle."""
     corners, border = halves(draws), draws.whole(3, 8)
-    if corners is None:
-        return None
+    reject(twice_area(corners) < LEAST)
     # Depth is linear over the window: 0 at the border, and 1 at twelve pixels to the right of it.
     depth = [[(float(x) - border) / 12 for x, _ in corners]]
     scene = triangle_scene(np.array([corners], float), SIZE, depth=depth)
@@ -120,8 +118,7 @@ def draw_clipped(draws: Draws) -> Draft | None:
     right, wrong = seen(settings)
     # New corners are snapped, which may turn an edge away from centres that lie on it: without them none is.
     is_snapped = (right, wrong) != seen(Settings())
-    if is_snapped or right == seen_pixels(render(replace(scene, clip=scene.clip * [1, 1, 0, 1]))):
-        return None
+    reject(is_snapped or right == seen_pixels(render(replace(scene, clip=scene.clip * [1, 1, 0, 1]))))
     text = f"Window depth is 0 at the near plane. What lies in front of it is clipped. Which pixels are drawn? {RULE}"
     given = [f"Triangle: {corner_text(corners)}", f"Window depth at (x, y): (x - {border}) / {SIZE[0]}"]
     hints = (
@@ -132,11 +129,11 @@ def draw_clipped(draws: Draws) -> Draft | None:
     return ask_pixels(text, given, right, wrong, hints, scene, settings)
 
 
-def draw_side(draws: Draws) -> Draft | None:
+@template("inner-side", 2, "The inner side of an edge", "edges", 3)
+def draw_side(draws: Draws) -> Draft:
     """The inner side of one edge."""
     corners = halves(draws)
-    if corners is None:
-        return None
+    reject(twice_area(corners) < LEAST)
     a, b, c = coefficients(corners[0], corners[1])
 
     def inner(shift: Fraction, owns: bool) -> Pixels:
@@ -164,11 +161,11 @@ def draw_side(draws: Draws) -> Draft | None:
     return ask_pixels(text, given, inner(HALF, owns), wrong, hints, scene, Settings())
 
 
-def draw_box(draws: Draws) -> Draft | None:
+@template("box-pixels", 3, "Pixels in the bounding box", "bin", 3)
+def draw_box(draws: Draws) -> Draft:
     """Pixels of a bounding box."""
     corners = [(Fraction(draws.whole(2, 118), 10), Fraction(draws.whole(2, 88), 10)) for _ in range(3)]
-    if abs(twice_area(corners)) < 20 or any(c % 1 == HALF for place in corners for c in place):
-        return None
+    reject(abs(twice_area(corners)) < 20 or any(c % 1 == HALF for place in corners for c in place))
     low, high = (
         np.array([float(pick(c[axis] for c in corners)) for axis in range(2)]) for pick in (min, max)
     )
@@ -194,13 +191,14 @@ def draw_box(draws: Draws) -> Draft | None:
     return ask_pixels(text, [f"Triangle: {corner_text(corners)}"], right, wrong, hints, scene, settings)
 
 
-def draw_below_half(draws: Draws) -> Draft | None:
+@template("below-half", 3, "Where u is below 1/2", "interpolate", 4)
+def draw_below_half(draws: Draws) -> Draft:
     """Where an attribute is below 1/2, with perspective."""
     left, right = draws.whole(0, 3) + HALF, draws.whole(8, 11) + HALF
     low, high = draws.whole(0, 2) + HALF, draws.whole(6, 8) + HALF
     w_of = {left: draws.whole(1, 3), right: draws.whole(2, 6)}
-    if (w_of[left] * (right - left) / (w_of[left] + w_of[right])).denominator == 1:
-        return None  # u is 1/2 in the middle of a column.
+    # Else u is 1/2 in the middle of a column.
+    reject((w_of[left] * (right - left) / (w_of[left] + w_of[right])).denominator == 1)
     corners = rectangle_corners(float(left), float(low), float(right), float(high))
     w = [[w_of[Fraction(x)] for x, _ in triangle] for triangle in corners]
     u = [[[float(x > left)] for x, _ in triangle] for triangle in corners]
@@ -228,12 +226,12 @@ def draw_below_half(draws: Draws) -> Draft | None:
     return pictured(text, "\n".join(given), scene, names, hints, read=below)
 
 
-def draw_texels(draws: Draws) -> Draft | None:
+@template("texel-pixels", 2, "Pixels of dark texels", "shade", 3)
+def draw_texels(draws: Draws) -> Draft:
     """Pixels that show a dark texel."""
     texels = np.array([[draws.whole(0, 1) for _ in range(3)] for _ in range(3)], float)
     across = draws.whole(1, 2)
-    if not 2 <= texels.sum() <= 7:
-        return None
+    reject(not 2 <= texels.sum() <= 7)
     corners = rectangle_corners(0, 0, *map(float, SIZE))
     uv = np.array(corners) / SIZE * [across, 1]
     scene = triangle_scene(corners, SIZE, attributes=uv)
@@ -260,20 +258,18 @@ def draw_texels(draws: Draws) -> Draft | None:
     return pictured(text, "\n".join(given), scene, names, hints, settings, dark)
 
 
-def draw_nearer(draws: Draws) -> Draft | None:
+@template("nearer-pixels", 2, "Pixels of the nearer triangle", "depth", 4)
+def draw_nearer(draws: Draws) -> Draft:
     """Pixels of a triangle that runs through another one."""
-    corners = [halves(draws), halves(draws)]
+    triangles = [halves(draws), halves(draws)]
     border = draws.whole(3, 9)
-    if corners[0] is None or corners[1] is None:
-        return None
-    triangles = [corner for corner in corners if corner is not None]
+    reject(min(map(twice_area, triangles)) < LEAST)
     depth = [[0.5] * 3, [0.5 + (float(x) - border) / 40 for x, _ in triangles[1]]]
     scene = triangle_scene(np.array(triangles, float), SIZE, depth=depth)
     names = ("farther-wins", "no-depth-test", "corner-for-center")
     wrong = {name: seen_pixels(SHELF[name].draw(scene, Settings()), 1) for name in names}
     right = seen_pixels(render(scene), 1)
-    if any(not pixels or pixels == right for pixels in wrong.values()):
-        return None
+    reject(any(not pixels or pixels == right for pixels in wrong.values()))
     text = (
         "Triangle 0 is drawn first, then triangle 1. Which pixels show triangle 1? Smaller depths are nearer. "
         f"{RULE}"
@@ -290,11 +286,11 @@ def draw_nearer(draws: Draws) -> Draft | None:
     return ask_pixels(text, given, right, wrong, hints, scene, Settings())
 
 
-def draw_overlap(draws: Draws) -> Draft | None:
+@template("blended-twice", 2, "Pixels that are blended twice", "blend", 3)
+def draw_overlap(draws: Draws) -> Draft:
     """Pixels that are blended twice."""
     first, second = halves(draws), halves(draws)
-    if first is None or second is None:
-        return None
+    reject(min(twice_area(first), twice_area(second)) < LEAST)
     glass = [[(1.0, 1.0, 1.0, 0.5)] * 3] * 2
     scene = triangle_scene(np.array([first, second], float), SIZE, attributes=glass)
     settings = Settings(blend="over", visibility="last-drawn")
@@ -313,11 +309,11 @@ def draw_overlap(draws: Draws) -> Draft | None:
     return pictured(text, given, scene, names, hints, settings, twice)
 
 
-def draw_mixed(draws: Draws) -> Draft | None:
+@template("grey-pixels", 1, "Pixels between black and white", "resolve", 4)
+def draw_mixed(draws: Draws) -> Draft:
     """Pixels of which only some samples are covered."""
     corners = [(Fraction(draws.whole(0, 48), 4), Fraction(draws.whole(0, 36), 4)) for _ in range(3)]
-    if twice_area(corners) < 30:
-        return None
+    reject(twice_area(corners) < 30)
     white = [[(1.0, 1.0, 1.0, 1.0)] * 3]
     scene = triangle_scene(np.array([corners], float), SIZE, attributes=white)
     scene = replace(scene, background=np.array([0.0, 0.0, 0.0, 1.0]))
@@ -336,17 +332,3 @@ def draw_mixed(draws: Draws) -> Draft | None:
         f"{row_hint(corners, 'j + 1/4')}: which samples i + 1/4 and i + 3/4 lie inside, and which at y = j + 3/4?",
     )
     return pictured(text, f"Triangle: {corner_text(corners)}", scene, (), hints, settings, grey)
-
-
-TEMPLATES = (
-    Template("vertex-pixels", 2, "Pixels of the vertices", "transform", 2, draw_vertices),
-    Template("front-pixels", 2, "Pixels of front faces", "cull", 3, draw_culled),
-    Template("pixels-beyond-near", 3, "Pixels beyond the near plane", "clip", 3, draw_clipped),
-    Template("inner-side", 2, "The inner side of an edge", "edges", 3, draw_side),
-    Template("box-pixels", 3, "Pixels in the bounding box", "bin", 3, draw_box),
-    Template("below-half", 3, "Where u is below 1/2", "interpolate", 4, draw_below_half),
-    Template("texel-pixels", 2, "Pixels of dark texels", "shade", 3, draw_texels),
-    Template("nearer-pixels", 2, "Pixels of the nearer triangle", "depth", 4, draw_nearer),
-    Template("blended-twice", 2, "Pixels that are blended twice", "blend", 3, draw_overlap),
-    Template("grey-pixels", 1, "Pixels between black and white", "resolve", 4, draw_mixed),
-)

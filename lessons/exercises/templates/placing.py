@@ -8,10 +8,10 @@ from core import Settings, clip_lines
 from lessons.exercises.answers.cells import ENTERS, LEAVES
 from lessons.exercises.answers.places import PlaceAnswer, Places
 from lessons.exercises.drawn_scene import DrawnScene, window_text
-from lessons.exercises.draws import Draws
-from lessons.exercises.file_answers import NoQuestionError, corner_answer
+from lessons.exercises.draws import Draws, reject
+from lessons.exercises.file_answers import corner_answer
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.clipping import PARAMETERS, SIZE, Ends, parameter_rows
 from lessons.exercises.templates.coverage import RULE, corner_text, twice_area
 from lessons.exercises.templates.drafting import factor_text
@@ -35,12 +35,12 @@ def clipped_places(ends: Ends) -> Places:
     return tuple((x0 + t * (x1 - x0), y0 + t * (y1 - y0)) for t in (max(times[ENTERS]), min(times[LEAVES])))
 
 
-def draw_ends(draws: Draws) -> Draft | None:
+@template("clip-ends", 2, "Ends of a clipped segment", "raster", 4)
+def draw_ends(draws: Draws) -> Draft:
     """The two ends of a clipped segment."""
     ends = (draws.whole(-6, 2), draws.whole(-5, 2)), (draws.whole(6, 14), draws.whole(4, 11))
     clipped = clip_lines([ends], (0, 0, *SIZE))
-    if not clipped.is_kept[0] or (clipped.cut_by < 0).any():
-        return None
+    reject(not clipped.is_kept[0] or bool((clipped.cut_by < 0).any()))
     right = clipped_places(ends)
     wrong = {}
     for name in ("ends-clamped", "crossings-rounded", "cut-once"):
@@ -65,22 +65,19 @@ def draw_ends(draws: Draws) -> Draft | None:
 CORNER_SIZE = (12, 9)
 
 
-def draw_corner(draws: Draws) -> Draft | None:
+@template("corner-from-pixels", 1, "The corner behind the pixels", "raster", 3)
+def draw_corner(draws: Draws) -> Draft:
     """A corner of a triangle, from the pixels that it covers."""
     quarter = Fraction(1, 4)
     corners = [
         (draws.step(quarter, Fraction(47, 4), quarter), draws.step(quarter, Fraction(35, 4), quarter))
         for _ in range(3)
     ]
-    if twice_area(corners) < 24:
-        return None
+    reject(twice_area(corners) < 24)
     drawn = DrawnScene(triangle_scene(np.array([corners], float), CORNER_SIZE), (tuple(corners),))
     asked = draws.whole(0, 2)
     known = [corner for k, corner in enumerate(corners) if k != asked]
-    try:
-        answer, given = corner_answer(drawn, (0, asked), Settings(), quarter)
-    except NoQuestionError:
-        return None
+    answer, given = corner_answer(drawn, (0, asked), Settings(), quarter)
     text = f"Place the corner ? so that triangle 0 covers exactly the pixels A. {RULE}"
     hints = (
         "Draw the side between the two corners that are given.",
@@ -90,11 +87,11 @@ def draw_corner(draws: Draws) -> Draft | None:
     return Draft(text, given, answer, hints)
 
 
-def draw_ndc(draws: Draws) -> Draft | None:
+@template("place-ndc", 2, "Points of NDC in the window", "transform", 2)
+def draw_ndc(draws: Draws) -> Draft:
     """Three points of NDC in the window."""
     points = [(Fraction(draws.whole(-4, 4), 4), Fraction(draws.whole(-4, 4), 4)) for _ in range(3)]
-    if len({y for _, y in points}) < 3 or any(y == 0 for _, y in points):
-        return None
+    reject(len({y for _, y in points}) < 3 or any(y == 0 for _, y in points))
     columns, rows = SIZE
     right = tuple(((x + 1) / 2 * columns, (y + 1) / 2 * rows) for x, y in points)
     wrong = {
@@ -114,13 +111,13 @@ def draw_ndc(draws: Draws) -> Draft | None:
     return Draft(text, given, answer, hints, wrong)
 
 
-def draw_weights(draws: Draws) -> Draft | None:
+@template("place-weights", 1, "The point behind the weights", "interpolate", 2)
+def draw_weights(draws: Draws) -> Draft:
     """The point that some weights mean."""
     corners = [(Fraction(draws.whole(0, 12)), Fraction(draws.whole(0, 9))) for _ in range(3)]
     beta, gamma = Fraction(draws.whole(1, 5), 8), Fraction(draws.whole(1, 5), 8)
     weights = (1 - beta - gamma, beta, gamma)
-    if twice_area(corners) < 24 or weights[0] <= 0 or len(set(weights)) < 2:
-        return None
+    reject(twice_area(corners) < 24 or weights[0] <= 0 or len(set(weights)) < 2)
     place, turned = (
         (
             sum((weight * x for weight, (x, _) in zip(order, corners, strict=True)), Fraction(0)),
@@ -147,7 +144,8 @@ def draw_weights(draws: Draws) -> Draft | None:
 BORDER = 8
 
 
-def draw_new_corners(draws: Draws) -> Draft | None:
+@template("new-corners", 1, "New corners at a border", "clip", 3)
+def draw_new_corners(draws: Draws) -> Draft:
     """The two corners that a border makes of a triangle with one vertex inside."""
     corners = [
         (draws.whole(0, 6), draws.whole(0, 9)),
@@ -155,8 +153,7 @@ def draw_new_corners(draws: Draws) -> Draft | None:
     ]
     exact = [(Fraction(x), Fraction(y)) for x, y in corners]
     rule = RULES["clipped-in-place"]
-    if twice_area(exact) < 12:
-        return None
+    reject(twice_area(exact) < 12)
     text = (
         f"A triangle is clipped at the border x = {BORDER}: only vertex 0, on the left of it, is inside. Place the two "
         "new corners, where the sides from 0 to 1 and from 2 to 0 cross the border."
@@ -173,12 +170,3 @@ def draw_new_corners(draws: Draws) -> Draft | None:
     given = f"{window_text(CORNER_SIZE)}\nVertices 0, 1, 2: {corner_text(exact)}"
     scene = triangle_scene(np.array([corners], float), CORNER_SIZE)
     return Draft(text, given, answer, hints, {rule.name: rule.wrong(exact, BORDER)}, scene)
-
-
-TEMPLATES = (
-    Template("new-corners", 1, "New corners at a border", "clip", 3, draw_new_corners),
-    Template("clip-ends", 2, "Ends of a clipped segment", "raster", 4, draw_ends),
-    Template("place-ndc", 2, "Points of NDC in the window", "transform", 2, draw_ndc),
-    Template("place-weights", 1, "The point behind the weights", "interpolate", 2, draw_weights),
-    Template("corner-from-pixels", 1, "The corner behind the pixels", "raster", 3, draw_corner),
-)

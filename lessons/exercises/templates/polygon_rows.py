@@ -7,9 +7,9 @@ import numpy as np
 
 from core import Settings
 from lessons.exercises.answers.pixels import PixelAnswer
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import SIZE, corner_text, row_hint
 from lessons.exercises.templates.drafting import by_rule, factor_text, one_of, pictured, place_text, several
 from lessons.exercises.templates.filling import HALF, WINDOW, is_decided, tenths
@@ -18,13 +18,13 @@ from lessons.polygons import polygon_of_rings
 from lessons.small_scenes import triangle_scene
 
 
-def draw_star(draws: Draws) -> Draft | None:
+@template("star-polygon", 3, "A polygon that crosses itself", "raster", 4)
+def draw_star(draws: Draws) -> Draft:
     """A polygon that crosses itself, or turns around a part twice."""
     corners = [(tenths(draws, 0, 12), tenths(draws, 0, 9)) for _ in range(5)]
     around = sorted(corners, key=lambda p: atan2(p[1] - Fraction(9, 2), p[0] - 6))
     star = [around[2 * k % 5] for k in range(5)]
-    if min(abs(p[0] - 6) + abs(p[1] - Fraction(9, 2)) for p in corners) < 3 or not is_decided(star):
-        return None
+    reject(min(abs(p[0] - 6) + abs(p[1] - Fraction(9, 2)) for p in corners) < 3 or not is_decided(star))
     rule, said = draws.item(
         (
             ("even-odd", "an odd number of edges lies to its left in its row"),
@@ -45,7 +45,8 @@ def draw_star(draws: Draws) -> Draft | None:
     return pictured(text, given, scene, ("winding-ignored",), hints, settings)
 
 
-def draw_crossings(draws: Draws) -> Draft | None:
+@template("crossing-count", 1, "Crossings at vertices", "raster", 2)
+def draw_crossings(draws: Draws) -> Draft:
     """Crossings of a polygon with a line through its vertices."""
     places = {(draws.whole(0, 9), draws.whole(0, 6)) for _ in range(6)}
     polygon = sorted(places, key=lambda p: (atan2(p[1] - 3, p[0] - 4), p))
@@ -53,8 +54,7 @@ def draw_crossings(draws: Draws) -> Draft | None:
     rule = RULES["both-ends-crossed"]
     right, wrong = (int(count(polygon, y)[0]) for count in (rule.right, rule.wrong))
     options = ("0", "1", "2", "3", "4", "5", "6")
-    if len(polygon) < 5 or right >= len(options) or not right < wrong < len(options):
-        return None
+    reject(len(polygon) < 5 or right >= len(options) or not right < wrong < len(options))
     text = (
         f"How many crossings does a scanline fill count on the line y = {y}? An edge counts where the line is at or "
         "above its lower end and below its upper end; level edges do not count."
@@ -74,15 +74,15 @@ def draw_crossings(draws: Draws) -> Draft | None:
 EDGES = ("from 0 to 1", "from 1 to 2", "from 2 to 3", "from 3 to 4", "from 4 to 0")
 
 
-def draw_active(draws: Draws) -> Draft | None:
+@template("active-edges", 1, "Active edges of a row", "raster", 2)
+def draw_active(draws: Draws) -> Draft:
     """The active edges of a row."""
     corners = [(tenths(draws, 0, 12), tenths(draws, 0, 9)) for _ in EDGES]
     polygon = sorted(corners, key=lambda p: atan2(p[1] - Fraction(9, 2), p[0] - 6))
     row = draws.whole(2, 7)
     rule = RULES["edges-leave-late"]
     right, wrong = (count(polygon, row + HALF) for count in (rule.right, rule.wrong))
-    if not is_decided(polygon):
-        return None
+    reject(not is_decided(polygon))
     text = (
         f"A scanline fill keeps an active edge table. Which edges are active while row {row} is drawn, at "
         f"y = {row} + 1/2? An edge enters the table at the first row whose centres are not below its lower end, and "
@@ -99,7 +99,8 @@ def draw_active(draws: Draws) -> Draft | None:
     return several(text, given, EDGES, right, hints, {rule.name: wrong}, scene)
 
 
-def draw_level(draws: Draws) -> Draft | None:
+@template("level-sides", 2, "Level sides with their pixels", "raster", 3)
+def draw_level(draws: Draws) -> Draft:
     """A polygon with a level upper side, with all that lies on its border."""
     low, high = draws.whole(0, 2) + HALF, draws.whole(5, 8) + HALF
     (a, b), (c, d) = ((draws.whole(0, 5) + HALF, draws.whole(6, 11) + HALF) for _ in range(2))
@@ -123,7 +124,8 @@ def draw_level(draws: Draws) -> Draft | None:
     return Draft(text, given, answer, hints, wrong, scene, Settings(fill_rule="inclusive"))
 
 
-def draw_float(draws: Draws) -> Draft | None:
+@template("float-weights", 1, "Weights on a shared edge", "raster", 2)
+def draw_float(draws: Draws) -> Draft:
     """How many pixels two triangles draw whose common edge runs through centres."""
     side, shift = draws.whole(5, 9), Fraction(draws.whole(1, 9), 16384)
     low, high, far = HALF - shift, side - HALF, side - HALF + shift
@@ -144,12 +146,3 @@ def draw_float(draws: Draws) -> Draft | None:
         f"{number_text(high)}, those on the border, too.",
     )
     return by_rule(text, given, (halves, side + 1), ("third-weight-rounded",), hints)
-
-
-TEMPLATES = (
-    Template("crossing-count", 1, "Crossings at vertices", "raster", 2, draw_crossings),
-    Template("active-edges", 1, "Active edges of a row", "raster", 2, draw_active),
-    Template("level-sides", 2, "Level sides with their pixels", "raster", 3, draw_level),
-    Template("star-polygon", 3, "A polygon that crosses itself", "raster", 4, draw_star),
-    Template("float-weights", 1, "Weights on a shared edge", "raster", 2, draw_float),
-)

@@ -7,8 +7,8 @@ import numpy as np
 
 from core import Settings, clip_lines
 from core.geometry.culling import PLANES
-from lessons.exercises.draws import Draws
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.draws import Draws, reject
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.clipping import SIZE, Ends, code_of
 from lessons.exercises.templates.coverage import corner_text
 from lessons.exercises.templates.drafting import by_rule, factor_text, one_of, place_text, several
@@ -20,7 +20,8 @@ from lessons.small_scenes import segment_scene
 WINDOW = f"Window 0..{SIZE[0]} x 0..{SIZE[1]}"
 
 
-def draw_planes(draws: Draws) -> Draft | None:
+@template("planes-outside", 1, "Planes of the view volume", "clip", 3)
+def draw_planes(draws: Draws) -> Draft:
     """Planes that a clip position lies outside of."""
     clip = (*wholes(draws, 3, -6, 6), Fraction(draws.item((1, 2, 3, 4, -1, -2))))
     rule = RULES["planes-after-divide"]
@@ -40,13 +41,13 @@ def draw_planes(draws: Draws) -> Draft | None:
     return several(text, f"Clip position: {place_text(clip)}", PLANES, right, hints, wrong)
 
 
-def draw_near(draws: Draws) -> Draft | None:
+@template("near-crossing", 1, "A new vertex at the near plane", "clip", 2)
+def draw_near(draws: Draws) -> Draft:
     """Where an edge crosses the near plane."""
     inside, outside = draws.whole(1, 8), -draws.whole(1, 8)
     u = [Fraction(draws.whole(10, 99)) for _ in range(2)]
     t = Fraction(inside, inside - outside)
-    if u[0] == u[1]:
-        return None
+    reject(u[0] == u[1])
     text = "An edge crosses the near plane. What is the attribute u of the new vertex?"
     given = (
         f"End A inside: w + z = {inside}, u = {u[0]}\nEnd B outside: w + z = {outside}, u = {u[1]}\n"
@@ -60,12 +61,12 @@ def draw_near(draws: Draws) -> Draft | None:
     return by_rule(text, given, (u[0], u[1], t), ("attribute-copied",), hints)
 
 
-def draw_count(draws: Draws) -> Draft | None:
+@template("triangles-after-clipping", 1, "Triangles after clipping", "clip", 1)
+def draw_count(draws: Draws) -> Draft:
     """Triangles that one plane leaves."""
     distances = wholes(draws, 3, -6, 6)
     inside = sum(d > 0 for d in distances)
-    if not all(distances) or inside in (0, 3):
-        return None
+    reject(not all(distances) or inside in (0, 3))
     text = "How many triangles are drawn after this one is clipped against the near plane?"
     given = f"w + z at the three vertices: {place_text(distances)}. Inside is where it is positive."
     hints = (
@@ -80,7 +81,8 @@ def draw_count(draws: Draws) -> Draft | None:
     )
 
 
-def draw_area(draws: Draws) -> Draft | None:
+@template("clipped-area", 1, "What a window leaves of a triangle", "clip", 4)
+def draw_area(draws: Draws) -> Draft:
     """What a window leaves of a triangle."""
     left, bottom = draws.whole(1, 4), draws.whole(1, 3)
     wide, high = draws.whole(4, 8), draws.whole(4, 6)
@@ -89,8 +91,7 @@ def draw_area(draws: Draws) -> Draft | None:
     window = [*window, (window[1][0], 9), (0, 9)]
     rule = RULES["window-clockwise"]
     polygons = [[(float(x), float(y)) for x, y in places] for places in (corners, window)]
-    if not 0 < rule.right(*polygons)[0] < wide * high / 2:
-        return None
+    reject(not 0 < rule.right(*polygons)[0] < wide * high / 2)
     text = "What is the area that is left of the triangle after it is clipped to the window?"
     given = (
         f"Triangle: {corner_text([(Fraction(x), Fraction(y)) for x, y in corners])}\nWindow, counter-clockwise: "
@@ -128,6 +129,7 @@ def verdict_on(start: tuple[int, int], end: tuple[int, int]) -> int:
     return 2 if not clipped.is_kept[0] else 1 if (clipped.cut_by >= 0).any() else 0
 
 
+@template("cyrus-beck-verdict", 2, "Cyrus-Beck's verdicts", "raster", 2)
 def draw_verdict(draws: Draws) -> Draft:
     """What Cyrus-Beck does with a segment; each verdict is asked for equally often."""
     verdict = 3 - draws.whole(0, 3)
@@ -157,11 +159,11 @@ def draw_verdict(draws: Draws) -> Draft:
     return replace(one_of(text, given, VERDICTS, verdict, hints, wrong, scene), settings=settings)
 
 
-def draw_rejected(draws: Draws) -> Draft | None:
+@template("rejected-at-once", 2, "Segments rejected at once", "raster", 3)
+def draw_rejected(draws: Draws) -> Draft:
     """Segments that outcodes reject at once."""
     segments: list[Ends] = [(around(draws), around(draws)) for _ in range(5)]
-    if any(start == end for start, end in segments):
-        return None
+    reject(any(start == end for start, end in segments))
     codes = [[code_of(place) for place in ends] for ends in segments]
     right = [k for k, (a, b) in enumerate(codes) if any(x == y == "1" for x, y in zip(a, b, strict=True))]
     text = (
@@ -180,13 +182,3 @@ def draw_rejected(draws: Draws) -> Draft | None:
         f"or above {SIZE[1]}?",
     )
     return several(text, given, tuple(names), right, hints, scene=segment_scene(segments, SIZE))
-
-
-TEMPLATES = (
-    Template("planes-outside", 1, "Planes of the view volume", "clip", 3, draw_planes),
-    Template("near-crossing", 1, "A new vertex at the near plane", "clip", 2, draw_near),
-    Template("triangles-after-clipping", 1, "Triangles after clipping", "clip", 1, draw_count),
-    Template("clipped-area", 1, "What a window leaves of a triangle", "clip", 4, draw_area),
-    Template("cyrus-beck-verdict", 2, "Cyrus-Beck's verdicts", "raster", 2, draw_verdict),
-    Template("rejected-at-once", 2, "Segments rejected at once", "raster", 3, draw_rejected),
-)

@@ -8,10 +8,10 @@ from core import Settings
 from lessons.exercises.answers.listings import LineAnswer
 from lessons.exercises.answers.pixels import PixelAnswer, Pixels
 from lessons.exercises.drawn_scene import DrawnScene
-from lessons.exercises.draws import Draws
-from lessons.exercises.file_answers import NoQuestionError, spot_answer
+from lessons.exercises.draws import Draws, reject
+from lessons.exercises.file_answers import spot_answer
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, row_hint, twice_area
 from lessons.exercises.templates.line_methods import moves_text
 from lessons.mistakes.lines import LECTURE
@@ -52,7 +52,8 @@ def listed_pixels(fault: str, ends: tuple[tuple[int, int], tuple[int, int]]) -> 
     return line_pixels(pixel_segments([ends], SIZE), SHELF[fault].change_settings(LECTURE))
 
 
-def draw_line(draws: Draws) -> Draft | None:
+@template("wrong-line", 1, "The wrong line of Bresenham", "raster", 2)
+def draw_line(draws: Draws) -> Draft:
     """Bresenham's listing with the line of a twin."""
     fault = draws.item(tuple(FAULTS))
     dx = draws.whole(6, 10)
@@ -63,8 +64,7 @@ def draw_line(draws: Draws) -> Draft | None:
     )
     right = line_pixels(pixel_segments([ends], SIZE), LECTURE)
     drawn = listed_pixels(fault, ends)
-    if drawn == right:
-        return None
+    reject(drawn == right)
     number, wrong = FAULTS[fault]
     answer = LineAnswer((*LISTING[:number], wrong, *LISTING[number + 1 :]), number)
     text = (
@@ -102,6 +102,7 @@ SLIPS = (
 """Printed listings, what their wrong line holds, what must hold instead, and a case to follow."""
 
 
+@template("lecture-slip", 1, "A slip in a lecture's listing", "raster", 2)
 def draw_slip(draws: Draws) -> Draft:
     """A listing as a lecture prints it."""
     name, slip, rule, case = draws.item(SLIPS)
@@ -128,18 +129,15 @@ PICTURES = (
 )
 
 
-def draw_picture(draws: Draws) -> Draft | None:
+@template("wrong-picture", 1, "What is wrong with this picture", "raster", 4)
+def draw_picture(draws: Draws) -> Draft:
     """The picture of a triangle with one of several mistakes."""
     half = Fraction(1, 2)
     corners = [(draws.step(half, Fraction(11), half), draws.step(half, Fraction(8), half)) for _ in range(3)]
     names = draws.shuffled(PICTURES)[:4]
-    if twice_area(corners) < 16:
-        return None
+    reject(twice_area(corners) < 16)
     drawn = DrawnScene(triangle_scene(np.array([corners], float), (12, 9)), (tuple(corners),))
-    try:
-        answer, given = spot_answer(names, drawn, Settings(), draws)
-    except NoQuestionError:
-        return None
+    answer, given = spot_answer(names, drawn, Settings(), draws)
     text = f"What is wrong with this picture? Click where, and say which mistake made it. {RULE}"
     hints = (
         "Find a row in which the edges of the triangle do not fit to the pixels.",
@@ -152,20 +150,16 @@ def draw_picture(draws: Draws) -> Draft | None:
 DEPTH_PICTURES = ("farther-wins", "no-depth-test", "painted-by-mean", "last-wins-ties")
 
 
-def draw_depth_picture(draws: Draws) -> Draft | None:
+@template("wrong-depth-picture", 1, "What is wrong with what is seen", "depth", 4)
+def draw_depth_picture(draws: Draws) -> Draft:
     """The picture of three triangles with a mistake in what is seen."""
     corners = [[(draws.whole(0, 11), draws.whole(0, 8)) for _ in range(3)] for _ in range(3)]
     depth = [[Fraction(draws.whole(1, 9), 10) for _ in range(3)] for _ in corners]
     places = tuple(tuple((Fraction(x), Fraction(y)) for x, y in one) for one in corners)
-    if min(abs(twice_area(list(one))) for one in places) < 24:
-        return None
+    reject(min(abs(twice_area(list(one))) for one in places) < 24)
     scene = triangle_scene(corners, (12, 9), depth=np.array(depth, float))
-    try:
-        answer, given = spot_answer(
-            draws.shuffled(DEPTH_PICTURES)[:3], DrawnScene(scene, places), Settings(), draws
-        )
-    except NoQuestionError:
-        return None
+    names = draws.shuffled(DEPTH_PICTURES)[:3]
+    answer, given = spot_answer(names, DrawnScene(scene, places), Settings(), draws)
     depths = "\n".join(
         f"Depths of triangle {k}: {', '.join(number_text(z) for z in one)}" for k, one in enumerate(depth)
     )
@@ -180,11 +174,3 @@ def draw_depth_picture(draws: Draws) -> Draft | None:
         "the farther one, always the later one, or the one with the nearer middle?",
     )
     return Draft(text, f"{given}\n{depths}", answer, hints, {}, scene)
-
-
-TEMPLATES = (
-    Template("wrong-line", 1, "The wrong line of Bresenham", "raster", 2, draw_line),
-    Template("lecture-slip", 1, "A slip in a lecture's listing", "raster", 2, draw_slip),
-    Template("wrong-depth-picture", 1, "What is wrong with what is seen", "depth", 4, draw_depth_picture),
-    Template("wrong-picture", 1, "What is wrong with this picture", "raster", 4, draw_picture),
-)

@@ -8,7 +8,7 @@ from lessons.exercises.coding.task import SIDE, Task
 from lessons.exercises.coding.tasks import TASKS
 from lessons.exercises.drawn_scene import frame_art
 from lessons.exercises.draws import Draws
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.small_scenes import pixel_segments, triangle_scene
 
 REPAIRED = (
@@ -91,51 +91,13 @@ def draw_picture(task: Task, draws: Draws) -> Draft:
     return code_draft(task, text, plain.text, LINES if is_line else TRIANGLE)
 
 
-TEMPLATES = (
-    *(
-        Template(
-            f"repair-{name}",
-            1,
-            f"Repair {TASKS[name].title}",
-            TASKS[name].stage,
-            3,
-            partial(draw_repair, TASKS[name]),
-        )
-        for name in REPAIRED
-    ),
-    *(
-        Template(
-            f"missing-{name}",
-            1,
-            f"The missing line of {TASKS[name].title}",
-            TASKS[name].stage,
-            3,
-            partial(draw_missing, TASKS[name]),
-        )
-        for name in COMPLETED
-    ),
-    *(
-        Template(
-            f"write-{name}",
-            1,
-            f"Write {TASKS[name].title}",
-            TASKS[name].stage,
-            4,
-            partial(draw_function, TASKS[name]),
-            is_fixed=True,
-        )
-        for name in WRITTEN
-    ),
-    *(
-        Template(
-            f"draw-{name}",
-            1,
-            f"Draw {TASKS[name].title}",
-            TASKS[name].stage,
-            4,
-            partial(draw_picture, TASKS[name]),
-            is_fixed=True,
-        )
-        for name in DRAWN
-    ),
-)
+for _make, _names, _kind, _title, _points, _is_fixed in (
+    (draw_repair, REPAIRED, "repair", "Repair", 3, False),
+    (draw_missing, COMPLETED, "missing", "The missing line of", 3, False),
+    (draw_function, WRITTEN, "write", "Write", 4, True),
+    (draw_picture, DRAWN, "draw", "Draw", 4, True),
+):
+    for _task in (TASKS[name] for name in _names):
+        template(
+            f"{_kind}-{_task.name}", 1, f"{_title} {_task.title}", _task.stage, _points, is_fixed=_is_fixed
+        )(partial(_make, _task))

@@ -1,6 +1,6 @@
 """Break a weak method, and choose no more than needed: judged by running."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 from fractions import Fraction
 from functools import partial
@@ -8,14 +8,14 @@ from functools import partial
 import numpy as np
 
 from core import Settings, render
-from core.scene import ClipScene
+from core.scene import AnyScene, ClipScene
 from lessons.exercises.answers.cells import Dial
 from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family, Values
 from lessons.exercises.drawn_scene import Corner, window_text
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, NoQuestionError, reject
 from lessons.exercises.file_answers import FAILS, byte_error, is_drawn_twice
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import SIZE, corner_text
 from lessons.scenes import make_scene
 from lessons.small_scenes import EVERYWHERE, triangle_scene
@@ -34,23 +34,34 @@ def breaking(
     robust: Settings,
     fails: Fails,
     rule: str,
-) -> BreakAnswer | None:
-    """Return the answer; ``None`` where the weak method fails from the start, or nothing that is tried breaks it."""
+) -> BreakAnswer:
+    """Return the answer: the weak method does not fail from the start, and something that is tried breaks it."""
 
     def breaks(values: Values) -> bool:
         scene = scene_of(values)
         return fails(scene, weak) and not fails(scene, robust)
 
-    if breaks(start):
-        return None
+    reject(breaks(start))
     for _ in range(SEARCH_LIMIT):
         values = tuple(draws.step(dial.low, dial.high, dial.step) for dial in dials)
         if breaks(values):
             return BreakAnswer(dials, start, values, scene_of, weak, robust, fails, rule)
-    return None
+    raise NoQuestionError(f"none of {SEARCH_LIMIT} values breaks the weak method")
 
 
-def draw_shared_corner(draws: Draws) -> Draft | None:
+def cheapest(
+    costs: Mapping[str, Mapping[str, int]], limit: Fraction, scene: AnyScene, base: Settings
+) -> CheapestAnswer:
+    """Return the answer: the cheapest methods within the tolerance are neither of the ends."""
+    families = tuple(Family(name, tuple(of), tuple(map(Fraction, of.values()))) for name, of in costs.items())
+    try:
+        return CheapestAnswer(families, limit, byte_error(scene, base), base)
+    except ValueError as problem:
+        raise NoQuestionError(str(problem)) from None
+
+
+@template("break-inclusive", 1, "Break the rule E >= 0", "raster", 3)
+def draw_shared_corner(draws: Draws) -> Draft:
     """The common corner of two triangles."""
     quarter, half = Fraction(1, 4), Fraction(1, 2)
     left = (quarter, draws.whole(2, 5) + quarter)
@@ -71,8 +82,6 @@ def draw_shared_corner(draws: Draws) -> Draft | None:
 
     weak, robust = Settings(fill_rule="inclusive"), Settings()
     answer = breaking(draws, dials, start, scene_of, weak, robust, is_drawn_twice, FAILS["twice"])
-    if answer is None:
-        return None
     first, second = corners_of(start)
     text = (
         "Two triangles share an edge. Move its lower corner so that the rule E >= 0 on all edges draws a pixel twice, "
@@ -101,7 +110,8 @@ def is_farther(limit: Fraction, scene: ClipScene, settings: Settings) -> bool:
     return attribute_error(scene, settings) > limit
 
 
-def draw_affine(draws: Draws) -> Draft | None:
+@template("break-affine", 1, "Break affine interpolation", "interpolate", 3)
+def draw_affine(draws: Draws) -> Draft:
     """The w of a vertex."""
     span = draws.item((8, 16, 32))
     limit = Fraction(draws.whole(3, 5) * span, 64)
@@ -115,8 +125,6 @@ def draw_affine(draws: Draws) -> Draft | None:
     robust = Settings(interpolation="affine-n", correction_interval=8)
     rule = f"u is wrong by more than {number_text(limit)} at a pixel"
     answer = breaking(draws, dials, (Fraction(1),), scene_of, weak, robust, partial(is_farther, limit), rule)
-    if answer is None:
-        return None
     text = (
         "Choose w of vertex 1 so that affine interpolation fails and affine interpolation that is corrected every 8 "
         "pixels does not. Both are compared with perspective."
@@ -137,20 +145,14 @@ BYTES = {"z-16": 2, "z-24": 3, "z-float32": 4}
 """Of the depth at a pixel."""
 
 
-def draw_cheapest(draws: Draws) -> Draft | None:
+@template("cheapest-methods", 1, "No more than needed", "interpolate", 4)
+def draw_cheapest(draws: Draws) -> Draft:
     """Interpolation and the number format of depth."""
     columns = draws.whole(12, 24)
     scene = replace(make_scene("near-plane"), size=(columns, columns * 3 // 4))
     limit = Fraction(draws.whole(2, 20) * 5)
-    families = tuple(
-        Family(name, tuple(costs), tuple(map(Fraction, costs.values())))
-        for name, costs in (("interpolation", OPERATIONS), ("depth", BYTES))
-    )
     base = Settings()
-    try:
-        answer = CheapestAnswer(families, limit, byte_error(scene, base), base)
-    except ValueError:
-        return None
+    answer = cheapest({"interpolation": OPERATIONS, "depth": BYTES}, limit, scene, base)
     text = (
         "Choose the cheapest methods with which no colour channel of any pixel is off by more than "
         f"{number_text(limit)} of 255 from the reference picture (perspective, float32 depth)."
@@ -170,7 +172,8 @@ def hides_nearer(scene: ClipScene, settings: Settings) -> bool:
     return bool((render(scene, settings).primitive == 0).any())
 
 
-def draw_depth_format(draws: Draws) -> Draft | None:
+@template("break-depth-format", 1, "Break 16 bits of depth", "depth", 3)
+def draw_depth_format(draws: Draws) -> Draft:
     """Two depths that a format cannot tell apart."""
     base = Fraction(draws.whole(20, 80), 100)
     step = Fraction(1, 400_000)
@@ -184,8 +187,6 @@ def draw_depth_format(draws: Draws) -> Draft | None:
     rule = "triangle 0 is seen"
     start = (dials[0].high,)
     answer = breaking(draws, dials, start, scene_of, weak, robust, hides_nearer, rule)
-    if answer is None:
-        return None
     text = (
         "Two triangles cover the window. Triangle 0 is drawn first; triangle 1 is nearer by a gap. Choose the gap so "
         "that a depth buffer of 16 bits shows the wrong triangle and one of float32 the right one."
@@ -207,18 +208,14 @@ SAMPLES = {"none": 2, "msaa-4": 5, "ssaa-4": 8, "ssaa-16": 32}
 """Coverage tests and shader runs at a pixel."""
 
 
-def draw_samples(draws: Draws) -> Draft | None:
+@template("cheapest-samples", 1, "No more samples than needed", "resolve", 3)
+def draw_samples(draws: Draws) -> Draft:
     """Samples of a pixel."""
     corners = [(draws.whole(1, 44) / 4, draws.whole(1, 32) / 4) for _ in range(3)]
-    if abs(np.linalg.det(np.diff(np.array(corners), axis=0))) < 24:
-        return None
+    reject(abs(np.linalg.det(np.diff(np.array(corners), axis=0))) < 24)
     scene = triangle_scene([corners], SIZE, attributes=[[[1.0, 1.0, 1.0, 1.0]] * 3])
     limit, base = Fraction(draws.whole(6, 30) * 5), Settings(antialiasing="ssaa-16")
-    family = Family("antialiasing", tuple(SAMPLES), tuple(map(Fraction, SAMPLES.values())))
-    try:
-        answer = CheapestAnswer((family,), limit, byte_error(scene, base), base)
-    except ValueError:
-        return None
+    answer = cheapest({"antialiasing": SAMPLES}, limit, scene, base)
     text = (
         "Choose the cheapest antialiasing with which no pixel of this white triangle on black is off by more than "
         f"{number_text(limit)} of 255 from 16 samples."
@@ -232,12 +229,3 @@ def draw_samples(draws: Draws) -> Draft | None:
         "a quarter of the byte.",
     )
     return Draft(text, given, answer, hints, {}, scene, base)
-
-
-TEMPLATES = (
-    Template("break-inclusive", 1, "Break the rule E >= 0", "raster", 3, draw_shared_corner),
-    Template("break-affine", 1, "Break affine interpolation", "interpolate", 3, draw_affine),
-    Template("break-depth-format", 1, "Break 16 bits of depth", "depth", 3, draw_depth_format),
-    Template("cheapest-samples", 1, "No more samples than needed", "resolve", 3, draw_samples),
-    Template("cheapest-methods", 1, "No more than needed", "interpolate", 4, draw_cheapest),
-)

@@ -5,8 +5,8 @@ from fractions import Fraction
 from core import draw_lines
 from lessons.exercises.answers.cells import Entry, Value
 from lessons.exercises.answers.steps import StepsAnswer, first_tries
-from lessons.exercises.draws import Draws
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.draws import Draws, reject
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import corner_text, twice_area
 from lessons.exercises.templates.fragments import FRAGMENT_PIXELS, again_text, card_scene
 from lessons.exercises.templates.lines import RULE, SIZE, TALL, Ends
@@ -33,6 +33,7 @@ def line_values(ends: Ends, twin: str = "") -> list[Value]:
     return values
 
 
+@template("bresenham-steps", 1, "Be the rasterizer: Bresenham", "raster", 6)
 def draw_line(draws: Draws) -> Draft:
     """Bresenham's D and pixels in turn."""
     dx = draws.whole(5, 7)
@@ -78,14 +79,13 @@ def depth_verdicts(fragments: list[tuple[int, int]], twin: str = "") -> list[Val
     return verdicts
 
 
-def draw_depth(draws: Draws) -> Draft | None:
+@template("depth-test-steps", 1, "Be the depth test", "depth", 4)
+def draw_depth(draws: Draws) -> Draft:
     """The depth test of fragments."""
     fragments = [(draws.whole(0, FRAGMENT_PIXELS - 1), draws.whole(10, 99)) for _ in range(FRAGMENT_COUNT)]
-    if len({z for _, z in fragments}) < FRAGMENT_COUNT:
-        return None
+    reject(len({z for _, z in fragments}) < FRAGMENT_COUNT)
     right = depth_verdicts(fragments)
-    if not 3 <= sum(right) <= 5:
-        return None
+    reject(not 3 <= sum(right) <= 5)
     steps = tuple(
         Entry(f"fragment {k}: pixel {pixel}, z = {z}", "choice", verdict, VERDICTS)
         for k, ((pixel, z), verdict) in enumerate(zip(fragments, right, strict=True))
@@ -115,12 +115,12 @@ def side_output(start_is_in: bool, end_is_in: bool) -> int:
     return 2 * end_is_in + (start_is_in != end_is_in)
 
 
-def draw_clip(draws: Draws) -> Draft | None:
+@template("clip-side-steps", 1, "Be Sutherland-Hodgman", "clip", 4)
+def draw_clip(draws: Draws) -> Draft:
     """A triangle that the right border cuts, side by side."""
     corners = [(Fraction(draws.whole(1, 14)), Fraction(draws.whole(0, 8))) for _ in range(3)]
     inside = [x <= BORDER for x, _ in corners]
-    if twice_area(corners) < 12 or sum(inside) not in (1, 2) or any(x == BORDER for x, _ in corners):
-        return None
+    reject(twice_area(corners) < 12 or sum(inside) not in (1, 2) or any(x == BORDER for x, _ in corners))
     steps: list[Entry] = []
     for k, ((x0, y0), (x1, y1)) in enumerate(zip(corners, [*corners[1:], corners[0]], strict=True)):
         output = side_output(inside[k], inside[(k + 1) % 3])
@@ -144,10 +144,3 @@ def draw_clip(draws: Draws) -> Draft | None:
         f"Side {cut} crosses the border at y = {y0} + ({BORDER} - {x0}) ({y1} - {y0}) / ({x1} - {x0}).",
     )
     return Draft(text, given, StepsAnswer(tuple(steps), (12, 9)), hints)
-
-
-TEMPLATES = (
-    Template("bresenham-steps", 1, "Be the rasterizer: Bresenham", "raster", 6, draw_line),
-    Template("depth-test-steps", 1, "Be the depth test", "depth", 4, draw_depth),
-    Template("clip-side-steps", 1, "Be Sutherland-Hodgman", "clip", 4, draw_clip),
-)

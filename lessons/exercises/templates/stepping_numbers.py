@@ -6,9 +6,9 @@ import numpy as np
 
 from lessons.exercises.answers.cells import Entry
 from lessons.exercises.answers.steps import Run, StepsAnswer, first_tries
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
 from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text
 from lessons.exercises.templates.fragments import COLORS, NAMES
@@ -35,12 +35,12 @@ def spaces_of(x: Fraction, y: Fraction, z: Fraction) -> tuple[Fraction, ...]:
     return w, *ndc, *((n + 1) / 2 * side for n, side in zip(ndc, SIZE, strict=True))
 
 
-def draw_spaces(draws: Draws) -> Draft | None:
+@template("space-steps", 1, "Be the transform", "transform", 4)
+def draw_spaces(draws: Draws) -> Draft:
     """A vertex from the eye to the window."""
     d = draws.whole(2, 8)
     x, y = (Fraction(draws.whole(-d + 1, d - 1)) for _ in range(2))
-    if x == 0 or y == 0:
-        return None
+    reject(x == 0 or y == 0)
     right = spaces_of(x, y, Fraction(-d))
     steps = number_steps(SPACES, right)
     down: Run = first_tries((*right[:4], SIZE[1] - right[4]), steps)
@@ -58,17 +58,16 @@ def draw_spaces(draws: Draws) -> Draft | None:
     return Draft(text, given, StepsAnswer(steps, SIZE), hints, {"y-down": down, "w-is-one": no_w})
 
 
-def draw_weights(draws: Draws) -> Draft | None:
+@template("weight-steps", 1, "Be the interpolation", "interpolate", 4)
+def draw_weights(draws: Draws) -> Draft:
     """Edge functions and weights at a centre."""
     corners = [(Fraction(draws.whole(0, 10)), Fraction(draws.whole(0, 8))) for _ in range(3)]
     pixel = draws.whole(2, 8), draws.whole(2, 6)
     center = (pixel[0] + HALF, pixel[1] + HALF)
     area = twice_area(corners)
-    if area < 20:
-        return None
+    reject(area < 20)
     values = tuple(twice_area([corners[(k + 1) % 3], corners[(k + 2) % 3], center]) for k in range(3))
-    if min(values) <= 0:
-        return None
+    reject(min(values) <= 0)
     names = ("twice the area", *(f"E{k}" for k in range(3)), *NAMES)
     right = (area, *values, *(value / area for value in values))
     steps = number_steps(names, right)
@@ -89,7 +88,8 @@ def draw_weights(draws: Draws) -> Draft | None:
     )
 
 
-def draw_layers(draws: Draws) -> Draft | None:
+@template("layer-steps", 1, "Be the blending", "blend", 3)
+def draw_layers(draws: Draws) -> Draft:
     """Red after each of four layers."""
     names = [draws.item(tuple(COLORS)) for _ in range(4)]
     alphas = [Fraction(draws.whole(1, 3), 4) for _ in names]
@@ -99,8 +99,7 @@ def draw_layers(draws: Draws) -> Draft | None:
         exchanged.append((1 - alpha) * new + alpha * red)
         red = alpha * new + (1 - alpha) * red
         values.append(red)
-    if len(set(values)) < 3:
-        return None
+    reject(len(set(values)) < 3)
     steps = number_steps(tuple(f"red after layer {k}" for k in range(4)), tuple(values))
     given = "Background: black, opaque.\n" + "\n".join(
         f"Layer {k}: {name}, alpha = {number_text(alpha)}"
@@ -117,10 +116,3 @@ def draw_layers(draws: Draws) -> Draft | None:
     )
     wrong = {"factors-exchanged": first_tries(exchanged, steps)}
     return Draft(text, given, StepsAnswer(steps), hints, wrong)
-
-
-TEMPLATES = (
-    Template("space-steps", 1, "Be the transform", "transform", 4, draw_spaces),
-    Template("weight-steps", 1, "Be the interpolation", "interpolate", 4, draw_weights),
-    Template("layer-steps", 1, "Be the blending", "blend", 3, draw_layers),
-)

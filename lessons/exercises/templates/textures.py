@@ -8,9 +8,9 @@ from math import floor
 from core import Settings
 from core.fragments.textures import sample_texture, wrapped_index
 from core.scene import ClipScene, Texture
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.drafting import factor_text, numbers, place_text, table
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.textures import repeat_mirrored, strip
@@ -50,6 +50,7 @@ def drawn_texels(draws: Draws, count: int) -> list[Fraction]:
     return [Fraction(value, LEVELS) for value in draws.shuffled(range(1, LEVELS))[:count]]
 
 
+@template("texel-nearest", 1, "The nearest texel", "shade", 2)
 def draw_nearest(draws: Draws) -> Draft:
     """The texel that contains u."""
     count = draws.whole(4, 6)
@@ -65,6 +66,7 @@ def draw_nearest(draws: Draws) -> Draft:
     return of_strip(text, drawn_texels(draws, count), u, settings, names, hints)
 
 
+@template("texels-linear", 1, "Between two texels", "shade", 3)
 def draw_bilinear(draws: Draws) -> Draft:
     """Between two texel centres."""
     count = draws.whole(4, 6)
@@ -84,6 +86,7 @@ def draw_bilinear(draws: Draws) -> Draft:
     )
 
 
+@template("texel-border", 1, "The filter at the border", "shade", 3)
 def draw_border(draws: Draws) -> Draft:
     """The filter at the border."""
     count = draws.whole(3, 5)
@@ -101,15 +104,15 @@ def draw_border(draws: Draws) -> Draft:
     return of_strip(text, drawn_texels(draws, count), u, settings, ("border-repeated",), hints)
 
 
-def draw_wrap(draws: Draws) -> Draft | None:
+@template("texel-wrap", 1, "Texels beyond the border", "shade", 3)
+def draw_wrap(draws: Draws) -> Draft:
     """Texels beyond the border."""
     size = draws.whole(4, 7)
     indices = [draws.whole(-2 * size + 1, -1), draws.whole(0, size - 1), draws.whole(size, 2 * size - 1)]
     modes = ("repeat", "clamp", "mirror")
     right = [[wrapped_index(index, size, mode) for mode in modes] for index in indices]
     below = int(repeat_mirrored(indices[0], size))  # type: ignore[arg-type]
-    if below == right[0][0]:
-        return None
+    reject(below == right[0][0])
     wrong = {"negative-repeat": [[below, *right[0][1:]], *right[1:]]}
     text = (
         "Which texel is read for each index, with the wrap modes repeat (start again), clamp (repeat the border texel) "
@@ -126,7 +129,8 @@ def draw_wrap(draws: Draws) -> Draft | None:
     return table(text, given, modes, labels, right, hints, wrong)
 
 
-def draw_repeated(draws: Draws) -> Draft | None:
+@template("texture-repeated", 1, "A texture that repeats", "shade", 3)
+def draw_repeated(draws: Draws) -> Draft:
     """A texture that repeats across the window."""
     texels, start = drawn_texels(draws, 4), -draws.whole(1, 2)
     pixel = draws.whole(0, 7), 0
@@ -157,15 +161,15 @@ def draw_repeated(draws: Draws) -> Draft | None:
     return numbers(text, given, [right], hints, wrong, scene=scene, settings=settings, pixel=pixel)
 
 
-def draw_upside(draws: Draws) -> Draft | None:
+@template("texel-place", 1, "Column and row of a texel", "shade", 2)
+def draw_upside(draws: Draws) -> Draft:
     """Column and row of a texel."""
     size = draws.whole(4, 8), draws.whole(4, 8)
     uv = tuple(Fraction(draws.whole(0, 15) * 2 + 1, 32) for _ in range(2))
     right = [floor(c * s) for c, s in zip(uv, size, strict=True)]
     one_less = [floor(c * (s - 1)) for c, s in zip(uv, size, strict=True)]
     flipped = [right[0], floor((1 - uv[1]) * size[1])]
-    if right in (one_less, flipped):
-        return None
+    reject(right in (one_less, flipped))
     text = (
         "Which texel, column and row, does the nearest filter read? (0, 0) is the bottom left corner; row 0 is "
         "the lowest."
@@ -180,6 +184,7 @@ def draw_upside(draws: Draws) -> Draft | None:
     return numbers(text, given, right, hints, wrong, ("column", "row"))
 
 
+@template("texels-bilinear", 1, "Between four texels", "shade", 3)
 def draw_square(draws: Draws) -> Draft:
     """Four texels."""
     c = [Fraction(draws.whole(0, 8), 8) for _ in range(4)]
@@ -201,6 +206,7 @@ def draw_square(draws: Draws) -> Draft:
     return numbers(text, given, [low * (1 - w_v) + high * w_v], hints, scene=scene)
 
 
+@template("mip-level", 1, "The mipmap level", "shade", 2)
 def draw_level(draws: Draws) -> Draft:
     """The mipmap level."""
     texels, level = 2 ** draws.whole(5, 9), draws.whole(1, 4)
@@ -220,15 +226,3 @@ def draw_level(draws: Draws) -> Draft:
         "level-of-area": [2**level, *RULES["level-of-area"].wrong(texels, float(step))],
     }
     return numbers(text, given, [2**level, level], hints, wrong, ("texels", "level"))
-
-
-TEMPLATES = (
-    Template("texel-nearest", 1, "The nearest texel", "shade", 2, draw_nearest),
-    Template("texel-place", 1, "Column and row of a texel", "shade", 2, draw_upside),
-    Template("texels-linear", 1, "Between two texels", "shade", 3, draw_bilinear),
-    Template("texels-bilinear", 1, "Between four texels", "shade", 3, draw_square),
-    Template("texel-border", 1, "The filter at the border", "shade", 3, draw_border),
-    Template("texture-repeated", 1, "A texture that repeats", "shade", 3, draw_repeated),
-    Template("texel-wrap", 1, "Texels beyond the border", "shade", 3, draw_wrap),
-    Template("mip-level", 1, "The mipmap level", "shade", 2, draw_level),
-)

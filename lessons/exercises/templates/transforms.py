@@ -8,9 +8,9 @@ from typing import Any
 from core.geometry.matrices import viewport
 from core.records.sketch import Sketch
 from lessons.exercises.answers.choices import OrderAnswer
-from lessons.exercises.draws import Draws
+from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.drafting import by_rule, factor_text, numbers, place_text
 from lessons.mistakes.transforms import Turn
 
@@ -44,6 +44,7 @@ def turn_text(turn: Turn) -> str:
     return f"cosine {number_text(c)} and sine {number_text(s)}"
 
 
+@template("turn-and-move", 1, "A point turned and moved", "transform", 2)
 def draw_order(draws: Draws) -> Draft:
     """T R p."""
     turn, shift, point = draws.item(TURNS), wholes(draws, 2, -4, 4), wholes(draws, 2, -4, 4)
@@ -61,6 +62,7 @@ def draw_order(draws: Draws) -> Draft:
     return replace(draft, sketch=sketched({"p": point}))
 
 
+@template("turn-about-pivot", 1, "A turn about a point", "transform", 2)
 def draw_pivot(draws: Draws) -> Draft:
     """A turn about a point."""
     turn, pivot, point = draws.item(TURNS), wholes(draws, 2, -4, 4), wholes(draws, 2, -4, 4)
@@ -75,6 +77,7 @@ def draw_pivot(draws: Draws) -> Draft:
     return replace(draft, sketch=sketched({"pivot": pivot, "point": point}))
 
 
+@template("turn-by-degrees", 1, "A turn by degrees", "transform", 2)
 def draw_degrees(draws: Draws) -> Draft:
     """An angle in degrees."""
     degrees, point = draws.item((30, 45, 60, 90, 120, 135, 150)), wholes(draws, 2, -4, 4)
@@ -89,6 +92,7 @@ def draw_degrees(draws: Draws) -> Draft:
     return replace(draft, sketch=sketched({"point": point}))
 
 
+@template("scale-and-move", 1, "Scaling and moving as a matrix", "transform", 3)
 def draw_scaling(draws: Draws) -> Draft:
     """T S as a matrix."""
     scale, shift = wholes(draws, 2, 2, 5), wholes(draws, 2, -4, 4)
@@ -105,6 +109,7 @@ def draw_scaling(draws: Draws) -> Draft:
     return by_rule(text, given, (scale, shift), ("scaled-after-moving",), hints, shape=(3, 3))
 
 
+@template("translation-product", 1, "Translation with four coordinates", "transform", 2)
 def draw_translation(draws: Draws) -> Draft:
     """T p with four coordinates."""
     shift, point = wholes(draws, 3, -4, 4), wholes(draws, 3, -4, 4)
@@ -118,6 +123,7 @@ def draw_translation(draws: Draws) -> Draft:
     return by_rule(text, given, (shift, point), ("matrix-transposed", "ones-missing"), hints, XYZW)
 
 
+@template("camera-space", 1, "A point in camera space", "transform", 3)
 def draw_camera(draws: Draws) -> Draft:
     """C^-1 p."""
     c, s = draws.item(TURNS)
@@ -140,6 +146,7 @@ def draw_camera(draws: Draws) -> Draft:
     return replace(draft, sketch=sketched({"eye": eye, "target": target, "p": point}, (eye, target)))
 
 
+@template("clip-position", 1, "The perspective projection", "transform", 4)
 def draw_projection(draws: Draws) -> Draft:
     """P p."""
     half = draws.item((Fraction(1, 2), Fraction(1, 3), Fraction(3, 4)))
@@ -164,6 +171,7 @@ def draw_projection(draws: Draws) -> Draft:
     return by_rule(text, given, (half, aspect, near, far, point), names, hints, XYZW)
 
 
+@template("divide-by-w", 1, "The divide by w", "transform", 2)
 def draw_divide(draws: Draws) -> Draft:
     """The divide by w."""
     w = Fraction(draws.item((2, 4, 5, 8)))
@@ -178,6 +186,7 @@ def draw_divide(draws: Draws) -> Draft:
     return by_rule(text, f"Clip position: {place_text(clip)}", (clip,), names, hints, XYZ)
 
 
+@template("viewport-matrix", 1, "The viewport matrix", "transform", 3)
 def draw_matrix(draws: Draws) -> Draft:
     """D, filled in."""
     width, height = draws.whole(3, 20) * 2, draws.whole(3, 20) * 2
@@ -194,12 +203,12 @@ def draw_matrix(draws: Draws) -> Draft:
     return numbers(text, f"Window of W = {width} and H = {height} pixels.", right, hints, shape=(4, 4))
 
 
-def draw_map(draws: Draws) -> Draft | None:
+@template("matrix-of-images", 1, "The matrix from three images", "transform", 3)
+def draw_map(draws: Draws) -> Draft:
     """A transform from what it does to three points."""
     origin, first, second = (wholes(draws, 2, -4, 4) for _ in range(3))
     columns = [[a - o for a, o in zip(end, origin, strict=True)] for end in (first, second)] + [list(origin)]
-    if columns[0][0] * columns[1][1] == columns[0][1] * columns[1][0]:
-        return None
+    reject(columns[0][0] * columns[1][1] == columns[0][1] * columns[1][0])
     text = "Which 2 x 3 matrix maps one triangle to the other? It is multiplied with (x, y, 1); row by row."
     given = f"(0, 0) -> {place_text(origin)}\n(1, 0) -> {place_text(first)}\n(0, 1) -> {place_text(second)}"
     hints = (
@@ -213,6 +222,7 @@ def draw_map(draws: Draws) -> Draft | None:
     return replace(numbers(text, given, right, hints, shape=(2, 3)), sketch=sketch)
 
 
+@template("shader-scaling", 1, "A vertex shader that scales", "transform", 2)
 def draw_shader(draws: Draws) -> Draft:
     """The scaling vertex shader of the lecture."""
     vertex, shift = wholes(draws, 3, -6, 6), wholes(draws, 3, -6, 6)
@@ -232,6 +242,7 @@ def draw_shader(draws: Draws) -> Draft:
     return numbers(text, given, right, hints, wrong, XYZ)
 
 
+@template("skinning", 1, "Two bones and a vertex", "transform", 2)
 def draw_skinning(draws: Draws) -> Draft:
     """Two bones."""
     places = wholes(draws, 2, 10, 60)
@@ -250,6 +261,7 @@ def draw_skinning(draws: Draws) -> Draft:
     return by_rule(text, given, (weights, places), ("weights-not-normalized",), hints)
 
 
+@template("equal-sizes", 1, "Sizes that look alike", "transform", 1)
 def draw_size(draws: Draws) -> Draft:
     """Sizes that look alike."""
     height, near, times = draws.whole(1, 6), draws.whole(1, 5), draws.whole(2, 5)
@@ -275,6 +287,7 @@ def drawn_from(things: tuple[str, ...], draws: Draws) -> tuple[str, ...]:
     return tuple(thing for thing in things if thing in kept)
 
 
+@template("space-order", 2, "Spaces of a vertex", "transform", 2)
 def draw_spaces(draws: Draws) -> Draft:
     """Four of the spaces of a vertex."""
     spaces = drawn_from(("object space", "world space", "camera space", "clip space", "NDC", "window"), draws)
@@ -288,6 +301,7 @@ def draw_spaces(draws: Draws) -> Draft:
     )
 
 
+@template("factor-order", 2, "What acts first", "transform", 2)
 def draw_factors(draws: Draws) -> Draft:
     """What acts on a vertex first."""
     steps = drawn_from(("M", "C^-1", "P", "divide by w", "D"), draws)
@@ -297,22 +311,3 @@ def draw_factors(draws: Draws) -> Draft:
         "Read D P C^-1 M p from the right, and put the divide in after P.",
     )
     return ordered("In which order do these act on a vertex? First to last.", steps, draws, hints)
-
-
-TEMPLATES = (
-    Template("turn-and-move", 1, "A point turned and moved", "transform", 2, draw_order),
-    Template("turn-about-pivot", 1, "A turn about a point", "transform", 2, draw_pivot),
-    Template("turn-by-degrees", 1, "A turn by degrees", "transform", 2, draw_degrees),
-    Template("scale-and-move", 1, "Scaling and moving as a matrix", "transform", 3, draw_scaling),
-    Template("translation-product", 1, "Translation with four coordinates", "transform", 2, draw_translation),
-    Template("matrix-of-images", 1, "The matrix from three images", "transform", 3, draw_map),
-    Template("camera-space", 1, "A point in camera space", "transform", 3, draw_camera),
-    Template("clip-position", 1, "The perspective projection", "transform", 4, draw_projection),
-    Template("divide-by-w", 1, "The divide by w", "transform", 2, draw_divide),
-    Template("viewport-matrix", 1, "The viewport matrix", "transform", 3, draw_matrix),
-    Template("shader-scaling", 1, "A vertex shader that scales", "transform", 2, draw_shader),
-    Template("skinning", 1, "Two bones and a vertex", "transform", 2, draw_skinning),
-    Template("equal-sizes", 1, "Sizes that look alike", "transform", 1, draw_size),
-    Template("space-order", 2, "Spaces of a vertex", "transform", 2, draw_spaces),
-    Template("factor-order", 2, "What acts first", "transform", 2, draw_factors),
-)

@@ -6,7 +6,7 @@ from functools import partial
 
 from lessons.exercises.answers.listings import LineAnswer
 from lessons.exercises.draws import Draws
-from lessons.exercises.question import Draft, Template
+from lessons.exercises.question import Draft, template
 
 
 @dataclass(frozen=True)
@@ -181,7 +181,5 @@ def draw_listing(listed: Listed, draws: Draws) -> Draft:
     return Draft(text, "", answer, listed.hints)
 
 
-TEMPLATES = tuple(
-    Template(listed.name, 1, listed.title, listed.stage, 2, partial(draw_listing, listed))
-    for listed in LISTINGS
-)
+for _listed in LISTINGS:
+    template(_listed.name, 1, _listed.title, _listed.stage, 2)(partial(draw_listing, _listed))

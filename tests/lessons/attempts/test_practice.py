@@ -10,6 +10,7 @@ import pytest
 from lessons.attempts.practice import Choice, first_tries, misses_in_a_row, next_question, progress, recall
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.catalogue import TEMPLATES
+from lessons.exercises.draws import reject
 from lessons.exercises.question import Question, Template, ask, judge
 
 NOW = datetime(2026, 11, 23, 12, tzinfo=UTC)
@@ -116,7 +117,7 @@ def test_the_next_variant_tells_two_mistakes_apart(seed: int) -> None:
 
 
 def test_a_template_that_cannot_draw_is_passed_over() -> None:
-    broken = Template("broken", 1, "Broken", "raster", 1, lambda draws: None)
+    broken = Template("broken", 1, "Broken", "raster", 1, lambda draws: reject(True))
     assert chosen([], {"broken": broken} | SOME).question.template.name == "triangle-coverage"
     assert next_question([], {"broken": broken}, "me", NOW) is None
 

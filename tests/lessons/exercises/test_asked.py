@@ -1,9 +1,7 @@
 """Everything that there is to ask about is asked, or says why not; every name is one that exists."""
 
 import tomllib
-from importlib import import_module
 from pathlib import Path
-from pkgutil import iter_modules
 
 import pytest
 
@@ -14,7 +12,7 @@ from core.study.stability import experiments
 from lessons.exercises import catalogue, templates
 from lessons.exercises.asked import LECTURES, kinds_by_stage, mistake_topics, topics
 from lessons.exercises.catalogue import TEMPLATES
-from lessons.exercises.question import ask
+from lessons.exercises.question import WRITTEN, ask, template
 from lessons.mistakes.shelf import MISTAKES
 
 ORDER = Path(catalogue.__file__).with_name("order.toml")
@@ -45,10 +43,10 @@ def test_every_slip_of_a_printed_listing_is_asked() -> None:
 
 
 def test_every_template_of_the_folder_is_found_and_no_name_used_twice() -> None:
-    modules = [import_module(f"{templates.__name__}.{one.name}") for one in iter_modules(templates.__path__)]
-    names = [template.name for module in modules for template in getattr(module, "TEMPLATES", ())]
     files = [path.stem for folder in templates.__path__ for path in Path(folder).glob("*.toml")]
-    assert sorted([*names, *files]) == sorted(TEMPLATES)
+    assert sorted([*WRITTEN, *files]) == sorted(TEMPLATES)
+    with pytest.raises(ValueError, match="two templates are called facing"):
+        template("facing", 1, "Facing", "cull", 1)(TEMPLATES["facing"].make)
 
 
 def test_the_order_stands_stage_by_stage_and_names_no_template_twice() -> None:

@@ -5,9 +5,8 @@ import pytest
 from core import trace
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import Template, ask, judge
-from lessons.exercises.templates import beliefs_looks, beliefs_pixels, beliefs_space
 
-ALL = [*beliefs_space.TEMPLATES, *beliefs_pixels.TEMPLATES, *beliefs_looks.TEMPLATES]
+ALL = [template for name, template in TEMPLATES.items() if name.startswith("belief-")]
 
 
 def refuted(template: Template, seed: int) -> None:

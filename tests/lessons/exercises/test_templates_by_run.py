@@ -8,7 +8,6 @@ import pytest
 
 from core import Settings, clip_lines, render
 from lessons.exercises.catalogue import TEMPLATES
-from lessons.exercises.draws import Draws
 from lessons.exercises.question import ask, judge
 from lessons.exercises.templates import placing, reading, stepping, wrong_lines
 from lessons.exercises.templates.lines import d_values
@@ -81,7 +80,7 @@ def test_ends_to_place_are_those_of_the_clipper() -> None:
 
 
 def test_the_crossing_of_a_side_lies_on_the_border_and_on_the_side() -> None:
-    draft = stepping.draw_clip(Draws(3)) or ask(TEMPLATES["clip-side-steps"], 3).draft
+    draft = ask(TEMPLATES["clip-side-steps"], 3).draft
     crossings = [step.right for step in draft.answer.steps if step.kind == "place"]
     assert len(crossings) == 2
     assert all(x == stepping.BORDER for x, _ in crossings)
