@@ -1,6 +1,7 @@
 """Small scenes given in the window: triangles of exercises, segments between pixels."""
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -9,16 +10,18 @@ from core.scene import ClipScene
 from lessons.scenes import assembled, window_triangle
 
 Point = tuple[float, float]
+Numbers = ArrayLike | Sequence[Any]
+"""Numbers in rows, fractions among them."""
 EVERYWHERE: tuple[Point, ...] = ((-20, -20), (40, -20), (-20, 40))
 """A triangle over the whole of a small window."""
 
 
 def triangle_scene(
-    corners: ArrayLike,
+    corners: Numbers,
     size: tuple[int, int],
-    depth: ArrayLike = 0.5,
-    w: ArrayLike = 1.0,
-    attributes: ArrayLike | None = None,
+    depth: Numbers = 0.5,
+    w: Numbers = 1.0,
+    attributes: Numbers | None = None,
 ) -> ClipScene:
     """Return triangles with corners (T, 3, 2) in pixels, y up.
 
@@ -33,7 +36,7 @@ def triangle_scene(
     """
     places = np.asarray(corners, float)
     shape = places.shape[:2]
-    depths, weights = np.broadcast_to(depth, shape), np.broadcast_to(w, shape)
+    depths, weights = (np.broadcast_to(np.asarray(each, float), shape) for each in (depth, w))
     clip = [
         window_triangle(place[:, 0], place[:, 1], far, weight, size)
         for place, far, weight in zip(places, depths, weights, strict=True)

@@ -1,6 +1,6 @@
 """Mistakes in transforms, cameras and projections, as wrong formulas; all exact where their numbers are."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import cos, radians, sin
 from typing import Any
@@ -15,7 +15,7 @@ Turn = tuple[Fraction, Fraction]
 QUARTER = (Fraction(0), Fraction(1))
 
 
-def dot(a: Vector, b: Vector) -> Any:
+def dot(a: Sequence[Any], b: Sequence[Any]) -> Any:
     """Return a . b."""
     return sum((x * y for x, y in zip(a, b, strict=True)), Fraction(0))
 

@@ -6,7 +6,7 @@ from fractions import Fraction
 import numpy as np
 
 from core import Settings
-from core.framebuffer.display import to_display
+from core.framebuffer.display import srgb_byte
 from core.scene import ClipScene, Texture
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
@@ -168,17 +168,11 @@ def draw_bilinear(draws: Draws) -> Draft:
     return believed(draws, text, right, [belief], [other], refutation, hints)
 
 
-def srgb_byte(light: Fraction) -> int:
-    """Return the byte that is stored for linear light."""
-    shown = to_display(np.array([[[float(light)] * 3 + [1.0]]]))
-    return int(shown.pixels[0, 0, 0])
-
-
 @template("belief-half-byte", 1, "Is half the byte half the light?", "resolve", 1)
 def draw_half_byte(draws: Draws) -> Draft:
     """Half the byte is half the light."""
     light = Fraction(draws.whole(1, 3), 4)
-    right, belief = srgb_byte(light), int(255 * light + Fraction(1, 2))
+    right, belief = srgb_byte(float(light)), int(255 * light + Fraction(1, 2))
     refutation = Refutation(
         f"Bytes are spaced as the eye sees, not as light adds: {number_text(light)} of the light is byte {right}.",
         gray_scene(float(light)),

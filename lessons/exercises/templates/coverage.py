@@ -1,5 +1,6 @@
 """Which pixels a triangle covers, and which way it faces."""
 
+from collections.abc import Sequence
 from dataclasses import replace
 from fractions import Fraction
 
@@ -9,9 +10,8 @@ from core import Settings, render
 from core.scene import ClipScene
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.draws import Draws, reject
-from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import factor_text, pictured
+from lessons.exercises.templates.drafting import factor_text, listed, pictured, place_text
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import triangle_scene
 
@@ -23,12 +23,12 @@ RULE = (
 )
 
 
-def corner_text(corners: list[Corner]) -> str:
+def corner_text(corners: Sequence[Corner]) -> str:
     """Return corners as text."""
-    return ", ".join(f"({number_text(x)}, {number_text(y)})" for x, y in corners)
+    return ", ".join(map(place_text, corners))
 
 
-def twice_area(corners: list[Corner]) -> Fraction:
+def twice_area(corners: Sequence[Corner]) -> Fraction:
     """Return the determinant: positive where the corners run counter-clockwise."""
     (x0, y0), (x1, y1), (x2, y2) = corners
     return (x1 - x0) * (y2 - y0) - (y1 - y0) * (x2 - x0)
@@ -40,7 +40,7 @@ def crossing_text(start: Corner, end: Corner, y: str = "j + 1/2") -> str:
     return f"{x0} + ({y} - {y0}) ({x1} - {x0}) / ({y1} - {y0})"
 
 
-def row_hint(corners: list[Corner], y: str = "j + 1/2") -> str:
+def row_hint(corners: Sequence[Corner], y: str = "j + 1/2") -> str:
     """Say where the highest side crosses the centres of a row."""
     sides = zip(corners, [*corners[1:], corners[0]], strict=True)
     side = max(sides, key=lambda ends: abs(ends[1][1] - ends[0][1]))
@@ -51,7 +51,7 @@ def row_hint(corners: list[Corner], y: str = "j + 1/2") -> str:
 def _covered(corners: list[Corner], text: str, hints: tuple[str, ...], names: tuple[str, ...]) -> Draft:
     """Ask for the pixels of a triangle that is neither small nor clockwise."""
     reject(twice_area(corners) < 16)
-    scene = triangle_scene(np.array([corners], float), SIZE)
+    scene = triangle_scene([corners], SIZE)
     return pictured(f"{text} {RULE}", f"Triangle A: {corner_text(corners)}", scene, names, hints)
 
 
@@ -91,7 +91,7 @@ def draw_shared_edge(draws: Draws) -> Draft:
     draft = _covered(
         mine, "Triangles A and B share an edge. Which pixels belong to triangle A?", hints, names
     )
-    both = triangle_scene(np.array([mine, other], float), SIZE)
+    both = triangle_scene([mine, other], SIZE)
     return replace(draft, given=f"{draft.given}\nTriangle B: {corner_text(other)}", outlined=both)
 
 
@@ -99,7 +99,7 @@ FACES = tuple("ABCD")
 FACING_SIZE = (24, 7)
 
 
-def facing_text(corners: list[Corner]) -> str:
+def facing_text(corners: Sequence[Corner]) -> str:
     """Return the determinant as an expression in numbers."""
     (x0, y0), (x1, y1), (x2, y2) = (map(factor_text, corner) for corner in corners)
     return f"({x1} - {x0})({y2} - {y0}) - ({y1} - {y0})({x2} - {x0})"
@@ -116,16 +116,14 @@ def draw_facing(draws: Draws) -> Draft:
     reject(min(map(abs, areas)) < 5)
     away = frozenset(k for k, area in enumerate(areas) if area < 0)
     reject(not 1 <= len(away) <= 3)
-    scene = triangle_scene(np.array(triangles, float), FACING_SIZE)
+    scene = triangle_scene(triangles, FACING_SIZE)
     settings = Settings(cull="back")
     wrong = culled(SHELF["facing-exchanged"].change_settings(settings), scene)
     text = (
         "Which triangles are back faces? Counter-clockwise corners, y up, are the front: the determinant "
         "(x1 - x0)(y2 - y0) - (y1 - y0)(x2 - x0) is positive."
     )
-    given = "\n".join(
-        f"{name}: {corner_text(corners)}" for name, corners in zip(FACES, triangles, strict=True)
-    )
+    given = listed("{}: {}", FACES, triangles)
     hints = (
         "Sketch each triangle with its corners in order.",
         "The sign of the determinant decides, not its size.",

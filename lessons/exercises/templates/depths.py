@@ -18,7 +18,7 @@ from lessons.exercises.answers.fields import Column, Follow, Row, Rows, TableAns
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import by_rule, numbers, one_of, place_text, several, table
+from lessons.exercises.templates.drafting import by_rule, listed, numbers, one_of, place_text, several, table
 from lessons.mistakes.depths import cards
 from lessons.mistakes.shelf import RULES, SHELF
 
@@ -185,7 +185,7 @@ def draw_painter(draws: Draws) -> Draft:
         "In which order does a painter's algorithm paint these triangles, first to last, if it sorts by the farthest "
         "vertex?"
     )
-    given = "\n".join(f"{name}: depths {place_text(d)}" for name, d in zip(NAMES, depths, strict=True))
+    given = listed("{}: depths {}", NAMES, depths)
     hints = (
         "What is painted first is painted over.",
         "Only the largest depth of each counts here.",
@@ -222,7 +222,7 @@ def draw_ties(draws: Draws) -> Draft:
         "Three cards cover the window, drawn in this order. Which one is seen? The smaller depth is nearer, a tie "
         "keeps what is there."
     )
-    given = "\n".join(f"{name}: z = {number_text(z)}" for name, z in zip(CARDS, depths, strict=False))
+    given = listed("{}: z = {}", CARDS, depths)
     hints = (
         "Which depth is the smallest?",
         "Of two equal ones, which is tested against the other?",

@@ -6,6 +6,7 @@ from typing import Any
 
 from core import Settings, render
 from core.records.frame import Frame
+from core.records.sketch import Sketch
 from core.scene import AnyScene, ClipScene
 from core.settings import DEFAULTS
 from lessons.exercises.answers.choices import ChoiceAnswer
@@ -24,6 +25,21 @@ WITHIN = "Fractions, or decimals within 0.005."
 def place_text(place: Iterable[Any]) -> str:
     """Return numbers in brackets."""
     return f"({', '.join(number_text(as_number(c)) for c in place)})"
+
+
+def words(value: Any) -> str:
+    """Return a number, a place (a tuple), or several things (a list) as text; text stays."""
+    if isinstance(value, str):
+        return value
+    if isinstance(value, list):
+        return ", ".join(map(words, value))
+    return place_text(value) if isinstance(value, tuple) else number_text(as_number(value))
+
+
+def listed(line: str, *columns: Iterable[Any]) -> str:
+    """Return a line for each row of some columns; ``{k}`` stands for its number."""
+    rows = enumerate(zip(*columns, strict=False))
+    return "\n".join(line.format(*map(words, row), k=k) for k, row in rows)
 
 
 def factor_text(value: Number) -> str:
@@ -53,6 +69,7 @@ def numbers(
     scene: AnyScene | None = None,
     settings: Settings = DEFAULTS,
     pixel: tuple[int, int] | None = None,
+    sketch: Sketch | None = None,
 ) -> Draft:
     """Ask for numbers; ``shape`` is that of a matrix, without it a number or a vector is asked for."""
     right = as_numbers(values)
@@ -64,7 +81,7 @@ def numbers(
     is_whole = all(isinstance(number, Fraction) and number.denominator == 1 for number in every)
     answer = NumberAnswer(right, shape, tuple(names), 0.0 if is_whole else TOLERANCE)
     asked = text if is_whole else f"{text} {WITHIN}"
-    return Draft(asked, given, answer, hints, mistakes, scene, settings, pixel)
+    return Draft(asked, given, answer, hints, mistakes, scene, settings, pixel, sketch=sketch)
 
 
 def by_rule(
@@ -75,10 +92,12 @@ def by_rule(
     hints: tuple[str, ...],
     names: Sequence[str] = (),
     shape: tuple[int, ...] | None = None,
+    sketch: Sketch | None = None,
 ) -> Draft:
     """Ask for the numbers that a formula gives; the mistakes are wrong formulas of the same arguments."""
     wrong = {name: RULES[name].wrong(*arguments) for name in mistakes}
-    return numbers(text, given, RULES[mistakes[0]].right(*arguments), hints, wrong, names, shape)
+    right = RULES[mistakes[0]].right(*arguments)
+    return numbers(text, given, right, hints, wrong, names, shape, sketch=sketch)
 
 
 def pictured(

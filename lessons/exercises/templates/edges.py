@@ -1,6 +1,5 @@
 """Edge functions, who owns an edge, and the part of the raster that a triangle may touch."""
 
-from dataclasses import replace
 from fractions import Fraction
 from math import floor
 from typing import Any
@@ -19,6 +18,7 @@ from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
 from lessons.exercises.templates.drafting import (
     by_rule,
     factor_text,
+    listed,
     numbers,
     one_of,
     place_text,
@@ -74,8 +74,8 @@ def draw_coefficients(draws: Draws) -> Draft:
         f"a = {factor_text(start[1])} - {factor_text(end[1])}, b = {factor_text(end[0])} - {factor_text(start[0])}.",
     )
     given = f"Edge from {place_text(start)} to {place_text(end)}."
-    draft = numbers(text, given, coefficients(start, end), hints, names=("a", "b", "c"))
-    return replace(draft, sketch=sketched({"start": start, "end": end}, (start, end)))
+    sketch = sketched({"start": start, "end": end}, (start, end))
+    return numbers(text, given, coefficients(start, end), hints, names=("a", "b", "c"), sketch=sketch)
 
 
 @template("edge-values", 1, "Edge functions at a pixel", "edges", 3)
@@ -88,7 +88,7 @@ def draw_values(draws: Draws) -> Draft:
         x, y = (c + shift for c in pixel)
         return [[a * x + b * y + c] for a, b, c in edges_of(corners)]
 
-    scene = triangle_scene(np.array([corners], float), SIZE)
+    scene = triangle_scene([corners], SIZE)
     text = f"What are the three edge functions at the centre (i + 1/2, j + 1/2) of pixel {pixel}? {INWARD}"
     hints = (
         "Where is the centre?",
@@ -145,7 +145,7 @@ def draw_inverse(draws: Draws) -> Draft:
         "Which matrix holds the coefficients of the edge functions alpha, beta, gamma? Its columns are theirs, its "
         "rows are a, b and c: it is the inverse of the matrix whose rows are (x, y, w) of the vertices. Row by row."
     )
-    given = "\n".join(f"Vertex {k}: (x, y, w) = {place_text(row)}" for k, row in enumerate(rows))
+    given = listed("Vertex {k}: (x, y, w) = {}", rows)
     second, third = ([factor_text(number) for number in row] for row in rows[1:])
     hints = (
         "alpha is 1 at vertex 0 and 0 at the other two.",
@@ -189,7 +189,7 @@ def draw_owned(draws: Draws) -> Draft:
     assert frozenset(right) == rule.right(corners)
     wrong["leftmost-vertex"] = sorted(rule.wrong(corners))
     shown = {"all-edges-inclusive": [0, 1, 2]} | {name: r for name, r in wrong.items() if r and r != right}
-    return several(text, given, NAMES, right, hints, shown, triangle_scene(np.array([corners], float), SIZE))
+    return several(text, given, NAMES, right, hints, shown, triangle_scene([corners], SIZE))
 
 
 @template("snapped-vertex", 1, "A vertex in 256ths", "edges", 1)
@@ -237,7 +237,7 @@ def draw_case(draws: Draws) -> Draft:
     signs = ((1, 1, 1), (-1, -1, -1), draws.item(((1, 1, -1), (1, -1, -1), (-1, 1, 1), (-1, 1, -1))))[wanted]
     corners = [(*wholes(draws, 2, -9, 9), Fraction(sign * draws.whole(1, 9))) for sign in signs]
     text = "Which case of binning is this triangle? w > 0 is in front of the eye."
-    given = "\n".join(f"Vertex {k}: (x, y, w) = {place_text(corner)}" for k, corner in enumerate(corners))
+    given = listed("Vertex {k}: (x, y, w) = {}", corners)
     hints = (
         "Look at w alone.",
         "Where signs differ, the projected vertices do not bound the triangle.",
@@ -256,7 +256,7 @@ def draw_blocks(draws: Draws) -> Draft:
     """Blocks that are discarded."""
     side = BLOCK * BLOCKS
     corners = triangle(draws, (side, side), 150)
-    scene = triangle_scene(np.array([corners], float), (side, side))
+    scene = triangle_scene([corners], (side, side))
     edges = [(float(a), float(b), float(c), a > 0 or (a == 0 and b > 0)) for a, b, c in edges_of(corners)]
     rule = RULES["block-by-one-corner"]
     text = (
@@ -305,7 +305,7 @@ def draw_corner(draws: Draws) -> Draft:
 def draw_tests(draws: Draws) -> Draft:
     """Pixels that are tested."""
     corners = triangle(draws)
-    scene = triangle_scene(np.array([corners], float), SIZE)
+    scene = triangle_scene([corners], SIZE)
     right = [
         render(scene, Settings(fill=fill)).statistics["bin"].outgoing
         for fill in ("brute-force", "bounding-box")

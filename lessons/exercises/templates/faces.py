@@ -10,8 +10,8 @@ from core.geometry.culling import plane_distances
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.coverage import FACES, corner_text, culled, facing_text, twice_area
-from lessons.exercises.templates.drafting import factor_text, numbers, place_text, several
+from lessons.exercises.templates.coverage import FACES, culled, facing_text, twice_area
+from lessons.exercises.templates.drafting import factor_text, listed, numbers, place_text, several
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.coverage import dropped_at_border
 from lessons.mistakes.shelf import RULES, SHELF
@@ -25,14 +25,14 @@ def draw_order(draws: Draws) -> Draft:
     reject(abs(twice_area(corners)) < 5)
     orders = list(permutations(range(3)))
     placed = [[(corners[k][0] + 6 * n, corners[k][1]) for k in order] for n, order in enumerate(orders)]
-    scene, settings = triangle_scene(np.array(placed, float), (36, 6)), Settings(cull="back")
+    scene, settings = triangle_scene(placed, (36, 6)), Settings(cull="back")
     back = culled(settings, scene)
     wrong = culled(SHELF["facing-exchanged"].change_settings(settings), scene)
     text = (
         "A face lists the three vertices in some order. For which orders is it culled as a back face? The camera looks "
         "at the page, x to the right, y up; counter-clockwise is the front."
     )
-    given = "\n".join(f"Vertex {k}: {place_text(corner)}" for k, corner in enumerate(corners))
+    given = listed("Vertex {k}: {}", corners)
     hints = (
         "Sketch the vertices and go round in one of the orders.",
         "Turning the list by one changes nothing; exchanging two of it changes the facing.",
@@ -58,10 +58,7 @@ def draw_eye(draws: Draws) -> Draft:
         "Which faces are culled? N points outward, V from the eye to a point of the face: a face is culled where "
         "N . V > 0."
     )
-    given = f"Eye: {place_text(eye)}\n" + "\n".join(
-        f"{name}: N = {place_text(normal)}, point {place_text(point)}"
-        for name, (normal, point) in zip(FACES, faces, strict=True)
-    )
+    given = f"Eye: {place_text(eye)}\n" + listed("{}: N = {}, point {}", FACES, *zip(*faces, strict=True))
     axes = zip(*faces[0], eye, strict=True)
     dot = " + ".join("{} ({} - {})".format(*map(factor_text, axis)) for axis in axes)
     hints = (
@@ -84,7 +81,7 @@ def draw_outside(draws: Draws) -> Draft:
         [(Fraction(draws.whole(-4, 12)), Fraction(draws.whole(-4, 10))) for _ in range(3)] for _ in FACES
     ]
     reject(min(abs(twice_area(corners)) for corners in triangles) < 5)
-    scene = triangle_scene(np.array(triangles, float), WINDOW)
+    scene = triangle_scene(triangles, WINDOW)
     outside = np.asarray(plane_distances(scene.clip) < 0)
     dropped = np.flatnonzero(np.any(np.all(outside, axis=1), axis=1)).tolist()
     collapsed = (dropped_at_border(scene).clip != scene.clip).any(axis=(1, 2))
@@ -92,9 +89,7 @@ def draw_outside(draws: Draws) -> Draft:
         "Which triangles are dropped because all three vertices lie outside of one border of the window? A point on a "
         "border is inside."
     )
-    given = f"Window 0..{WINDOW[0]} x 0..{WINDOW[1]}.\n" + "\n".join(
-        f"{name}: {corner_text(corners)}" for name, corners in zip(FACES, triangles, strict=True)
-    )
+    given = f"Window 0..{WINDOW[0]} x 0..{WINDOW[1]}.\n" + listed("{}: {}", FACES, triangles)
     xs, ys = zip(*triangles[0], strict=True)
     hints = (
         "Test one border at a time.",
@@ -133,7 +128,7 @@ def draw_determinant(draws: Draws) -> Draft:
         "What is the determinant of the matrix whose rows are (x, y, w) of the vertices? It is negative for a back "
         "face, whatever the signs of w, and 0 where there is nothing to draw."
     )
-    given = "\n".join(f"Vertex {k}: {place_text(row)}" for k, row in enumerate(rows))
+    given = listed("Vertex {k}: {}", rows)
     (x0, _, _), (_, y1, w1), (_, y2, w2) = (map(factor_text, row) for row in rows)
     first = f"The first product is {x0} ({y1} * {w2} - {w1} * {y2})."
     hints = (

@@ -41,7 +41,7 @@ def is_decided(corners: list[Corner]) -> bool:
 def of_triangle(corners: list[Corner], text: str, names: tuple[str, ...], hints: tuple[str, ...]) -> Draft:
     """Ask for the pixels of one triangle."""
     reject(abs(twice_area(corners)) < 8 or not is_decided(corners))
-    scene = triangle_scene(np.array([corners], float), SIZE)
+    scene = triangle_scene([corners], SIZE)
     return pictured(f"{text} {RULE}", f"Triangle: {corner_text(corners)}", scene, names, hints)
 
 
@@ -123,7 +123,7 @@ def draw_ends(draws: Draws) -> Draft:
     corners = [(draws.whole(0, 11) + HALF, draws.whole(0, 8) + HALF) for _ in range(3)]
     row = draws.whole(2, 6)
     reject(abs(twice_area(corners)) < 16)
-    scene = triangle_scene(np.array([corners], float), SIZE)
+    scene = triangle_scene([corners], SIZE)
 
     def ends(frame: Frame) -> list[int]:
         columns = np.flatnonzero(frame.primitive[row] >= 0).tolist()
@@ -174,7 +174,7 @@ def draw_rows(draws: Draws) -> Draft:
         "x = x0 + (y - y0)(x1 - x0)/(y1 - y0).",
         f"{row_hint(corners, f'{rows[0]} + 1/2')}.",
     )
-    scene = triangle_scene(np.array([corners], float), SIZE)
+    scene = triangle_scene([corners], SIZE)
     labels = [f"row {row}" for row in rows]
     wrong = {name: crossings(name) for name in names}
     given = f"Triangle: {corner_text(corners)}"
@@ -200,7 +200,7 @@ def draw_fourth(draws: Draws) -> Draft:
         "v4 has the y of the middle vertex, and lies between the other two.",
         f"y = {number_text(v2[1])}, x = {line_text}.",
     )
-    scene = triangle_scene(np.array([corners], float), (13, 13))
+    scene = triangle_scene([corners], (13, 13))
     given = f"Triangle: {corner_text(corners)}"
     return numbers(text, given, [x, v2[1]], hints, names=("x", "y"), scene=scene)
 
@@ -215,7 +215,7 @@ def draw_fan(draws: Draws) -> Draft:
     )
     triangles = [[center, a, b] for a, b in zip(around, [*around[1:], around[0]], strict=True)]
     reject(min(twice_area(corners) for corners in triangles) < 1)
-    scene = triangle_scene(np.array(triangles, float), SIZE)
+    scene = triangle_scene(triangles, SIZE)
     counts = [
         int(render(scene, Settings(fill_rule=rule)).cover_count[int(center[1]), int(center[0])])
         for rule in ("shared-edge", "inclusive", "exclusive")

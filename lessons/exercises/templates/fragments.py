@@ -22,10 +22,9 @@ from lessons.exercises.answers.fields import (
     number_rows,
 )
 from lessons.exercises.draws import Draws, reject
-from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
-from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text
+from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text, listed
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import EVERYWHERE, triangle_scene
 
@@ -47,7 +46,7 @@ def draw_weights(draws: Draws) -> Draft:
     reject(area < 20)
     weights = tuple(twice_area([center, corners[(k + 1) % 3], corners[(k + 2) % 3]]) / area for k in range(3))
     reject(min(weights) < Fraction(1, 20))
-    scene = triangle_scene(np.array([corners], float), (11, 9), attributes=np.eye(3)[None])
+    scene = triangle_scene([corners], (11, 9), attributes=np.eye(3)[None])
     wrong = {"weights-permuted": attributes_at(SHELF["weights-permuted"].draw(scene, Settings()), pixel)}
     shifted = SHELF["corner-for-center"].draw(scene, Settings())
     if shifted.primitive[pixel[1], pixel[0]] >= 0:
@@ -87,15 +86,10 @@ def draw_perspective(draws: Draws) -> Draft:
     over_w = sum((weight / each for weight, each in zip(weights, w, strict=True)), Fraction(0))
     u_over_w = sum((a * b / c for a, b, c in zip(weights, u, w, strict=True)), Fraction(0))
     corners = [(0.5, 0.5), (8.5, 0.5), (0.5, 8.5)]
-    values = np.array(u, float).reshape(1, 3, 1)
-    scene = triangle_scene([corners], (10, 10), w=np.array([w], float), attributes=values)
+    scene = triangle_scene([corners], (10, 10), w=[w], attributes=[[[value] for value in u]])
     names = ("affine-for-perspective", "w-overwritten", "not-divided-back", "multiplied-by-w")
     wrong = {name: attributes_at(SHELF[name].draw(scene, Settings()), pixel) for name in names}
-    rows = zip(NAMES, weights, u, w, strict=True)
-    given = "\n".join(
-        f"Vertex {k}: {name} = {number_text(weight)}, u = {number_text(value)}, w = {number_text(each)}"
-        for k, (name, weight, value, each) in enumerate(rows)
-    )
+    given = listed("Vertex {k}: {} = {}, u = {}, w = {}", NAMES, weights, u, w)
     text = f"What is u at this pixel with perspective? The weights are those of the window. {WITHIN}"
     lower_sum = " + ".join(f"{factor_text(a)}/{b}" for a, b in zip(weights, w, strict=True))
     hints = (
@@ -193,10 +187,8 @@ def draw_blend(draws: Draws) -> Draft:
         twin: tuple(float(value) for value in SHELF[twin].draw(scene, settings).color[0, 0, :3])
         for twin in twins
     }
-    given = "Background: black, opaque.\n" + "\n".join(
-        f"Layer {k}: {name} {COLORS[name]}, alpha = {number_text(alpha)}"
-        for k, (name, alpha) in enumerate(zip(names, alphas, strict=True))
-    )
+    layers_text = listed("Layer {k}: {} {}, alpha = {}", names, map(COLORS.get, names), alphas)
+    given = f"Background: black, opaque.\n{layers_text}"
     text = f"The layers are blended with over, layer 0 first. What are red, green and blue, linear? {WITHIN}"
     hints = (
         "Blend layer 0 over the background first.",

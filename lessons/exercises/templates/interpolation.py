@@ -4,18 +4,17 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
-import numpy as np
-
 from core import Settings, render
 from lessons.exercises.answers.fields import Numbers
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import Corner, corner_text, facing_text, twice_area
-from lessons.exercises.templates.drafting import by_rule, numbers, place_text, table
+from lessons.exercises.templates.drafting import by_rule, listed, numbers, place_text, table
 from lessons.exercises.templates.edges import coefficients
 from lessons.exercises.templates.fragments import NAMES, attributes_at
 from lessons.mistakes.shelf import RULES, SHELF
+from lessons.mistakes.transforms import dot
 from lessons.small_scenes import triangle_scene
 
 RGB = ("red", "green", "blue")
@@ -58,7 +57,7 @@ def draw_two_points(draws: Draws) -> Draft:
         "Inside, all three are positive; the sum is 1 for every point.",
         f"The area of the whole triangle is half of {facing_text(corners)}.",
     )
-    scene = triangle_scene(np.array([corners], float), (10, 10))
+    scene = triangle_scene([corners], (10, 10))
     return table(text, given, NAMES, ("P", "Q"), rows, hints, {"weights-permuted": turned}, scene=scene)
 
 
@@ -67,14 +66,11 @@ def draw_color(draws: Draws) -> Draft:
     """A colour between three vertices."""
     corners, pixel, weights = triangle_and_pixel(draws)
     colors = [[Fraction(draws.whole(0, 4), 4) for _ in RGB] for _ in range(3)]
-    right = [sum((w * c[k] for w, c in zip(weights, colors, strict=True)), Fraction(0)) for k in range(3)]
-    scene = triangle_scene(np.array([corners], float), SIZE, attributes=np.array([colors], float))
+    right = [dot(weights, channel) for channel in zip(*colors, strict=True)]
+    scene = triangle_scene([corners], SIZE, attributes=[colors])
     wrong = {"weights-permuted": attributes_at(SHELF["weights-permuted"].draw(scene, Settings()), pixel)}
     text = f"What are red, green and blue at the centre (i + 1/2, j + 1/2) of pixel {pixel}? All w are 1."
-    given = "\n".join(
-        f"Vertex {k}: {place_text(corner)}, colour {place_text(color)}"
-        for k, (corner, color) in enumerate(zip(corners, colors, strict=True))
-    )
+    given = listed("Vertex {k}: {}, colour {}", corners, map(tuple, colors))
     reds = [number_text(color[0]) for color in colors]
     hints = (
         "Find the three weights first.",
@@ -89,7 +85,7 @@ def draw_sorted(draws: Draws) -> Draft:
     """A value after the vertices were sorted."""
     corners, pixel, weights = triangle_and_pixel(draws)
     q = [Fraction(draws.whole(0, 20)) for _ in range(3)]
-    scene = triangle_scene(np.array([corners], float), SIZE, attributes=np.array(q, float).reshape(1, 3, 1))
+    scene = triangle_scene([corners], SIZE, attributes=[[[value] for value in q]])
     wrong = {
         "attributes-not-sorted": attributes_at(SHELF["attributes-not-sorted"].draw(scene, Settings()), pixel)
     }
@@ -97,17 +93,13 @@ def draw_sorted(draws: Draws) -> Draft:
         f"A scanline fill sorts the vertices by y. What is the attribute q at the centre (i + 1/2, j + 1/2) of pixel "
         f"{pixel}? All w are 1."
     )
-    given = "\n".join(
-        f"Vertex {k}: {place_text(corner)}, q = {value}"
-        for k, (corner, value) in enumerate(zip(corners, q, strict=True))
-    )
+    given = listed("Vertex {k}: {}, q = {}", corners, q)
     hints = (
         "Which q belongs to the lowest vertex?",
         "Sort the vertices together with what they carry.",
         f"q = alpha * {q[0]} + beta * {q[1]} + gamma * {q[2]}, each with the weight of its own vertex.",
     )
-    right = [sum((w * v for w, v in zip(weights, q, strict=True)), Fraction(0))]
-    return numbers(text, given, right, hints, wrong, scene=scene, pixel=pixel)
+    return numbers(text, given, [dot(weights, q)], hints, wrong, scene=scene, pixel=pixel)
 
 
 @template("flat-value", 1, "The provoking vertex", "interpolate", 1)
@@ -117,16 +109,13 @@ def draw_flat(draws: Draws) -> Draft:
     q = [Fraction(value) for value in draws.shuffled(range(10, 60))[:3]]
     provoking = draws.item(("first", "last"))
     settings = Settings(interpolation="flat", provoking=provoking)
-    scene = triangle_scene(np.array([corners], float), SIZE, attributes=np.array(q, float).reshape(1, 3, 1))
+    scene = triangle_scene([corners], SIZE, attributes=[[[value] for value in q]])
     right: Numbers = attributes_at(render(scene, settings), pixel)
     text = (
         f"The attribute q is not interpolated (flat): the whole triangle has that of its {provoking} vertex. What is q "
         f"at pixel {pixel}?"
     )
-    given = "\n".join(
-        f"Vertex {k}: {place_text(corner)}, q = {value}"
-        for k, (corner, value) in enumerate(zip(corners, q, strict=True))
-    )
+    given = listed("Vertex {k}: {}, q = {}", corners, q)
     hints = (
         "Does the place in the triangle matter?",
         "Flat: the value of the provoking vertex is that of all pixels.",
@@ -186,24 +175,19 @@ def draw_plane(draws: Draws) -> Draft:
     w, u = ([Fraction(draws.item(items)) for _ in range(3)] for items in ((1, 2, 4), (0, 2, 4, 8)))
     reject(len(set(u)) == 1)
     edges = [coefficients(corners[(k + 1) % 3], corners[(k + 2) % 3]) for k in range(3)]
-    right = [
-        sum((edge[k] / area * a / b for edge, a, b in zip(edges, u, w, strict=True)), Fraction(0))
-        for k in range(3)
-    ]
+    u_over_w = [a / b for a, b in zip(u, w, strict=True)]
+    right = [dot(column, u_over_w) / area for column in zip(*edges, strict=True)]
     text = (
         "u/w is linear over the window: u/w = a X + b Y + c with the pixel coordinates X and Y. What are a, b and c? "
         "It has the right values at the three vertices."
     )
-    given = "\n".join(
-        f"Vertex {k}: (X, Y) = {place_text(corner)}, w = {w[k]}, u = {u[k]}"
-        for k, corner in enumerate(corners)
-    )
+    given = listed("Vertex {k}: (X, Y) = {}, w = {}, u = {}", corners, w, u)
     hints = (
         "What is u/w at each vertex?",
         "Three equations, three unknowns; subtract one from the other two.",
         f"Vertex 0: {u[0]}/{w[0]} = a * {corners[0][0]} + b * {corners[0][1]} + c; the other two likewise.",
     )
-    scene = triangle_scene(np.array([corners], float), (7, 7), w=np.array([w], float))
+    scene = triangle_scene([corners], (7, 7), w=[w])
     return numbers(text, given, right, hints, names=("a", "b", "c"), scene=scene)
 
 
@@ -218,13 +202,8 @@ def draw_depth(draws: Draws) -> Draft:
     t, distances = edge_shares(draws)
     depths = (Fraction(draws.whole(0, 4), 10), Fraction(draws.whole(6, 10), 10))
     text = "What is the window depth z at this point of an edge? t is its share of the way in the window."
-    given = "\n".join(
-        [
-            f"End {k}: z = {number_text(z)}, w = {w}"
-            for k, (z, w) in enumerate(zip(depths, distances, strict=True))
-        ]
-        + [f"The point: t = {number_text(t)}"]
-    )
+    ends = listed("End {k}: z = {}, w = {}", depths, distances)
+    given = f"{ends}\nThe point: t = {number_text(t)}"
     hints = (
         "Was z divided by w already?",
         "Window depth is linear in the window.",

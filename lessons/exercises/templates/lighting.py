@@ -1,6 +1,5 @@
 """Light: how bright a point is, its normal, and where light is evaluated."""
 
-from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -8,7 +7,7 @@ from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.drafting import TOLERANCE, by_rule, factor_text, numbers, one_of, place_text
-from lessons.exercises.templates.transforms import vectors_sketched, wholes
+from lessons.exercises.templates.transforms import XYZ, vectors_sketched, wholes
 from lessons.mistakes.shelf import RULES
 from lessons.mistakes.transforms import dot
 
@@ -51,9 +50,8 @@ def draw_lambert(draws: Draws) -> Draft:
         name: [number for place in places for number in RULES[name].wrong(*place)]
         for name in ("normal-too-long", "light-unclamped", "light-reversed")
     }
-    draft = numbers(text, given, right, hints, wrong, ("P", "Q"))
-    vectors = {"N at P": normals[0], "N at Q": normals[1], "L": to_light}
-    return replace(draft, sketch=vectors_sketched(vectors))
+    sketch = vectors_sketched({"N at P": normals[0], "N at Q": normals[1], "L": to_light})
+    return numbers(text, given, right, hints, wrong, ("P", "Q"), sketch=sketch)
 
 
 @template("normal-between", 1, "An interpolated normal", "shade", 3)
@@ -79,9 +77,8 @@ def draw_between(draws: Draws) -> Draft:
         "Divide by its length, then take the dot product with L.",
         f"N is (1 - {number_text(t)}) N0 + {number_text(t)} N1, L is {place_text(to_light)}: each over its length.",
     )
-    draft = by_rule(text, given, (*units, t, to_light), ("normal-not-renormalized",), hints)
-    vectors = {"N0": units[0], "N1": units[1], "L": to_light}
-    return replace(draft, sketch=vectors_sketched(vectors))
+    sketch = vectors_sketched({"N0": units[0], "N1": units[1], "L": to_light})
+    return by_rule(text, given, (*units, t, to_light), ("normal-not-renormalized",), hints, sketch=sketch)
 
 
 @template("highlight", 2, "The highlight", "shade", 3)
@@ -106,8 +103,8 @@ def draw_highlight(draws: Draws) -> Draft:
         "Raise the cosine to the power s.",
         f"L is {place_text(to_light)} and V is {place_text(to_eye)}, each over its length; s = {shininess}.",
     )
-    draft = by_rule(text, given, arguments, names, hints)
-    return replace(draft, sketch=vectors_sketched({"N": normal, "L": to_light, "V": to_eye}))
+    sketch = vectors_sketched({"N": normal, "L": to_light, "V": to_eye})
+    return by_rule(text, given, arguments, names, hints, sketch=sketch)
 
 
 @template("scaled-normal", 1, "A normal under scaling", "shade", 3)
@@ -127,8 +124,8 @@ def draw_normal(draws: Draws) -> Draft:
         f"Before that, x is {factor_text(normal[0])} / {factor_text(scale[0])}; y and z likewise.",
     )
     names = ("normal-as-position", "normal-untransformed", "normal-moved")
-    draft = by_rule(text, given, (scale, shift, normal), names, hints, ("x", "y", "z"))
-    return replace(draft, sketch=vectors_sketched({"N": normal}))
+    sketch = vectors_sketched({"N": normal})
+    return by_rule(text, given, (scale, shift, normal), names, hints, XYZ, sketch=sketch)
 
 
 @template("camera-normal", 1, "The matrix of normals", "shade", 2)
@@ -148,10 +145,8 @@ def draw_camera_normal(draws: Draws) -> Draft:
         "A rotation is its own transposed inverse.",
         f"Multiply each row of V M with {place_text(normal)}, then make the result of length 1.",
     )
-    draft = by_rule(
-        text, given, (model_view, focal, normal), ("normal-by-projection",), hints, ("x", "y", "z")
-    )
-    return replace(draft, sketch=vectors_sketched({"N": normal}))
+    arguments, sketch = (model_view, focal, normal), vectors_sketched({"N": normal})
+    return by_rule(text, given, arguments, ("normal-by-projection",), hints, XYZ, sketch=sketch)
 
 
 @template("light-byte", 2, "A sum of lights as a byte", "shade", 1)

@@ -11,7 +11,7 @@ from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import factor_text, numbers, place_text, table
+from lessons.exercises.templates.drafting import factor_text, listed, numbers, place_text, table
 from lessons.exercises.templates.lines import RULE, SIZE, Ends, gentle_ends
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.shelf import SHELF
@@ -45,7 +45,7 @@ def of_segments(
     scene = pixel_segments(segments, SIZE)
     wrong = {name: line_pixels(scene, SHELF[name].change_settings(LECTURE)) for name in names}
     answer = PixelAnswer(SIZE, line_pixels(scene, LECTURE), direction=direction)
-    given = f"{WINDOW}\n" + "\n".join(f"From pixel {start} to pixel {end}." for start, end in segments)
+    given = f"{WINDOW}\n" + listed("From pixel {} to pixel {}.", *zip(*segments, strict=True))
     return Draft(text, given, answer, hints, wrong, scene, LECTURE)
 
 

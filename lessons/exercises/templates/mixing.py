@@ -12,7 +12,7 @@ from core.framebuffer.resolve import tent
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import by_rule, numbers
+from lessons.exercises.templates.drafting import by_rule, listed, numbers
 from lessons.mistakes.depths import Layer, cards
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import EVERYWHERE, triangle_scene
@@ -96,9 +96,7 @@ def draw_additive(draws: Draws) -> Draft:
     """Lights that add up."""
     values = [(Fraction(draws.whole(1, 9), 10), Fraction(draws.whole(1, 4), 4)) for _ in range(2)]
     text = "Two layers are blended additively over black: each adds alpha times its colour. What is the sum, linear?"
-    given = "\n".join(
-        f"Layer {k}: {number_text(c)}, alpha = {number_text(a)}" for k, (c, a) in enumerate(values)
-    )
+    given = listed("Layer {k}: {}, alpha = {}", *zip(*values, strict=True))
     hints = (
         "Does the order matter?",
         "Does the upper layer hide anything?",

@@ -17,6 +17,7 @@ from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws, NoQuestionError, reject
 from lessons.exercises.next_step import row_draft
 from lessons.exercises.question import Draft, template
+from lessons.exercises.templates.drafting import listed
 from lessons.small_scenes import triangle_scene
 
 SIZE = (12, 9)
@@ -125,10 +126,7 @@ def draw_step(stage_name: str, draws: Draws) -> Draft:
     reject(isinstance(draft.answer, ChoiceAnswer) and stage_name == "depth" and "holds 1 " in draft.text)
     shown_variables = step_variables(stage, row)
     reject(stage_name == "transform" and is_shown(draft.answer, shown_variables))
-    places = "\n".join(
-        f"Triangle {number}: {', '.join(map(str, one))}, depth {', '.join(map(str, depth))}"
-        for number, (one, depth) in enumerate(zip(corners, depths, strict=True))
-    )
+    places = listed("Triangle {k}: {}, depth {}", corners, depths)
     # Where the corners lie in the window is what the transform finds.
     shown = [window_text(SIZE), *([] if stage_name == "transform" else [places])]
     given = "\n".join([RULES[stage_name], *shown, "Before the step:", known_text(shown_variables)])

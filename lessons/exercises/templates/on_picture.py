@@ -17,7 +17,7 @@ from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, Corner, corner_text, facing_text, row_hint, twice_area
-from lessons.exercises.templates.drafting import factor_text, pictured, place_text
+from lessons.exercises.templates.drafting import factor_text, listed, pictured
 from lessons.exercises.templates.edges import coefficients
 from lessons.mistakes.coverage import in_window
 from lessons.mistakes.shelf import SHELF
@@ -61,7 +61,7 @@ def draw_vertices(draws: Draws) -> Draft:
     ndc = [(Fraction(draws.whole(-11, 11), 12), Fraction(draws.whole(-8, 8), 9)) for _ in range(3)]
     places = [((x + 1) * SIZE[0] / 2, (y + 1) * SIZE[1] / 2) for x, y in ndc]
     reject(any(c.denominator == 1 for place in places for c in place) or abs(twice_area(places)) < 8)
-    scene = triangle_scene(np.array([places], float), SIZE)
+    scene = triangle_scene([places], SIZE)
 
     def pixels(of: ClipScene) -> Pixels:
         return frozenset((floor(x), floor(y)) for x, y in in_window(of)[0].tolist())
@@ -76,7 +76,7 @@ def draw_vertices(draws: Draws) -> Draft:
         "(x + 1) W/2 and (y + 1) H/2, then cut off the fraction.",
         f"The column of vertex 0: floor(({factor_text(ndc[0][0])} + 1) * {SIZE[0]}/2).",
     )
-    given = [f"Vertex {k} in NDC: {place_text(place)}" for k, place in enumerate(ndc)]
+    given = [listed("Vertex {k} in NDC: {}", ndc)]
     return ask_pixels(text, given, pixels(scene), wrong, hints, scene, Settings())
 
 
@@ -88,7 +88,7 @@ def draw_culled(draws: Draws) -> Draft:
     ]
     areas = [twice_area(corners) for corners in triangles]
     reject(areas[0] * areas[1] >= 0 or min(map(abs, areas)) < 9)
-    scene, settings = triangle_scene(np.array(triangles, float), SIZE), Settings(cull="back")
+    scene, settings = triangle_scene(triangles, SIZE), Settings(cull="back")
     names = ("facing-exchanged", "corner-for-center")
     text = f"Back faces are culled: counter-clockwise is the front. Which pixels are drawn? {RULE}"
     hints = (
@@ -96,7 +96,7 @@ def draw_culled(draws: Draws) -> Draft:
         "Only one of the two is drawn.",
         f"For triangle 0: {facing_text(triangles[0])}; is it positive?",
     )
-    given = "\n".join(f"Triangle {k}: {corner_text(corners)}" for k, corners in enumerate(triangles))
+    given = listed("Triangle {k}: {}", triangles)
     return pictured(text, given, scene, names, hints, settings)
 
 
@@ -107,7 +107,7 @@ def draw_clipped(draws: Draws) -> Draft:
     reject(twice_area(corners) < LEAST)
     # Depth is linear over the window: 0 at the border, and 1 at twelve pixels to the right of it.
     depth = [[(float(x) - border) / 12 for x, _ in corners]]
-    scene = triangle_scene(np.array([corners], float), SIZE, depth=depth)
+    scene = triangle_scene([corners], SIZE, depth=depth)
     settings = Settings(clipping="sutherland-hodgman")
 
     def seen(of: Settings) -> tuple[Pixels, dict[str, Pixels]]:
@@ -156,7 +156,7 @@ def draw_side(draws: Draws) -> Draft:
         "E = (y0 - y1)(x - x0) + (x1 - x0)(y - y0).",
         f"E = ({y0} - {y1})(x - {x0}) + ({x1} - {x0})(y - {y0}); where it is 0, move the centre a little to the right.",
     )
-    scene = triangle_scene(np.array([corners], float), SIZE)
+    scene = triangle_scene([corners], SIZE)
     given = [f"Vertices 0, 1, 2: {corner_text(corners)}"]
     return ask_pixels(text, given, inner(HALF, owns), wrong, hints, scene, Settings())
 
@@ -187,7 +187,7 @@ def draw_box(draws: Draws) -> Draft:
         "Look at centres, not at whole pixels.",
         f"Columns: {least} <= i + 1/2 <= {greatest}; rows likewise.",
     )
-    scene, settings = triangle_scene(np.array([corners], float), SIZE), Settings(fill="bounding-box")
+    scene, settings = triangle_scene([corners], SIZE), Settings(fill="bounding-box")
     return ask_pixels(text, [f"Triangle: {corner_text(corners)}"], right, wrong, hints, scene, settings)
 
 
@@ -265,7 +265,7 @@ def draw_nearer(draws: Draws) -> Draft:
     border = draws.whole(3, 9)
     reject(min(map(twice_area, triangles)) < LEAST)
     depth = [[0.5] * 3, [0.5 + (float(x) - border) / 40 for x, _ in triangles[1]]]
-    scene = triangle_scene(np.array(triangles, float), SIZE, depth=depth)
+    scene = triangle_scene(triangles, SIZE, depth=depth)
     names = ("farther-wins", "no-depth-test", "corner-for-center")
     wrong = {name: seen_pixels(SHELF[name].draw(scene, Settings()), 1) for name in names}
     right = seen_pixels(render(scene), 1)
@@ -292,7 +292,7 @@ def draw_overlap(draws: Draws) -> Draft:
     first, second = halves(draws), halves(draws)
     reject(min(twice_area(first), twice_area(second)) < LEAST)
     glass = [[(1.0, 1.0, 1.0, 0.5)] * 3] * 2
-    scene = triangle_scene(np.array([first, second], float), SIZE, attributes=glass)
+    scene = triangle_scene([first, second], SIZE, attributes=glass)
     settings = Settings(blend="over", visibility="last-drawn")
 
     def twice(frame: Frame) -> Pixels:
@@ -300,7 +300,7 @@ def draw_overlap(draws: Draws) -> Draft:
 
     names = ("all-edges-inclusive", "corner-for-center")
     text = f"Two panes of glass are blended with over, whatever their depth. Which pixels show both? {RULE}"
-    given = "\n".join(f"Pane {k}: {corner_text(corners)}" for k, corners in enumerate((first, second)))
+    given = listed("Pane {k}: {}", [first, second])
     hints = (
         "Find the pixels of each pane.",
         "Which belong to both?",
@@ -315,7 +315,7 @@ def draw_mixed(draws: Draws) -> Draft:
     corners = [(Fraction(draws.whole(0, 48), 4), Fraction(draws.whole(0, 36), 4)) for _ in range(3)]
     reject(twice_area(corners) < 30)
     white = [[(1.0, 1.0, 1.0, 1.0)] * 3]
-    scene = triangle_scene(np.array([corners], float), SIZE, attributes=white)
+    scene = triangle_scene([corners], SIZE, attributes=white)
     scene = replace(scene, background=np.array([0.0, 0.0, 0.0, 1.0]))
     settings = Settings(antialiasing="ssaa-4")
 

@@ -2,8 +2,6 @@
 
 from fractions import Fraction
 
-import numpy as np
-
 from core import Settings, clip_lines
 from lessons.exercises.answers.cells import ENTERS, LEAVES
 from lessons.exercises.answers.places import PlaceAnswer, Places
@@ -17,6 +15,7 @@ from lessons.exercises.templates.coverage import RULE, corner_text, twice_area
 from lessons.exercises.templates.drafting import factor_text
 from lessons.exercises.templates.fragments import NAMES
 from lessons.mistakes.shelf import RULES, SHELF
+from lessons.mistakes.transforms import dot
 from lessons.small_scenes import segment_scene, triangle_scene
 
 TOLERANCE = 0.15
@@ -74,7 +73,7 @@ def draw_corner(draws: Draws) -> Draft:
         for _ in range(3)
     ]
     reject(twice_area(corners) < 24)
-    drawn = DrawnScene(triangle_scene(np.array([corners], float), CORNER_SIZE), (tuple(corners),))
+    drawn = DrawnScene(triangle_scene([corners], CORNER_SIZE), (tuple(corners),))
     asked = draws.whole(0, 2)
     known = [corner for k, corner in enumerate(corners) if k != asked]
     answer, given = corner_answer(drawn, (0, asked), Settings(), quarter)
@@ -118,13 +117,8 @@ def draw_weights(draws: Draws) -> Draft:
     beta, gamma = Fraction(draws.whole(1, 5), 8), Fraction(draws.whole(1, 5), 8)
     weights = (1 - beta - gamma, beta, gamma)
     reject(twice_area(corners) < 24 or weights[0] <= 0 or len(set(weights)) < 2)
-    place, turned = (
-        (
-            sum((weight * x for weight, (x, _) in zip(order, corners, strict=True)), Fraction(0)),
-            sum((weight * y for weight, (_, y) in zip(order, corners, strict=True)), Fraction(0)),
-        )
-        for order in (weights, (*weights[1:], weights[0]))
-    )
+    x, y = zip(*corners, strict=True)
+    place, turned = ((dot(order, x), dot(order, y)) for order in (weights, (*weights[1:], weights[0])))
     shown = ", ".join(f"{name} = {number_text(weight)}" for name, weight in zip(NAMES, weights, strict=True))
     text = "Place the point with these barycentric weights; alpha belongs to vertex 0."
     given = f"{window_text(CORNER_SIZE)}\nVertices 0, 1, 2: {corner_text(corners)}\n{shown}"
@@ -137,7 +131,7 @@ def draw_weights(draws: Draws) -> Draft:
         f"x = {sum_text}, and y likewise.",
     )
     answer = PlaceAnswer(CORNER_SIZE, ("point",), (place,), step=Fraction(1, 4), tolerance=WEIGHT_TOLERANCE)
-    scene = triangle_scene(np.array([corners], float), CORNER_SIZE)
+    scene = triangle_scene([corners], CORNER_SIZE)
     return Draft(text, given, answer, hints, {"weights-permuted": (turned,)}, scene)
 
 
@@ -168,5 +162,5 @@ def draw_new_corners(draws: Draws) -> Draft:
     names = ("on side 0 to 1", "on side 2 to 0")
     answer = PlaceAnswer(CORNER_SIZE, names, rule.right(exact, BORDER), (), Fraction(1, 4), TOLERANCE)
     given = f"{window_text(CORNER_SIZE)}\nVertices 0, 1, 2: {corner_text(exact)}"
-    scene = triangle_scene(np.array([corners], float), CORNER_SIZE)
+    scene = triangle_scene([corners], CORNER_SIZE)
     return Draft(text, given, answer, hints, {rule.name: rule.wrong(exact, BORDER)}, scene)

@@ -11,7 +11,15 @@ from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import SIZE, corner_text, row_hint
-from lessons.exercises.templates.drafting import by_rule, factor_text, one_of, pictured, place_text, several
+from lessons.exercises.templates.drafting import (
+    by_rule,
+    factor_text,
+    listed,
+    one_of,
+    pictured,
+    place_text,
+    several,
+)
 from lessons.exercises.templates.filling import HALF, WINDOW, is_decided, tenths
 from lessons.mistakes.shelf import RULES
 from lessons.polygons import polygon_of_rings
@@ -138,7 +146,7 @@ def draw_float(draws: Draws) -> Draft:
         "its centre (i + 1/2, j + 1/2) lie in [0, 1] in one of them, ends included. How many different pixels are "
         "drawn, if nothing is rounded?"
     )
-    given = "\n".join(f"Triangle {k}: {corner_text(list(corners))}" for k, corners in enumerate(halves))
+    given = listed("Triangle {k}: {}", map(list, halves))
     hints = (
         "Sketch both triangles: which shape do they make?",
         "A centre on the common edge has a weight of exactly 0 in both triangles.",

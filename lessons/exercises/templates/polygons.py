@@ -11,7 +11,7 @@ from lessons.exercises.draws import Draws, reject
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.clipping import SIZE, Ends, code_of
 from lessons.exercises.templates.coverage import corner_text
-from lessons.exercises.templates.drafting import by_rule, factor_text, one_of, place_text, several
+from lessons.exercises.templates.drafting import by_rule, factor_text, listed, one_of, place_text, several
 from lessons.exercises.templates.transforms import sketched, wholes
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.twin import clipped_ends
@@ -102,8 +102,7 @@ def draw_area(draws: Draws) -> Draft:
         "Find the new corners, then the area of the polygon, or of what is cut off.",
         f"A part of the level side, {left + wide} - {window[1][0]} long, is cut off, and the slope stays the same.",
     )
-    draft = by_rule(text, given, tuple(polygons), (rule.name,), hints)
-    return replace(draft, sketch=sketched({}, corners, window))
+    return by_rule(text, given, tuple(polygons), (rule.name,), hints, sketch=sketched({}, corners, window))
 
 
 VERDICTS = (
@@ -171,9 +170,7 @@ def draw_rejected(draws: Draws) -> Draft:
         "outside of; a segment is rejected where both ends share a bit. A point on a border is inside."
     )
     names = "ABCDE"
-    given = f"{WINDOW}.\n" + "\n".join(
-        f"{name}: {ends[0]} to {ends[1]}" for name, ends in zip(names, segments, strict=True)
-    )
+    given = f"{WINDOW}.\n" + listed("{}: {} to {}", names, *zip(*segments, strict=True))
     xs, ys = zip(*segments[0], strict=True)
     hints = (
         "Write the outcodes of all ends.",

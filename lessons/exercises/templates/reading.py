@@ -2,8 +2,6 @@
 
 from fractions import Fraction
 
-import numpy as np
-
 from core import Settings
 from lessons.exercises.answers.listings import LineAnswer
 from lessons.exercises.answers.pixels import PixelAnswer, Pixels
@@ -13,6 +11,7 @@ from lessons.exercises.file_answers import spot_answer
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, row_hint, twice_area
+from lessons.exercises.templates.drafting import listed
 from lessons.exercises.templates.line_methods import moves_text
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.shelf import SHELF
@@ -136,7 +135,7 @@ def draw_picture(draws: Draws) -> Draft:
     corners = [(draws.step(half, Fraction(11), half), draws.step(half, Fraction(8), half)) for _ in range(3)]
     names = draws.shuffled(PICTURES)[:4]
     reject(twice_area(corners) < 16)
-    drawn = DrawnScene(triangle_scene(np.array([corners], float), (12, 9)), (tuple(corners),))
+    drawn = DrawnScene(triangle_scene([corners], (12, 9)), (tuple(corners),))
     answer, given = spot_answer(names, drawn, Settings(), draws)
     text = f"What is wrong with this picture? Click where, and say which mistake made it. {RULE}"
     hints = (
@@ -157,12 +156,10 @@ def draw_depth_picture(draws: Draws) -> Draft:
     depth = [[Fraction(draws.whole(1, 9), 10) for _ in range(3)] for _ in corners]
     places = tuple(tuple((Fraction(x), Fraction(y)) for x, y in one) for one in corners)
     reject(min(abs(twice_area(list(one))) for one in places) < 24)
-    scene = triangle_scene(corners, (12, 9), depth=np.array(depth, float))
+    scene = triangle_scene(corners, (12, 9), depth=depth)
     names = draws.shuffled(DEPTH_PICTURES)[:3]
     answer, given = spot_answer(names, DrawnScene(scene, places), Settings(), draws)
-    depths = "\n".join(
-        f"Depths of triangle {k}: {', '.join(number_text(z) for z in one)}" for k, one in enumerate(depth)
-    )
+    depths = listed("Depths of triangle {k}: {}", depth)
     text = (
         "What is wrong with this picture? Click where, and say which mistake made it. A, B and C are triangles 0, 1 "
         "and 2, drawn in this order; the nearest is seen, and smaller is nearer."

@@ -2,15 +2,13 @@
 
 from fractions import Fraction
 
-import numpy as np
-
 from lessons.exercises.answers.cells import Entry
 from lessons.exercises.answers.steps import Run, StepsAnswer, first_tries
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
-from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text
+from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text, listed
 from lessons.exercises.templates.fragments import COLORS, NAMES
 from lessons.small_scenes import triangle_scene
 
@@ -81,7 +79,7 @@ def draw_weights(draws: Draws) -> Draft:
         "E0 belongs to the edge from vertex 1 to vertex 2.",
         f"Twice the area is {facing_text(corners)}; each weight is its E over it.",
     )
-    scene = triangle_scene(np.array([corners], float), (11, 9))
+    scene = triangle_scene([corners], (11, 9))
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"
     return Draft(
         text, given, StepsAnswer(steps, (11, 9)), hints, {"weights-permuted": turned}, scene, pixel=pixel
@@ -101,10 +99,7 @@ def draw_layers(draws: Draws) -> Draft:
         values.append(red)
     reject(len(set(values)) < 3)
     steps = number_steps(tuple(f"red after layer {k}" for k in range(4)), tuple(values))
-    given = "Background: black, opaque.\n" + "\n".join(
-        f"Layer {k}: {name}, alpha = {number_text(alpha)}"
-        for k, (name, alpha) in enumerate(zip(names, alphas, strict=True))
-    )
+    given = "Background: black, opaque.\n" + listed("Layer {k}: {}, alpha = {}", names, alphas)
     text = (
         "Be the blending: each layer is blended with over on what is there. What is the red of the pixel after each, "
         f"linear? Red, yellow and white have red 1, green and blue have red 0. {WITHIN}"

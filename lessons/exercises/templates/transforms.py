@@ -1,7 +1,6 @@
 """Matrices, cameras, projections and the window, by hand."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -11,7 +10,7 @@ from lessons.exercises.answers.choices import OrderAnswer
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import by_rule, factor_text, numbers, place_text
+from lessons.exercises.templates.drafting import by_rule, factor_text, listed, numbers, place_text
 from lessons.mistakes.transforms import Turn
 
 TURNS: tuple[Turn, ...] = tuple(
@@ -58,8 +57,8 @@ def draw_order(draws: Draws) -> Draft:
         "Turn p first, then add the shift.",
         f"x' = {turned} + {factor_text(shift[0])}; y' likewise.",
     )
-    draft = by_rule(text, given, (turn, shift, point), ("factors-reversed", "turned-clockwise"), hints, XY)
-    return replace(draft, sketch=sketched({"p": point}))
+    names, sketch = ("factors-reversed", "turned-clockwise"), sketched({"p": point})
+    return by_rule(text, given, (turn, shift, point), names, hints, XY, sketch=sketch)
 
 
 @template("turn-about-pivot", 1, "A turn about a point", "transform", 2)
@@ -73,8 +72,8 @@ def draw_pivot(draws: Draws) -> Draft:
         "Move the pivot to the origin, turn, move back.",
         f"v = {place_text(point)} - {place_text(pivot)}; turn v, then add {place_text(pivot)}.",
     )
-    draft = by_rule(text, given, (turn, pivot, point), ("pivot-left-out",), hints, XY)
-    return replace(draft, sketch=sketched({"pivot": pivot, "point": point}))
+    sketch = sketched({"pivot": pivot, "point": point})
+    return by_rule(text, given, (turn, pivot, point), ("pivot-left-out",), hints, XY, sketch=sketch)
 
 
 @template("turn-by-degrees", 1, "A turn by degrees", "transform", 2)
@@ -88,8 +87,8 @@ def draw_degrees(draws: Draws) -> Draft:
         "Does your calculator take degrees?",
         f"x' = cos({degrees}°) * {factor_text(point[0])} - sin({degrees}°) * {factor_text(point[1])}.",
     )
-    draft = by_rule(text, given, (degrees, tuple(map(float, point))), ("degrees-for-radians",), hints, XY)
-    return replace(draft, sketch=sketched({"point": point}))
+    arguments, sketch = (degrees, tuple(map(float, point))), sketched({"point": point})
+    return by_rule(text, given, arguments, ("degrees-for-radians",), hints, XY, sketch=sketch)
 
 
 @template("scale-and-move", 1, "Scaling and moving as a matrix", "transform", 3)
@@ -142,8 +141,9 @@ def draw_camera(draws: Draws) -> Draft:
         f"p - eye = {place_text(point)} - {place_text(eye)}.",
     )
     names = ("eye-not-turned", "target-for-eye", "camera-not-inverted")
-    draft = by_rule(text, given, ((right, up, backward), eye, target, point), names, hints, XYZ)
-    return replace(draft, sketch=sketched({"eye": eye, "target": target, "p": point}, (eye, target)))
+    arguments = ((right, up, backward), eye, target, point)
+    sketch = sketched({"eye": eye, "target": target, "p": point}, (eye, target))
+    return by_rule(text, given, arguments, names, hints, XYZ, sketch=sketch)
 
 
 @template("clip-position", 1, "The perspective projection", "transform", 4)
@@ -219,7 +219,7 @@ def draw_map(draws: Draws) -> Draft:
     right = [columns[column][row] for row in range(2) for column in range(3)]
     corners = {"of (0, 0)": origin, "of (1, 0)": first, "of (0, 1)": second}
     sketch = sketched(corners, ((0, 0), (1, 0), (0, 1)), (origin, first, second))
-    return replace(numbers(text, given, right, hints, shape=(2, 3)), sketch=sketch)
+    return numbers(text, given, right, hints, shape=(2, 3), sketch=sketch)
 
 
 @template("shader-scaling", 1, "A vertex shader that scales", "transform", 2)
@@ -248,10 +248,7 @@ def draw_skinning(draws: Draws) -> Draft:
     places = wholes(draws, 2, 10, 60)
     weights = tuple(Fraction(draws.whole(2, 9), 10) for _ in range(2))
     text = "Two bones move a vertex to these places. What is its x? The weights may not sum to 1: divide by their sum."
-    given = "\n".join(
-        f"Bone {k}: weight {number_text(weight)}, x = {place}"
-        for k, (weight, place) in enumerate(zip(weights, places, strict=True))
-    )
+    given = listed("Bone {k}: weight {}, x = {}", weights, places)
     products = " + ".join(f"{number_text(w)} * {x}" for w, x in zip(weights, places, strict=True))
     hints = (
         "Sum the products of weight and x.",
