@@ -308,20 +308,7 @@ class TableAnswer(FieldAnswer):
 
     def expected(self, response: Rows) -> Rows:
         """Return the right cells, each from the learner's own before it; an empty one counts as right there."""
-        if self.follow is None:
-            return self.reference
-        expected: list[Row] = []
-        own: list[Row] = []
-        for row, values in enumerate(response):
-            wanted: list[Value] = []
-            mine: list[Value] = []
-            for value in values:
-                right = self.follow(own, row, tuple(mine))
-                wanted.append(right)
-                mine.append(right if value is None else value)
-            expected.append(tuple(wanted))
-            own.append(tuple(mine))
-        return tuple(expected)
+        return self.reference if self.follow is None else followed(self.follow, response)
 
     def text(self, response: Rows) -> str:
         """Return the table with its heads."""
@@ -367,7 +354,7 @@ class TableAnswer(FieldAnswer):
 
     def extremes(self) -> list[Rows]:
         """Leave every cell empty."""
-        return [tuple((None,) * len(self.columns) for _ in self.labels)]
+        return [empty_rows(len(self.labels), len(self.columns))]
 
 
 def _read_cell(cell: Entry, given: object) -> Value:
@@ -377,6 +364,26 @@ def _read_cell(cell: Entry, given: object) -> Value:
         return None
     with placed(cell.label):
         return cell.read(text)
+
+
+def followed(follow: Follow, given: Rows) -> Rows:
+    """Return the cells that follow, each from those given before it; an empty one counts as right there."""
+    expected: list[Row] = []
+    own: list[Row] = []
+    for row, values in enumerate(given):
+        wanted: Row = ()
+        mine: Row = ()
+        for value in values:
+            right = follow(own, row, mine)
+            wanted, mine = (*wanted, right), (*mine, right if value is None else value)
+        expected.append(wanted)
+        own.append(mine)
+    return tuple(expected)
+
+
+def empty_rows(rows: int, columns: int) -> Rows:
+    """Return a table in which nothing is filled in."""
+    return ((None,) * columns,) * rows
 
 
 def number_rows(values: Sequence[Sequence[int | Fraction]]) -> Rows:

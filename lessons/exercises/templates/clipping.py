@@ -7,11 +7,11 @@ from core import Settings, clip_lines
 from core.geometry.line_clipping.records import ENTER, LEAVE, ParameterRows
 from core.scene import ClipScene
 from lessons.exercises.answers.cells import ENTERS, LEAVES, Value
-from lessons.exercises.answers.fields import Column, Row, Rows, TableAnswer
+from lessons.exercises.answers.fields import Column, Row, Rows, TableAnswer, empty_rows, followed
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import Number
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import TOLERANCE, factor_text
+from lessons.exercises.templates.drafting import TOLERANCE, factor_text, run_exactly
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import segment_scene
 
@@ -94,25 +94,7 @@ def outcode_table(ends: Ends, count: int) -> TableAnswer:
 
     columns = (Column("outcodes", "codes"), Column("x"), Column("y"))
     labels = tuple(f"cut {number}" for number in range(1, count + 1))
-    empty: Rows = ((None,) * 3,) * count
-    unanswered = TableAnswer(columns, labels, empty, follow, TOLERANCE)
-    return TableAnswer(columns, labels, unanswered.expected(empty), follow, TOLERANCE)
-
-
-def cut_count(ends: Ends) -> int:
-    """Return how many cuts Cohen-Sutherland makes until the segment is inside; 0: it is inside, or rejected."""
-    places: list[Place] = [(Fraction(x), Fraction(y)) for x, y in ends]
-    for count in range(5):
-        codes = [code_of(place) for place in places]
-        if any(a == b == "1" for a, b in zip(*codes, strict=True)):
-            return 0
-        moves = moving_end(" ".join(codes))
-        if moves is None:
-            return count
-        point = crossing(ends, moves[1])
-        assert point is not None
-        places[moves[0]] = point
-    return 0
+    return TableAnswer(columns, labels, followed(follow, empty_rows(count, 3)), follow, TOLERANCE)
 
 
 def _ends(draws: Draws) -> Ends:
@@ -147,8 +129,10 @@ def draw_parameters(draws: Draws) -> Draft:
 def draw_outcodes(draws: Draws) -> Draft:
     """Cohen-Sutherland's cuts."""
     ends = _ends(draws)
-    count = cut_count(ends)
-    reject(count < 2)
+    kept, passes = run_exactly("line_clipping", "cohen-sutherland", *ends[0], *ends[1], 0, 0, *SIZE)
+    # The last pass only finds that the segment is inside.
+    count = len(passes) - 1
+    reject(not kept or count < 2)
     text = (
         "Fill in Cohen-Sutherland's cuts. An outcode has the bits top, bottom, right, left, such as 0101. Write the "
         "outcodes of both ends before each cut; then the first end that is outside moves to the first of left, right, "

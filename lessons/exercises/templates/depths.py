@@ -1,6 +1,5 @@
 """Depth and visibility: what a buffer stores, which surface is seen."""
 
-from collections.abc import Callable, Sequence
 from fractions import Fraction
 from math import inf, isinf
 
@@ -12,13 +11,13 @@ from core.framebuffer.depth_formats import unsigned_depth
 from core.records.arrays import Floats
 from core.records.depth_table import DepthTable, text_of_depths
 from core.scene import ClipScene
-from lessons.exercises.answers.cells import Value
 from lessons.exercises.answers.choices import OrderAnswer
-from lessons.exercises.answers.fields import Column, Follow, Row, Rows, TableAnswer
+from lessons.exercises.answers.fields import Column, Rows, TableAnswer, empty_rows, followed
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.drafting import by_rule, listed, numbers, one_of, place_text, several, table
+from lessons.exercises.templates.fragments import follow_buffer
 from lessons.mistakes.depths import cards
 from lessons.mistakes.shelf import RULES, SHELF
 
@@ -92,31 +91,11 @@ def draw_fighting(draws: Draws) -> Draft:
     return several(text, f"n = {near}, f = {far}", pairs, right, hints)
 
 
-def follow_nearest(values: Sequence[tuple[int, Fraction]]) -> Follow:
-    """Return the follow-through of a buffer that keeps the larger value."""
-
-    def follow(own: Sequence[Row], row: int, mine: Row) -> Value:
-        pixel, value = values[row]
-        before = [stored for (stored,), (its, _) in zip(own, values, strict=False) if its == pixel]
-        return max(before[-1], value) if before else value
-
-    return follow
-
-
 @template("inverse-w-table", 2, "A buffer of 1/w", "depth", 4)
 def draw_inverse(draws: Draws) -> Draft:
     """A buffer of 1/w, fragment by fragment."""
     fragments = [(draws.whole(0, 1), Fraction(1, draws.whole(2, 20))) for _ in range(6)]
     reject(len(set(fragments)) < len(fragments))
-
-    def stored(pick: Callable[[Fraction, Fraction], Fraction]) -> list[list[Fraction]]:
-        rows: list[list[Fraction]] = []
-        held: dict[int, Fraction] = {}
-        for pixel, value in fragments:
-            held[pixel] = pick(held[pixel], value) if pixel in held else value
-            rows.append([held[pixel]])
-        return rows
-
     text = (
         "These fragments are drawn in order. What does the buffer hold at the pixel of each right after it was tested? "
         "It stores 1/w, begins at 0, and keeps the larger value."
@@ -127,11 +106,11 @@ def draw_inverse(draws: Draws) -> Draft:
         f"The first fragment leaves 1/{1 / fragments[0][1]} at its pixel: only a larger 1/w replaces it there.",
     )
     labels = [f"pixel {pixel}, w = {1 / value}" for pixel, value in fragments]
-    wrong = {"farther-wins": stored(min), "no-depth-test": [[value] for _, value in fragments]}
-    follow = follow_nearest(fragments)
+    follow, farther = (follow_buffer(fragments, nearer) for nearer in (max, min))
+    right, wins = (followed(each, empty_rows(len(fragments), 1)) for each in (follow, farther))
+    wrong = {"farther-wins": wins, "no-depth-test": [[value] for _, value in fragments]}
     settings = Settings(depth="inverse-w")
     # 1/19 and 1/20 are 0.0026 apart.
-    right = stored(max)
     return table(text, "", ("1/w",), labels, right, hints, wrong, follow, None, settings, None, 0.001)
 
 

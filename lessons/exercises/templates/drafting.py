@@ -5,6 +5,7 @@ from fractions import Fraction
 from typing import Any
 
 from core import Settings, render
+from core.methods import table as table_of_methods
 from core.records.frame import Frame
 from core.records.sketch import Sketch
 from core.scene import AnyScene, ClipScene
@@ -46,6 +47,13 @@ def factor_text(value: Number) -> str:
     """Return a number as it stands in an expression: a fraction without its decimals, what is negative in brackets."""
     text = number_text(value).partition(" (")[0]
     return f"({text})" if value < 0 else text
+
+
+def run_exactly(family: str, name: str, *numbers: int | Fraction) -> Any:
+    """Return what the listing of a method gives for exact numbers, whole ones as fractions."""
+    listing = table_of_methods.get(family, name).listing
+    assert listing is not None
+    return listing(*map(Fraction, numbers))
 
 
 def as_number(value: Any) -> Number:

@@ -1,6 +1,6 @@
 """Weights, perspective, depth and blending at a pixel, and the order of the stages."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from fractions import Fraction
 
@@ -13,6 +13,7 @@ from lessons.exercises.answers.cells import Value
 from lessons.exercises.answers.choices import OrderAnswer
 from lessons.exercises.answers.fields import (
     Column,
+    Follow,
     NearMiss,
     NumberAnswer,
     Numbers,
@@ -23,11 +24,12 @@ from lessons.exercises.answers.fields import (
 )
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
+from lessons.exercises.templates.coverage import Corner, corner_text, facing_text, twice_area
 from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text, listed
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import EVERYWHERE, triangle_scene
 
+HALF = Fraction(1, 2)
 NAMES = ("alpha", "beta", "gamma")
 
 
@@ -36,16 +38,26 @@ def attributes_at(frame: Frame, pixel: tuple[int, int]) -> Numbers:
     return tuple(float(value) for value in frame.attributes[pixel[1], pixel[0]])
 
 
+def weights_at(corners: Sequence[Corner], point: Corner) -> tuple[Fraction, ...]:
+    """Return alpha, beta and gamma: areas over the area of the triangle."""
+    whole = twice_area(corners)
+    return tuple(twice_area([point, corners[(k + 1) % 3], corners[(k + 2) % 3]]) / whole for k in range(3))
+
+
+def triangle_and_pixel(draws: Draws) -> tuple[list[Corner], tuple[int, int], tuple[Fraction, ...]]:
+    """Draw a triangle and a pixel inside, with the weights of its centre."""
+    corners = [(Fraction(draws.whole(0, 10)), Fraction(draws.whole(0, 8))) for _ in range(3)]
+    pixel = draws.whole(2, 8), draws.whole(2, 6)
+    reject(twice_area(corners) < 20)
+    weights = weights_at(corners, (pixel[0] + HALF, pixel[1] + HALF))
+    reject(min(weights) < Fraction(1, 20))
+    return corners, pixel, weights
+
+
 @template("barycentric-weights", 2, "Barycentric weights", "interpolate", 3)
 def draw_weights(draws: Draws) -> Draft:
     """Barycentric weights at a centre."""
-    corners = [(Fraction(draws.whole(0, 10)), Fraction(draws.whole(0, 8))) for _ in range(3)]
-    pixel = draws.whole(2, 8), draws.whole(2, 6)
-    center = (pixel[0] + Fraction(1, 2), pixel[1] + Fraction(1, 2))
-    area = twice_area(corners)
-    reject(area < 20)
-    weights = tuple(twice_area([center, corners[(k + 1) % 3], corners[(k + 2) % 3]]) / area for k in range(3))
-    reject(min(weights) < Fraction(1, 20))
+    corners, pixel, weights = triangle_and_pixel(draws)
     scene = triangle_scene([corners], (11, 9), attributes=np.eye(3)[None])
     wrong = {"weights-permuted": attributes_at(SHELF["weights-permuted"].draw(scene, Settings()), pixel)}
     shifted = SHELF["corner-for-center"].draw(scene, Settings())
@@ -136,15 +148,23 @@ def again_text(fragments: Sequence[Fragment]) -> str:
     raise ValueError(f"expected more fragments than pixels, got {len(fragments)}")
 
 
-def depth_table(fragments: Sequence[Fragment]) -> TableAnswer:
-    """Return the table of stored depths, with follow-through."""
+def follow_buffer(
+    fragments: Sequence[tuple[int, int | Fraction]], nearer: Callable[[Iterable[Fraction]], Fraction]
+) -> Follow:
+    """Return the follow-through of a buffer that keeps the ``nearer`` of what it holds and what comes."""
 
     def follow(own: Sequence[Row], row: int, mine: Row) -> Value:
-        pixel, z = fragments[row]
+        pixel, value = fragments[row]
         before = [stored for (stored,), (its, _) in zip(own, fragments, strict=False) if its == pixel]
-        return min((Fraction(z), *before[-1:]))
+        return nearer((Fraction(value), *before[-1:]))
 
+    return follow
+
+
+def depth_table(fragments: Sequence[Fragment]) -> TableAnswer:
+    """Return the table of stored depths, with follow-through."""
     labels = tuple(f"pixel {pixel}, z = {z}" for pixel, z in fragments)
+    follow = follow_buffer(fragments, min)
     return TableAnswer((Column("stored"),), labels, stored_depths(fragments), follow)
 
 

@@ -1,6 +1,5 @@
 """Weights, colours, depth and distance between the vertices of a triangle or the ends of an edge."""
 
-from collections.abc import Sequence
 from fractions import Fraction
 from typing import Any
 
@@ -9,33 +8,16 @@ from lessons.exercises.answers.fields import Numbers
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.coverage import Corner, corner_text, facing_text, twice_area
+from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
 from lessons.exercises.templates.drafting import by_rule, listed, numbers, place_text, table
 from lessons.exercises.templates.edges import coefficients
-from lessons.exercises.templates.fragments import NAMES, attributes_at
+from lessons.exercises.templates.fragments import NAMES, attributes_at, triangle_and_pixel, weights_at
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.transforms import dot
 from lessons.small_scenes import triangle_scene
 
 RGB = ("red", "green", "blue")
 SIZE = (11, 9)
-
-
-def weights_at(corners: Sequence[Corner], point: Corner) -> list[Fraction]:
-    """Return alpha, beta and gamma: areas over the area of the triangle."""
-    whole = twice_area(list(corners))
-    return [twice_area([point, corners[(k + 1) % 3], corners[(k + 2) % 3]]) / whole for k in range(3)]
-
-
-def triangle_and_pixel(draws: Draws) -> tuple[list[Corner], tuple[int, int], list[Fraction]]:
-    """Draw a triangle and a pixel inside, with the weights of its centre."""
-    corners = [(Fraction(draws.whole(0, 10)), Fraction(draws.whole(0, 8))) for _ in range(3)]
-    pixel = draws.whole(2, 8), draws.whole(2, 6)
-    reject(twice_area(corners) < 20)
-    half = Fraction(1, 2)
-    weights = weights_at(corners, (pixel[0] + half, pixel[1] + half))
-    reject(min(weights) < Fraction(1, 20))
-    return corners, pixel, weights
 
 
 @template("weights-of-two-points", 1, "Weights inside and outside", "interpolate", 3)

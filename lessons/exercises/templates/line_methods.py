@@ -5,13 +5,13 @@ from fractions import Fraction
 from math import floor
 
 from core import Settings
-from lessons.exercises.answers.fields import Row
+from lessons.exercises.answers.fields import Row, empty_rows, followed
 from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import factor_text, listed, numbers, place_text, table
+from lessons.exercises.templates.drafting import factor_text, listed, numbers, place_text, run_exactly, table
 from lessons.exercises.templates.lines import RULE, SIZE, Ends, gentle_ends
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.shelf import SHELF
@@ -87,7 +87,7 @@ def draw_dda(draws: Draws) -> Draft:
     """The y and the row in every column."""
     ends = gentle_ends(draws)
     m, (x0, y0) = slope(ends), ends[0]
-    exact = [y0 + m * k for k in range(ends[1][0] - x0 + 1)]
+    listed_pixels = run_exactly("line", "dda", *ends[0], *ends[1], True)
 
     def follow(own: Sequence[Row], number: int, mine: Row) -> Fraction:
         if not mine:
@@ -98,15 +98,15 @@ def draw_dda(draws: Draws) -> Draft:
         "Fill in y and the row of each pixel of this line by a DDA: y grows by m = dy/dx in every column, and the row "
         "is floor(y + 1/2)."
     )
-    right = [[y, floor(y + HALF)] for y in exact]
-    wrong = {"row-truncated": [[y, floor(y)] for y in exact]}
+    right = [[y, row] for _, row, y in listed_pixels]
+    wrong = {"row-truncated": [[y, floor(y)] for y, _ in right]}
     hints = (
         "What is m?",
         "Add m once for every column.",
         "Round y to the nearest row; a half goes up.",
         f"m = ({ends[1][1]} - {y0}) / ({ends[1][0]} - {x0}), and the first y is {y0}.",
     )
-    labels = [f"x = {x0 + k}" for k in range(len(exact))]
+    labels = [f"x = {x}" for x, _, _ in listed_pixels]
     given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
     return table(text, given, ("y", "row"), labels, right, hints, wrong, follow, scene, Settings(line="dda"))
 
@@ -117,15 +117,11 @@ def draw_error(draws: Draws) -> Draft:
     ends = gentle_ends(draws)
     m = slope(ends)
 
-    def after(e: Fraction) -> Fraction:
-        return e + m - 1 if e + m > HALF else e + m
-
-    right = [[Fraction(0)]]
-    while len(right) < ends[1][0] - ends[0][0]:
-        right.append([after(right[-1][0])])
-
     def follow(own: Sequence[Row], number: int, mine: Row) -> Fraction:
-        return after(own[-1][0]) if number else Fraction(0)
+        if not number:
+            return Fraction(0)
+        e: Fraction = own[-1][0] + m
+        return e - 1 if e > HALF else e
 
     text = (
         "What is the error e before each move? It begins at 0. Where e + m > 1/2, y steps up and e grows by m - 1; "
@@ -137,7 +133,8 @@ def draw_error(draws: Draws) -> Draft:
         "e is where the line runs above the pixel's centre.",
         f"m = ({ends[1][1]} - {ends[0][1]}) / ({ends[1][0]} - {ends[0][0]}), and the first e is 0.",
     )
-    labels = [f"at x = {ends[0][0] + k}" for k in range(len(right))]
+    labels = [f"at x = {x}" for x in range(ends[0][0], ends[1][0])]
+    right = followed(follow, empty_rows(len(labels), 1))
     given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
     return table(text, given, ("e",), labels, right, hints, None, follow, scene, LECTURE)
 

@@ -9,10 +9,8 @@ from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
 from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text, listed
-from lessons.exercises.templates.fragments import COLORS, NAMES
+from lessons.exercises.templates.fragments import COLORS, HALF, NAMES, weights_at
 from lessons.small_scenes import triangle_scene
-
-HALF = Fraction(1, 2)
 
 
 def number_steps(names: tuple[str, ...], values: tuple[Fraction, ...]) -> tuple[Entry, ...]:
@@ -61,13 +59,12 @@ def draw_weights(draws: Draws) -> Draft:
     """Edge functions and weights at a centre."""
     corners = [(Fraction(draws.whole(0, 10)), Fraction(draws.whole(0, 8))) for _ in range(3)]
     pixel = draws.whole(2, 8), draws.whole(2, 6)
-    center = (pixel[0] + HALF, pixel[1] + HALF)
     area = twice_area(corners)
     reject(area < 20)
-    values = tuple(twice_area([corners[(k + 1) % 3], corners[(k + 2) % 3], center]) for k in range(3))
-    reject(min(values) <= 0)
-    names = ("twice the area", *(f"E{k}" for k in range(3)), *NAMES)
-    right = (area, *values, *(value / area for value in values))
+    weights = weights_at(corners, (pixel[0] + HALF, pixel[1] + HALF))
+    reject(min(weights) <= 0)
+    names = ("twice the area", "E0", "E1", "E2", *NAMES)
+    right = (area, *(weight * area for weight in weights), *weights)
     steps = number_steps(names, right)
     turned = first_tries((*right[:4], *right[5:], right[4]), steps)
     text = (
