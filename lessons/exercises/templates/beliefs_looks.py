@@ -79,17 +79,14 @@ def draw_inclusive(draws: Draws) -> Draft:
         condition,
         Settings(fill="bounding-box", fill_rule=rule, blend="over", visibility="last-drawn"),
     )
-    text = (
-        f"Two red triangles with alpha {number_text(alpha)} over black share an edge that runs through centres. "
-        f"Both are filled {filled}. What is seen on the edge?"
-    )
-    hints = (
-        "How many triangles draw a centre on the common edge?",
-        "What does blending do with the second one?",
-        f"Begin with black, and blend red with alpha {number_text(alpha)} once for each triangle that draws it.",
-    )
+    asked = f"""Two red triangles with alpha {number_text(alpha)} over black share an edge that runs through
+        centres. Both are filled {filled}. What is seen on the edge?
+        Hint: How many triangles draw a centre on the common edge?
+        Hint: What does blending do with the second one?
+        Hint: Begin with black, and blend red with alpha {number_text(alpha)} once for each triangle that
+        draws it."""
     (other,) = {TWICE, NOTHING, NEITHER} - {right, belief}
-    return believed(draws, text, right, [belief], [other], refutation, hints)
+    return believed(draws, asked, right, [belief], [other], refutation)
 
 
 @template("belief-multisampling", 1, "What does multisampling store?", "shade", 1)
@@ -103,15 +100,14 @@ def draw_multisampling(draws: Draws) -> Draft:
         "triangle == 0",
         Settings(antialiasing="msaa-4"),
     )
-    text = f"Multisampling with 4 samples, of which a triangle covers {count}. How often is it shaded, what is stored?"
-    hints = (
-        "What makes multisampling cheaper than supersampling?",
-        "When are samples averaged?",
-        f"Which happens once a pixel here: shading, or storing in {count} of 4 samples?",
-    )
+    asked = f"""Multisampling with 4 samples, of which a triangle covers {count}. How often is it shaded, what
+        is stored?
+        Hint: What makes multisampling cheaper than supersampling?
+        Hint: When are samples averaged?
+        Hint: Which happens once a pixel here: shading, or storing in {count} of 4 samples?"""
     right = f"once; the full colour in {count} samples"
     beliefs = [f"{count} times, a colour in each sample", f"once; {count}/4 of the colour in the pixel"]
-    return believed(draws, text, right, beliefs, ["4 times; the mean in the pixel"], refutation, hints)
+    return believed(draws, asked, right, beliefs, ["4 times; the mean in the pixel"], refutation)
 
 
 @template("belief-bilinear", 2, "Does bilinear always mix?", "shade", 1)
@@ -156,16 +152,12 @@ def draw_bilinear(draws: Draws) -> Draft:
         f"column == {texel} and shares[0] > {float(weight) - 0.01} and shares[0] < {float(weight) + 0.01}",
         Settings(texture_filter="bilinear"),
     )
-    text = (
-        f"A texture is {width} texels wide. At u = ({texel} + {part})/{width}, which weights does bilinear filtering "
-        "give the two texels that are next to u, the nearer or the left one first?"
-    )
-    hints = (
-        "Where do texels have their centres?",
-        "The weights are the fraction of u w - 1/2, and the rest.",
-        f"u w = {texel} + {part} here: subtract 1/2, and take the fraction.",
-    )
-    return believed(draws, text, right, [belief], [other], refutation, hints)
+    asked = f"""A texture is {width} texels wide. At u = ({texel} + {part})/{width}, which weights does
+        bilinear filtering give the two texels that are next to u, the nearer or the left one first?
+        Hint: Where do texels have their centres?
+        Hint: The weights are the fraction of u w - 1/2, and the rest.
+        Hint: u w = {texel} + {part} here: subtract 1/2, and take the fraction."""
+    return believed(draws, asked, right, [belief], [other], refutation)
 
 
 @template("belief-half-byte", 1, "Is half the byte half the light?", "resolve", 1)
@@ -179,16 +171,12 @@ def draw_half_byte(draws: Draws) -> Draft:
         "resolve",
         f"bytes[0] == {right}",
     )
-    text = (
-        f"A pixel is the mean of black and white in linear light, {number_text(light)} of it white. Which sRGB byte is "
-        "stored, from 0 to 255?"
-    )
-    hints = (
-        "Is a byte proportional to light?",
-        "The curve of sRGB lifts dark values.",
-        f"The byte is 255 times the curve at {number_text(light)}, not 255 times {number_text(light)}.",
-    )
-    return believed(draws, text, right, [belief], [(right + belief) // 2, 255 - right], refutation, hints)
+    asked = f"""A pixel is the mean of black and white in linear light, {number_text(light)} of it white.
+        Which sRGB byte is stored, from 0 to 255?
+        Hint: Is a byte proportional to light?
+        Hint: The curve of sRGB lifts dark values.
+        Hint: The byte is 255 times the curve at {number_text(light)}, not 255 times {number_text(light)}."""
+    return believed(draws, asked, right, [belief], [(right + belief) // 2, 255 - right], refutation)
 
 
 @template("belief-alphas-add", 1, "Do alphas add up?", "blend", 1)
@@ -205,16 +193,12 @@ def draw_alphas(draws: Draws) -> Draft:
         f"triangle == 1 and after[0] > {float(belief)}",
         Settings(blend="over", visibility="last-drawn"),
     )
-    text = (
-        f"Two layers with alpha {number_text(first)} and {number_text(second)} are blended over a background. "
-        "How much of the background is left?"
-    )
-    hints = (
-        "How much does the first layer leave?",
-        "The second layer leaves a part of that, not of the whole.",
-        f"(1 - {number_text(first)}) (1 - {number_text(second)}).",
-    )
-    return believed(draws, text, right, [belief], [1 - right], refutation, hints)
+    asked = f"""Two layers with alpha {number_text(first)} and {number_text(second)} are blended over a
+        background. How much of the background is left?
+        Hint: How much does the first layer leave?
+        Hint: The second layer leaves a part of that, not of the whole.
+        Hint: (1 - {number_text(first)}) (1 - {number_text(second)})."""
+    return believed(draws, asked, right, [belief], [1 - right], refutation)
 
 
 def ring_scene(size: int) -> ClipScene:
@@ -253,14 +237,10 @@ def draw_ring(draws: Draws) -> Draft:
     refutation = Refutation(
         sentence, ring_scene(size) if is_ring else CHAIN, "depth", "triangle == 2 and not passes"
     )
-    text = (
-        f"Three triangles in a window of {size} x {size} pixels overlap: {front} hides part of {middle}, {middle} part "
-        f"of {back}, and {last}. Which does the painter draw first?"
-    )
-    hints = (
-        "Try each of the three as the first.",
-        "What is drawn first can hide nothing.",
-        f"Painted first, {front} hides {middle} in none of the {size} x {size} pixels: ask the same of {middle} and of "
-        f"{back}.",
-    )
-    return believed(draws, text, right, [by_mean], [other, "any of the three"], refutation, hints)
+    asked = f"""Three triangles in a window of {size} x {size} pixels overlap: {front} hides part of {middle},
+        {middle} part of {back}, and {last}. Which does the painter draw first?
+        Hint: Try each of the three as the first.
+        Hint: What is drawn first can hide nothing.
+        Hint: Painted first, {front} hides {middle} in none of the {size} x {size} pixels: ask the same of
+        {middle} and of {back}."""
+    return believed(draws, asked, right, [by_mean], [other, "any of the three"], refutation)

@@ -38,16 +38,12 @@ def draw_square(draws: Draws) -> Draft:
         f"{condition} and column == {column} and row == 4",
         TESTED,
     )
-    text = (
-        f"A triangle covers {share} percent of the area of pixel ({column}, 4), {('but not', 'and also')[is_inside]} "
-        "its centre. With one sample a pixel, is the pixel drawn?"
-    )
-    hints = (
-        "What does the coverage test look at?",
-        "Area counts only where it is measured, as by many samples.",
-        f"The centre is ({column} + 1/2, 4 + 1/2): is it inside?",
-    )
-    return believed(draws, text, right, [belief], [f"with {share} percent of the colour"], refutation, hints)
+    asked = f"""A triangle covers {share} percent of the area of pixel ({column}, 4),
+        {("but not", "and also")[is_inside]} its centre. With one sample a pixel, is the pixel drawn?
+        Hint: What does the coverage test look at?
+        Hint: Area counts only where it is measured, as by many samples.
+        Hint: The centre is ({column} + 1/2, 4 + 1/2): is it inside?"""
+    return believed(draws, asked, right, [belief], [f"with {share} percent of the colour"], refutation)
 
 
 @template("belief-sample-point", 1, "Where is a pixel tested?", "raster", 1)
@@ -61,17 +57,15 @@ def draw_sample_point(draws: Draws) -> Draft:
         f"column == {column} and row == {row} and x == {column}.5 and y == {row}.5",
         TESTED,
     )
-    text = f"At which point of the window is pixel ({column}, {row}) tested, with one test a pixel?"
-    hints = (
-        "Which point of a pixel is tested?",
-        "A pixel is 1 wide: where does it begin, where is its middle?",
-        f"It reaches from {column} to {column} + 1 in x, and from {row} to {row} + 1 in y.",
-    )
+    asked = f"""At which point of the window is pixel ({column}, {row}) tested, with one test a pixel?
+        Hint: Which point of a pixel is tested?
+        Hint: A pixel is 1 wide: where does it begin, where is its middle?
+        Hint: It reaches from {column} to {column} + 1 in x, and from {row} to {row} + 1 in y."""
     names = [
         f"({x}, {y})"
         for x, y in ((column + 0.5, row + 0.5), (column, row), (column + 1, row + 1), (column + 0.5, row))
     ]
-    return believed(draws, text, names[0], names[1:2], names[2:], refutation, hints)
+    return believed(draws, asked, names[0], names[1:2], names[2:], refutation)
 
 
 @template("belief-rounding", 2, "Does rounding remove cracks?", "edges", 1)
@@ -96,16 +90,13 @@ def draw_rounding(draws: Draws) -> Draft:
         condition,
         Settings(fill="bounding-box", fill_rule="exclusive"),
     )
-    text = (
-        f"The corners of a rectangle, {width} pixels wide and {height} high, are rounded to whole pixels, alike in "
-        "both of its triangles. Does each centre in it belong to exactly one of them?"
-    )
-    hints = (
-        "Where does the diagonal run?",
-        "What does rounding decide about a centre on an edge?",
-        f"The diagonal runs through (i + 1/2, j + 1/2) if {height} (2 i + 1) = {width} (2 j + 1): is that possible?",
-    )
-    return believed(draws, text, right, [belief], ["no: rounding opens cracks"], refutation, hints)
+    asked = f"""The corners of a rectangle, {width} pixels wide and {height} high, are rounded to whole
+        pixels, alike in both of its triangles. Does each centre in it belong to exactly one of them?
+        Hint: Where does the diagonal run?
+        Hint: What does rounding decide about a centre on an edge?
+        Hint: The diagonal runs through (i + 1/2, j + 1/2) if {height} (2 i + 1) = {width} (2 j + 1): is that
+        possible?"""
+    return believed(draws, asked, right, [belief], ["no: rounding opens cracks"], refutation)
 
 
 @template("belief-tie", 2, "Which pixel does D choose?", "raster", 1)
@@ -145,17 +136,13 @@ def draw_tie(draws: Draws) -> Draft:
         f"column == {column} and decision == {d}",
         Settings(line="bresenham-lecture"),
     )
-    text = (
-        f"Bresenham's line from pixel {ends[0]} to {ends[1]} has D = {d} when the pixel of column {column} is chosen, "
-        "in the row before or one above. Which of the two pixels is right?"
-    )
-    hints = (
-        "What does D say about the distances to both centres?",
-        "D is the line's height above the middle between both centres, times 2 dx.",
-        f"D = {d}: does the line run above the middle, below it, or through it?",
-    )
+    asked = f"""Bresenham's line from pixel {ends[0]} to {ends[1]} has D = {d} when the pixel of column
+        {column} is chosen, in the row before or one above. Which of the two pixels is right?
+        Hint: What does D say about the distances to both centres?
+        Hint: D is the line's height above the middle between both centres, times 2 dx.
+        Hint: D = {d}: does the line run above the middle, below it, or through it?"""
     others = [each for each in (upper, lower, either) if each not in (right, belief)]
-    return believed(draws, text, right, [belief], [*others, "both are drawn"], refutation, hints)
+    return believed(draws, asked, right, [belief], [*others, "both are drawn"], refutation)
 
 
 @template("belief-two-steps", 2, "Two steps up in a row?", "raster", 1)
@@ -177,15 +164,12 @@ def draw_two_steps(draws: Draws) -> Draft:
         condition,
         Settings(line="bresenham-lecture"),
     )
-    text = (
-        f"Bresenham's line from pixel (0, 0) to ({dx}, {dy}): does y step up at two moves in a row anywhere?"
-    )
-    hints = (
-        "How many steps up are there, in how many moves?",
-        "Follow D over the first steps up.",
-        f"D begins with 2 * {dy} - {dx}, grows by 2 * {dy}, and falls by 2 * {dx} after a step up.",
-    )
-    return believed(draws, text, right, [belief], ["only after a tie"], refutation, hints)
+    asked = f"""Bresenham's line from pixel (0, 0) to ({dx}, {dy}): does y step up at two moves in a row
+        anywhere?
+        Hint: How many steps up are there, in how many moves?
+        Hint: Follow D over the first steps up.
+        Hint: D begins with 2 * {dy} - {dx}, grows by 2 * {dy}, and falls by 2 * {dx} after a step up."""
+    return believed(draws, asked, right, [belief], ["only after a tie"], refutation)
 
 
 @template("belief-both-ends", 2, "Is a line the same from both ends?", "raster", 1)
@@ -210,16 +194,12 @@ def draw_both_ends(draws: Draws) -> Draft:
         condition,
         Settings(line="bresenham"),
     )
-    text = (
-        f"Bresenham's line steps where D >= 0, from the first end to the second. Are its pixels from {ends[0]} to "
-        f"{ends[1]}, apart from the ends, those from {ends[1]} to {ends[0]}?"
-    )
-    hints = (
-        "Where could the two strokes disagree?",
-        "Is there a column in which D is 0?",
-        f"If D is 0, both ways step: one towards {ends[1]}, the other towards {ends[0]}.",
-    )
-    return believed(draws, text, right, [belief], ["none"], refutation, hints)
+    asked = f"""Bresenham's line steps where D >= 0, from the first end to the second. Are its pixels from
+        {ends[0]} to {ends[1]}, apart from the ends, those from {ends[1]} to {ends[0]}?
+        Hint: Where could the two strokes disagree?
+        Hint: Is there a column in which D is 0?
+        Hint: If D is 0, both ways step: one towards {ends[1]}, the other towards {ends[0]}."""
+    return believed(draws, asked, right, [belief], ["none"], refutation)
 
 
 @template("belief-block-corner", 2, "Which corner rejects a block?", "bin", 1)
@@ -236,13 +216,10 @@ def draw_block(draws: Draws) -> Draft:
         Settings(fill="blocks"),
     )
     sum_text = f"{a} x {'+-'[b < 0]} {abs(b)} y + c"
-    text = (
-        f"E = {sum_text}, inside where E >= 0. At which corner does E < 0 show that a whole block is outside?"
-    )
-    hints = (
-        "At which corner is E largest?",
-        "The signs of a and b say in which direction E grows.",
-        f"a = {a} is the change to the right, b = {b} the change upwards.",
-    )
+    asked = f"""E = {sum_text}, inside where E >= 0. At which corner does E < 0 show that a whole block is
+        outside?
+        Hint: At which corner is E largest?
+        Hint: The signs of a and b say in which direction E grows.
+        Hint: a = {a} is the change to the right, b = {b} the change upwards."""
     others = [corner for corner in sides if corner != right][:2]
-    return believed(draws, text, right, ["any corner"], others, refutation, hints)
+    return believed(draws, asked, right, ["any corner"], others, refutation)

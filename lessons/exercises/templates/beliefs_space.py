@@ -34,13 +34,11 @@ def draw_w(draws: Draws) -> Draft:
         "transform",
         f'kind == "camera-to-clip" and vertex == 0 and after_w == {d}',
     )
-    text = f"{CAMERA}. What is w of the eye point ({x}, {y}, -{d}) after the perspective matrix?"
-    hints = (
-        "Look at the last row of the perspective matrix.",
-        "It copies one coordinate of the eye point to w.",
-        f"w = 0 * {x} + 0 * {y} + (-1) * (-{d}) + 0 * 1.",
-    )
-    return believed(draws, text, d, [1], [-d, 0], refutation, hints)
+    asked = f"""{CAMERA}. What is w of the eye point ({x}, {y}, -{d}) after the perspective matrix?
+        Hint: Look at the last row of the perspective matrix.
+        Hint: It copies one coordinate of the eye point to w.
+        Hint: w = 0 * {x} + 0 * {y} + (-1) * (-{d}) + 0 * 1."""
+    return believed(draws, asked, d, [1], [-d, 0], refutation)
 
 
 RANGES = ("in [-w, w]", "in [-1, 1]", "in [0, W], in pixels")
@@ -72,14 +70,13 @@ def draw_divide(draws: Draws) -> Draft:
         ),
     )[done]
     refutation = Refutation(sentence, _with_point(d - 1, 0, -d), "transform", condition)
-    text = f"{CAMERA}. The point ({d - 1}, 0, -{d}) is visible. Where does its x lie after the {step}?"
-    hints = (
-        "Can a matrix divide one coordinate by another?",
-        "Three things follow each other: the matrix, the divide by w, the viewport.",
-        f"90 degrees wide: the matrix leaves x at {d - 1} and makes w the distance {d}. What comes of it then?",
-    )
+    asked = f"""{CAMERA}. The point ({d - 1}, 0, -{d}) is visible. Where does its x lie after the {step}?
+        Hint: Can a matrix divide one coordinate by another?
+        Hint: Three things follow each other: the matrix, the divide by w, the viewport.
+        Hint: 90 degrees wide: the matrix leaves x at {d - 1} and makes w the distance {d}. What comes of it
+        then?"""
     others = [each for each in RANGES if each not in (RANGES[done], belief)]
-    return believed(draws, text, RANGES[done], [belief], [*others, "anywhere"], refutation, hints)
+    return believed(draws, asked, RANGES[done], [belief], [*others, "anywhere"], refutation)
 
 
 @template("belief-clip-later", 2, "May clipping wait?", "clip", 1)
@@ -106,16 +103,12 @@ def draw_late_clip(draws: Draws) -> Draft:
         "transform",
         f'kind == "camera-to-clip" and vertex == 0 and after_w * {side} < 0',
     )
-    text = (
-        f"{CAMERA}. The point ({side * a}, {side * b}, {side * c}) has x/w = -{a}/{c} and y/w = -{b}/{c}. "
-        "It is not beyond the far plane. Is it visible?"
-    )
-    hints = (
-        "On which side of the eye does the point lie?",
-        "Two minus signs can cancel.",
-        f"The camera looks along -z: is z = {side * c} in front of it?",
-    )
-    return believed(draws, text, right, [belief], [other], refutation, hints)
+    asked = f"""{CAMERA}. The point ({side * a}, {side * b}, {side * c}) has x/w = -{a}/{c} and y/w =
+        -{b}/{c}. It is not beyond the far plane. Is it visible?
+        Hint: On which side of the eye does the point lie?
+        Hint: Two minus signs can cancel.
+        Hint: The camera looks along -z: is z = {side * c} in front of it?"""
+    return believed(draws, asked, right, [belief], [other], refutation)
 
 
 @template("belief-viewport-last", 2, "Must the viewport follow the divide?", "transform", 1)
@@ -140,14 +133,14 @@ def draw_viewport(draws: Draws) -> Draft:
         "transform",
         f'kind == "camera-to-clip" and vertex == 0 and after_w == {d}',
     )
-    text = f"{CAMERA}; w of the point (0, 1, -{d}) is {d}. May {what} before the divide by w, instead of after it?"
-    hints = (
-        "Compute x of the window in both orders.",
-        "What does the divide make of the added W/2?",
-        f"D makes W/2 * {d} of its translation W/2; a plain number stays W/2. What is left after the divide by {d}?",
-    )
+    asked = f"""{CAMERA}; w of the point (0, 1, -{d}) is {d}. May {what} before the divide by w, instead of
+        after it?
+        Hint: Compute x of the window in both orders.
+        Hint: What does the divide make of the added W/2?
+        Hint: D makes W/2 * {d} of its translation W/2; a plain number stays W/2. What is left after the
+        divide by {d}?"""
     right, belief = answers[is_matrix], answers[1 - is_matrix]
-    return believed(draws, text, right, [belief], ["only on the left half of the window"], refutation, hints)
+    return believed(draws, asked, right, [belief], ["only on the left half of the window"], refutation)
 
 
 @template("belief-depth-linear", 1, "Is depth linear in distance?", "depth", 1)
@@ -161,13 +154,11 @@ def draw_linear_depth(draws: Draws) -> Draft:
         "transform",
         f'kind == "viewport" and vertex == 0 and after_z > {float(belief)}',
     )
-    text = f"n = 1, f = {f}, window depth from 0 to 1: what is it at distance {d}?"
-    hints = (
-        "Depth is divided by w, too.",
-        "What is it at n, and what at f? In between it is linear in 1/d.",
-        f"Window depth is f (d - n) / ((f - n) d), with n = 1, f = {f} and d = {d}.",
-    )
-    return believed(draws, text, right, [belief], [1 - right, Fraction(d, f)], refutation, hints)
+    asked = f"""n = 1, f = {f}, window depth from 0 to 1: what is it at distance {d}?
+        Hint: Depth is divided by w, too.
+        Hint: What is it at n, and what at f? In between it is linear in 1/d.
+        Hint: Window depth is f (d - n) / ((f - n) d), with n = 1, f = {f} and d = {d}."""
+    return believed(draws, asked, right, [belief], [1 - right, Fraction(d, f)], refutation)
 
 
 def _deep(
@@ -199,18 +190,14 @@ def draw_corrected_depth(draws: Draws) -> Draft:
         f"{MIDDLE} and z > {float(right) - 0.01} and z < {float(right) + 0.01}",
     )
     first, last = number_text(near), number_text(far)
-    text = (
-        f"An edge runs from window depth {first} (w = 1) to {last} (w = {w}). What is the depth at the pixel in its "
-        "middle?"
-    )
-    hints = (
-        "Which values are linear in the window?",
-        "Is window depth made before the divide, or after it?",
-        f"After the divide by w = 1 and w = {w}, is depth linear in the window? If so, both ends count one half: "
-        f"({first} + {last})/2.",
-    )
+    asked = f"""An edge runs from window depth {first} (w = 1) to {last} (w = {w}). What is the depth at the
+        pixel in its middle?
+        Hint: Which values are linear in the window?
+        Hint: Is window depth made before the divide, or after it?
+        Hint: After the divide by w = 1 and w = {w}, is depth linear in the window? If so, both ends count one
+        half: ({first} + {last})/2."""
     belief, turned = (near * w + far) / (w + 1), (near + far * w) / (w + 1)
-    return believed(draws, text, right, [belief], [turned, near + (far - near) / w], refutation, hints)
+    return believed(draws, asked, right, [belief], [turned, near + (far - near) / w], refutation)
 
 
 @template("belief-middle-stays", 1, "Does the middle stay the middle?", "interpolate", 1)
@@ -225,13 +212,12 @@ def draw_middle(draws: Draws) -> Draft:
         "interpolate",
         f"{MIDDLE} and weights[1] > {float(right) - 0.01} and weights[1] < {float(right) + 0.01}",
     )
-    text = f"An edge runs from z = -1 to z = -{w}. How far along it from the near end is the point at its middle pixel?"
-    hints = (
-        "The far half of the edge looks shorter.",
-        "1/w is linear in the window: weigh the ends with it.",
-        f"With u = 0 at the near end and u = 1 at the far end: (1/{w}) / (1/1 + 1/{w}).",
-    )
-    return believed(draws, text, right, [Fraction(1, 2)], [1 - right, Fraction(1, w + 2)], refutation, hints)
+    asked = f"""An edge runs from z = -1 to z = -{w}. How far along it from the near end is the point at its
+        middle pixel?
+        Hint: The far half of the edge looks shorter.
+        Hint: 1/w is linear in the window: weigh the ends with it.
+        Hint: With u = 0 at the near end and u = 1 at the far end: (1/{w}) / (1/1 + 1/{w})."""
+    return believed(draws, asked, right, [Fraction(1, 2)], [1 - right, Fraction(1, w + 2)], refutation)
 
 
 @template("belief-order-behind", 2, "Depth behind the eye", "clip", 1)
@@ -247,17 +233,13 @@ def draw_behind(draws: Draws) -> Draft:
         'kind == "divide" and vertex == 0 and after_z > 1',
     )
     sides = draws.shuffled((-d, d))
-    text = (
-        f"z' = (f + n - 2 f n / d) / (f - n) with n = 1, f = {f}. Is z' at d = {sides[0]} smaller or larger than at "
-        f"d = {sides[1]}?"
-    )
-    hints = (
-        "Put both in.",
-        "What is the sign of 2 f n / d behind the eye?",
-        f"Compare 2 * {f} / (-{d}) with 2 * {f} / {d}, each taken away from the same number.",
-    )
+    asked = f"""z' = (f + n - 2 f n / d) / (f - n) with n = 1, f = {f}. Is z' at d = {sides[0]} smaller or
+        larger than at d = {sides[1]}?
+        Hint: Put both in.
+        Hint: What is the sign of 2 f n / d behind the eye?
+        Hint: Compare 2 * {f} / (-{d}) with 2 * {f} / {d}, each taken away from the same number."""
     right, belief = ("larger", "smaller") if sides[0] < 0 else ("smaller", "larger")
-    return believed(draws, text, right, [belief], ["equal"], refutation, hints)
+    return believed(draws, asked, right, [belief], ["equal"], refutation)
 
 
 @template("belief-all-converge", 2, "Do all parallels converge?", "transform", 1)
@@ -283,14 +265,12 @@ def draw_parallel(draws: Draws) -> Draft:
         "transform",
         f'kind == "camera-to-clip" and vertex == 2 and after_w == {end}',
     )
-    text = f"{CAMERA}. Two parallel edges {where}. Do they meet in the picture?"
-    hints = (
-        "What is w along each of them?",
-        "Edges meet where they run away from the eye.",
-        f"{along}: what does the divide do to both?",
-    )
+    asked = f"""{CAMERA}. Two parallel edges {where}. Do they meet in the picture?
+        Hint: What is w along each of them?
+        Hint: Edges meet where they run away from the eye.
+        Hint: {along}: what does the divide do to both?"""
     right, belief = (stay, meet) if is_level else (meet, stay)
-    return believed(draws, text, right, [belief], ["only where both are equally long"], refutation, hints)
+    return believed(draws, asked, right, [belief], ["only where both are equally long"], refutation)
 
 
 @template("belief-far-precision", 2, "What costs precision of depth?", "depth", 1)
@@ -305,18 +285,14 @@ def draw_far_plane(draws: Draws) -> Draft:
         "transform",
         'kind == "viewport" and vertex == 0 and after_z > 0.9',
     )
-    text = (
-        f"n = {number_text(n)}, f = 100. What {verb} {('less', 'more')[is_most]} precision of far depths: n made 10 "
-        f"times {near}, or f made 10 times {far}?"
-    )
-    hints = (
-        "Window depth is f (d - n) / ((f - n) d).",
-        "What becomes of it as f grows without limit?",
-        f"For large f depth is nearly (d - {number_text(n)}) / d: which of the two numbers is left?",
-    )
+    asked = f"""n = {number_text(n)}, f = 100. What {verb} {("less", "more")[is_most]} precision of far
+        depths: n made 10 times {near}, or f made 10 times {far}?
+        Hint: Window depth is f (d - n) / ((f - n) d).
+        Hint: What becomes of it as f grows without limit?
+        Hint: For large f depth is nearly (d - {number_text(n)}) / d: which of the two numbers is left?"""
     planes = (f"f made {far}", f"n made {near}")
     right, belief = planes[is_most], planes[1 - is_most]
-    return believed(draws, text, right, [belief], ["both alike", "neither"], refutation, hints)
+    return believed(draws, asked, right, [belief], ["both alike", "neither"], refutation)
 
 
 @template("belief-larger-z", 1, "Which z is nearer?", "transform", 1)
@@ -330,21 +306,12 @@ def draw_larger_z(draws: Draws) -> Draft:
         "transform",
         'kind == "world-to-camera" and vertex == 0 and after_z < 0',
     )
-    text = f"In camera space, after C^-1, which of z = -{a} and z = -{b} is nearer?"
-    hints = (
-        "Which way does the camera look?",
-        "The rule that smaller is nearer is that of one space alone.",
-        f"How far in front of the camera does z = -{a} lie, and how far z = -{b}?",
-    )
-    return believed(
-        draws,
-        text,
-        f"z = -{a}",
-        [f"z = -{b}: the smaller value"],
-        ["neither: both lie behind"],
-        refutation,
-        hints,
-    )
+    asked = f"""In camera space, after C^-1, which of z = -{a} and z = -{b} is nearer?
+        Hint: Which way does the camera look?
+        Hint: The rule that smaller is nearer is that of one space alone.
+        Hint: How far in front of the camera does z = -{a} lie, and how far z = -{b}?"""
+    right, belief, other = f"z = -{a}", f"z = -{b}: the smaller value", "neither: both lie behind"
+    return believed(draws, asked, right, [belief], [other], refutation)
 
 
 @template("belief-left-to-right", 2, "Which factor acts first?", "transform", 1)
@@ -367,13 +334,12 @@ def draw_factors(draws: Draws) -> Draft:
         "transform",
         f'kind == "object-to-world" and vertex == 0 and after_y > {height - 0.1} and after_y < {height + 0.1}',
     )
-    text = f"p' = {product} with columns; R turns by 90 degrees, T moves by ({a}, 0), p = (1, 0). Which acts first?"
-    hints = (
-        "Put brackets where you would begin to multiply.",
-        f"{last} ({first} p): what is multiplied with p?",
-        f"Compare T (R p) with R (T p): turn (1, 0) and add {a}, or add {a} and turn.",
-    )
-    return believed(draws, text, first, [last], ["the order does not matter"], refutation, hints)
+    asked = f"""p' = {product} with columns; R turns by 90 degrees, T moves by ({a}, 0), p = (1, 0). Which
+        acts first?
+        Hint: Put brackets where you would begin to multiply.
+        Hint: {last} ({first} p): what is multiplied with p?
+        Hint: Compare T (R p) with R (T p): turn (1, 0) and add {a}, or add {a} and turn."""
+    return believed(draws, asked, first, [last], ["the order does not matter"], refutation)
 
 
 @template("belief-own-centre", 1, "About which point does it turn?", "transform", 1)
@@ -388,12 +354,11 @@ def draw_own_center(draws: Draws) -> Draft:
         "transform",
         f'kind == "object-to-world" and vertex == 0 and after_y > {a - 0.1}',
     )
-    text = f"A square has its centre at ({a}, 0). R turns by 90 degrees counter-clockwise. Where is its centre then?"
-    hints = (
-        "About which point does a rotation matrix turn?",
-        "Apply R to the centre itself.",
-        f"R maps (x, y) to (-y, x): put in x = {a} and y = 0.",
-    )
-    asked = believed(draws, text, f"(0, {a})", [f"({a}, 0)"], [f"(0, -{a})", f"(-{a}, 0)"], refutation, hints)
+    asked = f"""A square has its centre at ({a}, 0). R turns by 90 degrees counter-clockwise. Where is its
+        centre then?
+        Hint: About which point does a rotation matrix turn?
+        Hint: Apply R to the centre itself.
+        Hint: R maps (x, y) to (-y, x): put in x = {a} and y = 0."""
+    draft = believed(draws, asked, f"(0, {a})", [f"({a}, 0)"], [f"(0, -{a})", f"(-{a}, 0)"], refutation)
     square = ((a - 1, -1), (a + 1, -1), (a + 1, 1), (a - 1, 1))
-    return replace(asked, sketch=sketched({"centre": (a, 0)}, square))
+    return replace(draft, sketch=sketched({"centre": (a, 0)}, square))

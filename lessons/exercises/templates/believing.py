@@ -13,6 +13,7 @@ from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft
 from lessons.exercises.refutation import Refutation
+from lessons.exercises.templates.drafting import drafted
 
 Choice = str | int | Fraction
 
@@ -24,12 +25,11 @@ def choice_text(choice: Choice) -> str:
 
 def believed(
     draws: Draws,
-    text: str,
+    asked: str,
     right: Choice,
     beliefs: Sequence[Choice],
     others: Sequence[Choice],
     refutation: Refutation,
-    hints: tuple[str, ...],
 ) -> Draft:
     """Ask for one of several choices that all differ."""
     wrong = [choice_text(belief) for belief in beliefs]
@@ -37,7 +37,7 @@ def believed(
     reject(len(set(options)) < len(options))
     answer = ChoiceAnswer(options, frozenset({options.index(choice_text(right))}))
     refutations = {frozenset({options.index(belief)}): refutation for belief in wrong}
-    return Draft(text, "", answer, hints, reveal=refutation.sentence, refutations=refutations)
+    return drafted(asked, "", answer, reveal=refutation.sentence, refutations=refutations)
 
 
 def eye_scene(

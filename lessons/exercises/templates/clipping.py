@@ -11,7 +11,7 @@ from lessons.exercises.answers.fields import Column, Row, Rows, TableAnswer, emp
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import Number
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import TOLERANCE, factor_text, run_exactly
+from lessons.exercises.templates.drafting import TOLERANCE, drafted, factor_text, run_exactly
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import segment_scene
 
@@ -111,18 +111,14 @@ def draw_parameters(draws: Draws) -> Draft:
     reject(not clipped.is_kept[0] or bool((clipped.cut_by < 0).any()))
     names = ("normals-inward", "entries-and-exits", "top-and-bottom")
     wrong = {name: parameter_rows(ends, SHELF[name].change_settings(PARAMETERS)) for name in names}
-    text = (
-        "Fill in p, q and t of Liang-Barsky at each edge. p is how fast the segment runs outward, q how much room its "
-        f"first end has, t = q/p. Put {ENTERS} before t where the segment enters (p < 0) and {LEAVES} where it leaves; "
-        "write none where p = 0. Fractions, or decimals within 0.005."
-    )
     x0, x1 = (factor_text(Fraction(x)) for x, _ in ends)
-    hints = (
-        "dx and dy are the differences of the ends.",
-        "p is -dx, dx, -dy, dy; q is x0 - left, right - x0, y0 - bottom, top - y0.",
-        f"Left: p = -({x1} - {x0}), q = {x0} - 0, and t = q/p; its word depends on the sign of p.",
-    )
-    return Draft(text, _given(ends), parameter_table(ends), hints, wrong, _scene(ends), PARAMETERS)
+    asked = f"""Fill in p, q and t of Liang-Barsky at each edge. p is how fast the segment runs outward, q how
+        much room its first end has, t = q/p. Put {ENTERS} before t where the segment enters (p < 0) and
+        {LEAVES} where it leaves; write none where p = 0. Fractions, or decimals within 0.005.
+        Hint: dx and dy are the differences of the ends.
+        Hint: p is -dx, dx, -dy, dy; q is x0 - left, right - x0, y0 - bottom, top - y0.
+        Hint: Left: p = -({x1} - {x0}), q = {x0} - 0, and t = q/p; its word depends on the sign of p."""
+    return drafted(asked, _given(ends), parameter_table(ends), wrong, _scene(ends), PARAMETERS)
 
 
 @template("cohen-sutherland-table", 1, "Cohen-Sutherland's outcodes", "raster", 6)
@@ -133,20 +129,17 @@ def draw_outcodes(draws: Draws) -> Draft:
     # The last pass only finds that the segment is inside.
     count = len(passes) - 1
     reject(not kept or count < 2)
-    text = (
-        "Fill in Cohen-Sutherland's cuts. An outcode has the bits top, bottom, right, left, such as 0101. Write the "
-        "outcodes of both ends before each cut; then the first end that is outside moves to the first of left, right, "
-        "bottom, top that it is outside of. A point on a border is inside. Fractions, or decimals within 0.005."
-    )
     (x0, y0), (x1, y1) = ((factor_text(Fraction(c)) for c in place) for place in ends)
-    hints = (
-        "Begin with the outcodes of the two ends.",
-        "After each cut the outcodes are computed again: the new end may still be outside.",
-        f"The line through the given ends: y = {y0} + (x - {x0}) ({y1} - {y0}) / ({x1} - {x0}).",
-    )
+    asked = f"""Fill in Cohen-Sutherland's cuts. An outcode has the bits top, bottom, right, left, such as
+        0101. Write the outcodes of both ends before each cut; then the first end that is outside moves to the
+        first of left, right, bottom, top that it is outside of. A point on a border is inside. Fractions, or
+        decimals within 0.005.
+        Hint: Begin with the outcodes of the two ends.
+        Hint: After each cut the outcodes are computed again: the new end may still be outside.
+        Hint: The line through the given ends: y = {y0} + (x - {x0}) ({y1} - {y0}) / ({x1} - {x0})."""
     answer = outcode_table(ends, count)
     settings = Settings(line_clipping="cohen-sutherland")
-    return Draft(text, _given(ends), answer, hints, {}, _scene(ends), settings)
+    return drafted(asked, _given(ends), answer, {}, _scene(ends), settings)
 
 
 def _scene(ends: Ends) -> ClipScene:

@@ -11,7 +11,7 @@ from core.scene import ClipScene
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import factor_text, listed, pictured, place_text
+from lessons.exercises.templates.drafting import drafted, factor_text, listed, pictured, place_text
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import triangle_scene
 
@@ -48,11 +48,11 @@ def row_hint(corners: Sequence[Corner], y: str = "j + 1/2") -> str:
     return f"At y = {y} the side from {start} to {end} is at x = {crossing_text(*side, y)}"
 
 
-def _covered(corners: list[Corner], text: str, hints: tuple[str, ...], names: tuple[str, ...]) -> Draft:
+def _covered(corners: list[Corner], asked: str, names: tuple[str, ...]) -> Draft:
     """Ask for the pixels of a triangle that is neither small nor clockwise."""
     reject(twice_area(corners) < 16)
     scene = triangle_scene([corners], SIZE)
-    return pictured(f"{text} {RULE}", f"Triangle A: {corner_text(corners)}", scene, names, hints)
+    return pictured(asked, f"Triangle A: {corner_text(corners)}", scene, names)
 
 
 @template("triangle-coverage", 2, "Pixels of a triangle", "raster", 4)
@@ -60,13 +60,12 @@ def draw_triangle(draws: Draws) -> Draft:
     """A triangle with corners on half pixels, so that edges meet centres."""
     half = Fraction(1, 2)
     corners = [(draws.step(half, Fraction(11), half), draws.step(half, Fraction(8), half)) for _ in range(3)]
-    hints = (
-        "Look at one row of centres at a time: y = j + 1/2.",
-        "In a row, the centres between the crossings of two edges are covered.",
-        f"{row_hint(corners)}. A centre there belongs to the triangle if this is a left edge.",
-    )
     names = ("corner-for-center", "all-edges-inclusive", "all-edges-exclusive", "y-down", "vertices-rounded")
-    return _covered(corners, "Which pixels does triangle A cover?", hints, names)
+    asked = f"""Which pixels does triangle A cover? {RULE}
+        Hint: Look at one row of centres at a time: y = j + 1/2.
+        Hint: In a row, the centres between the crossings of two edges are covered.
+        Hint: {row_hint(corners)}. A centre there belongs to the triangle if this is a left edge."""
+    return _covered(corners, asked, names)
 
 
 @template("shared-edge", 2, "Centres on a shared edge", "raster", 4)
@@ -79,18 +78,15 @@ def draw_shared_edge(draws: Draws) -> Draft:
     lower = [(left, low), (right, low), (right, high)]
     upper = [(left, low), (right, high), (left, high)]
     mine, other = (upper, lower) if is_upper else (lower, upper)
-    hints = (
-        "Find the centres on the common edge first, then those on the sides.",
-        "Of the two triangles exactly one owns each of the centres between them.",
-        f"At y = j + 1/2 the common edge is at x = {crossing_text((left, low), (right, high))}: is triangle A on its "
-        "right or on its left?",
-    )
     # The level edge of the lower triangle is its bottom edge, which owns its centres.
     level = "level-edges-always" if is_upper else "level-edges-never"
     names = ("all-edges-inclusive", "all-edges-exclusive", level)
-    draft = _covered(
-        mine, "Triangles A and B share an edge. Which pixels belong to triangle A?", hints, names
-    )
+    asked = f"""Triangles A and B share an edge. Which pixels belong to triangle A? {RULE}
+        Hint: Find the centres on the common edge first, then those on the sides.
+        Hint: Of the two triangles exactly one owns each of the centres between them.
+        Hint: At y = j + 1/2 the common edge is at x = {crossing_text((left, low), (right, high))}: is
+        triangle A on its right or on its left?"""
+    draft = _covered(mine, asked, names)
     both = triangle_scene([mine, other], SIZE)
     return replace(draft, given=f"{draft.given}\nTriangle B: {corner_text(other)}", outlined=both)
 
@@ -119,18 +115,14 @@ def draw_facing(draws: Draws) -> Draft:
     scene = triangle_scene(triangles, FACING_SIZE)
     settings = Settings(cull="back")
     wrong = culled(SHELF["facing-exchanged"].change_settings(settings), scene)
-    text = (
-        "Which triangles are back faces? Counter-clockwise corners, y up, are the front: the determinant "
-        "(x1 - x0)(y2 - y0) - (y1 - y0)(x2 - x0) is positive."
-    )
     given = listed("{}: {}", FACES, triangles)
-    hints = (
-        "Sketch each triangle with its corners in order.",
-        "The sign of the determinant decides, not its size.",
-        f"For A: {facing_text(triangles[0])}.",
-    )
+    asked = f"""Which triangles are back faces? Counter-clockwise corners, y up, are the front: the
+        determinant (x1 - x0)(y2 - y0) - (y1 - y0)(x2 - x0) is positive.
+        Hint: Sketch each triangle with its corners in order.
+        Hint: The sign of the determinant decides, not its size.
+        Hint: For A: {facing_text(triangles[0])}."""
     answer = ChoiceAnswer(FACES, away, is_several=True)
-    return Draft(text, given, answer, hints, {"facing-exchanged": wrong}, scene, settings)
+    return drafted(asked, given, answer, {"facing-exchanged": wrong}, scene, settings)
 
 
 def culled(settings: Settings, scene: ClipScene) -> frozenset[int]:

@@ -16,7 +16,16 @@ from lessons.exercises.answers.fields import Column, Rows, TableAnswer, empty_ro
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import by_rule, listed, numbers, one_of, place_text, several, table
+from lessons.exercises.templates.drafting import (
+    by_rule,
+    drafted,
+    listed,
+    numbers,
+    one_of,
+    place_text,
+    several,
+    table,
+)
 from lessons.exercises.templates.fragments import follow_buffer
 from lessons.mistakes.depths import cards
 from lessons.mistakes.shelf import RULES, SHELF
@@ -29,17 +38,13 @@ def draw_window_depth(draws: Draws) -> Draft:
     """Window depth at a distance."""
     near, far = draws.whole(1, 2), draws.item((5, 9, 10, 20))
     distance = draws.whole(near + 1, far - 1)
-    text = (
-        "What is the window depth, from 0 at the near plane to 1 at the far plane, of a surface at this distance? "
-        "Perspective: z = f (d - n) / (d (f - n))."
-    )
     given = f"n = {near}, f = {far}, d = {distance}"
-    hints = (
-        "Is depth linear in the distance?",
-        "It is linear in 1/d: 0 at n, 1 at f.",
-        f"z = {far} ({distance} - {near}) / ({distance} ({far} - {near})).",
-    )
-    return by_rule(text, given, (near, far, distance), ("depth-linear", "near-plane-tiny"), hints)
+    asked = f"""What is the window depth, from 0 at the near plane to 1 at the far plane, of a surface at this
+        distance? Perspective: z = f (d - n) / (d (f - n)).
+        Hint: Is depth linear in the distance?
+        Hint: It is linear in 1/d: 0 at n, 1 at f.
+        Hint: z = {far} ({distance} - {near}) / ({distance} ({far} - {near}))."""
+    return by_rule(asked, given, (near, far, distance), ("depth-linear", "near-plane-tiny"))
 
 
 @template("depth-steps", 1, "A depth buffer of 16 bits", "depth", 2)
@@ -51,18 +56,14 @@ def draw_steps(draws: Draws) -> Draft:
     right = [Fraction(unsigned_depth(float(z), 2**16 - 1)) for z in depths]
     linear = [RULES["depth-linear"].wrong(near, far, d)[0] for d in (distance, distance + 1)]
     wrong = [Fraction(unsigned_depth(float(z), 2**16 - 1)) for z in linear]
-    text = (
-        "A depth buffer of 16 bits stores round(65535 z) of the window depth z = f (d - n) / (d (f - n)). Which two "
-        "whole numbers does it store for surfaces at these distances?"
-    )
     given = f"n = {near}, f = {far}\nDistances: {distance} and {distance + 1}"
-    hints = (
-        "Find z of both.",
-        "Multiply by 65535 and round.",
-        "Equal numbers would fight.",
-        f"The first: 65535 * {far} ({distance} - {near}) / ({distance} ({far} - {near})).",
-    )
-    return numbers(text, given, right, hints, {"depth-linear": wrong}, ("first", "second"))
+    asked = f"""A depth buffer of 16 bits stores round(65535 z) of the window depth z = f (d - n) / (d (f -
+        n)). Which two whole numbers does it store for surfaces at these distances?
+        Hint: Find z of both.
+        Hint: Multiply by 65535 and round.
+        Hint: Equal numbers would fight.
+        Hint: The first: 65535 * {far} ({distance} - {near}) / ({distance} ({far} - {near}))."""
+    return numbers(asked, given, right, {"depth-linear": wrong}, ("first", "second"))
 
 
 @template("fighting-pairs", 1, "Surfaces that fight", "depth", 3)
@@ -78,17 +79,14 @@ def draw_fighting(draws: Draws) -> Draft:
         for d in distances
     ]
     right = [k for k, (first, second) in enumerate(stored) if first == second]
-    text = (
-        "Which pairs of surfaces does a depth buffer of 16 bits store as equal? It stores round(65535 z) of the window "
-        "depth z = f (d - n) / (d (f - n))."
-    )
     pairs = [f"{d} and {number_text(d + gap)}" for d in distances]
-    hints = (
-        "Where are the steps of depth widest?",
-        "z changes by about f n gap / (d d (f - n)).",
-        f"It is less than one of 65535 steps where d d is larger than about 65535 * {near} * {number_text(gap)}.",
-    )
-    return several(text, f"n = {near}, f = {far}", pairs, right, hints)
+    asked = f"""Which pairs of surfaces does a depth buffer of 16 bits store as equal? It stores round(65535
+        z) of the window depth z = f (d - n) / (d (f - n)).
+        Hint: Where are the steps of depth widest?
+        Hint: z changes by about f n gap / (d d (f - n)).
+        Hint: It is less than one of 65535 steps where d d is larger than about 65535 * {near} *
+        {number_text(gap)}."""
+    return several(asked, f"n = {near}, f = {far}", pairs, right)
 
 
 @template("inverse-w-table", 2, "A buffer of 1/w", "depth", 4)
@@ -96,22 +94,19 @@ def draw_inverse(draws: Draws) -> Draft:
     """A buffer of 1/w, fragment by fragment."""
     fragments = [(draws.whole(0, 1), Fraction(1, draws.whole(2, 20))) for _ in range(6)]
     reject(len(set(fragments)) < len(fragments))
-    text = (
-        "These fragments are drawn in order. What does the buffer hold at the pixel of each right after it was tested? "
-        "It stores 1/w, begins at 0, and keeps the larger value."
-    )
-    hints = (
-        "Is a surface with a larger 1/w nearer or farther?",
-        "Follow one pixel at a time.",
-        f"The first fragment leaves 1/{1 / fragments[0][1]} at its pixel: only a larger 1/w replaces it there.",
-    )
+    asked = f"""These fragments are drawn in order. What does the buffer hold at the pixel of each right after
+        it was tested? It stores 1/w, begins at 0, and keeps the larger value.
+        Hint: Is a surface with a larger 1/w nearer or farther?
+        Hint: Follow one pixel at a time.
+        Hint: The first fragment leaves 1/{1 / fragments[0][1]} at its pixel: only a larger 1/w replaces it
+        there."""
     labels = [f"pixel {pixel}, w = {1 / value}" for pixel, value in fragments]
     follow, farther = (follow_buffer(fragments, nearer) for nearer in (max, min))
     right, wins = (followed(each, empty_rows(len(fragments), 1)) for each in (follow, farther))
     wrong = {"farther-wins": wins, "no-depth-test": [[value] for _, value in fragments]}
     settings = Settings(depth="inverse-w")
     # 1/19 and 1/20 are 0.0026 apart.
-    return table(text, "", ("1/w",), labels, right, hints, wrong, follow, None, settings, None, 0.001)
+    return table(asked, "", ("1/w",), labels, right, wrong, follow, None, settings, None, 0.001)
 
 
 GRID = 4
@@ -137,19 +132,17 @@ def draw_grid(draws: Draws) -> Draft:
     wrong = {"no-depth-test": cells(last), "farther-wins": cells(farthest)}
     columns = tuple(Column(f"column {i}") for i in range(GRID))
     labels = tuple(f"row {j}" for j in reversed(range(GRID)))
-    text = (
-        "Two triangles of whole-number depths are drawn, one after the other. What does the z-buffer hold then? It "
-        "begins with inf in every cell, smaller is nearer, and a tie keeps what is there. Write inf for infinity."
-    )
     grids = [text_of_depths(patch).replace("\t", "  ") for patch in both]
     given = f"First triangle, top row first (– where it has no fragment):\n{grids[0]}\nSecond triangle:\n{grids[1]}"
     row, column = np.argwhere(drawn.all(axis=0))[0].tolist()
-    hints = (
-        "Take one cell at a time.",
-        "Where neither has a fragment, nothing changes.",
-        f"Row {row}, column {column}: which of {both[0, row, column]:g} and {both[1, row, column]:g} stays?",
-    )
-    return Draft(text, given, TableAnswer(columns, labels, cells(right)), hints, wrong, scene)
+    asked = f"""Two triangles of whole-number depths are drawn, one after the other. What does the z-buffer
+        hold then? It begins with inf in every cell, smaller is nearer, and a tie keeps what is there. Write
+        inf for infinity.
+        Hint: Take one cell at a time.
+        Hint: Where neither has a fragment, nothing changes.
+        Hint: Row {row}, column {column}: which of {both[0, row, column]:g} and {both[1, row, column]:g}
+        stays?"""
+    return drafted(asked, given, TableAnswer(columns, labels, cells(right)), wrong, scene)
 
 
 @template("painter-order", 1, "A painter's order", "depth", 2)
@@ -160,18 +153,15 @@ def draw_painter(draws: Draws) -> Draft:
     rule = RULES["sorted-by-mean"]
     order = rule.right(depths)
     options = tuple(NAMES[k] for k in order)
-    text = (
-        "In which order does a painter's algorithm paint these triangles, first to last, if it sorts by the farthest "
-        "vertex?"
-    )
     given = listed("{}: depths {}", NAMES, depths)
-    hints = (
-        "What is painted first is painted over.",
-        "Only the largest depth of each counts here.",
-        f"The farthest vertex of A lies at max{place_text(depths[0])}; the farthest triangle is painted first.",
-    )
+    asked = f"""In which order does a painter's algorithm paint these triangles, first to last, if it sorts by
+        the farthest vertex?
+        Hint: What is painted first is painted over.
+        Hint: Only the largest depth of each counts here.
+        Hint: The farthest vertex of A lies at max{place_text(depths[0])}; the farthest triangle is painted
+        first."""
     wrong = {rule.name: tuple(order.index(k) for k in rule.wrong(depths))}
-    return Draft(text, given, OrderAnswer(options, draws.shuffled(NAMES)), hints, wrong)
+    return drafted(asked, given, OrderAnswer(options, draws.shuffled(NAMES)), wrong)
 
 
 def card_seen(scene: ClipScene, settings: Settings) -> int:
@@ -197,14 +187,10 @@ def draw_ties(draws: Draws) -> Draft:
         seen = card_seen(twin.change_scene(scene), twin.change_settings(settings))
         if seen != right:
             wrong[name] = seen
-    text = (
-        "Three cards cover the window, drawn in this order. Which one is seen? The smaller depth is nearer, a tie "
-        "keeps what is there."
-    )
     given = listed("{}: z = {}", CARDS, depths)
-    hints = (
-        "Which depth is the smallest?",
-        "Of two equal ones, which is tested against the other?",
-        f"The nearest is at {number_text(first)}: does a fragment pass against the same depth?",
-    )
-    return one_of(text, given, CARDS, right, hints, wrong, scene)
+    asked = f"""Three cards cover the window, drawn in this order. Which one is seen? The smaller depth is
+        nearer, a tie keeps what is there.
+        Hint: Which depth is the smallest?
+        Hint: Of two equal ones, which is tested against the other?
+        Hint: The nearest is at {number_text(first)}: does a fragment pass against the same depth?"""
+    return one_of(asked, given, CARDS, right, wrong, scene)

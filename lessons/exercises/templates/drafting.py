@@ -10,6 +10,7 @@ from core.records.frame import Frame
 from core.records.sketch import Sketch
 from core.scene import AnyScene, ClipScene
 from core.settings import DEFAULTS
+from lessons.exercises.answers.answer import Answer, Response
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.fields import Column, Follow, NumberAnswer, Numbers, TableAnswer, number_rows
 from lessons.exercises.answers.pixels import PixelAnswer, Pixels
@@ -66,11 +67,34 @@ def as_numbers(values: Iterable[Any]) -> Numbers:
     return tuple(as_number(value) for value in values)
 
 
+def parts_of(asked: str) -> tuple[str, tuple[str, ...]]:
+    """Return the question and the hints of a block of text; each hint begins a line with ``Hint:``."""
+    text, *hints = " ".join(line.strip() for line in asked.split("\n")).split(" Hint: ")
+    return text, tuple(hints)
+
+
+def drafted(
+    asked: str,
+    given: str,
+    answer: Answer,
+    mistakes: Mapping[str, Response] | None = None,
+    scene: AnyScene | None = None,
+    settings: Settings = DEFAULTS,
+    within: str = "",
+    **more: Any,
+) -> Draft:
+    """Return a draft of a question and its hints in one block of text; ``more`` are further fields of `Draft`.
+
+    ``within`` says behind the question how near a number must be.
+    """
+    text, hints = parts_of(asked)
+    return Draft(f"{text} {within}".strip(), given, answer, hints, mistakes or {}, scene, settings, **more)
+
+
 def numbers(
-    text: str,
+    asked: str,
     given: str,
     values: Iterable[Any],
-    hints: tuple[str, ...],
     wrong: Mapping[str, Iterable[Any]] | None = None,
     names: Sequence[str] = (),
     shape: tuple[int, ...] | None = None,
@@ -88,16 +112,15 @@ def numbers(
     every = [number for response in (right, *mistakes.values()) for number in response]
     is_whole = all(isinstance(number, Fraction) and number.denominator == 1 for number in every)
     answer = NumberAnswer(right, shape, tuple(names), 0.0 if is_whole else TOLERANCE)
-    asked = text if is_whole else f"{text} {WITHIN}"
-    return Draft(asked, given, answer, hints, mistakes, scene, settings, pixel, sketch=sketch)
+    within = "" if is_whole else WITHIN
+    return drafted(asked, given, answer, mistakes, scene, settings, within, pixel=pixel, sketch=sketch)
 
 
 def by_rule(
-    text: str,
+    asked: str,
     given: str,
     arguments: tuple[Any, ...],
     mistakes: Sequence[str],
-    hints: tuple[str, ...],
     names: Sequence[str] = (),
     shape: tuple[int, ...] | None = None,
     sketch: Sketch | None = None,
@@ -105,30 +128,28 @@ def by_rule(
     """Ask for the numbers that a formula gives; the mistakes are wrong formulas of the same arguments."""
     wrong = {name: RULES[name].wrong(*arguments) for name in mistakes}
     right = RULES[mistakes[0]].right(*arguments)
-    return numbers(text, given, right, hints, wrong, names, shape, sketch=sketch)
+    return numbers(asked, given, right, wrong, names, shape, sketch=sketch)
 
 
 def pictured(
-    text: str,
+    asked: str,
     given: str,
     scene: ClipScene,
     names: Sequence[str],
-    hints: tuple[str, ...],
     settings: Settings = DEFAULTS,
     read: Callable[[Frame], Pixels] = seen_pixels,
 ) -> Draft:
     """Ask for the pixels that are read from the picture of a scene; the mistakes draw it, too."""
     answer = PixelAnswer(scene.size, read(render(scene, settings)))
     wrong = {name: read(SHELF[name].draw(scene, settings)) for name in names}
-    return Draft(text, f"{window_text(scene.size)}\n{given}", answer, hints, wrong, scene, settings)
+    return drafted(asked, f"{window_text(scene.size)}\n{given}", answer, wrong, scene, settings)
 
 
 def several(
-    text: str,
+    asked: str,
     given: str,
     options: Sequence[str],
     right: Iterable[int],
-    hints: tuple[str, ...],
     wrong: Mapping[str, Iterable[int]] | None = None,
     scene: AnyScene | None = None,
     settings: Settings = DEFAULTS,
@@ -138,30 +159,29 @@ def several(
     reject(not 0 < len(chosen) < len(options))
     mistakes = {name: frozenset(response) for name, response in (wrong or {}).items()}
     answer = ChoiceAnswer(tuple(options), chosen, is_several=True)
-    return Draft(text, given, answer, hints, mistakes, scene, settings)
+    return drafted(asked, given, answer, mistakes, scene, settings)
 
 
 def one_of(
-    text: str,
+    asked: str,
     given: str,
     options: Sequence[str],
     right: int,
-    hints: tuple[str, ...],
     wrong: Mapping[str, int] | None = None,
     scene: AnyScene | None = None,
 ) -> Draft:
     """Ask which one option holds."""
     mistakes = {name: frozenset({response}) for name, response in (wrong or {}).items()}
-    return Draft(text, given, ChoiceAnswer(tuple(options), frozenset({right})), hints, mistakes, scene)
+    answer = ChoiceAnswer(tuple(options), frozenset({right}))
+    return drafted(asked, given, answer, mistakes, scene)
 
 
 def table(
-    text: str,
+    asked: str,
     given: str,
     columns: Sequence[str],
     labels: Sequence[str],
     rows: Sequence[Sequence[Any]],
-    hints: tuple[str, ...],
     wrong: Mapping[str, Sequence[Sequence[Any]]] | None = None,
     follow: Follow | None = None,
     scene: AnyScene | None = None,
@@ -179,5 +199,5 @@ def table(
         follow,
         0.0 if is_whole else tolerance,
     )
-    asked = text if is_whole else f"{text} Fractions, or decimals within {tolerance:g}."
-    return Draft(asked, given, answer, hints, mistakes, scene, settings, pixel)
+    within = "" if is_whole else f"Fractions, or decimals within {tolerance:g}."
+    return drafted(asked, given, answer, mistakes, scene, settings, within, pixel=pixel)

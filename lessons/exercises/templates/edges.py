@@ -17,6 +17,7 @@ from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
 from lessons.exercises.templates.drafting import (
     by_rule,
+    drafted,
     factor_text,
     listed,
     numbers,
@@ -66,16 +67,15 @@ def draw_coefficients(draws: Draws) -> Draft:
     """a, b and c of an edge."""
     start, end = wholes(draws, 2, 0, 9), wholes(draws, 2, 0, 9)
     reject(start == end)
-    text = f"What are a, b and c of this edge function? {INWARD} Take whole numbers with a = y0 - y1."
-    hints = (
-        "It is zero at both ends.",
-        "a = y0 - y1 and b = x1 - x0.",
-        "c follows from E = 0 at the first end.",
-        f"a = {factor_text(start[1])} - {factor_text(end[1])}, b = {factor_text(end[0])} - {factor_text(start[0])}.",
-    )
+    asked = f"""What are a, b and c of this edge function? {INWARD} Take whole numbers with a = y0 - y1.
+        Hint: It is zero at both ends.
+        Hint: a = y0 - y1 and b = x1 - x0.
+        Hint: c follows from E = 0 at the first end.
+        Hint: a = {factor_text(start[1])} - {factor_text(end[1])}, b = {factor_text(end[0])} -
+        {factor_text(start[0])}."""
     given = f"Edge from {place_text(start)} to {place_text(end)}."
     sketch = sketched({"start": start, "end": end}, (start, end))
-    return numbers(text, given, coefficients(start, end), hints, names=("a", "b", "c"), sketch=sketch)
+    return numbers(asked, given, coefficients(start, end), names=("a", "b", "c"), sketch=sketch)
 
 
 @template("edge-values", 1, "Edge functions at a pixel", "edges", 3)
@@ -89,17 +89,15 @@ def draw_values(draws: Draws) -> Draft:
         return [[a * x + b * y + c] for a, b, c in edges_of(corners)]
 
     scene = triangle_scene([corners], SIZE)
-    text = f"What are the three edge functions at the centre (i + 1/2, j + 1/2) of pixel {pixel}? {INWARD}"
-    hints = (
-        "Where is the centre?",
-        "E = (y0 - y1)(x - x0) + (x1 - x0)(y - y0).",
-        "The signs tell on which side of each edge it lies.",
-        f"The centre is ({pixel[0]} + 1/2, {pixel[1]} + 1/2). {first_edge(corners)}.",
-    )
+    asked = f"""What are the three edge functions at the centre (i + 1/2, j + 1/2) of pixel {pixel}? {INWARD}
+        Hint: Where is the centre?
+        Hint: E = (y0 - y1)(x - x0) + (x1 - x0)(y - y0).
+        Hint: The signs tell on which side of each edge it lies.
+        Hint: The centre is ({pixel[0]} + 1/2, {pixel[1]} + 1/2). {first_edge(corners)}."""
     wrong = {"corner-for-center": values(Fraction(0))}
     right = values(Fraction(1, 2))
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"
-    return table(text, given, ("E",), NAMES, right, hints, wrong, scene=scene, pixel=pixel)
+    return table(asked, given, ("E",), NAMES, right, wrong, scene=scene, pixel=pixel)
 
 
 @template("edge-stepping", 1, "An edge function along a row", "edges", 3)
@@ -111,19 +109,19 @@ def draw_stepped(draws: Draws) -> Draft:
     first, row = draws.whole(0, 4), draws.whole(0, 6)
     columns = range(first, first + 6)
     right = [[a * (x + Fraction(1, 2)) + b * (row + Fraction(1, 2)) + c] for x in columns]
-    text = f"Fill in E at the centres (i + 1/2, j + 1/2) of these pixels of row {row}. {INWARD} {WITHIN_ROW}"
-    hints = (
-        "Compute the first one.",
-        "From one column to the next, E grows by a.",
-        "a = y0 - y1.",
-        f"a = {factor_text(start[1])} - {factor_text(end[1])}; the first centre is ({first} + 1/2, {row} + 1/2).",
-    )
+    asked = f"""Fill in E at the centres (i + 1/2, j + 1/2) of these pixels of row {row}. {INWARD}
+        {WITHIN_ROW}
+        Hint: Compute the first one.
+        Hint: From one column to the next, E grows by a.
+        Hint: a = y0 - y1.
+        Hint: a = {factor_text(start[1])} - {factor_text(end[1])}; the first centre is ({first} + 1/2, {row} +
+        1/2)."""
 
     def follow(own: Any, number: int, mine: Any) -> Any:
         return own[-1][0] + a if number else right[0][0]
 
     given = f"Edge from {place_text(start)} to {place_text(end)}."
-    return table(text, given, ("E",), [f"column {x}" for x in columns], right, hints, follow=follow)
+    return table(asked, given, ("E",), [f"column {x}" for x in columns], right, follow=follow)
 
 
 WITHIN_ROW = "Each cell is computed from the one before."
@@ -141,19 +139,17 @@ def draw_inverse(draws: Draws) -> Draft:
     ]
     determinant = x0 * adjugate[0][0] + y0 * adjugate[1][0] + w0 * adjugate[2][0]
     reject(abs(determinant) not in (1, 2, 3, 4))
-    text = (
-        "Which matrix holds the coefficients of the edge functions alpha, beta, gamma? Its columns are theirs, its "
-        "rows are a, b and c: it is the inverse of the matrix whose rows are (x, y, w) of the vertices. Row by row."
-    )
     given = listed("Vertex {k}: (x, y, w) = {}", rows)
     second, third = ([factor_text(number) for number in row] for row in rows[1:])
-    hints = (
-        "alpha is 1 at vertex 0 and 0 at the other two.",
-        "The inverse is the adjugate over the determinant.",
-        f"The adjugate begins with {second[1]} * {third[2]} - {second[2]} * {third[1]}; multiply back to check.",
-    )
+    asked = f"""Which matrix holds the coefficients of the edge functions alpha, beta, gamma? Its columns are
+        theirs, its rows are a, b and c: it is the inverse of the matrix whose rows are (x, y, w) of the
+        vertices. Row by row.
+        Hint: alpha is 1 at vertex 0 and 0 at the other two.
+        Hint: The inverse is the adjugate over the determinant.
+        Hint: The adjugate begins with {second[1]} * {third[2]} - {second[2]} * {third[1]}; multiply back to
+        check."""
     right = [cell / determinant for row in adjugate for cell in row]
-    return numbers(text, given, right, hints, shape=(3, 3))
+    return numbers(asked, given, right, shape=(3, 3))
 
 
 @template(
@@ -175,52 +171,44 @@ def draw_owned(draws: Draws) -> Draft:
     rules = {"level-edges-never": owns_slanted, "level-edges-always": owns_level}
     right = np.flatnonzero(shared_edge(a, b)).tolist()
     wrong = {name: np.flatnonzero(rule(a, b)).tolist() for name, rule in rules.items()}
-    text = (
-        "Which edges of this triangle own the pixel centres that lie exactly on them? A centre on an edge belongs to "
-        "the triangle that contains the point moved a tiny step right, then up."
-    )
-    hints = (
-        "Move a point on each edge a little to the right: is it inside?",
-        "On a level edge only the step up decides.",
-        f"{first_edge(corners)}. An edge owns its centres where a > 0, or a = 0 and b > 0.",
-    )
+    asked = f"""Which edges of this triangle own the pixel centres that lie exactly on them? A centre on an
+        edge belongs to the triangle that contains the point moved a tiny step right, then up.
+        Hint: Move a point on each edge a little to the right: is it inside?
+        Hint: On a level edge only the step up decides.
+        Hint: {first_edge(corners)}. An edge owns its centres where a > 0, or a = 0 and b > 0."""
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"
     rule = RULES["leftmost-vertex"]
     assert frozenset(right) == rule.right(corners)
     wrong["leftmost-vertex"] = sorted(rule.wrong(corners))
     shown = {"all-edges-inclusive": [0, 1, 2]} | {name: r for name, r in wrong.items() if r and r != right}
-    return several(text, given, NAMES, right, hints, shown, triangle_scene([corners], SIZE))
+    return several(asked, given, NAMES, right, shown, triangle_scene([corners], SIZE))
 
 
 @template("snapped-vertex", 1, "A vertex in 256ths", "edges", 1)
 def draw_snapped(draws: Draws) -> Draft:
     """A vertex on the grid of 1/256 pixel."""
     x = Fraction(draws.whole(100, 900), 100)
-    text = (
-        "Vertices are snapped to the nearest multiple of 1/256 pixel before coverage is decided. How many 256ths is "
-        "this x?"
-    )
     right = Fraction(snap_one(float(x))) * 256
-    hints = ("Multiply by 256.", "Round to the nearest whole number.", f"{float(x)} * 256, rounded.")
+    asked = f"""Vertices are snapped to the nearest multiple of 1/256 pixel before coverage is decided. How
+        many 256ths is this x?
+        Hint: Multiply by 256.
+        Hint: Round to the nearest whole number.
+        Hint: {float(x)} * 256, rounded."""
     wrong = {"vertices-rounded": [256 * floor(x + Fraction(1, 2))]}
-    return numbers(text, f"x = {float(x)} pixels", [right], hints, wrong)
+    return numbers(asked, f"x = {float(x)} pixels", [right], wrong)
 
 
 @template("area-in-bits", 1, "An area in 64 bits", "edges", 2)
 def draw_bits(draws: Draws) -> Draft:
     """A product that does not fit."""
     width, height = draws.whole(190, 250), draws.whole(190, 250)
-    text = (
-        "A right triangle has legs along x and y. What is twice its area in units of 1/256 x 1/256 pixel? The number "
-        "is kept in 64 bits, so nothing is lost."
-    )
     given = f"Legs of {width} and {height} pixels; each pixel has 256 units."
-    hints = (
-        "Put both lengths into units first.",
-        "Twice the area is the product of the legs.",
-        f"({width} * 256) ({height} * 256).",
-    )
-    return by_rule(text, given, (width, height), ("product-overflows",), hints)
+    asked = f"""A right triangle has legs along x and y. What is twice its area in units of 1/256 x 1/256
+        pixel? The number is kept in 64 bits, so nothing is lost.
+        Hint: Put both lengths into units first.
+        Hint: Twice the area is the product of the legs.
+        Hint: ({width} * 256) ({height} * 256)."""
+    return by_rule(asked, given, (width, height), ("product-overflows",))
 
 
 CASES = (
@@ -236,14 +224,13 @@ def draw_case(draws: Draws) -> Draft:
     wanted = draws.whole(0, 2)
     signs = ((1, 1, 1), (-1, -1, -1), draws.item(((1, 1, -1), (1, -1, -1), (-1, 1, 1), (-1, 1, -1))))[wanted]
     corners = [(*wholes(draws, 2, -9, 9), Fraction(sign * draws.whole(1, 9))) for sign in signs]
-    text = "Which case of binning is this triangle? w > 0 is in front of the eye."
     given = listed("Vertex {k}: (x, y, w) = {}", corners)
-    hints = (
-        "Look at w alone.",
-        "Where signs differ, the projected vertices do not bound the triangle.",
-        f"The three w are {place_text(corner[2] for corner in corners)}: how many of them are positive?",
-    )
-    return one_of(text, given, CASES, wanted, hints)
+    asked = f"""Which case of binning is this triangle? w > 0 is in front of the eye.
+        Hint: Look at w alone.
+        Hint: Where signs differ, the projected vertices do not bound the triangle.
+        Hint: The three w are {place_text(corner[2] for corner in corners)}: how many of them are
+        positive?"""
+    return one_of(asked, given, CASES, wanted)
 
 
 BLOCK, BLOCKS = 4, 8
@@ -259,21 +246,18 @@ def draw_blocks(draws: Draws) -> Draft:
     scene = triangle_scene([corners], (side, side))
     edges = [(float(a), float(b), float(c), a > 0 or (a == 0 and b > 0)) for a, b, c in edges_of(corners)]
     rule = RULES["block-by-one-corner"]
-    text = (
-        f"The window is divided into blocks of {BLOCK} x {BLOCK} pixels. Mark the blocks that are discarded because "
-        "all their pixel centres lie outside of one edge. Left edges and level bottom edges own the centres on them."
-    )
     right = rule.right(edges, BLOCKS, BLOCK)
     reject(not LEAST <= len(right) <= BLOCKS * BLOCKS - LEAST)
     answer = PixelAnswer((BLOCKS, BLOCKS), right, noun="blocks")
-    hints = (
-        "Take one edge at a time.",
-        "Only one pixel of a block has to be tested: the one where E is largest.",
-        f"{first_edge(corners)}: E is largest on the right where a > 0, and at the top where b > 0.",
-    )
+    asked = f"""The window is divided into blocks of {BLOCK} x {BLOCK} pixels. Mark the blocks that are
+        discarded because all their pixel centres lie outside of one edge. Left edges and level bottom edges
+        own the centres on them.
+        Hint: Take one edge at a time.
+        Hint: Only one pixel of a block has to be tested: the one where E is largest.
+        Hint: {first_edge(corners)}: E is largest on the right where a > 0, and at the top where b > 0."""
     given = f"{window_text((side, side))}\nTriangle: {corner_text(corners)}"
     wrong = {rule.name: rule.wrong(edges, BLOCKS, BLOCK)}
-    return Draft(text, given, answer, hints, wrong, scene, Settings(fill="blocks", block_size=BLOCK))
+    return drafted(asked, given, answer, wrong, scene, Settings(fill="blocks", block_size=BLOCK))
 
 
 CORNERS = ("lower left", "lower right", "upper left", "upper right")
@@ -285,20 +269,17 @@ def draw_corner(draws: Draws) -> Draft:
     a, b, c = draws.whole(-9, 9), draws.whole(-9, 9), draws.whole(-40, 40)
     reject(not a or not b)
     right = 2 * (b > 0) + (a > 0)
-    text = (
-        "Which pixel of a block decides whether the whole block is outside of this edge? Outside is where "
-        "E = a x + b y + c is negative."
-    )
-    hints = (
-        "Which pixel is the last one to be outside?",
-        "Where is E largest?",
-        f"To the right E changes by {number_text(Fraction(a))} a pixel, upwards by {number_text(Fraction(b))}.",
-    )
+    asked = f"""Which pixel of a block decides whether the whole block is outside of this edge? Outside is
+        where E = a x + b y + c is negative.
+        Hint: Which pixel is the last one to be outside?
+        Hint: Where is E largest?
+        Hint: To the right E changes by {number_text(Fraction(a))} a pixel, upwards by
+        {number_text(Fraction(b))}."""
     wrong = {"block-by-one-corner": 0} if right else {}
     given = (
         f"E(x, y) = {number_text(Fraction(a))} x + {number_text(Fraction(b))} y + {number_text(Fraction(c))}"
     )
-    return one_of(text, given.replace("+ -", "- "), CORNERS, right, hints, wrong)
+    return one_of(asked, given.replace("+ -", "- "), CORNERS, right, wrong)
 
 
 @template("pixels-tested", 1, "Pixels that are tested", "bin", 2)
@@ -310,19 +291,13 @@ def draw_tests(draws: Draws) -> Draft:
         render(scene, Settings(fill=fill)).statistics["bin"].outgoing
         for fill in ("brute-force", "bounding-box")
     ]
-    text = (
-        "How many pixels are tested for this triangle by brute force, and with its bounding box? A pixel belongs to "
-        "the box where its centre (i + 1/2, j + 1/2) does."
-    )
     low, high = ([pick(corner[axis] for corner in corners) for axis in range(2)] for pick in (min, max))
-    hints = (
-        "Brute force asks every pixel of the window.",
-        "The box has columns times rows.",
-        f"{SIZE[0]} * {SIZE[1]}; and whole i with i + 1/2 from {low[0]} to {high[0]}, j with j + 1/2 from {low[1]} to "
-        f"{high[1]}.",
-    )
+    asked = f"""How many pixels are tested for this triangle by brute force, and with its bounding box? A
+        pixel belongs to the box where its centre (i + 1/2, j + 1/2) does.
+        Hint: Brute force asks every pixel of the window.
+        Hint: The box has columns times rows.
+        Hint: {SIZE[0]} * {SIZE[1]}; and whole i with i + 1/2 from {low[0]} to {high[0]}, j with j + 1/2 from
+        {low[1]} to {high[1]}."""
     given = f"{window_text(SIZE)}\nTriangle: {corner_text(corners)}"
     names = ("brute force", "bounding box")
-    return numbers(
-        text, given, right, hints, names=names, scene=scene, settings=Settings(fill="bounding-box")
-    )
+    return numbers(asked, given, right, names=names, scene=scene, settings=Settings(fill="bounding-box"))

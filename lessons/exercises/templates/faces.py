@@ -28,18 +28,14 @@ def draw_order(draws: Draws) -> Draft:
     scene, settings = triangle_scene(placed, (36, 6)), Settings(cull="back")
     back = culled(settings, scene)
     wrong = culled(SHELF["facing-exchanged"].change_settings(settings), scene)
-    text = (
-        "A face lists the three vertices in some order. For which orders is it culled as a back face? The camera looks "
-        "at the page, x to the right, y up; counter-clockwise is the front."
-    )
     given = listed("Vertex {k}: {}", corners)
-    hints = (
-        "Sketch the vertices and go round in one of the orders.",
-        "Turning the list by one changes nothing; exchanging two of it changes the facing.",
-        f"For the order 0, 1, 2: {facing_text(corners)}.",
-    )
+    asked = f"""A face lists the three vertices in some order. For which orders is it culled as a back face?
+        The camera looks at the page, x to the right, y up; counter-clockwise is the front.
+        Hint: Sketch the vertices and go round in one of the orders.
+        Hint: Turning the list by one changes nothing; exchanging two of it changes the facing.
+        Hint: For the order 0, 1, 2: {facing_text(corners)}."""
     options = [", ".join(map(str, order)) for order in orders]
-    return several(text, given, options, back, hints, {"facing-exchanged": wrong})
+    return several(asked, given, options, back, {"facing-exchanged": wrong})
 
 
 @template("faces-from-eye", 1, "Faces that face away from the eye", "cull", 3)
@@ -54,21 +50,17 @@ def draw_eye(draws: Draws) -> Draft:
         sum(n * r for n, r in zip(face[0], ray, strict=True)) for face, ray in zip(faces, rays, strict=True)
     ]
     reject(not all(cosines) or not all(normal[2] for normal, _ in faces))
-    text = (
-        "Which faces are culled? N points outward, V from the eye to a point of the face: a face is culled where "
-        "N . V > 0."
-    )
     given = f"Eye: {place_text(eye)}\n" + listed("{}: N = {}, point {}", FACES, *zip(*faces, strict=True))
     axes = zip(*faces[0], eye, strict=True)
     dot = " + ".join("{} ({} - {})".format(*map(factor_text, axis)) for axis in axes)
-    hints = (
-        "V is another one for each face.",
-        "V = point - eye.",
-        f"For A: N . V = {dot}. Only its sign counts.",
-    )
+    asked = f"""Which faces are culled? N points outward, V from the eye to a point of the face: a face is
+        culled where N . V > 0.
+        Hint: V is another one for each face.
+        Hint: V = point - eye.
+        Hint: For A: N . V = {dot}. Only its sign counts."""
     rule = RULES["view-direction-fixed"]
     wrong = {rule.name: rule.wrong(faces, eye)}
-    return several(text, given, FACES, rule.right(faces, eye), hints, wrong)
+    return several(asked, given, FACES, rule.right(faces, eye), wrong)
 
 
 WINDOW = (8, 6)
@@ -85,36 +77,31 @@ def draw_outside(draws: Draws) -> Draft:
     outside = np.asarray(plane_distances(scene.clip) < 0)
     dropped = np.flatnonzero(np.any(np.all(outside, axis=1), axis=1)).tolist()
     collapsed = (dropped_at_border(scene).clip != scene.clip).any(axis=(1, 2))
-    text = (
-        "Which triangles are dropped because all three vertices lie outside of one border of the window? A point on a "
-        "border is inside."
-    )
     given = f"Window 0..{WINDOW[0]} x 0..{WINDOW[1]}.\n" + listed("{}: {}", FACES, triangles)
     xs, ys = zip(*triangles[0], strict=True)
-    hints = (
-        "Test one border at a time.",
-        "A triangle with vertices outside of two borders may still reach into the window.",
-        f"A has x = {place_text(xs)}: all below 0, or all above {WINDOW[0]}? y = {place_text(ys)}: all below 0, or all "
-        f"above {WINDOW[1]}?",
-    )
+    asked = f"""Which triangles are dropped because all three vertices lie outside of one border of the
+        window? A point on a border is inside.
+        Hint: Test one border at a time.
+        Hint: A triangle with vertices outside of two borders may still reach into the window.
+        Hint: A has x = {place_text(xs)}: all below 0, or all above {WINDOW[0]}? y = {place_text(ys)}: all
+        below 0, or all above {WINDOW[1]}?"""
     wrong = {"dropped-at-border": np.flatnonzero(collapsed).tolist()}
-    return several(text, given, FACES, dropped, hints, wrong, scene)
+    return several(asked, given, FACES, dropped, wrong, scene)
 
 
 @template("bounding-box", 1, "An axis-aligned bounding box", "cull", 1)
 def draw_box(draws: Draws) -> Draft:
     """An axis-aligned bounding box."""
     corners = [wholes(draws, 3, -9, 9) for _ in range(3)]
-    text = "What is the axis-aligned bounding box of this triangle: the least x, y and z, then the greatest?"
     right = [pick(corner[axis] for corner in corners) for pick in (min, max) for axis in range(3)]
     xs = ", ".join(number_text(corner[0]) for corner in corners)
-    hints = (
-        "Look at one coordinate at a time.",
-        "Least and greatest of the three vertices.",
-        f"min({xs}) to max({xs}) in x, and so on.",
-    )
+    asked = f"""What is the axis-aligned bounding box of this triangle: the least x, y and z, then the
+        greatest?
+        Hint: Look at one coordinate at a time.
+        Hint: Least and greatest of the three vertices.
+        Hint: min({xs}) to max({xs}) in x, and so on."""
     names = [f"{kind} {axis}" for kind in ("least", "greatest") for axis in "xyz"]
-    return numbers(text, "\n".join(map(place_text, corners)), right, hints, names=names)
+    return numbers(asked, "\n".join(map(place_text, corners)), right, names=names)
 
 
 @template("homogeneous-determinant", 1, "The determinant of (x, y, w)", "cull", 3)
@@ -124,16 +111,12 @@ def draw_determinant(draws: Draws) -> Draft:
     (a, b, c), (d, e, f), (g, h, i) = rows
     determinant = a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g)
     reject(not determinant)
-    text = (
-        "What is the determinant of the matrix whose rows are (x, y, w) of the vertices? It is negative for a back "
-        "face, whatever the signs of w, and 0 where there is nothing to draw."
-    )
     given = listed("Vertex {k}: {}", rows)
     (x0, _, _), (_, y1, w1), (_, y2, w2) = (map(factor_text, row) for row in rows)
     first = f"The first product is {x0} ({y1} * {w2} - {w1} * {y2})."
-    hints = (
-        "Nothing is divided by w.",
-        "Expand along one row: three products with 2 x 2 determinants.",
-        first,
-    )
-    return numbers(text, given, [determinant], hints)
+    asked = f"""What is the determinant of the matrix whose rows are (x, y, w) of the vertices? It is negative
+        for a back face, whatever the signs of w, and 0 where there is nothing to draw.
+        Hint: Nothing is divided by w.
+        Hint: Expand along one row: three products with 2 x 2 determinants.
+        Hint: {first}"""
+    return numbers(asked, given, [determinant])

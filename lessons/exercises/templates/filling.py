@@ -38,11 +38,11 @@ def is_decided(corners: list[Corner]) -> bool:
     )
 
 
-def of_triangle(corners: list[Corner], text: str, names: tuple[str, ...], hints: tuple[str, ...]) -> Draft:
+def of_triangle(corners: list[Corner], asked: str, names: tuple[str, ...]) -> Draft:
     """Ask for the pixels of one triangle."""
     reject(abs(twice_area(corners)) < 8 or not is_decided(corners))
     scene = triangle_scene([corners], SIZE)
-    return pictured(f"{text} {RULE}", f"Triangle: {corner_text(corners)}", scene, names, hints)
+    return pictured(asked, f"Triangle: {corner_text(corners)}", scene, names)
 
 
 def tenths(draws: Draws, low: int, high: int) -> Fraction:
@@ -56,13 +56,12 @@ def draw_flat(draws: Draws) -> Draft:
     level, other = draws.shuffled((draws.whole(1, 3), draws.whole(5, 8)))
     left, right = draws.whole(0, 4) + HALF, draws.whole(7, 11) + HALF
     corners = [(left, level + HALF), (right, level + HALF), (draws.whole(0, 11) + HALF, other + HALF)]
-    hints = (
-        "Is the level side at the bottom or at the top?",
-        "A level bottom edge owns its centres, a level top edge does not.",
-        f"{row_hint(corners)}. In a row, the left end is drawn, the right end is not.",
-    )
     names = ("flat-sides-lost", "right-end-drawn")
-    return of_triangle(corners, "Which pixels does this triangle with a level side cover?", names, hints)
+    asked = f"""Which pixels does this triangle with a level side cover? {RULE}
+        Hint: Is the level side at the bottom or at the top?
+        Hint: A level bottom edge owns its centres, a level top edge does not.
+        Hint: {row_hint(corners)}. In a row, the left end is drawn, the right end is not."""
+    return of_triangle(corners, asked, names)
 
 
 @template("thin-triangle", 3, "A thin triangle", "raster", 4)
@@ -74,13 +73,12 @@ def draw_thin(draws: Draws) -> Draft:
         (x + Fraction(draws.whole(8, 20), 10), tenths(draws, 0, 2)),
         (x + Fraction(draws.whole(-30, 30), 10), tenths(draws, 7, 9)),
     ]
-    hints = (
-        "Look at one row of centres at a time.",
-        "The vertices keep their fractions.",
-        f"{row_hint(corners)}; the other sides likewise. Two crossings may have no centre between them.",
-    )
     names = ("vertices-rounded", "rows-rounded")
-    return of_triangle(corners, "Which pixels does this thin triangle cover?", names, hints)
+    asked = f"""Which pixels does this thin triangle cover? {RULE}
+        Hint: Look at one row of centres at a time.
+        Hint: The vertices keep their fractions.
+        Hint: {row_hint(corners)}; the other sides likewise. Two crossings may have no centre between them."""
+    return of_triangle(corners, asked, names)
 
 
 @template("right-border", 3, "Beyond the right border", "raster", 3)
@@ -91,13 +89,11 @@ def draw_border(draws: Draws) -> Draft:
         (tenths(draws, 13, 18), tenths(draws, 1, 7)),
         (tenths(draws, 5, 10), tenths(draws, 6, 9)),
     ]
-    hints = (
-        "The window ends before column W.",
-        "Only the part inside of the window is drawn.",
-        f"{row_hint(corners)}; the last column is {SIZE[0]} - 1.",
-    )
-    text = "A triangle reaches beyond the right border. Which pixels of the window does it cover?"
-    return of_triangle(corners, text, ("column-wrapped", "corner-for-center"), hints)
+    asked = f"""A triangle reaches beyond the right border. Which pixels of the window does it cover? {RULE}
+        Hint: The window ends before column W.
+        Hint: Only the part inside of the window is drawn.
+        Hint: {row_hint(corners)}; the last column is {SIZE[0]} - 1."""
+    return of_triangle(corners, asked, ("column-wrapped", "corner-for-center"))
 
 
 @template("point-pixels", 2, "Pixels of points", "raster", 3)
@@ -108,13 +104,12 @@ def draw_points(draws: Draws) -> Draft:
     reject(any(c.denominator == 1 for place in places for c in place))
     x, y = np.array(places, float).T
     scene = assembled("points", x, y, SIZE)
-    text = "Which pixels do these points light? Pixel (i, j) reaches from i to i + 1 and from j to j + 1."
-    hints = (
-        "The column of a point is floor(x).",
-        "What is floor(x) for x between -1 and 0?",
-        f"The first point lies at (floor({number_text(places[0][0])}), floor({number_text(places[0][1])})).",
-    )
-    return pictured(text, ", ".join(map(place_text, places)), scene, ("truncated-to-zero",), hints)
+    asked = f"""Which pixels do these points light? Pixel (i, j) reaches from i to i + 1 and from j to j + 1.
+        Hint: The column of a point is floor(x).
+        Hint: What is floor(x) for x between -1 and 0?
+        Hint: The first point lies at (floor({number_text(places[0][0])}),
+        floor({number_text(places[0][1])}))."""
+    return pictured(asked, ", ".join(map(place_text, places)), scene, ("truncated-to-zero",))
 
 
 @template("row-ends", 1, "First and last pixel of a row", "raster", 2)
@@ -135,14 +130,13 @@ def draw_ends(draws: Draws) -> Draft:
     reject(len({*right}) < 2)
     shown = {name: response for name, response in wrong.items() if response not in ([], right)}
     reject(not shown)
-    text = f"Which are the first and the last column that this triangle covers in row {row}? {RULE}"
-    hints = (
-        f"The centres of the row lie at y = {row} + 1/2.",
-        "Where do the edges cross this line?",
-        f"{row_hint(corners, f'{row} + 1/2')}; a crossing on a centre belongs to the triangle on its right.",
-    )
+    asked = f"""Which are the first and the last column that this triangle covers in row {row}? {RULE}
+        Hint: The centres of the row lie at y = {row} + 1/2.
+        Hint: Where do the edges cross this line?
+        Hint: {row_hint(corners, f"{row} + 1/2")}; a crossing on a centre belongs to the triangle on its
+        right."""
     given = f"{WINDOW}\nTriangle: {corner_text(corners)}"
-    return numbers(text, given, right, hints, shown, ("first", "last"), scene=scene)
+    return numbers(asked, given, right, shown, ("first", "last"), scene=scene)
 
 
 @template("row-crossings", 1, "Where edges cross rows", "raster", 4)
@@ -168,18 +162,16 @@ def draw_rows(draws: Draws) -> Draft:
     names = ("crossing-from-vertex", "height-plus-one")
     right = crossings(names[0], is_right=True)
     reject(any(len(row) != 2 or row[0] == row[1] for row in right))
-    text = "Where do the edges cross the centres of these rows, y = j + 1/2: left x and right x?"
-    hints = (
-        "Which two edges does each row cross?",
-        "x = x0 + (y - y0)(x1 - x0)/(y1 - y0).",
-        f"{row_hint(corners, f'{rows[0]} + 1/2')}.",
-    )
+    asked = f"""Where do the edges cross the centres of these rows, y = j + 1/2: left x and right x?
+        Hint: Which two edges does each row cross?
+        Hint: x = x0 + (y - y0)(x1 - x0)/(y1 - y0).
+        Hint: {row_hint(corners, f"{rows[0]} + 1/2")}."""
     scene = triangle_scene([corners], SIZE)
     labels = [f"row {row}" for row in rows]
     wrong = {name: crossings(name) for name in names}
     given = f"Triangle: {corner_text(corners)}"
     settings = Settings(fill="scanline")
-    return table(text, given, ("left", "right"), labels, right, hints, wrong, scene=scene, settings=settings)
+    return table(asked, given, ("left", "right"), labels, right, wrong, scene=scene, settings=settings)
 
 
 @template("fourth-vertex", 1, "The vertex that splits a triangle", "raster", 2)
@@ -188,21 +180,17 @@ def draw_fourth(draws: Draws) -> Draft:
     corners = [wholes(draws, 2, 0, 12) for _ in range(3)]
     v1, v2, v3 = sorted(corners, key=lambda c: -c[1])
     reject(len({v[1] for v in corners}) < 3)
-    text = (
-        "A scanline fill splits a triangle at the height of its middle vertex. Where on the long edge, x and y, does "
-        "the new vertex v4 lie?"
-    )
     x = v1[0] + (v2[1] - v1[1]) / (v3[1] - v1[1]) * (v3[0] - v1[0])
     (x1, y1), (x3, y3) = (map(number_text, end) for end in (v1, v3))
     line_text = f"{x1} + ({number_text(v2[1])} - {y1}) / ({y3} - {y1}) * ({x3} - {x1})"
-    hints = (
-        "Sort the vertices by y.",
-        "v4 has the y of the middle vertex, and lies between the other two.",
-        f"y = {number_text(v2[1])}, x = {line_text}.",
-    )
+    asked = f"""A scanline fill splits a triangle at the height of its middle vertex. Where on the long edge,
+        x and y, does the new vertex v4 lie?
+        Hint: Sort the vertices by y.
+        Hint: v4 has the y of the middle vertex, and lies between the other two.
+        Hint: y = {number_text(v2[1])}, x = {line_text}."""
     scene = triangle_scene([corners], (13, 13))
     given = f"Triangle: {corner_text(corners)}"
-    return numbers(text, given, [x, v2[1]], hints, names=("x", "y"), scene=scene)
+    return numbers(asked, given, [x, v2[1]], names=("x", "y"), scene=scene)
 
 
 @template("fan-count", 1, "How often a centre is drawn", "raster", 2)
@@ -220,14 +208,11 @@ def draw_fan(draws: Draws) -> Draft:
         int(render(scene, Settings(fill_rule=rule)).cover_count[int(center[1]), int(center[0])])
         for rule in ("shared-edge", "inclusive", "exclusive")
     ]
-    text = (
-        "Triangles meet in a pixel centre. How often is this pixel drawn with the rule of shared edges (right, then "
-        "up), with E >= 0 on all edges, and with E > 0 on all edges?"
-    )
-    hints = (
-        "For how many of the triangles is E = 0 on two edges there?",
-        "The rule of shared edges moves the centre into exactly one of them.",
-        f"{place_text(center)} is a corner of each triangle: does each draw it with E >= 0, and with E > 0?",
-    )
+    asked = f"""Triangles meet in a pixel centre. How often is this pixel drawn with the rule of shared edges
+        (right, then up), with E >= 0 on all edges, and with E > 0 on all edges?
+        Hint: For how many of the triangles is E = 0 on two edges there?
+        Hint: The rule of shared edges moves the centre into exactly one of them.
+        Hint: {place_text(center)} is a corner of each triangle: does each draw it with E >= 0, and with E >
+        0?"""
     given = f"Centre {place_text(center)}; around it, counter-clockwise, lie {', '.join(map(place_text, around))}."
-    return numbers(text, given, counts, hints, names=("shared edges", ">=", ">"), scene=scene)
+    return numbers(asked, given, counts, names=("shared edges", ">=", ">"), scene=scene)

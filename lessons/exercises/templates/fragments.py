@@ -25,7 +25,7 @@ from lessons.exercises.answers.fields import (
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import Corner, corner_text, facing_text, twice_area
-from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text, listed
+from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, drafted, factor_text, listed
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import EVERYWHERE, triangle_scene
 
@@ -63,20 +63,18 @@ def draw_weights(draws: Draws) -> Draft:
     shifted = SHELF["corner-for-center"].draw(scene, Settings())
     if shifted.primitive[pixel[1], pixel[0]] >= 0:
         wrong["corner-for-center"] = attributes_at(shifted, pixel)
-    text = f"What are alpha, beta and gamma at the centre of pixel {pixel}? {WITHIN}"
-    hints = (
-        "Each weight is an area over the area of the triangle.",
-        "alpha belongs to vertex 0: it is the area of the centre with vertices 1 and 2.",
-        "The three weights sum to 1.",
-        f"The area of the whole triangle is half of {facing_text(corners)}.",
-    )
+    asked = f"""What are alpha, beta and gamma at the centre of pixel {pixel}? {WITHIN}
+        Hint: Each weight is an area over the area of the triangle.
+        Hint: alpha belongs to vertex 0: it is the area of the centre with vertices 1 and 2.
+        Hint: The three weights sum to 1.
+        Hint: The area of the whole triangle is half of {facing_text(corners)}."""
     turns = ((weights[2], *weights[:2]), (*weights[1:], weights[0]))
     turned = NearMiss(
         turns, Fraction(1, 3), "The right weights, moved on by one vertex in either direction, earn a third."
     )
     answer = NumberAnswer(weights, (3,), NAMES, TOLERANCE, (turned,))
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"
-    return Draft(text, given, answer, hints, wrong, scene, pixel=pixel)
+    return drafted(asked, given, answer, wrong, scene, pixel=pixel)
 
 
 @template(
@@ -102,16 +100,14 @@ def draw_perspective(draws: Draws) -> Draft:
     names = ("affine-for-perspective", "w-overwritten", "not-divided-back", "multiplied-by-w")
     wrong = {name: attributes_at(SHELF[name].draw(scene, Settings()), pixel) for name in names}
     given = listed("Vertex {k}: {} = {}, u = {}, w = {}", NAMES, weights, u, w)
-    text = f"What is u at this pixel with perspective? The weights are those of the window. {WITHIN}"
     lower_sum = " + ".join(f"{factor_text(a)}/{b}" for a, b in zip(weights, w, strict=True))
-    hints = (
-        "u is not linear in the window, but two other values are.",
-        "Interpolate u/w and 1/w with the weights.",
-        "u = (sum of weight u/w) / (sum of weight 1/w).",
-        f"The lower sum: {lower_sum}.",
-    )
+    asked = f"""What is u at this pixel with perspective? The weights are those of the window. {WITHIN}
+        Hint: u is not linear in the window, but two other values are.
+        Hint: Interpolate u/w and 1/w with the weights.
+        Hint: u = (sum of weight u/w) / (sum of weight 1/w).
+        Hint: The lower sum: {lower_sum}."""
     answer = NumberAnswer((u_over_w / over_w,), (), ("u",), TOLERANCE)
-    return Draft(text, given, answer, hints, wrong, scene, pixel=pixel)
+    return drafted(asked, given, answer, wrong, scene, pixel=pixel)
 
 
 Fragment = tuple[int, int]
@@ -174,16 +170,12 @@ def draw_depths(draws: Draws) -> Draft:
     fragments = [(draws.whole(0, FRAGMENT_PIXELS - 1), draws.whole(10, 99)) for _ in range(FRAGMENT_COUNT)]
     reject(len(set(fragments)) < len(fragments))
     wrong = {name: stored_depths(fragments, name) for name in ("farther-wins", "no-depth-test")}
-    text = (
-        "These fragments are drawn in order. What does the z-buffer hold at the pixel of each right after it was "
-        "tested? Smaller is nearer, the buffer begins at infinity, and a tie keeps what is there."
-    )
-    hints = (
-        "Follow one pixel at a time.",
-        "A fragment passes only where its z is smaller than what its pixel holds.",
-        f"{again_text(fragments)} After one that fails, the pixel holds what it held.",
-    )
-    return Draft(text, "", depth_table(fragments), hints, wrong, card_scene(fragments))
+    asked = f"""These fragments are drawn in order. What does the z-buffer hold at the pixel of each right
+        after it was tested? Smaller is nearer, the buffer begins at infinity, and a tie keeps what is there.
+        Hint: Follow one pixel at a time.
+        Hint: A fragment passes only where its z is smaller than what its pixel holds.
+        Hint: {again_text(fragments)} After one that fails, the pixel holds what it held."""
+    return drafted(asked, "", depth_table(fragments), wrong, card_scene(fragments))
 
 
 COLORS = {"red": (1, 0, 0), "green": (0, 1, 0), "blue": (0, 0, 1), "yellow": (1, 1, 0), "white": (1, 1, 1)}
@@ -209,15 +201,15 @@ def draw_blend(draws: Draws) -> Draft:
     }
     layers_text = listed("Layer {k}: {} {}, alpha = {}", names, map(COLORS.get, names), alphas)
     given = f"Background: black, opaque.\n{layers_text}"
-    text = f"The layers are blended with over, layer 0 first. What are red, green and blue, linear? {WITHIN}"
-    hints = (
-        "Blend layer 0 over the background first.",
-        "over: alpha times the new colour plus (1 - alpha) times what is there.",
-        "Layer 1 weakens everything below it by 1 - alpha.",
-        f"red: {factor_text(alphas[1])} * {COLORS[names[1]][0]} + (1 - {factor_text(alphas[1])}) * the red before.",
-    )
+    asked = f"""The layers are blended with over, layer 0 first. What are red, green and blue, linear?
+        {WITHIN}
+        Hint: Blend layer 0 over the background first.
+        Hint: over: alpha times the new colour plus (1 - alpha) times what is there.
+        Hint: Layer 1 weakens everything below it by 1 - alpha.
+        Hint: red: {factor_text(alphas[1])} * {COLORS[names[1]][0]} + (1 - {factor_text(alphas[1])}) * the red
+        before."""
     answer = NumberAnswer(tuple(color), (3,), ("red", "green", "blue"), TOLERANCE)
-    return Draft(text, given, answer, hints, wrong, scene, settings, (0, 0))
+    return drafted(asked, given, answer, wrong, scene, settings, pixel=(0, 0))
 
 
 @template("stage-order", 2, "Order of the stages", "transform", 2)
@@ -227,10 +219,8 @@ def draw_stages(draws: Draws) -> Draft:
     mixed = draws.shuffled([stage for stage in STAGES if stage not in left_out])[:6]
     options = tuple(stage for stage in STAGES if stage in mixed)
     shown = draws.shuffled(options)
-    hints = (
-        "What needs triangles comes before what needs pixels.",
-        "A colour is found before it is blended.",
-        f"Which of {', '.join(shown[:2])} needs the result of the other one?",
-    )
-    answer = OrderAnswer(options, shown)
-    return Draft("Put these stages of the pipeline in order, first to last.", "", answer, hints)
+    asked = f"""Put these stages of the pipeline in order, first to last.
+        Hint: What needs triangles comes before what needs pixels.
+        Hint: A colour is found before it is blended.
+        Hint: Which of {", ".join(shown[:2])} needs the result of the other one?"""
+    return drafted(asked, "", OrderAnswer(options, shown))

@@ -29,18 +29,17 @@ def draw_two_points(draws: Draws) -> Draft:
     rows = [weights_at(corners, point) for point in points]
     reject(min(rows[0]) <= 0 or min(rows[1]) >= 0)
     turned = [[row[2], row[0], row[1]] for row in rows]
-    text = "What are alpha, beta and gamma of P and of Q? One lies inside of the triangle, the other one outside."
     given = (
         f"Vertices 0, 1, 2: {corner_text(corners)}\nP = {place_text(points[0])}, Q = {place_text(points[1])}"
     )
-    hints = (
-        "Each weight is an area with a sign over the area of the triangle.",
-        "alpha is the area of the point with vertices 1 and 2.",
-        "Inside, all three are positive; the sum is 1 for every point.",
-        f"The area of the whole triangle is half of {facing_text(corners)}.",
-    )
+    asked = f"""What are alpha, beta and gamma of P and of Q? One lies inside of the triangle, the other one
+        outside.
+        Hint: Each weight is an area with a sign over the area of the triangle.
+        Hint: alpha is the area of the point with vertices 1 and 2.
+        Hint: Inside, all three are positive; the sum is 1 for every point.
+        Hint: The area of the whole triangle is half of {facing_text(corners)}."""
     scene = triangle_scene([corners], (10, 10))
-    return table(text, given, NAMES, ("P", "Q"), rows, hints, {"weights-permuted": turned}, scene=scene)
+    return table(asked, given, NAMES, ("P", "Q"), rows, {"weights-permuted": turned}, scene=scene)
 
 
 @template("color-at-pixel", 1, "A colour between three vertices", "interpolate", 3)
@@ -51,15 +50,13 @@ def draw_color(draws: Draws) -> Draft:
     right = [dot(weights, channel) for channel in zip(*colors, strict=True)]
     scene = triangle_scene([corners], SIZE, attributes=[colors])
     wrong = {"weights-permuted": attributes_at(SHELF["weights-permuted"].draw(scene, Settings()), pixel)}
-    text = f"What are red, green and blue at the centre (i + 1/2, j + 1/2) of pixel {pixel}? All w are 1."
     given = listed("Vertex {k}: {}, colour {}", corners, map(tuple, colors))
     reds = [number_text(color[0]) for color in colors]
-    hints = (
-        "Find the three weights first.",
-        "c = alpha c0 + beta c1 + gamma c2, channel by channel.",
-        f"red = alpha * {reds[0]} + beta * {reds[1]} + gamma * {reds[2]}; green and blue likewise.",
-    )
-    return numbers(text, given, right, hints, wrong, RGB, scene=scene, pixel=pixel)
+    asked = f"""What are red, green and blue at the centre (i + 1/2, j + 1/2) of pixel {pixel}? All w are 1.
+        Hint: Find the three weights first.
+        Hint: c = alpha c0 + beta c1 + gamma c2, channel by channel.
+        Hint: red = alpha * {reds[0]} + beta * {reds[1]} + gamma * {reds[2]}; green and blue likewise."""
+    return numbers(asked, given, right, wrong, RGB, scene=scene, pixel=pixel)
 
 
 @template("sorted-attributes", 1, "Values of sorted vertices", "interpolate", 3)
@@ -71,17 +68,13 @@ def draw_sorted(draws: Draws) -> Draft:
     wrong = {
         "attributes-not-sorted": attributes_at(SHELF["attributes-not-sorted"].draw(scene, Settings()), pixel)
     }
-    text = (
-        f"A scanline fill sorts the vertices by y. What is the attribute q at the centre (i + 1/2, j + 1/2) of pixel "
-        f"{pixel}? All w are 1."
-    )
     given = listed("Vertex {k}: {}, q = {}", corners, q)
-    hints = (
-        "Which q belongs to the lowest vertex?",
-        "Sort the vertices together with what they carry.",
-        f"q = alpha * {q[0]} + beta * {q[1]} + gamma * {q[2]}, each with the weight of its own vertex.",
-    )
-    return numbers(text, given, [dot(weights, q)], hints, wrong, scene=scene, pixel=pixel)
+    asked = f"""A scanline fill sorts the vertices by y. What is the attribute q at the centre (i + 1/2, j +
+        1/2) of pixel {pixel}? All w are 1.
+        Hint: Which q belongs to the lowest vertex?
+        Hint: Sort the vertices together with what they carry.
+        Hint: q = alpha * {q[0]} + beta * {q[1]} + gamma * {q[2]}, each with the weight of its own vertex."""
+    return numbers(asked, given, [dot(weights, q)], wrong, scene=scene, pixel=pixel)
 
 
 @template("flat-value", 1, "The provoking vertex", "interpolate", 1)
@@ -93,18 +86,14 @@ def draw_flat(draws: Draws) -> Draft:
     settings = Settings(interpolation="flat", provoking=provoking)
     scene = triangle_scene([corners], SIZE, attributes=[[[value] for value in q]])
     right: Numbers = attributes_at(render(scene, settings), pixel)
-    text = (
-        f"The attribute q is not interpolated (flat): the whole triangle has that of its {provoking} vertex. What is q "
-        f"at pixel {pixel}?"
-    )
     given = listed("Vertex {k}: {}, q = {}", corners, q)
-    hints = (
-        "Does the place in the triangle matter?",
-        "Flat: the value of the provoking vertex is that of all pixels.",
-        f"Which of {', '.join(map(number_text, q))} stands at the {provoking} vertex of the list?",
-    )
+    asked = f"""The attribute q is not interpolated (flat): the whole triangle has that of its {provoking}
+        vertex. What is q at pixel {pixel}?
+        Hint: Does the place in the triangle matter?
+        Hint: Flat: the value of the provoking vertex is that of all pixels.
+        Hint: Which of {", ".join(map(number_text, q))} stands at the {provoking} vertex of the list?"""
     whole = [Fraction(int(value)) for value in right]
-    return numbers(text, given, whole, hints, scene=scene, settings=settings, pixel=pixel)
+    return numbers(asked, given, whole, scene=scene, settings=settings, pixel=pixel)
 
 
 @template("edge-middle", 1, "The middle of an edge", "interpolate", 2)
@@ -112,22 +101,18 @@ def draw_edge_middle(draws: Draws) -> Draft:
     """Which point of an edge is at its middle in the window."""
     near, far = Fraction(draws.whole(1, 4)), Fraction(draws.whole(5, 12))
     right = near / (near + far)
-    text = (
-        "An edge runs away from the eye. Which share of its length in space, from the near end, lies before the point "
-        "that is at the middle of its picture?"
-    )
     given = f"w = {near} at the near end, w = {far} at the far end."
-    hints = (
-        "Give the near end u = 0 and the far end u = 1, and interpolate u with perspective.",
-        "u = ((u0/w0 + u1/w1)/2) / ((1/w0 + 1/w1)/2).",
-        f"u = (0/{near} + 1/{far}) / (1/{near} + 1/{far}).",
-    )
+    asked = f"""An edge runs away from the eye. Which share of its length in space, from the near end, lies
+        before the point that is at the middle of its picture?
+        Hint: Give the near end u = 0 and the far end u = 1, and interpolate u with perspective.
+        Hint: u = ((u0/w0 + u1/w1)/2) / ((1/w0 + 1/w1)/2).
+        Hint: u = (0/{near} + 1/{far}) / (1/{near} + 1/{far})."""
     wrong = {
         "affine-for-perspective": [Fraction(1, 2)],
         "not-divided-back": [1 / far / 2],
         "multiplied-by-w": [far / (near + far)],
     }
-    return numbers(text, given, [right], hints, wrong)
+    return numbers(asked, given, [right], wrong)
 
 
 @template("reciprocal-w", 3, "1/w along an edge", "interpolate", 1)
@@ -136,16 +121,14 @@ def draw_reciprocal(draws: Draws) -> Draft:
     w = [Fraction(draws.item((1, 2, 4, 5, 8, 10))) for _ in range(2)]
     t = Fraction(draws.whole(1, 7), 8)
     reject(w[0] == w[1])
-    text = "What is 1/w at this point of an edge? t is its share of the way in the window."
     given = f"w = {w[0]} at t = 0, w = {w[1]} at t = 1.\nThe point: t = {number_text(t)}"
-    hints = (
-        "Which of w and 1/w is linear in the window?",
-        "1/w = (1 - t)/w0 + t/w1.",
-        f"(1 - {number_text(t)})/{w[0]} + {number_text(t)}/{w[1]}.",
-    )
+    asked = f"""What is 1/w at this point of an edge? t is its share of the way in the window.
+        Hint: Which of w and 1/w is linear in the window?
+        Hint: 1/w = (1 - t)/w0 + t/w1.
+        Hint: (1 - {number_text(t)})/{w[0]} + {number_text(t)}/{w[1]}."""
     rule = RULES["distance-linear"]
     right, wrong = ([1 / distance(t, w)[0]] for distance in (rule.right, rule.wrong))
-    return numbers(text, given, right, hints, {rule.name: wrong})
+    return numbers(asked, given, right, {rule.name: wrong})
 
 
 @template("attribute-plane", 1, "u/w over the window", "interpolate", 4)
@@ -159,18 +142,15 @@ def draw_plane(draws: Draws) -> Draft:
     edges = [coefficients(corners[(k + 1) % 3], corners[(k + 2) % 3]) for k in range(3)]
     u_over_w = [a / b for a, b in zip(u, w, strict=True)]
     right = [dot(column, u_over_w) / area for column in zip(*edges, strict=True)]
-    text = (
-        "u/w is linear over the window: u/w = a X + b Y + c with the pixel coordinates X and Y. What are a, b and c? "
-        "It has the right values at the three vertices."
-    )
     given = listed("Vertex {k}: (X, Y) = {}, w = {}, u = {}", corners, w, u)
-    hints = (
-        "What is u/w at each vertex?",
-        "Three equations, three unknowns; subtract one from the other two.",
-        f"Vertex 0: {u[0]}/{w[0]} = a * {corners[0][0]} + b * {corners[0][1]} + c; the other two likewise.",
-    )
+    asked = f"""u/w is linear over the window: u/w = a X + b Y + c with the pixel coordinates X and Y. What
+        are a, b and c? It has the right values at the three vertices.
+        Hint: What is u/w at each vertex?
+        Hint: Three equations, three unknowns; subtract one from the other two.
+        Hint: Vertex 0: {u[0]}/{w[0]} = a * {corners[0][0]} + b * {corners[0][1]} + c; the other two
+        likewise."""
     scene = triangle_scene([corners], (7, 7), w=[w])
-    return numbers(text, given, right, hints, names=("a", "b", "c"), scene=scene)
+    return numbers(asked, given, right, names=("a", "b", "c"), scene=scene)
 
 
 def edge_shares(draws: Draws) -> tuple[Fraction, tuple[Any, ...]]:
@@ -183,26 +163,24 @@ def draw_depth(draws: Draws) -> Draft:
     """Window depth along an edge."""
     t, distances = edge_shares(draws)
     depths = (Fraction(draws.whole(0, 4), 10), Fraction(draws.whole(6, 10), 10))
-    text = "What is the window depth z at this point of an edge? t is its share of the way in the window."
     ends = listed("End {k}: z = {}, w = {}", depths, distances)
     given = f"{ends}\nThe point: t = {number_text(t)}"
-    hints = (
-        "Was z divided by w already?",
-        "Window depth is linear in the window.",
-        f"(1 - {number_text(t)}) * {number_text(depths[0])} + {number_text(t)} * {number_text(depths[1])}.",
-    )
-    return by_rule(text, given, (t, depths, distances), ("depth-corrected-twice",), hints)
+    asked = f"""What is the window depth z at this point of an edge? t is its share of the way in the window.
+        Hint: Was z divided by w already?
+        Hint: Window depth is linear in the window.
+        Hint: (1 - {number_text(t)}) * {number_text(depths[0])} + {number_text(t)} *
+        {number_text(depths[1])}."""
+    return by_rule(asked, given, (t, depths, distances), ("depth-corrected-twice",))
 
 
 @template("distance-along-edge", 1, "Distance along an edge", "interpolate", 2)
 def draw_distance(draws: Draws) -> Draft:
     """The distance along an edge."""
     t, distances = edge_shares(draws)
-    text = "How far from the eye, along the view, is this point of an edge? t is its share of the way in the window."
     given = f"Distance {distances[0]} at t = 0, {distances[1]} at t = 1.\nThe point: t = {number_text(t)}"
-    hints = (
-        "Is the distance linear in the window?",
-        "Its reciprocal is.",
-        f"1 / ((1 - {number_text(t)})/{distances[0]} + {number_text(t)}/{distances[1]}).",
-    )
-    return by_rule(text, given, (t, distances), ("distance-linear",), hints)
+    asked = f"""How far from the eye, along the view, is this point of an edge? t is its share of the way in
+        the window.
+        Hint: Is the distance linear in the window?
+        Hint: Its reciprocal is.
+        Hint: 1 / ((1 - {number_text(t)})/{distances[0]} + {number_text(t)}/{distances[1]})."""
+    return by_rule(asked, given, (t, distances), ("distance-linear",))

@@ -11,11 +11,9 @@ from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import factor_text, listed, numbers, place_text, run_exactly, table
-from lessons.exercises.templates.lines import RULE, SIZE, Ends, gentle_ends
+from lessons.exercises.templates.drafting import drafted, factor_text, numbers, place_text, run_exactly, table
+from lessons.exercises.templates.lines import RULE, SIZE, Ends, gentle_ends, moves_text, of_segments
 from lessons.mistakes.lines import LECTURE
-from lessons.mistakes.shelf import SHELF
-from lessons.mistakes.twin import line_pixels
 from lessons.printed.catalogue import printed_listing
 from lessons.small_scenes import pixel_segments, segment_scene
 
@@ -29,57 +27,33 @@ def slope(ends: Ends) -> Fraction:
     return Fraction(y1 - y0, x1 - x0)
 
 
-def moves_text(start: tuple[int, int], end: tuple[int, int]) -> str:
-    """Return dx and dy as expressions in numbers."""
-    return f"dx = {end[0]} - {start[0]}, dy = {end[1]} - {start[1]}"
-
-
-def of_segments(
-    text: str,
-    segments: list[Ends],
-    names: tuple[str, ...],
-    hints: tuple[str, ...],
-    direction: tuple[int, int] | None = None,
-) -> Draft:
-    """Ask for the pixels of segments by the lecture's Bresenham; of one in the ``direction`` that it is drawn in."""
-    scene = pixel_segments(segments, SIZE)
-    wrong = {name: line_pixels(scene, SHELF[name].change_settings(LECTURE)) for name in names}
-    answer = PixelAnswer(SIZE, line_pixels(scene, LECTURE), direction=direction)
-    given = f"{WINDOW}\n" + listed("From pixel {} to pixel {}.", *zip(*segments, strict=True))
-    return Draft(text, given, answer, hints, wrong, scene, LECTURE)
-
-
 @template("line-octants", 2, "Lines in other octants", "raster", 4)
 def draw_octants(draws: Draws) -> Draft:
     """A steep line, and one that falls from right to left."""
     steep: Ends = ((draws.whole(0, 3), 0), (draws.whole(4, 6), draws.whole(7, 8)))
     x0 = draws.whole(12, 13)
     falling: Ends = ((x0, draws.whole(0, 3)), (draws.whole(4, 6), draws.whole(5, 8)))
-    text = (
-        "Which pixels do the two lines draw? Where |dy| is not below |dx|, x and y exchange their parts; lines are "
-        f"drawn from left to right (steep ones upwards), and with a negative slope y steps by -1. {RULE}"
-    )
-    hints = (
-        "Which of the lines is steep?",
-        "A steep line has one pixel in every row.",
-        f"The steep one: {moves_text(*steep)}, which exchange their parts. The other one, from {falling[1]}: "
-        f"{moves_text(*falling[::-1])}.",
-    )
-    return of_segments(text, [steep, falling], ("one-octant", "ends-not-ordered", "slope-always-up"), hints)
+    asked = f"""Which pixels do the two lines draw? Where |dy| is not below |dx|, x and y exchange their
+        parts; lines are drawn from left to right (steep ones upwards), and with a negative slope y steps by
+        -1. {RULE}
+        Hint: Which of the lines is steep?
+        Hint: A steep line has one pixel in every row.
+        Hint: The steep one: {moves_text(*steep)}, which exchange their parts. The other one, from
+        {falling[1]}: {moves_text(*falling[::-1])}."""
+    return of_segments(asked, [steep, falling], ("one-octant", "ends-not-ordered", "slope-always-up"))
 
 
 @template("line-from-right", 2, "A line given from the right", "raster", 3)
 def draw_direction(draws: Draws) -> Draft:
     """A line with ties, given from right to left."""
     start, end = gentle_ends(draws)
-    text = f"Which pixels does the line draw? Lines are drawn from left to right, whichever end comes first. {RULE}"
-    hints = (
-        "Exchange the ends.",
-        "Is D zero somewhere?",
-        f"From {start}: {moves_text(start, end)}. Where D = 0, y does not step.",
-    )
+    asked = f"""Which pixels does the line draw? Lines are drawn from left to right, whichever end comes
+        first. {RULE}
+        Hint: Exchange the ends.
+        Hint: Is D zero somewhere?
+        Hint: From {start}: {moves_text(start, end)}. Where D = 0, y does not step."""
     direction = end[0] - start[0], end[1] - start[1]
-    return of_segments(text, [(end, start)], ("from-other-end", "last-pixel-lost"), hints, direction)
+    return of_segments(asked, [(end, start)], ("from-other-end", "last-pixel-lost"), direction)
 
 
 @template("dda-table", 1, "y and rows of a DDA", "raster", 4)
@@ -94,21 +68,17 @@ def draw_dda(draws: Draws) -> Draft:
             return own[-1][0] + m if number else Fraction(y0)
         return Fraction(floor(mine[0] + HALF))
 
-    text = (
-        "Fill in y and the row of each pixel of this line by a DDA: y grows by m = dy/dx in every column, and the row "
-        "is floor(y + 1/2)."
-    )
     right = [[y, row] for _, row, y in listed_pixels]
     wrong = {"row-truncated": [[y, floor(y)] for y, _ in right]}
-    hints = (
-        "What is m?",
-        "Add m once for every column.",
-        "Round y to the nearest row; a half goes up.",
-        f"m = ({ends[1][1]} - {y0}) / ({ends[1][0]} - {x0}), and the first y is {y0}.",
-    )
+    asked = f"""Fill in y and the row of each pixel of this line by a DDA: y grows by m = dy/dx in every
+        column, and the row is floor(y + 1/2).
+        Hint: What is m?
+        Hint: Add m once for every column.
+        Hint: Round y to the nearest row; a half goes up.
+        Hint: m = ({ends[1][1]} - {y0}) / ({ends[1][0]} - {x0}), and the first y is {y0}."""
     labels = [f"x = {x}" for x, _, _ in listed_pixels]
     given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
-    return table(text, given, ("y", "row"), labels, right, hints, wrong, follow, scene, Settings(line="dda"))
+    return table(asked, given, ("y", "row"), labels, right, wrong, follow, scene, Settings(line="dda"))
 
 
 @template("error-table", 1, "The error of Bresenham's line", "raster", 3)
@@ -123,20 +93,16 @@ def draw_error(draws: Draws) -> Draft:
         e: Fraction = own[-1][0] + m
         return e - 1 if e > HALF else e
 
-    text = (
-        "What is the error e before each move? It begins at 0. Where e + m > 1/2, y steps up and e grows by m - 1; "
-        "else e grows by m. m = dy/dx."
-    )
-    hints = (
-        "What is m?",
-        "Compare e + m with 1/2.",
-        "e is where the line runs above the pixel's centre.",
-        f"m = ({ends[1][1]} - {ends[0][1]}) / ({ends[1][0]} - {ends[0][0]}), and the first e is 0.",
-    )
+    asked = f"""What is the error e before each move? It begins at 0. Where e + m > 1/2, y steps up and e
+        grows by m - 1; else e grows by m. m = dy/dx.
+        Hint: What is m?
+        Hint: Compare e + m with 1/2.
+        Hint: e is where the line runs above the pixel's centre.
+        Hint: m = ({ends[1][1]} - {ends[0][1]}) / ({ends[1][0]} - {ends[0][0]}), and the first e is 0."""
     labels = [f"at x = {x}" for x in range(ends[0][0], ends[1][0])]
     right = followed(follow, empty_rows(len(labels), 1))
     given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
-    return table(text, given, ("e",), labels, right, hints, None, follow, scene, LECTURE)
+    return table(asked, given, ("e",), labels, right, None, follow, scene, LECTURE)
 
 
 @template("printed-line", 2, "A listing with a slip", "raster", 4)
@@ -151,19 +117,16 @@ def draw_printed(draws: Draws) -> Draft:
         for rule in (listing, next(iter(meant.values())))
     )
     reject(drawn == right or not all(0 <= y < SIZE[1] for _, y in drawn))
-    text = (
-        f"This listing is printed on a slide ({printed.lecture}, {printed.slide}). It slips: which pixels does it "
-        "draw, executed as printed with exact numbers? Pixel centres are whole numbers, write(x, y) lights pixel "
-        "(x, y), and 1/2 is rounded up."
-    )
     given = f"{printed.text}\n\n{WINDOW} From ({x0}, {y0}) to ({x1}, {y1})."
-    hints = (
-        "Execute it line by line, and do not mend it.",
-        "When does the loop end, and is what is tested already that of the next column?",
-        f"Begin with x = ceil({x0}), m = ({y1} - {y0}) / ({x1} - {x0}); write x and y down at the top of every turn.",
-    )
+    asked = f"""This listing is printed on a slide ({printed.lecture}, {printed.slide}). It slips: which
+        pixels does it draw, executed as printed with exact numbers? Pixel centres are whole numbers, write(x,
+        y) lights pixel (x, y), and 1/2 is rounded up.
+        Hint: Execute it line by line, and do not mend it.
+        Hint: When does the loop end, and is what is tested already that of the next column?
+        Hint: Begin with x = ceil({x0}), m = ({y1} - {y0}) / ({x1} - {x0}); write x and y down at the top of
+        every turn."""
     answer = PixelAnswer(SIZE, drawn, direction=(x1 - x0, y1 - y0))
-    return Draft(text, given, answer, hints)
+    return drafted(asked, given, answer)
 
 
 @template("wu-column", 1, "Two intensities of a column", "raster", 2)
@@ -175,20 +138,16 @@ def draw_wu(draws: Draws) -> Draft:
     y = y0 + slope(ends) * (x - x0)
     share = y - floor(y)
     reject(not share)
-    text = (
-        f"Wu's line lights two pixels of column {x}, on both sides of the line's y there. What are the intensities of "
-        "the lower one and of the upper one? Pixel centres are whole numbers; the two sum to 1."
-    )
-    hints = (
-        "What is y in this column?",
-        "The nearer pixel is the brighter one.",
-        "The upper one has y - floor(y).",
-        f"y = {y0} + ({x} - {x0}) ({y1} - {y0}) / ({x1} - {x0}).",
-    )
+    asked = f"""Wu's line lights two pixels of column {x}, on both sides of the line's y there. What are the
+        intensities of the lower one and of the upper one? Pixel centres are whole numbers; the two sum to 1.
+        Hint: What is y in this column?
+        Hint: The nearer pixel is the brighter one.
+        Hint: The upper one has y - floor(y).
+        Hint: y = {y0} + ({x} - {x0}) ({y1} - {y0}) / ({x1} - {x0})."""
     scene = pixel_segments([ends], SIZE)
     given = f"From pixel {ends[0]} to pixel {ends[1]}."
     settings = Settings(line="wu")
-    return numbers(text, given, [1 - share, share], hints, None, ("lower", "upper"), None, scene, settings)
+    return numbers(asked, given, [1 - share, share], None, ("lower", "upper"), None, scene, settings)
 
 
 @template("wu-end", 1, "The first column of Wu's line", "raster", 3)
@@ -206,25 +165,21 @@ def draw_end(draws: Draws) -> Draft:
     above, share = y - floor(y), column + 1 - x0
     if not above:
         return draw_end(draws)
-    text = (
-        f"What are the intensities of the lower and of the upper pixel of column {column} of Wu's line? The line spans "
-        "only a part of this column: both are multiplied by that part. The two are weighed by the line's y at the "
-        "column's centre, in units where pixel centres are whole numbers."
-    )
     given = (
         f"From {place_text((x0, y0))}, slope {number_text(m)}, to the right. Pixel (i, j) has its centre at (i + "
         "1/2, j + 1/2)."
     )
-    hints = (
-        "Which part of the column does the line span?",
-        "y at the centre: y0 + m (column + 1/2 - x0), less 1/2.",
-        "The upper pixel has y - floor(y), the lower one the rest.",
-        f"y = {factor_text(y0)} + {factor_text(m)} ({column} + 1/2 - {factor_text(x0)}) - 1/2.",
-    )
+    asked = f"""What are the intensities of the lower and of the upper pixel of column {column} of Wu's line?
+        The line spans only a part of this column: both are multiplied by that part. The two are weighed by
+        the line's y at the column's centre, in units where pixel centres are whole numbers.
+        Hint: Which part of the column does the line span?
+        Hint: y at the centre: y0 + m (column + 1/2 - x0), less 1/2.
+        Hint: The upper pixel has y - floor(y), the lower one the rest.
+        Hint: y = {factor_text(y0)} + {factor_text(m)} ({column} + 1/2 - {factor_text(x0)}) - 1/2."""
     wrong = {"ends-at-full": [1 - above, above]}
     scene, names = segment_scene([segment], SIZE), ("lower", "upper")
     right = [(1 - above) * share, above * share]
-    return numbers(text, given, right, hints, wrong, names, None, scene, Settings(line="wu"))
+    return numbers(asked, given, right, wrong, names, None, scene, Settings(line="wu"))
 
 
 @template("line-value", 1, "A value along a line", "interpolate", 1)
@@ -234,11 +189,9 @@ def draw_value(draws: Draws) -> Draft:
     (x0, _), (x1, _) = ends
     x, q = draws.whole(x0 + 1, x1 - 1), [Fraction(draws.whole(0, 20)) for _ in range(2)]
     s = Fraction(x - x0, x1 - x0)
-    text = f"A parameter q is interpolated linearly along this line. What is it at the pixel of column {x}?"
     given = f"From pixel {ends[0]}, q = {number_text(q[0])}, to pixel {ends[1]}, q = {number_text(q[1])}."
-    hints = (
-        "Which share s of the way lies behind this column?",
-        "q = q0 (1 - s) + q1 s.",
-        f"s = ({x} - {x0}) / ({x1} - {x0}), q0 = {number_text(q[0])}, q1 = {number_text(q[1])}.",
-    )
-    return numbers(text, given, [q[0] * (1 - s) + q[1] * s], hints, scene=pixel_segments([ends], SIZE))
+    asked = f"""A parameter q is interpolated linearly along this line. What is it at the pixel of column {x}?
+        Hint: Which share s of the way lies behind this column?
+        Hint: q = q0 (1 - s) + q1 s.
+        Hint: s = ({x} - {x0}) / ({x1} - {x0}), q0 = {number_text(q[0])}, q1 = {number_text(q[1])}."""
+    return numbers(asked, given, [q[0] * (1 - s) + q[1] * s], scene=pixel_segments([ends], SIZE))

@@ -10,6 +10,7 @@ from lessons.exercises.answers.pixels import PixelAnswer
 from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, template
+from lessons.exercises.templates.drafting import drafted, listed
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.twin import line_pixels, segment_ends
@@ -54,17 +55,29 @@ def gentle_ends(draws: Draws) -> Ends:
     return (x0, y0), (x0 + dx, y0 + dy)
 
 
-def _lengths(ends: Ends) -> str:
-    """Return dx and dy as expressions."""
-    (x0, y0), (x1, y1) = ends
-    return f"dx = {x1} - {x0}, dy = {y1} - {y0}"
+def moves_text(start: tuple[int, int], end: tuple[int, int]) -> str:
+    """Return dx and dy as expressions in numbers."""
+    return f"dx = {end[0]} - {start[0]}, dy = {end[1]} - {start[1]}"
+
+
+def of_segments(
+    asked: str,
+    segments: list[Ends],
+    names: tuple[str, ...],
+    direction: tuple[int, int] | None = None,
+) -> Draft:
+    """Ask for the pixels of segments by the lecture's Bresenham; of one in the ``direction`` that it is drawn in."""
+    scene = pixel_segments(segments, SIZE)
+    wrong = {name: line_pixels(scene, SHELF[name].change_settings(LECTURE)) for name in names}
+    answer = PixelAnswer(SIZE, line_pixels(scene, LECTURE), direction=direction)
+    given = f"{window_text(SIZE)}\n" + listed("From pixel {} to pixel {}.", *zip(*segments, strict=True))
+    return drafted(asked, given, answer, wrong, scene, LECTURE)
 
 
 @template("bresenham-pixels", 2, "Pixels of Bresenham's line", "raster", 4)
 def draw_pixels(draws: Draws) -> Draft:
     """Pixels of a line."""
     ends = gentle_ends(draws)
-    scene = pixel_segments([ends], SIZE)
     names = (
         "ties-step",
         "not-corrected",
@@ -73,16 +86,12 @@ def draw_pixels(draws: Draws) -> Draft:
         "last-pixel-lost",
         "first-pixel-lost",
     )
-    wrong = {name: line_pixels(scene, SHELF[name].change_settings(LECTURE)) for name in names}
     (x0, y0), (x1, y1) = ends
-    answer = PixelAnswer(SIZE, line_pixels(scene, LECTURE), direction=(x1 - x0, y1 - y0))
-    hints = (
-        "One pixel in every column, from the first end to the second.",
-        "Keep D beside each pixel; its sign chooses the row of the next one.",
-        f"{_lengths(ends)}.",
-    )
-    given = f"{window_text(SIZE)}\nFrom pixel {ends[0]} to pixel {ends[1]}."
-    return Draft(f"Which pixels does the line draw? {RULE}", given, answer, hints, wrong, scene, LECTURE)
+    asked = f"""Which pixels does the line draw? {RULE}
+        Hint: One pixel in every column, from the first end to the second.
+        Hint: Keep D beside each pixel; its sign chooses the row of the next one.
+        Hint: {moves_text(*ends)}."""
+    return of_segments(asked, [ends], names, (x1 - x0, y1 - y0))
 
 
 @template("bresenham-table", 1, "Bresenham's D", "raster", 4)
@@ -91,11 +100,9 @@ def draw_table(draws: Draws) -> Draft:
     ends = gentle_ends(draws)
     names = ("ties-step", "not-corrected", "start-not-doubled")
     wrong = {name: d_values(ends, SHELF[name].change_settings(LECTURE)) for name in names}
-    hints = (
-        "Begin with the D of the first pixel.",
-        "Each D follows from the one before: its sign decides whether 2 dx is subtracted.",
-        f"{_lengths(ends)}: add 2 dy every time.",
-    )
-    text = f"What is D before each move? {RULE}"
+    asked = f"""What is D before each move? {RULE}
+        Hint: Begin with the D of the first pixel.
+        Hint: Each D follows from the one before: its sign decides whether 2 dx is subtracted.
+        Hint: {moves_text(*ends)}: add 2 dy every time."""
     given, scene = f"From pixel {ends[0]} to pixel {ends[1]}.", pixel_segments([ends], SIZE)
-    return Draft(text, given, d_table(ends), hints, wrong, scene, LECTURE)
+    return drafted(asked, given, d_table(ends), wrong, scene, LECTURE)

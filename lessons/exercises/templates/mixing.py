@@ -28,17 +28,14 @@ def draw_alpha(draws: Draws) -> Draft:
     scene = triangle_scene([EVERYWHERE] * 2, (2, 2), attributes=layers)
     twins = ("alpha-of-source", "alpha-squared", "alpha-kept")
     wrong = {twin: [float(SHELF[twin].draw(scene, BLENDED).color[0, 0, 3])] for twin in twins}
-    text = (
-        "Two layers are blended with over on a clear background (alpha 0). What is the alpha of the result?"
-    )
     given = f"Layer 0: alpha = {number_text(alphas[0])}\nLayer 1: alpha = {number_text(alphas[1])}"
-    hints = (
-        "How much of the background is still seen?",
-        "a + (1 - a) times the alpha that is there.",
-        f"{number_text(alphas[1])} + (1 - {number_text(alphas[1])}) * {number_text(alphas[0])}.",
-    )
+    asked = f"""Two layers are blended with over on a clear background (alpha 0). What is the alpha of the
+        result?
+        Hint: How much of the background is still seen?
+        Hint: a + (1 - a) times the alpha that is there.
+        Hint: {number_text(alphas[1])} + (1 - {number_text(alphas[1])}) * {number_text(alphas[0])}."""
     right = 1 - (1 - alphas[0]) * (1 - alphas[1])
-    return numbers(text, given, [right], hints, wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
+    return numbers(asked, given, [right], wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
 
 
 @template("straight-color", 1, "A straight colour", "blend", 2)
@@ -49,18 +46,15 @@ def draw_straight(draws: Draws) -> Draft:
     scene = replace(scene, background=np.array([*[float(there)] * 3, 1.0]))
     twins = ("multiplied-twice", "not-multiplied", "factors-exchanged")
     wrong = {twin: [float(SHELF[twin].draw(scene, BLENDED).color[0, 0, 0])] for twin in twins}
-    text = (
-        "A grey layer lies over an opaque grey background. What is the grey value of the result, linear? The "
-        "colour is straight: not yet multiplied by alpha."
-    )
     given = f"Layer: {number_text(color)}, alpha = {number_text(alpha)}\nBackground: {number_text(there)}"
-    hints = (
-        "How much does each of them count?",
-        "alpha times the new one, 1 - alpha times what is there.",
-        f"{number_text(alpha)} * {number_text(color)} + (1 - {number_text(alpha)}) * {number_text(there)}.",
-    )
+    asked = f"""A grey layer lies over an opaque grey background. What is the grey value of the result,
+        linear? The colour is straight: not yet multiplied by alpha.
+        Hint: How much does each of them count?
+        Hint: alpha times the new one, 1 - alpha times what is there.
+        Hint: {number_text(alpha)} * {number_text(color)} + (1 - {number_text(alpha)}) *
+        {number_text(there)}."""
     right = alpha * color + (1 - alpha) * there
-    return numbers(text, given, [right], hints, wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
+    return numbers(asked, given, [right], wrong, scene=scene, settings=BLENDED, pixel=(0, 0))
 
 
 @template("panes-of-glass", 1, "Glass that is drawn too early", "blend", 2)
@@ -70,10 +64,6 @@ def draw_panes(draws: Draws) -> Draft:
     scene = cards([0.25] * 3, [0.75] * 3)
     colors = [[(float(red), 0, 0, float(alpha))] * 3, [(0, 0, float(blue), float(alpha))] * 3]
     scene = replace(scene, attributes=np.array(colors), background=np.array([0.0, 0.0, 0.0, 1.0]))
-    text = (
-        "Two panes of glass are drawn over black with over, the nearer one first. Glass is tested against the depth "
-        "buffer, but does not write its depth. What are red and blue of the result, linear?"
-    )
     given = (
         f"Near pane, drawn first: red {number_text(red)}\nFar pane: blue {number_text(blue)}\nalpha of both: "
     )
@@ -82,29 +72,29 @@ def draw_panes(draws: Draws) -> Draft:
         name: SHELF[name].draw(scene, BLENDED).color[0, 0, [0, 2]].tolist()
         for name in ("glass-writes-depth", "order-reversed")
     }
-    hints = (
-        "Does the far pane pass the depth test?",
-        "What is drawn last lies on top, wherever it stands.",
-        f"red: (1 - {number_text(alpha)}) * {number_text(alpha)} * {number_text(red)}; blue: what the last pane adds.",
-    )
+    asked = f"""Two panes of glass are drawn over black with over, the nearer one first. Glass is tested
+        against the depth buffer, but does not write its depth. What are red and blue of the result, linear?
+        Hint: Does the far pane pass the depth test?
+        Hint: What is drawn last lies on top, wherever it stands.
+        Hint: red: (1 - {number_text(alpha)}) * {number_text(alpha)} * {number_text(red)}; blue: what the last
+        pane adds."""
     right = [(1 - alpha) * alpha * red, alpha * blue]
-    return numbers(text, given, right, hints, wrong, ("red", "blue"), scene=scene, settings=BLENDED)
+    return numbers(asked, given, right, wrong, ("red", "blue"), scene=scene, settings=BLENDED)
 
 
 @template("additive-layers", 1, "Lights that add up", "blend", 1)
 def draw_additive(draws: Draws) -> Draft:
     """Lights that add up."""
     values = [(Fraction(draws.whole(1, 9), 10), Fraction(draws.whole(1, 4), 4)) for _ in range(2)]
-    text = "Two layers are blended additively over black: each adds alpha times its colour. What is the sum, linear?"
     given = listed("Layer {k}: {}, alpha = {}", *zip(*values, strict=True))
-    hints = (
-        "Does the order matter?",
-        "Does the upper layer hide anything?",
-        " + ".join(f"{number_text(a)} * {number_text(c)}" for c, a in values) + ".",
-    )
+    asked = f"""Two layers are blended additively over black: each adds alpha times its colour. What is the
+        sum, linear?
+        Hint: Does the order matter?
+        Hint: Does the upper layer hide anything?
+        Hint: {" + ".join((f"{number_text(a)} * {number_text(c)}" for c, a in values)) + "."}"""
     right = sum((c * a for c, a in values), Fraction(0))
     wrong = {"not-multiplied": [sum((c for c, _ in values), Fraction(0))]}
-    return numbers(text, given, [right], hints, wrong if wrong["not-multiplied"] != [right] else {})
+    return numbers(asked, given, [right], wrong if wrong["not-multiplied"] != [right] else {})
 
 
 SAMPLES = 4
@@ -127,17 +117,15 @@ def draw_samples(draws: Draws) -> Draft:
         Layer(near, draws.whole(1, 4), draws.whole(10, 60) * 4),
         Layer(frozenset(range(SAMPLES)), draws.whole(5, 9), draws.whole(10, 60) * 4),
     )
-    text = (
-        "Two triangles are drawn in this order into a pixel with 4 samples, black before. Which grey value does the "
-        "mean of the samples give? Each sample has a depth of its own, the smaller one is nearer."
-    )
-    hints = (
-        "What does each sample show?",
-        "The second triangle fills the samples that the first one left.",
-        f"The mean of {SAMPLES} values: {layers[0].grey} in the samples of triangle 0, {layers[1].grey} in the others.",
-    )
+    asked = f"""Two triangles are drawn in this order into a pixel with 4 samples, black before. Which grey
+        value does the mean of the samples give? Each sample has a depth of its own, the smaller one is
+        nearer.
+        Hint: What does each sample show?
+        Hint: The second triangle fills the samples that the first one left.
+        Hint: The mean of {SAMPLES} values: {layers[0].grey} in the samples of triangle 0, {layers[1].grey} in
+        the others."""
     names = ("one-depth-a-pixel", "one-sample-filled") if 0 in near else ("one-depth-a-pixel",)
-    return by_rule(text, layers_text(layers), (layers, SAMPLES), names, hints)
+    return by_rule(asked, layers_text(layers), (layers, SAMPLES), names)
 
 
 @template("box-filter", 1, "The box filter", "resolve", 1)
@@ -147,31 +135,25 @@ def draw_coverage(draws: Draws) -> Draft:
     covered = draws.whole(2, side * side - 1)
     grey = draws.whole(3, 15) * side * side
     layer = (Layer(frozenset(range(covered)), 1, grey),)
-    text = f"A pixel has {side} x {side} samples, black before. Which grey value does the box filter leave?"
     given = f"A triangle of grey {grey} covers {covered} of the samples."
-    hints = (
-        "The box filter takes the mean.",
-        "Samples that are not covered stay black.",
-        f"{covered} * {grey} / ({side} * {side}).",
-    )
-    return by_rule(text, given, (layer, side * side), ("one-sample-filled",), hints)
+    asked = f"""A pixel has {side} x {side} samples, black before. Which grey value does the box filter leave?
+        Hint: The box filter takes the mean.
+        Hint: Samples that are not covered stay black.
+        Hint: {covered} * {grey} / ({side} * {side})."""
+    return by_rule(asked, given, (layer, side * side), ("one-sample-filled",))
 
 
 @template("line-samples", 1, "A line and its samples", "resolve", 1)
 def draw_line_samples(draws: Draws) -> Draft:
     """A line with more and more samples a pixel."""
     grey = draws.whole(3, 15) * 16
-    text = (
-        "A grey line over black is as wide as a pixel. It is drawn with 1, 4 and 16 samples a pixel. What is the grey "
-        "value, the mean of the samples, of one of its pixels?"
-    )
-    hints = (
-        "How many of its samples does the line cover?",
-        "Should a line fade where there are more samples?",
-        f"With 4 samples: the sum of 4 greys over 4, each {grey} where the line covers the sample.",
-    )
+    asked = f"""A grey line over black is as wide as a pixel. It is drawn with 1, 4 and 16 samples a pixel.
+        What is the grey value, the mean of the samples, of one of its pixels?
+        Hint: How many of its samples does the line cover?
+        Hint: Should a line fade where there are more samples?
+        Hint: With 4 samples: the sum of 4 greys over 4, each {grey} where the line covers the sample."""
     names = ("1 sample", "4 samples", "16 samples")
-    return by_rule(text, f"Grey: {grey}", (grey, (1, 4, 16)), ("line-in-one-sample",), hints, names)
+    return by_rule(asked, f"Grey: {grey}", (grey, (1, 4, 16)), ("line-in-one-sample",), names)
 
 
 @template("tent-filter", 1, "The tent filter", "resolve", 1)
@@ -180,19 +162,15 @@ def draw_tent(draws: Draws) -> Draft:
     side = 4
     place = Fraction(2 * draws.whole(0, side - 1) + 1, 2 * side)
     distance = abs(place - Fraction(1, 2))
-    text = (
-        "The tent filter weighs a sample by 1 - d in each direction, d its distance from the pixel's centre in "
-        "pixels. What is the weight of this sample, before all are made to sum to 1?"
-    )
     other = Fraction(2 * draws.whole(0, side - 1) + 1, 2 * side)
     right = [Fraction(float(tent(np.array([float(distance)]))[0])) * (1 - abs(other - Fraction(1, 2)))]
     given = f"Sample at ({number_text(place)}, {number_text(other)}) of the pixel."
-    hints = (
-        "How far is it from the centre, in x and in y?",
-        "Multiply the weights of both directions.",
-        f"(1 - |{number_text(place)} - 1/2|) (1 - |{number_text(other)} - 1/2|).",
-    )
-    return numbers(text, given, right, hints)
+    asked = f"""The tent filter weighs a sample by 1 - d in each direction, d its distance from the pixel's
+        centre in pixels. What is the weight of this sample, before all are made to sum to 1?
+        Hint: How far is it from the centre, in x and in y?
+        Hint: Multiply the weights of both directions.
+        Hint: (1 - |{number_text(place)} - 1/2|) (1 - |{number_text(other)} - 1/2|)."""
+    return numbers(asked, given, right)
 
 
 @template("mean-of-bytes", 1, "The mean of two bytes", "resolve", 2)
@@ -202,33 +180,27 @@ def draw_mean(draws: Draws) -> Draft:
     encoded = max(black, white) / 255
     linear = ((encoded + 0.055) / 1.055) ** 2.4
     right = srgb_byte(linear / 2)
-    text = (
-        "Half of a pixel shows one grey, half the other; both are sRGB bytes. Which byte shows as much light? Decode "
-        "with ((c + 0.055)/1.055)^2.4, take the mean, encode with 1.055 x^(1/2.4) - 0.055; c and x run to 1."
-    )
-    hints = (
-        "Is half the byte half the light?",
-        "The mean is taken of linear values.",
-        f"A byte over the largest one is c: decode those of {black} and {white}, take the mean, and encode it.",
-    )
+    asked = f"""Half of a pixel shows one grey, half the other; both are sRGB bytes. Which byte shows as much
+        light? Decode with ((c + 0.055)/1.055)^2.4, take the mean, encode with 1.055 x^(1/2.4) - 0.055; c and
+        x run to 1.
+        Hint: Is half the byte half the light?
+        Hint: The mean is taken of linear values.
+        Hint: A byte over the largest one is c: decode those of {black} and {white}, take the mean, and encode
+        it."""
     wrong = {"blended-in-srgb": [int((black + white) / 2 + 0.5)]}
-    return numbers(text, f"Bytes: {black} and {white}", [right], hints, wrong)
+    return numbers(asked, f"Bytes: {black} and {white}", [right], wrong)
 
 
 @template("multisampling-cost", 1, "What multisampling costs", "resolve", 2)
 def draw_cost(draws: Draws) -> Draft:
     """What multisampling costs."""
     count, inside, edge = draws.item((2, 4, 8)), draws.whole(100, 400), draws.whole(20, 90)
-    text = (
-        "A triangle is drawn with MSAA. How often does the fragment shader run, and how many depths are compared? Each "
-        "touched pixel is shaded once; depth is tested at every covered sample."
-    )
     half = count // 2
     given = f"{count} samples a pixel.\n{inside} pixels are covered whole, {edge} by half of their samples."
-    hints = (
-        "What is done once a pixel?",
-        "Depth and colour are stored for each sample.",
-        f"Shader runs: {inside} + {edge}; depth tests: {count} * {inside} + {count}/2 * {edge}.",
-    )
+    asked = f"""A triangle is drawn with MSAA. How often does the fragment shader run, and how many depths are
+        compared? Each touched pixel is shaded once; depth is tested at every covered sample.
+        Hint: What is done once a pixel?
+        Hint: Depth and colour are stored for each sample.
+        Hint: Shader runs: {inside} + {edge}; depth tests: {count} * {inside} + {count}/2 * {edge}."""
     right = [inside + edge, count * inside + half * edge]
-    return numbers(text, given, right, hints, names=("shader runs", "depth tests"))
+    return numbers(asked, given, right, names=("shader runs", "depth tests"))

@@ -17,7 +17,7 @@ from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, Corner, corner_text, facing_text, row_hint, twice_area
-from lessons.exercises.templates.drafting import factor_text, listed, pictured
+from lessons.exercises.templates.drafting import drafted, factor_text, listed, pictured
 from lessons.exercises.templates.edges import coefficients
 from lessons.mistakes.coverage import in_window
 from lessons.mistakes.shelf import SHELF
@@ -36,17 +36,16 @@ def marked(is_marked: Flags) -> Pixels:
 
 
 def ask_pixels(
-    text: str,
+    asked: str,
     given: Iterable[str],
     right: Pixels,
     wrong: Mapping[str, Pixels],
-    hints: tuple[str, ...],
     scene: ClipScene,
     settings: Settings,
 ) -> Draft:
     """Ask for pixels."""
     answer = PixelAnswer(SIZE, right)
-    return Draft(text, "\n".join([WINDOW, *given]), answer, hints, wrong, scene, settings)
+    return drafted(asked, "\n".join([WINDOW, *given]), answer, wrong, scene, settings)
 
 
 def halves(draws: Draws) -> list[Corner]:
@@ -70,14 +69,13 @@ def draw_vertices(draws: Draws) -> Draft:
     exchanged = frozenset((j, i) for i, j in pixels(scene))
     if max(row for _, row in exchanged) < SIZE[1] and exchanged != pixels(scene):
         wrong["rows-and-columns"] = exchanged
-    text = "In which pixels do these vertices lie? Pixel (i, j) reaches from i to i + 1 and from j to j + 1."
-    hints = (
-        "NDC run from -1 to 1 over the window.",
-        "(x + 1) W/2 and (y + 1) H/2, then cut off the fraction.",
-        f"The column of vertex 0: floor(({factor_text(ndc[0][0])} + 1) * {SIZE[0]}/2).",
-    )
+    asked = f"""In which pixels do these vertices lie? Pixel (i, j) reaches from i to i + 1 and from j to j +
+        1.
+        Hint: NDC run from -1 to 1 over the window.
+        Hint: (x + 1) W/2 and (y + 1) H/2, then cut off the fraction.
+        Hint: The column of vertex 0: floor(({factor_text(ndc[0][0])} + 1) * {SIZE[0]}/2)."""
     given = [listed("Vertex {k} in NDC: {}", ndc)]
-    return ask_pixels(text, given, pixels(scene), wrong, hints, scene, Settings())
+    return ask_pixels(asked, given, pixels(scene), wrong, scene, Settings())
 
 
 @template("front-pixels", 2, "Pixels of front faces", "cull", 3)
@@ -90,14 +88,12 @@ def draw_culled(draws: Draws) -> Draft:
     reject(areas[0] * areas[1] >= 0 or min(map(abs, areas)) < 9)
     scene, settings = triangle_scene(triangles, SIZE), Settings(cull="back")
     names = ("facing-exchanged", "corner-for-center")
-    text = f"Back faces are culled: counter-clockwise is the front. Which pixels are drawn? {RULE}"
-    hints = (
-        "Go round each triangle in its order.",
-        "Only one of the two is drawn.",
-        f"For triangle 0: {facing_text(triangles[0])}; is it positive?",
-    )
+    asked = f"""Back faces are culled: counter-clockwise is the front. Which pixels are drawn? {RULE}
+        Hint: Go round each triangle in its order.
+        Hint: Only one of the two is drawn.
+        Hint: For triangle 0: {facing_text(triangles[0])}; is it positive?"""
     given = listed("Triangle {k}: {}", triangles)
-    return pictured(text, given, scene, names, hints, settings)
+    return pictured(asked, given, scene, names, settings)
 
 
 @template("pixels-beyond-near", 3, "Pixels beyond the near plane", "clip", 3)
@@ -119,14 +115,13 @@ def draw_clipped(draws: Draws) -> Draft:
     # New corners are snapped, which may turn an edge away from centres that lie on it: without them none is.
     is_snapped = (right, wrong) != seen(Settings())
     reject(is_snapped or right == seen_pixels(render(replace(scene, clip=scene.clip * [1, 1, 0, 1]))))
-    text = f"Window depth is 0 at the near plane. What lies in front of it is clipped. Which pixels are drawn? {RULE}"
     given = [f"Triangle: {corner_text(corners)}", f"Window depth at (x, y): (x - {border}) / {SIZE[0]}"]
-    hints = (
-        "Where is the depth 0?",
-        "The near plane cuts the triangle along a vertical line.",
-        f"(x - {border}) / {SIZE[0]} = 0: which side of this x has centres with a positive depth?",
-    )
-    return ask_pixels(text, given, right, wrong, hints, scene, settings)
+    asked = f"""Window depth is 0 at the near plane. What lies in front of it is clipped. Which pixels are
+        drawn? {RULE}
+        Hint: Where is the depth 0?
+        Hint: The near plane cuts the triangle along a vertical line.
+        Hint: (x - {border}) / {SIZE[0]} = 0: which side of this x has centres with a positive depth?"""
+    return ask_pixels(asked, given, right, wrong, scene, settings)
 
 
 @template("inner-side", 2, "The inner side of an edge", "edges", 3)
@@ -146,19 +141,17 @@ def draw_side(draws: Draws) -> Draft:
     wrong = {"corner-for-center": inner(Fraction(0), owns)}
     other = "all-edges-exclusive" if owns else "all-edges-inclusive"
     wrong[other] = inner(HALF, not owns)
-    text = (
-        "Which pixels are inside of the edge from vertex 0 to vertex 1? Inside is where E > 0 at the centre "
-        "(i + 1/2, j + 1/2), on the left of the edge; where E = 0, a step to the right, then up, decides."
-    )
     (x0, y0), (x1, y1) = (map(factor_text, corner) for corner in corners[:2])
-    hints = (
-        "Draw the line of the edge across the whole window.",
-        "E = (y0 - y1)(x - x0) + (x1 - x0)(y - y0).",
-        f"E = ({y0} - {y1})(x - {x0}) + ({x1} - {x0})(y - {y0}); where it is 0, move the centre a little to the right.",
-    )
+    asked = f"""Which pixels are inside of the edge from vertex 0 to vertex 1? Inside is where E > 0 at the
+        centre (i + 1/2, j + 1/2), on the left of the edge; where E = 0, a step to the right, then up,
+        decides.
+        Hint: Draw the line of the edge across the whole window.
+        Hint: E = (y0 - y1)(x - x0) + (x1 - x0)(y - y0).
+        Hint: E = ({y0} - {y1})(x - {x0}) + ({x1} - {x0})(y - {y0}); where it is 0, move the centre a little
+        to the right."""
     scene = triangle_scene([corners], SIZE)
     given = [f"Vertices 0, 1, 2: {corner_text(corners)}"]
-    return ask_pixels(text, given, inner(HALF, owns), wrong, hints, scene, Settings())
+    return ask_pixels(asked, given, inner(HALF, owns), wrong, scene, Settings())
 
 
 @template("box-pixels", 3, "Pixels in the bounding box", "bin", 3)
@@ -177,18 +170,14 @@ def draw_box(draws: Draws) -> Draft:
 
     right = box(np.ceil(low - 0.5), np.floor(high - 0.5) + 1)
     wrong = {"box-truncated": box(np.floor(low), np.floor(high))}
-    text = (
-        "Which pixels does a fill by bounding box test? A pixel belongs to the box of the triangle where its centre "
-        "(i + 1/2, j + 1/2) does."
-    )
     least, greatest = (number_text(pick(x for x, _ in corners)) for pick in (min, max))
-    hints = (
-        "The box reaches from the least to the greatest x and y.",
-        "Look at centres, not at whole pixels.",
-        f"Columns: {least} <= i + 1/2 <= {greatest}; rows likewise.",
-    )
+    asked = f"""Which pixels does a fill by bounding box test? A pixel belongs to the box of the triangle
+        where its centre (i + 1/2, j + 1/2) does.
+        Hint: The box reaches from the least to the greatest x and y.
+        Hint: Look at centres, not at whole pixels.
+        Hint: Columns: {least} <= i + 1/2 <= {greatest}; rows likewise."""
     scene, settings = triangle_scene([corners], SIZE), Settings(fill="bounding-box")
-    return ask_pixels(text, [f"Triangle: {corner_text(corners)}"], right, wrong, hints, scene, settings)
+    return ask_pixels(asked, [f"Triangle: {corner_text(corners)}"], right, wrong, scene, settings)
 
 
 @template("below-half", 3, "Where u is below 1/2", "interpolate", 4)
@@ -208,22 +197,18 @@ def draw_below_half(draws: Draws) -> Draft:
         return marked((frame.primitive >= 0) & (frame.attributes[..., 0] < 0.5))
 
     names = ("affine-for-perspective", "not-divided-back", "multiplied-by-w")
-    text = (
-        "A rectangle carries u from 0 at its left side to 1 at its right side, in perspective. At which of its pixels "
-        f"is u below 1/2? {RULE}"
-    )
     first, last = number_text(left), number_text(right)
     given = [
         f"Left side: x = {first}, w = {w_of[left]}. Right side: x = {last}, w = {w_of[right]}.",
         f"It reaches from y = {number_text(low)} to y = {number_text(high)}.",
     ]
-    hints = (
-        "Which side is nearer?",
-        "u/w and 1/w are linear in the window.",
-        f"x = {first} + s ({last} - {first}), "
-        f"where (s/{w_of[right]}) / ((1 - s)/{w_of[left]} + s/{w_of[right]}) = 1/2: find s.",
-    )
-    return pictured(text, "\n".join(given), scene, names, hints, read=below)
+    asked = f"""A rectangle carries u from 0 at its left side to 1 at its right side, in perspective. At which
+        of its pixels is u below 1/2? {RULE}
+        Hint: Which side is nearer?
+        Hint: u/w and 1/w are linear in the window.
+        Hint: x = {first} + s ({last} - {first}), where (s/{w_of[right]}) / ((1 - s)/{w_of[left]} +
+        s/{w_of[right]}) = 1/2: find s."""
+    return pictured(asked, "\n".join(given), scene, names, read=below)
 
 
 @template("texel-pixels", 2, "Pixels of dark texels", "shade", 3)
@@ -242,20 +227,18 @@ def draw_texels(draws: Draws) -> Draft:
         return marked(frame.color[..., 0] < 0.5)
 
     names = ("texture-upside-down", "window-for-uv") if across > 1 else ("texture-upside-down",)
-    text = (
-        "A rectangle over the whole window shows this texture by the nearest texel; beyond u = 1 it starts again. "
-        "Which pixels show a dark texel? (u, v) = (0, 0) is the lower left corner of texture and window."
-    )
     rows = [
         f"Row {j} of texels: {', '.join(('dark', 'light')[int(c)] for c in texels[j])}" for j in (2, 1, 0)
     ]
     given = [f"u runs from 0 to {across} across the window, v from 0 to 1 upwards.", *rows]
-    hints = (
-        "How many pixels wide and high is a texel in the window?",
-        "The lowest row of texels is in the lowest rows.",
-        f"{SIZE[0]} pixels show {across} textures side by side, {SIZE[1]} pixels one: divide by the texels of a row.",
-    )
-    return pictured(text, "\n".join(given), scene, names, hints, settings, dark)
+    asked = f"""A rectangle over the whole window shows this texture by the nearest texel; beyond u = 1 it
+        starts again. Which pixels show a dark texel? (u, v) = (0, 0) is the lower left corner of texture and
+        window.
+        Hint: How many pixels wide and high is a texel in the window?
+        Hint: The lowest row of texels is in the lowest rows.
+        Hint: {SIZE[0]} pixels show {across} textures side by side, {SIZE[1]} pixels one: divide by the texels
+        of a row."""
+    return pictured(asked, "\n".join(given), scene, names, settings, dark)
 
 
 @template("nearer-pixels", 2, "Pixels of the nearer triangle", "depth", 4)
@@ -270,20 +253,17 @@ def draw_nearer(draws: Draws) -> Draft:
     wrong = {name: seen_pixels(SHELF[name].draw(scene, Settings()), 1) for name in names}
     right = seen_pixels(render(scene), 1)
     reject(any(not pixels or pixels == right for pixels in wrong.values()))
-    text = (
-        "Triangle 0 is drawn first, then triangle 1. Which pixels show triangle 1? Smaller depths are nearer. "
-        f"{RULE}"
-    )
     given = [
         f"Triangle 0: {corner_text(triangles[0])}, depth 1/2",
         f"Triangle 1: {corner_text(triangles[1])}, depth 1/2 + (x - {border}) / 40 at (x, y)",
     ]
-    hints = (
-        "Where do both cover the same pixels?",
-        "On which side of a vertical line is triangle 1 nearer?",
-        f"(x - {border}) / 40 is negative there: then compare the centres of both triangles, row by row.",
-    )
-    return ask_pixels(text, given, right, wrong, hints, scene, Settings())
+    asked = f"""Triangle 0 is drawn first, then triangle 1. Which pixels show triangle 1? Smaller depths are
+        nearer. {RULE}
+        Hint: Where do both cover the same pixels?
+        Hint: On which side of a vertical line is triangle 1 nearer?
+        Hint: (x - {border}) / 40 is negative there: then compare the centres of both triangles, row by
+        row."""
+    return ask_pixels(asked, given, right, wrong, scene, Settings())
 
 
 @template("blended-twice", 2, "Pixels that are blended twice", "blend", 3)
@@ -299,14 +279,12 @@ def draw_overlap(draws: Draws) -> Draft:
         return marked(frame.cover_count == 2)
 
     names = ("all-edges-inclusive", "corner-for-center")
-    text = f"Two panes of glass are blended with over, whatever their depth. Which pixels show both? {RULE}"
     given = listed("Pane {k}: {}", [first, second])
-    hints = (
-        "Find the pixels of each pane.",
-        "Which belong to both?",
-        f"{row_hint(first)} (pane 0). Which columns do both panes cover in a row?",
-    )
-    return pictured(text, given, scene, names, hints, settings, twice)
+    asked = f"""Two panes of glass are blended with over, whatever their depth. Which pixels show both? {RULE}
+        Hint: Find the pixels of each pane.
+        Hint: Which belong to both?
+        Hint: {row_hint(first)} (pane 0). Which columns do both panes cover in a row?"""
+    return pictured(asked, given, scene, names, settings, twice)
 
 
 @template("grey-pixels", 1, "Pixels between black and white", "resolve", 4)
@@ -322,13 +300,11 @@ def draw_mixed(draws: Draws) -> Draft:
     def grey(frame: Frame) -> Pixels:
         return marked((frame.color[..., 0] > 0.01) & (frame.color[..., 0] < 0.99))
 
-    text = (
-        "A white triangle is drawn over black with 2 x 2 samples a pixel, at 1/4 and 3/4 of its width and height. "
-        "Which pixels are neither black nor white? A sample on an edge belongs to left edges and to level bottom edges."
-    )
-    hints = (
-        "Follow the edges.",
-        "A pixel is grey if an edge runs between its samples.",
-        f"{row_hint(corners, 'j + 1/4')}: which samples i + 1/4 and i + 3/4 lie inside, and which at y = j + 3/4?",
-    )
-    return pictured(text, f"Triangle: {corner_text(corners)}", scene, (), hints, settings, grey)
+    asked = f"""A white triangle is drawn over black with 2 x 2 samples a pixel, at 1/4 and 3/4 of its width
+        and height. Which pixels are neither black nor white? A sample on an edge belongs to left edges and to
+        level bottom edges.
+        Hint: Follow the edges.
+        Hint: A pixel is grey if an edge runs between its samples.
+        Hint: {row_hint(corners, "j + 1/4")}: which samples i + 1/4 and i + 3/4 lie inside, and which at y = j
+        + 3/4?"""
+    return pictured(asked, f"Triangle: {corner_text(corners)}", scene, (), settings, grey)

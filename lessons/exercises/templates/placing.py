@@ -12,7 +12,7 @@ from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.clipping import PARAMETERS, SIZE, Ends, parameter_rows
 from lessons.exercises.templates.coverage import RULE, corner_text, twice_area
-from lessons.exercises.templates.drafting import factor_text
+from lessons.exercises.templates.drafting import drafted, factor_text
 from lessons.exercises.templates.fragments import NAMES
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.transforms import dot
@@ -46,19 +46,16 @@ def draw_ends(draws: Draws) -> Draft:
         method = SHELF[name].change_settings(PARAMETERS).line_clipping
         places = clip_lines([ends], (0, 0, *SIZE), method).segments[0].tolist()
         wrong[name] = tuple((Fraction(x), Fraction(y)) for x, y in places)
-    text = (
-        "The segment is clipped to the window. Place its two ends that are left: where it enters and where it "
-        "leaves. They lie on the line through the given ends."
-    )
     x0, x1 = (factor_text(Fraction(x)) for x, _ in ends)
-    hints = (
-        "Which borders does the segment cross on its way in, and which on its way out?",
-        "Of the crossings on the way in the last one counts, of those on the way out the first.",
-        f"Left border: t = (0 - {x0}) / ({x1} - {x0}), and the crossing lies at start + t (end - start).",
-    )
+    asked = f"""The segment is clipped to the window. Place its two ends that are left: where it enters and
+        where it leaves. They lie on the line through the given ends.
+        Hint: Which borders does the segment cross on its way in, and which on its way out?
+        Hint: Of the crossings on the way in the last one counts, of those on the way out the first.
+        Hint: Left border: t = (0 - {x0}) / ({x1} - {x0}), and the crossing lies at start + t (end -
+        start)."""
     answer = PlaceAnswer(SIZE, ("entry", "exit"), right, (right[::-1],), Fraction(1, 4), TOLERANCE)
     given = f"Window 0..{SIZE[0]} x 0..{SIZE[1]}, segment from {ends[0]} to {ends[1]}."
-    return Draft(text, given, answer, hints, wrong, segment_scene([ends], SIZE), PARAMETERS)
+    return drafted(asked, given, answer, wrong, segment_scene([ends], SIZE), PARAMETERS)
 
 
 CORNER_SIZE = (12, 9)
@@ -74,16 +71,14 @@ def draw_corner(draws: Draws) -> Draft:
     ]
     reject(twice_area(corners) < 24)
     drawn = DrawnScene(triangle_scene([corners], CORNER_SIZE), (tuple(corners),))
-    asked = draws.whole(0, 2)
-    known = [corner for k, corner in enumerate(corners) if k != asked]
-    answer, given = corner_answer(drawn, (0, asked), Settings(), quarter)
-    text = f"Place the corner ? so that triangle 0 covers exactly the pixels A. {RULE}"
-    hints = (
-        "Draw the side between the two corners that are given.",
-        "Each of the other two sides passes between pixels that are covered and pixels that are not.",
-        f"Prolong both sides from the given corners {corner_text(known)}: they meet in the corner.",
-    )
-    return Draft(text, given, answer, hints)
+    hidden = draws.whole(0, 2)
+    known = [corner for k, corner in enumerate(corners) if k != hidden]
+    answer, given = corner_answer(drawn, (0, hidden), Settings(), quarter)
+    asked = f"""Place the corner ? so that triangle 0 covers exactly the pixels A. {RULE}
+        Hint: Draw the side between the two corners that are given.
+        Hint: Each of the other two sides passes between pixels that are covered and pixels that are not.
+        Hint: Prolong both sides from the given corners {corner_text(known)}: they meet in the corner."""
+    return drafted(asked, given, answer)
 
 
 @template("place-ndc", 2, "Points of NDC in the window", "transform", 2)
@@ -97,17 +92,16 @@ def draw_ndc(draws: Draws) -> Draft:
         "y-down": tuple((x, rows - y) for x, y in right),
         "window-one-less": tuple(((x + 1) / 2 * (columns - 1), (y + 1) / 2 * (rows - 1)) for x, y in points),
     }
-    text = "Place these points of NDC in the window."
     given = f"{window_text(SIZE)} " + ", ".join(
         f"{name}: {corner_text([point])}" for name, point in zip("ABC", points, strict=True)
     )
-    hints = (
-        "-1 is the left and the lower border, 1 the right and the upper one.",
-        "The window is (NDC + 1)/2.",
-        f"A: x = ({factor_text(points[0][0])} + 1)/2 * {columns}, y = ({factor_text(points[0][1])} + 1)/2 * {rows}.",
-    )
+    asked = f"""Place these points of NDC in the window.
+        Hint: -1 is the left and the lower border, 1 the right and the upper one.
+        Hint: The window is (NDC + 1)/2.
+        Hint: A: x = ({factor_text(points[0][0])} + 1)/2 * {columns}, y = ({factor_text(points[0][1])} + 1)/2
+        * {rows}."""
     answer = PlaceAnswer(SIZE, tuple("ABC"), right, step=Fraction(1, 4), tolerance=TOLERANCE)
-    return Draft(text, given, answer, hints, wrong)
+    return drafted(asked, given, answer, wrong)
 
 
 @template("place-weights", 1, "The point behind the weights", "interpolate", 2)
@@ -120,19 +114,17 @@ def draw_weights(draws: Draws) -> Draft:
     x, y = zip(*corners, strict=True)
     place, turned = ((dot(order, x), dot(order, y)) for order in (weights, (*weights[1:], weights[0])))
     shown = ", ".join(f"{name} = {number_text(weight)}" for name, weight in zip(NAMES, weights, strict=True))
-    text = "Place the point with these barycentric weights; alpha belongs to vertex 0."
     given = f"{window_text(CORNER_SIZE)}\nVertices 0, 1, 2: {corner_text(corners)}\n{shown}"
     sum_text = " + ".join(
         f"{number_text(weight)} * {number_text(x)}" for weight, (x, _) in zip(weights, corners, strict=True)
     )
-    hints = (
-        "With equal weights the point is in the middle; it moves towards the vertex that weighs more.",
-        "The point is the sum of weight times vertex.",
-        f"x = {sum_text}, and y likewise.",
-    )
+    asked = f"""Place the point with these barycentric weights; alpha belongs to vertex 0.
+        Hint: With equal weights the point is in the middle; it moves towards the vertex that weighs more.
+        Hint: The point is the sum of weight times vertex.
+        Hint: x = {sum_text}, and y likewise."""
     answer = PlaceAnswer(CORNER_SIZE, ("point",), (place,), step=Fraction(1, 4), tolerance=WEIGHT_TOLERANCE)
     scene = triangle_scene([corners], CORNER_SIZE)
-    return Draft(text, given, answer, hints, {"weights-permuted": (turned,)}, scene)
+    return drafted(asked, given, answer, {"weights-permuted": (turned,)}, scene)
 
 
 BORDER = 8
@@ -148,19 +140,15 @@ def draw_new_corners(draws: Draws) -> Draft:
     exact = [(Fraction(x), Fraction(y)) for x, y in corners]
     rule = RULES["clipped-in-place"]
     reject(twice_area(exact) < 12)
-    text = (
-        f"A triangle is clipped at the border x = {BORDER}: only vertex 0, on the left of it, is inside. Place the two "
-        "new corners, where the sides from 0 to 1 and from 2 to 0 cross the border."
-    )
     (x0, y0), (x1, y1) = corners[:2]
-    hints = (
-        "What is x of both corners?",
-        f"t = ({BORDER} - x0) / (x - x0) of each side, from vertex 0 to its other end.",
-        f"On side 0 to 1, from {corners[0]} to {corners[1]}: t = ({BORDER} - {x0}) / ({x1} - {x0}), "
-        f"y = {y0} + t ({y1} - {y0}).",
-    )
+    asked = f"""A triangle is clipped at the border x = {BORDER}: only vertex 0, on the left of it, is inside.
+        Place the two new corners, where the sides from 0 to 1 and from 2 to 0 cross the border.
+        Hint: What is x of both corners?
+        Hint: t = ({BORDER} - x0) / (x - x0) of each side, from vertex 0 to its other end.
+        Hint: On side 0 to 1, from {corners[0]} to {corners[1]}: t = ({BORDER} - {x0}) / ({x1} - {x0}), y =
+        {y0} + t ({y1} - {y0})."""
     names = ("on side 0 to 1", "on side 2 to 0")
     answer = PlaceAnswer(CORNER_SIZE, names, rule.right(exact, BORDER), (), Fraction(1, 4), TOLERANCE)
     given = f"{window_text(CORNER_SIZE)}\nVertices 0, 1, 2: {corner_text(exact)}"
     scene = triangle_scene([corners], CORNER_SIZE)
-    return Draft(text, given, answer, hints, {rule.name: rule.wrong(exact, BORDER)}, scene)
+    return drafted(asked, given, answer, {rule.name: rule.wrong(exact, BORDER)}, scene)

@@ -11,8 +11,8 @@ from lessons.exercises.file_answers import spot_answer
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, row_hint, twice_area
-from lessons.exercises.templates.drafting import listed
-from lessons.exercises.templates.line_methods import moves_text
+from lessons.exercises.templates.drafting import drafted, listed
+from lessons.exercises.templates.lines import moves_text
 from lessons.mistakes.lines import LECTURE
 from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.twin import line_pixels
@@ -66,18 +66,14 @@ def draw_line(draws: Draws) -> Draft:
     reject(drawn == right)
     number, wrong = FAULTS[fault]
     answer = LineAnswer((*LISTING[:number], wrong, *LISTING[number + 1 :]), number)
-    text = (
-        "This listing should draw Bresenham's line: D begins at 2 dy - dx, a tie (D = 0) stays in the row, and the "
-        "last pixel is drawn. One line is wrong. Which?"
-    )
     art = PixelAnswer(SIZE, right).text(drawn)
     given = f"From pixel {ends[0]} to pixel {ends[1]} the listing draws:\n{art}"
-    hints = (
-        "Where does the drawn line first leave the right one?",
-        "Follow D by hand for the first pixels, and compare with the listing.",
-        f"{moves_text(*ends)}: D takes 2 dy with every pixel and loses 2 dx with every step of y.",
-    )
-    return Draft(text, given, answer, hints, {}, pixel_segments([ends], SIZE), LECTURE)
+    asked = f"""This listing should draw Bresenham's line: D begins at 2 dy - dx, a tie (D = 0) stays in the
+        row, and the last pixel is drawn. One line is wrong. Which?
+        Hint: Where does the drawn line first leave the right one?
+        Hint: Follow D by hand for the first pixels, and compare with the listing.
+        Hint: {moves_text(*ends)}: D takes 2 dy with every pixel and loses 2 dx with every step of y."""
+    return drafted(asked, given, answer, {}, pixel_segments([ends], SIZE), LECTURE)
 
 
 RISING = "the line from (0, 0) to (2, 1)"
@@ -108,13 +104,11 @@ def draw_slip(draws: Draws) -> Draft:
     printed = printed_listing(name)
     lines = tuple(printed.text.split("\n"))
     answer = LineAnswer(lines, next(k for k, line in enumerate(lines) if slip in line))
-    text = f"{printed.title}, as a lecture prints it. One line is a slip: {rule}. Which line?"
-    hints = (
-        "Ask of every line what it changes, and whether that is declared.",
-        f"Which line has to care that {rule}?",
-        f"Follow {case} by hand: after which line is a value not what it must be?",
-    )
-    return Draft(text, "", answer, hints)
+    asked = f"""{printed.title}, as a lecture prints it. One line is a slip: {rule}. Which line?
+        Hint: Ask of every line what it changes, and whether that is declared.
+        Hint: Which line has to care that {rule}?
+        Hint: Follow {case} by hand: after which line is a value not what it must be?"""
+    return drafted(asked, "", answer)
 
 
 PICTURES = (
@@ -137,13 +131,11 @@ def draw_picture(draws: Draws) -> Draft:
     reject(twice_area(corners) < 16)
     drawn = DrawnScene(triangle_scene([corners], (12, 9)), (tuple(corners),))
     answer, given = spot_answer(names, drawn, Settings(), draws)
-    text = f"What is wrong with this picture? Click where, and say which mistake made it. {RULE}"
-    hints = (
-        "Find a row in which the edges of the triangle do not fit to the pixels.",
-        "Look at the lowest and the highest row, and at centres that lie on edges.",
-        f"{row_hint(corners)}: do the pixels of that row begin or end there?",
-    )
-    return Draft(text, given, answer, hints, {}, drawn.scene)
+    asked = f"""What is wrong with this picture? Click where, and say which mistake made it. {RULE}
+        Hint: Find a row in which the edges of the triangle do not fit to the pixels.
+        Hint: Look at the lowest and the highest row, and at centres that lie on edges.
+        Hint: {row_hint(corners)}: do the pixels of that row begin or end there?"""
+    return drafted(asked, given, answer, {}, drawn.scene)
 
 
 DEPTH_PICTURES = ("farther-wins", "no-depth-test", "painted-by-mean", "last-wins-ties")
@@ -160,14 +152,10 @@ def draw_depth_picture(draws: Draws) -> Draft:
     names = draws.shuffled(DEPTH_PICTURES)[:3]
     answer, given = spot_answer(names, DrawnScene(scene, places), Settings(), draws)
     depths = listed("Depths of triangle {k}: {}", depth)
-    text = (
-        "What is wrong with this picture? Click where, and say which mistake made it. A, B and C are triangles 0, 1 "
-        "and 2, drawn in this order; the nearest is seen, and smaller is nearer."
-    )
-    hints = (
-        "Only pixels that lie in two triangles can be wrong.",
-        "Compare the depths there: which triangle should be seen?",
-        f"The mean depth of triangle 0 is a third of {' + '.join(map(number_text, depth[0]))}. Is the wrong one always "
-        "the farther one, always the later one, or the one with the nearer middle?",
-    )
-    return Draft(text, f"{given}\n{depths}", answer, hints, {}, scene)
+    asked = f"""What is wrong with this picture? Click where, and say which mistake made it. A, B and C are
+        triangles 0, 1 and 2, drawn in this order; the nearest is seen, and smaller is nearer.
+        Hint: Only pixels that lie in two triangles can be wrong.
+        Hint: Compare the depths there: which triangle should be seen?
+        Hint: The mean depth of triangle 0 is a third of {" + ".join(map(number_text, depth[0]))}. Is the
+        wrong one always the farther one, always the later one, or the one with the nearer middle?"""
+    return drafted(asked, f"{given}\n{depths}", answer, {}, scene)

@@ -17,6 +17,7 @@ from lessons.exercises.file_answers import FAILS, byte_error, is_drawn_twice
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import SIZE, corner_text
+from lessons.exercises.templates.drafting import drafted
 from lessons.scenes import make_scene
 from lessons.small_scenes import EVERYWHERE, triangle_scene
 
@@ -83,17 +84,14 @@ def draw_shared_corner(draws: Draws) -> Draft:
     weak, robust = Settings(fill_rule="inclusive"), Settings()
     answer = breaking(draws, dials, start, scene_of, weak, robust, is_drawn_twice, FAILS["twice"])
     first, second = corners_of(start)
-    text = (
-        "Two triangles share an edge. Move its lower corner so that the rule E >= 0 on all edges draws a pixel twice, "
-        "and the rule that gives each centre to one triangle does not."
-    )
     given = f"{window_text(SIZE)} Triangle A: {corner_text(first)}. Triangle B: {corner_text(second)}."
-    hints = (
-        "Only centres that lie exactly on the common edge are in both triangles.",
-        "Where must both ends of an edge lie so that it runs through centres?",
-        f"The upper end is {corner_text([top])}. Which edges from there meet a centre (i + 1/2, j + 1/2)?",
-    )
-    return Draft(text, given, answer, hints, {}, scene_of(start), robust)
+    asked = f"""Two triangles share an edge. Move its lower corner so that the rule E >= 0 on all edges draws
+        a pixel twice, and the rule that gives each centre to one triangle does not.
+        Hint: Only centres that lie exactly on the common edge are in both triangles.
+        Hint: Where must both ends of an edge lie so that it runs through centres?
+        Hint: The upper end is {corner_text([top])}. Which edges from there meet a centre (i + 1/2, j +
+        1/2)?"""
+    return drafted(asked, given, answer, {}, scene_of(start), robust)
 
 
 PLACES = ((0.5, 0.5), (11.5, 0.5), (0.5, 8.5))
@@ -125,18 +123,15 @@ def draw_affine(draws: Draws) -> Draft:
     robust = Settings(interpolation="affine-n", correction_interval=8)
     rule = f"u is wrong by more than {number_text(limit)} at a pixel"
     answer = breaking(draws, dials, (Fraction(1),), scene_of, weak, robust, partial(is_farther, limit), rule)
-    text = (
-        "Choose w of vertex 1 so that affine interpolation fails and affine interpolation that is corrected every 8 "
-        "pixels does not. Both are compared with perspective."
-    )
     given = f"u is {span} at vertex 1 and 0 at the others, whose w is 1."
-    hints = (
-        "With equal w nothing is wrong.",
-        "The farther the values of w are apart, the larger is the error of both.",
-        f"Half way from vertex 0 to 1, affine gives {span}/2 and perspective ({span}/w) / (1 + 1/w). Corrected every 8 "
-        "pixels, the error is that of a short part: find a w between too small and too large.",
-    )
-    return Draft(text, given, answer, hints, {}, scene_of((Fraction(1),)), robust)
+    asked = f"""Choose w of vertex 1 so that affine interpolation fails and affine interpolation that is
+        corrected every 8 pixels does not. Both are compared with perspective.
+        Hint: With equal w nothing is wrong.
+        Hint: The farther the values of w are apart, the larger is the error of both.
+        Hint: Half way from vertex 0 to 1, affine gives {span}/2 and perspective ({span}/w) / (1 + 1/w).
+        Corrected every 8 pixels, the error is that of a short part: find a w between too small and too
+        large."""
+    return drafted(asked, given, answer, {}, scene_of((Fraction(1),)), robust)
 
 
 OPERATIONS = {"flat": 0, "affine": 5, "affine-n": 6, "perspective": 12}
@@ -153,18 +148,14 @@ def draw_cheapest(draws: Draws) -> Draft:
     limit = Fraction(draws.whole(2, 20) * 5)
     base = Settings()
     answer = cheapest({"interpolation": OPERATIONS, "depth": BYTES}, limit, scene, base)
-    text = (
-        "Choose the cheapest methods with which no colour channel of any pixel is off by more than "
-        f"{number_text(limit)} of 255 from the reference picture (perspective, float32 depth)."
-    )
     given = f"Scene near-plane, {columns} x {scene.size[1]} pixels. Costs: operations, and bytes of depth, at a pixel."
-    hints = (
-        "What does each family change in this scene: colours, or what is seen?",
-        "Begin with the cheapest of all, and make dearer what the error comes from.",
-        f"Which interpolation stays within {number_text(limit)} of 255? Only one surface is seen at each pixel here: "
-        "how fine must its depth be?",
-    )
-    return Draft(text, given, answer, hints, {}, scene, base)
+    asked = f"""Choose the cheapest methods with which no colour channel of any pixel is off by more than
+        {number_text(limit)} of 255 from the reference picture (perspective, float32 depth).
+        Hint: What does each family change in this scene: colours, or what is seen?
+        Hint: Begin with the cheapest of all, and make dearer what the error comes from.
+        Hint: Which interpolation stays within {number_text(limit)} of 255? Only one surface is seen at each
+        pixel here: how fine must its depth be?"""
+    return drafted(asked, given, answer, {}, scene, base)
 
 
 def hides_nearer(scene: ClipScene, settings: Settings) -> bool:
@@ -187,21 +178,18 @@ def draw_depth_format(draws: Draws) -> Draft:
     rule = "triangle 0 is seen"
     start = (dials[0].high,)
     answer = breaking(draws, dials, start, scene_of, weak, robust, hides_nearer, rule)
-    text = (
-        "Two triangles cover the window. Triangle 0 is drawn first; triangle 1 is nearer by a gap. Choose the gap so "
-        "that a depth buffer of 16 bits shows the wrong triangle and one of float32 the right one."
-    )
     given = (
         f"Depth of triangle 0: {number_text(base)}; of triangle 1: that less the gap. "
         "16 bits hold whole multiples of 1/65535."
     )
-    hints = (
-        "When do both depths round to one multiple?",
-        "With a gap of 0 both formats see a tie, which keeps triangle 0.",
-        f"The buffer holds {number_text(base)} * 65535, rounded: for which gap is ({number_text(base)} - gap) * 65535 "
-        "rounded to the same number?",
-    )
-    return Draft(text, given, answer, hints, {}, None, robust)
+    asked = f"""Two triangles cover the window. Triangle 0 is drawn first; triangle 1 is nearer by a gap.
+        Choose the gap so that a depth buffer of 16 bits shows the wrong triangle and one of float32 the right
+        one.
+        Hint: When do both depths round to one multiple?
+        Hint: With a gap of 0 both formats see a tie, which keeps triangle 0.
+        Hint: The buffer holds {number_text(base)} * 65535, rounded: for which gap is ({number_text(base)} -
+        gap) * 65535 rounded to the same number?"""
+    return drafted(asked, given, answer, {}, None, robust)
 
 
 SAMPLES = {"none": 2, "msaa-4": 5, "ssaa-4": 8, "ssaa-16": 32}
@@ -216,16 +204,12 @@ def draw_samples(draws: Draws) -> Draft:
     scene = triangle_scene([corners], SIZE, attributes=[[[1.0, 1.0, 1.0, 1.0]] * 3])
     limit, base = Fraction(draws.whole(6, 30) * 5), Settings(antialiasing="ssaa-16")
     answer = cheapest({"antialiasing": SAMPLES}, limit, scene, base)
-    text = (
-        "Choose the cheapest antialiasing with which no pixel of this white triangle on black is off by more than "
-        f"{number_text(limit)} of 255 from 16 samples."
-    )
     places = ", ".join(f"({x:g}, {y:g})" for x, y in corners)
     given = f"{window_text(SIZE)} Corners: {places}.\nCosts: coverage tests and shader runs at a pixel."
-    hints = (
-        "Only pixels on the rim differ.",
-        "One sample is all or nothing: how far is it off at a pixel that is half covered?",
-        f"Is an error of a quarter of the light more than {number_text(limit)} of 255? Bytes are sRGB: it is more than "
-        "a quarter of the byte.",
-    )
-    return Draft(text, given, answer, hints, {}, scene, base)
+    asked = f"""Choose the cheapest antialiasing with which no pixel of this white triangle on black is off by
+        more than {number_text(limit)} of 255 from 16 samples.
+        Hint: Only pixels on the rim differ.
+        Hint: One sample is all or nothing: how far is it off at a pixel that is half covered?
+        Hint: Is an error of a quarter of the light more than {number_text(limit)} of 255? Bytes are sRGB: it
+        is more than a quarter of the byte."""
+    return drafted(asked, given, answer, {}, scene, base)

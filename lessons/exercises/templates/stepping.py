@@ -8,6 +8,7 @@ from lessons.exercises.answers.steps import StepsAnswer, first_tries
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import corner_text, twice_area
+from lessons.exercises.templates.drafting import drafted
 from lessons.exercises.templates.fragments import FRAGMENT_PIXELS, again_text, card_scene
 from lessons.exercises.templates.lines import RULE, SIZE, TALL, Ends
 from lessons.mistakes.lines import LECTURE
@@ -51,15 +52,13 @@ def draw_line(draws: Draws) -> Draft:
         for name in ("ties-step", "not-corrected", "start-not-doubled")
     }
     (x1, y1) = ends[1]
-    hints = (
-        "One step at a time: first D, then the pixel that it chooses.",
-        "D above 0 steps up; D of 0 or below stays in the row.",
-        f"dx = {x1} - {x0}, dy = {y1} - {y0}.",
-    )
-    text = f"Be the rasterizer: give D before each move, then the pixel that is drawn next. {RULE}"
+    asked = f"""Be the rasterizer: give D before each move, then the pixel that is drawn next. {RULE}
+        Hint: One step at a time: first D, then the pixel that it chooses.
+        Hint: D above 0 steps up; D of 0 or below stays in the row.
+        Hint: dx = {x1} - {x0}, dy = {y1} - {y0}."""
     given = f"From pixel {ends[0]}, which is drawn, to pixel {ends[1]}."
     answer = StepsAnswer(tuple(steps), SIZE)
-    return Draft(text, given, answer, hints, wrong, pixel_segments([ends], SIZE), LECTURE)
+    return drafted(asked, given, answer, wrong, pixel_segments([ends], SIZE), LECTURE)
 
 
 VERDICTS = ("passes", "fails")
@@ -94,16 +93,12 @@ def draw_depth(draws: Draws) -> Draft:
         name: first_tries(depth_verdicts(fragments, name), steps)
         for name in ("farther-wins", "no-depth-test")
     }
-    text = (
-        "Be the depth test: does each fragment pass? Smaller is nearer, the buffer begins at infinity, and a tie keeps "
-        "what is there."
-    )
-    hints = (
-        "The first fragment of every pixel passes.",
-        "A fragment passes only where its z is smaller than what its pixel holds.",
-        again_text(fragments),
-    )
-    return Draft(text, "", StepsAnswer(steps), hints, wrong, card_scene(fragments))
+    asked = f"""Be the depth test: does each fragment pass? Smaller is nearer, the buffer begins at infinity,
+        and a tie keeps what is there.
+        Hint: The first fragment of every pixel passes.
+        Hint: A fragment passes only where its z is smaller than what its pixel holds.
+        Hint: {again_text(fragments)}"""
+    return drafted(asked, "", StepsAnswer(steps), wrong, card_scene(fragments))
 
 
 OUTPUTS = ("nothing", "the crossing", "the end", "the crossing, then the end")
@@ -130,17 +125,14 @@ def draw_clip(draws: Draws) -> Draft:
             steps.append(
                 Entry(f"side {k}: the crossing (x, y)", "place", (Fraction(BORDER), y), tolerance=0.05)
             )
-    text = (
-        f"Be Sutherland-Hodgman at the border x = {BORDER}: inside is where x is smaller. For each side from its start "
-        "to its end, say what is put out, and where the side crosses the border. Fractions, or decimals within 0.05."
-    )
     names = ("side 0 from corner 0 to 1", "side 1 from corner 1 to 2", "side 2 from corner 2 to 0")
     given = f"Corners 0, 1, 2: {corner_text(corners)}; {', '.join(names)}."
     cut = next(k for k in range(3) if inside[k] != inside[(k + 1) % 3])
     (x0, y0), (x1, y1) = corners[cut], corners[(cut + 1) % 3]
-    hints = (
-        "Only two things matter: is the start inside, and is the end?",
-        "A side that ends inside puts out its end; a side that changes sides puts out its crossing first.",
-        f"Side {cut} crosses the border at y = {y0} + ({BORDER} - {x0}) ({y1} - {y0}) / ({x1} - {x0}).",
-    )
-    return Draft(text, given, StepsAnswer(tuple(steps), (12, 9)), hints)
+    asked = f"""Be Sutherland-Hodgman at the border x = {BORDER}: inside is where x is smaller. For each side
+        from its start to its end, say what is put out, and where the side crosses the border. Fractions, or
+        decimals within 0.05.
+        Hint: Only two things matter: is the start inside, and is the end?
+        Hint: A side that ends inside puts out its end; a side that changes sides puts out its crossing first.
+        Hint: Side {cut} crosses the border at y = {y0} + ({BORDER} - {x0}) ({y1} - {y0}) / ({x1} - {x0})."""
+    return drafted(asked, given, StepsAnswer(tuple(steps), (12, 9)))

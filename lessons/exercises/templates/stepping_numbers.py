@@ -8,7 +8,7 @@ from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
-from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, factor_text, listed
+from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, drafted, factor_text, listed
 from lessons.exercises.templates.fragments import COLORS, HALF, NAMES, weights_at
 from lessons.small_scenes import triangle_scene
 
@@ -41,17 +41,14 @@ def draw_spaces(draws: Draws) -> Draft:
     steps = number_steps(SPACES, right)
     down: Run = first_tries((*right[:4], SIZE[1] - right[4]), steps)
     no_w: Run = first_tries((Fraction(1), *right[1:]), steps)
-    text = (
-        "Be the transform: give w after the perspective matrix, the point in NDC, and the point in the window, y up. "
-        f"The camera looks along -z, 90 degrees wide and high. {WITHIN}"
-    )
     given = f"Eye point ({x}, {y}, -{d}), window of {SIZE[0]} x {SIZE[1]} pixels."
-    hints = (
-        "With 90 degrees the matrix keeps x and y.",
-        "NDC is x/w and y/w.",
-        f"w = -(-{d}), x in NDC is {factor_text(x)} / w, and x in the window is (NDC + 1)/2 * {SIZE[0]}.",
-    )
-    return Draft(text, given, StepsAnswer(steps, SIZE), hints, {"y-down": down, "w-is-one": no_w})
+    asked = f"""Be the transform: give w after the perspective matrix, the point in NDC, and the point in the
+        window, y up. The camera looks along -z, 90 degrees wide and high. {WITHIN}
+        Hint: With 90 degrees the matrix keeps x and y.
+        Hint: NDC is x/w and y/w.
+        Hint: w = -(-{d}), x in NDC is {factor_text(x)} / w, and x in the window is (NDC + 1)/2 *
+        {SIZE[0]}."""
+    return drafted(asked, given, StepsAnswer(steps, SIZE), {"y-down": down, "w-is-one": no_w})
 
 
 @template("weight-steps", 1, "Be the interpolation", "interpolate", 4)
@@ -67,19 +64,15 @@ def draw_weights(draws: Draws) -> Draft:
     right = (area, *(weight * area for weight in weights), *weights)
     steps = number_steps(names, right)
     turned = first_tries((*right[:4], *right[5:], right[4]), steps)
-    text = (
-        f"Be the interpolation at the centre of pixel {pixel}: twice the area of the triangle, then twice the area of "
-        f"the centre with the edge opposite to each vertex, then the weights. {WITHIN}"
-    )
-    hints = (
-        "The determinant (x1 - x0)(y2 - y0) - (y1 - y0)(x2 - x0) is twice the area.",
-        "E0 belongs to the edge from vertex 1 to vertex 2.",
-        f"Twice the area is {facing_text(corners)}; each weight is its E over it.",
-    )
+    asked = f"""Be the interpolation at the centre of pixel {pixel}: twice the area of the triangle, then
+        twice the area of the centre with the edge opposite to each vertex, then the weights. {WITHIN}
+        Hint: The determinant (x1 - x0)(y2 - y0) - (y1 - y0)(x2 - x0) is twice the area.
+        Hint: E0 belongs to the edge from vertex 1 to vertex 2.
+        Hint: Twice the area is {facing_text(corners)}; each weight is its E over it."""
     scene = triangle_scene([corners], (11, 9))
     given = f"Vertices 0, 1, 2: {corner_text(corners)}"
-    return Draft(
-        text, given, StepsAnswer(steps, (11, 9)), hints, {"weights-permuted": turned}, scene, pixel=pixel
+    return drafted(
+        asked, given, StepsAnswer(steps, (11, 9)), {"weights-permuted": turned}, scene, pixel=pixel
     )
 
 
@@ -97,14 +90,11 @@ def draw_layers(draws: Draws) -> Draft:
     reject(len(set(values)) < 3)
     steps = number_steps(tuple(f"red after layer {k}" for k in range(4)), tuple(values))
     given = "Background: black, opaque.\n" + listed("Layer {k}: {}, alpha = {}", names, alphas)
-    text = (
-        "Be the blending: each layer is blended with over on what is there. What is the red of the pixel after each, "
-        f"linear? Red, yellow and white have red 1, green and blue have red 0. {WITHIN}"
-    )
-    hints = (
-        "over: alpha times the new red plus (1 - alpha) times what is there.",
-        "A layer without red only weakens what is there.",
-        f"Layer 0: {number_text(alphas[0])} * {COLORS[names[0]][0]} + (1 - {number_text(alphas[0])}) * 0.",
-    )
+    asked = f"""Be the blending: each layer is blended with over on what is there. What is the red of the
+        pixel after each, linear? Red, yellow and white have red 1, green and blue have red 0. {WITHIN}
+        Hint: over: alpha times the new red plus (1 - alpha) times what is there.
+        Hint: A layer without red only weakens what is there.
+        Hint: Layer 0: {number_text(alphas[0])} * {COLORS[names[0]][0]} + (1 - {number_text(alphas[0])}) *
+        0."""
     wrong = {"factors-exchanged": first_tries(exchanged, steps)}
-    return Draft(text, given, StepsAnswer(steps), hints, wrong)
+    return drafted(asked, given, StepsAnswer(steps), wrong)
