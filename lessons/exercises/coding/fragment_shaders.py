@@ -33,10 +33,16 @@ DIFFUSE = shader_task(
     "diffuse-shader",
     "shade",
     "the diffuse light",
-    "This fragment shader lights a surface. vNormal is interpolated, so it may be shorter than 1. lightDirection is "
-    "the way the light travels in the world, of any length; mat3(viewMatrix) turns it to what the eye sees, as vNormal "
-    "is. The colour is vColor times the light: ambient, and diffuse times the cosine between the normal and the way to "
-    "the light. What is turned away from the light has ambient light alone. Alpha is 1.",
+    """This fragment shader lights a surface. vNormal is interpolated, so it may be shorter than 1.
+    lightDirection is the way the light travels in the world, of any length; mat3(viewMatrix) turns it to what
+    the eye sees, as vNormal is. The colour is vColor times the light: ambient, and diffuse times the cosine
+    between the normal and the way to the light. What is turned away from the light has ambient light alone.
+    Alpha is 1.
+    Hint: Take a surface that faces the light, one that is turned away, and one whose normal is shorter than
+    1.
+    Hint: dot(N, L) is the cosine only where both have length 1; below 0 it says that the surface is turned
+    away.
+    Hint: With N = (0, 0, 1) and light that travels along (0, 0, -1), the cosine is 1: follow each line.""",
     f"""{HEAD}in vec3 vNormal;
 in vec3 vColor;
 uniform vec3 lightDirection;
@@ -94,11 +100,6 @@ void main() {{
         Fault(_SURFACE, "outColor = vec4(vColor * (ambient + diffuse * cosine), 0.0);", "alpha-zero"),
         Fault(_SURFACE, "outColor = vec4(vColor * ambient + diffuse * cosine, 1.0);"),
     ),
-    (
-        "Take a surface that faces the light, one that is turned away, and one whose normal is shorter than 1.",
-        "dot(N, L) is the cosine only where both have length 1; below 0 it says that the surface is turned away.",
-        "With N = (0, 0, 1) and light that travels along (0, 0, -1), the cosine is 1: follow each line.",
-    ),
     ("outColor = vec4(vColor, 1.0);", "outColor = vec4(0.0);", "outColor = vec4(vColor * ambient, 1.0);"),
     ("outColor",),
     beside=partial(matte, VERTEX),
@@ -108,8 +109,13 @@ LAMBERT = shader_task(
     "lambert",
     "shade",
     "the cosine of the light",
-    "lambert is given a normal and the direction in which the light travels, both of any length. It returns the cosine "
-    "of the angle between the normal and the way to the light, and 0 where that is below 0.",
+    """lambert is given a normal and the direction in which the light travels, both of any length. It returns
+    the cosine of the angle between the normal and the way to the light, and 0 where that is below 0.
+    Hint: What must come out where the light falls straight on the surface, and what where it comes from
+    behind?
+    Hint: dot of two vectors of length 1 is the cosine between them.
+    Hint: For the normal (0, 0, 1) and light along (0, 0, -1), it is 1; for light along (0, 0, 1), it is
+    0.""",
     """float lambert(vec3 normal, vec3 direction) {
    vec3 N = normalize(normal);
    vec3 L = normalize(-direction);
@@ -135,11 +141,6 @@ LAMBERT = shader_task(
         Fault("vec3 L = normalize(-direction);", "vec3 L = -direction;"),
         Fault("return max(dot(N, L), 0.0);", "return dot(N, L);", "cosine-below-zero"),
     ),
-    (
-        "What must come out where the light falls straight on the surface, and what where it comes from behind?",
-        "dot of two vectors of length 1 is the cosine between them.",
-        "For the normal (0, 0, 1) and light along (0, 0, -1), it is 1; for light along (0, 0, 1), it is 0.",
-    ),
     ("return 1.0;", "return 0.0;", "return dot(normal, direction);"),
     returns="float",
 )
@@ -148,9 +149,12 @@ HIGHLIGHT = shader_task(
     "highlight",
     "shade",
     "the highlight",
-    "highlight is given three vectors of length 1: the normal N, L towards the light and V towards the eye. H, of "
-    "length 1, lies half-way between L and V. It returns the cosine between N and H, 0 where that is below 0, to the "
-    "power of shininess.",
+    """highlight is given three vectors of length 1: the normal N, L towards the light and V towards the eye.
+    H, of length 1, lies half-way between L and V. It returns the cosine between N and H, 0 where that is
+    below 0, to the power of shininess.
+    Hint: Where N lies exactly between L and V, the result is 1, whatever the shininess.
+    Hint: L + V points half-way between L and V, but it is longer than 1.
+    Hint: With N = L = V = (0, 0, 1), H is (0, 0, 1), the cosine is 1, and 1 to any power is 1.""",
     """float highlight(vec3 N, vec3 L, vec3 V, float shininess) {
    vec3 H = normalize(L + V);
    float cosine = max(dot(N, H), 0.0);
@@ -175,11 +179,6 @@ HIGHLIGHT = shader_task(
         Fault("float cosine = max(dot(N, H), 0.0);", "float cosine = max(dot(L, H), 0.0);"),
         Fault("return pow(cosine, shininess);", "return cosine * shininess;"),
     ),
-    (
-        "Where N lies exactly between L and V, the result is 1, whatever the shininess.",
-        "L + V points half-way between L and V, but it is longer than 1.",
-        "With N = L = V = (0, 0, 1), H is (0, 0, 1), the cosine is 1, and 1 to any power is 1.",
-    ),
     ("return 1.0;", "return 0.0;", "return shininess;"),
     returns="float",
 )
@@ -193,8 +192,13 @@ TEXTURE = shader_task(
     "texture-shader",
     "shade",
     "the textured surface",
-    "This fragment shader colours a surface with the texture map. vUv is the place in the texture: (0, 0) is its lower "
-    "left corner, (1, 1) the upper right one. Alpha is 1.",
+    """This fragment shader colours a surface with the texture map. vUv is the place in the texture: (0, 0) is
+    its lower left corner, (1, 1) the upper right one. Alpha is 1.
+    Hint: Which quarter of the texture has the wrong colour: is it turned over, exchanged, or only another
+    colour?
+    Hint: u goes to the right and v upwards, in the texture as in vUv.
+    Hint: 1.0 - v turns the picture over. Here (0, 0) must read the lower left texel and (1, 1) the upper
+    right one.""",
     f"""{HEAD}in vec2 vUv;
 uniform sampler2D map;
 out vec4 outColor;
@@ -220,11 +224,6 @@ void main() {{
         Fault(_OPAQUE, "outColor = vec4(texel.bgr, 1.0);"),
         Fault(_OPAQUE, "outColor = vec4(texel.rgb, 0.0);", "alpha-zero"),
     ),
-    (
-        "Which quarter of the texture has the wrong colour: is it turned over, exchanged, or only another colour?",
-        "u goes to the right and v upwards, in the texture as in vUv.",
-        "1.0 - v turns the picture over. Here (0, 0) must read the lower left texel and (1, 1) the upper right one.",
-    ),
     ("outColor = vec4(0.0, 0.0, 0.0, 1.0);", "outColor = vec4(vUv, 0.0, 1.0);"),
     ("outColor",),
     textures={"map": _TEXELS},
@@ -236,8 +235,11 @@ ALPHA_TEST = shader_task(
     "alpha-test-shader",
     "shade",
     "the alpha test",
-    "This fragment shader discards each fragment whose alpha lies below threshold. All others are written with their "
-    "colour and an alpha of 1, also those that lie exactly at the threshold.",
+    """This fragment shader discards each fragment whose alpha lies below threshold. All others are written
+    with their colour and an alpha of 1, also those that lie exactly at the threshold.
+    Hint: Take a fragment above the threshold, one below and one exactly at it: which of them is wrong?
+    Hint: discard ends the fragment. What is left must be opaque.
+    Hint: With a threshold of 0.0 nothing is below it; with alpha 1.0 nothing may be discarded.""",
     f"""{HEAD}in vec4 vColor;
 uniform float threshold;
 out vec4 outColor;
@@ -263,11 +265,6 @@ void main() {{
         Fault("outColor = vec4(vColor.rgb, 1.0);", "outColor = vec4(vColor.rgb, 0.0);", "alpha-zero"),
         Fault("outColor = vec4(vColor.rgb, 1.0);", "outColor = vColor;"),
     ),
-    (
-        "Take a fragment above the threshold, one below and one exactly at it: which of them is wrong?",
-        "discard ends the fragment. What is left must be opaque.",
-        "With a threshold of 0.0 nothing is below it; with alpha 1.0 nothing may be discarded.",
-    ),
     ("outColor = vColor;", "discard;", "outColor = vec4(0.0);"),
     ("outColor",),
 )
@@ -276,8 +273,11 @@ CHECKER = shader_task(
     "checker",
     "shade",
     "a checkerboard",
-    "checker is given a place uv and the number of squares on a length of 1. It returns 0 on the square that begins at "
-    "(0, 0), 1 on its four neighbours, and so on in turn, also where u or v is below 0.",
+    """checker is given a place uv and the number of squares on a length of 1. It returns 0 on the square that
+    begins at (0, 0), 1 on its four neighbours, and so on in turn, also where u or v is below 0.
+    Hint: Number the squares: which column and which row does a place lie in?
+    Hint: Columns and rows are whole numbers. Their sum is even on the first square and odd on its neighbours.
+    Hint: mod(x, 2.0) is 0 for even and 1 for odd numbers, also below 0.""",
     """float checker(vec2 uv, float squares) {
    vec2 square = floor(uv * squares);
    return mod(square.x + square.y, 2.0);
@@ -299,11 +299,6 @@ CHECKER = shader_task(
         Fault("vec2 square = floor(uv * squares);", "vec2 square = trunc(uv * squares);"),
         Fault("return mod(square.x + square.y, 2.0);", "return mod(square.x, 2.0);"),
         Fault("return mod(square.x + square.y, 2.0);", "return mod(square.x * square.y, 2.0);"),
-    ),
-    (
-        "Number the squares: which column and which row does a place lie in?",
-        "Columns and rows are whole numbers. Their sum is even on the first square and odd on its neighbours.",
-        "mod(x, 2.0) is 0 for even and 1 for odd numbers, also below 0.",
     ),
     ("return 0.0;", "return 1.0;", "return uv.x;"),
     returns="float",

@@ -58,11 +58,10 @@ def _interpolation_text(value: Any) -> str:
 _VALUE = "value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]"
 _TOTAL = "total = n[0] + n[1] + n[2]"
 _WEIGHTS = "weights = [n[k] / total for k in range(3)]"
-INTERPOLATION_HINTS = (
-    "Put in equal values at all corners: what must come out?",
-    "The three weights add up to one. At a corner its own weight is one.",
-    "With n = 1, 1, 2 the weights are in the ratio 1 to 1 to 2, and add up to 1: follow each line.",
-)
+INTERPOLATION_HINTS = """
+    Hint: Put in equal values at all corners: what must come out?
+    Hint: The three weights add up to one. At a corner its own weight is one.
+    Hint: With n = 1, 1, 2 the weights are in the ratio 1 to 1 to 2, and add up to 1: follow each line."""
 
 
 def _interpolation_task(name: str, title: str, purpose: str, n_faults: tuple[Fault, ...]) -> Task:
@@ -71,7 +70,7 @@ def _interpolation_task(name: str, title: str, purpose: str, n_faults: tuple[Fau
         name,
         "interpolate",
         title,
-        purpose,
+        purpose + INTERPOLATION_HINTS,
         listing.source,
         _weighted(name == "perspective"),
         (("number",) * 3, "number", "number"),
@@ -90,7 +89,6 @@ def _interpolation_task(name: str, title: str, purpose: str, n_faults: tuple[Fau
             ),
             Fault(_VALUE, "value = (values[0] + values[1] + values[2]) / 3"),
         ),
-        INTERPOLATION_HINTS,
         ("[0, 0, 0], 1, 0", "[1, 1, 1], 3, 1"),
         listing.function,
         shown=lambda case: _interpolation_shown(name, case),

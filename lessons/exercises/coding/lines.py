@@ -13,11 +13,10 @@ Ends = tuple[float, float, float, float]
 PIXELS = "the list of pixels"
 DRAW = "pixels.append((y, x, D) if is_steep else (x, y, D))"
 ROUND = "pixels.append((Y, x, y) if is_steep else (x, Y, y))"
-LINE_HINTS = (
-    "Draw a short line by hand, and follow the listing beside it.",
-    "Is it wrong for steep lines, for falling ones, for lines to the left, at ties, or at an end?",
-    "From (x0, y0) to (x1, y1): what must hold before the loop, in each round, and at the last pixel?",
-)
+LINE_HINTS = """
+    Hint: Draw a short line by hand, and follow the listing beside it.
+    Hint: Is it wrong for steep lines, for falling ones, for lines to the left, at ties, or at an end?
+    Hint: From (x0, y0) to (x1, y1): what must hold before the loop, in each round, and at the last pixel?"""
 
 
 def _octant(dx: int, dy: int) -> str:
@@ -123,14 +122,13 @@ def line_task(
         name,
         "raster",
         title,
-        purpose,
+        purpose + LINE_HINTS,
         listing.source.replace(f"{name.replace('-', '_')}_listing", "line"),
         cases,
         "list",
         PIXELS,
         pixels_text,
         faults,
-        LINE_HINTS,
         ("[]", "[(floor(x0), floor(y0))]", "[(floor(x0), floor(y0)), (floor(x1), floor(y1))]"),
         listing.function,
         pixels_of,
@@ -273,8 +271,11 @@ STEP = Task(
     "bresenham-step",
     "raster",
     "one step of Bresenham",
-    "step is given the row y and the sum D of a pixel, the lengths dx and dy, and sy, 1 or -1. It returns y and D of "
-    "the next column: where D > 0 the row moves by sy and D loses 2 dx; D always gains 2 dy.",
+    """step is given the row y and the sum D of a pixel, the lengths dx and dy, and sy, 1 or -1. It returns y
+    and D of the next column: where D > 0 the row moves by sy and D loses 2 dx; D always gains 2 dy.
+    Hint: Which of y and D changes in every step, and which only where D > 0?
+    Hint: What is taken from D after a step of y, and what is always added?
+    Hint: With dx = 2, dy = 1 and sy = 1, D goes from 0 to 2, and y stays. Follow your lines.""",
     "def step(y, D, dx, dy, sy):\n  if D > 0:\n    y += sy\n    D -= 2 * dx\n  D += 2 * dy\n  return y, D",
     _step_cases(),
     ("number", "number"),
@@ -284,11 +285,6 @@ STEP = Task(
         Fault("if D > 0:", "if D >= 0:", "ties-step"),
         Fault("D -= 2 * dx", "D -= 0", "not-corrected"),
         Fault("y += sy", "y += 1", "slope-always-up"),
-    ),
-    (
-        "Which of y and D changes in every step, and which only where D > 0?",
-        "What is taken from D after a step of y, and what is always added?",
-        "With dx = 2, dy = 1 and sy = 1, D goes from 0 to 2, and y stays. Follow your lines.",
     ),
     ("y, D", "y + sy, D"),
     None,

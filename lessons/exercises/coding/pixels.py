@@ -43,9 +43,12 @@ DEPTH_TEST = Task(
     "depth-test",
     "depth",
     "the depth test",
-    "depth_test is given the new depth and the old one that is stored, whether the larger of two depths is nearer, and "
-    "whether a passing depth is stored. It returns the depth that is stored then, and whether the new one passes: it "
-    "must be nearer. Equal depths do not pass.",
+    """depth_test is given the new depth and the old one that is stored, whether the larger of two depths is
+    nearer, and whether a passing depth is stored. It returns the depth that is stored then, and whether the
+    new one passes: it must be nearer. Equal depths do not pass.
+    Hint: Take a nearer depth, a farther one and an equal one: what must be stored after each?
+    Hint: What changes where the larger depth is the nearer one?
+    Hint: Follow the lines with new = 1 and old = 0, once with each value of larger_is_nearer.""",
     _DEPTH.source,
     _depth_cases(),
     ("number", "flag"),
@@ -67,11 +70,6 @@ DEPTH_TEST = Task(
         Fault("return old, False", "return new if writes else old, True", "no-depth-test"),
         Fault("return new if writes else old, True", "return new, True"),
         Fault("return new if writes else old, True", "return old if writes else new, True"),
-    ),
-    (
-        "Take a nearer depth, a farther one and an equal one: what must be stored after each?",
-        "What changes where the larger depth is the nearer one?",
-        "Follow the lines with new = 1 and old = 0, once with each value of larger_is_nearer.",
     ),
     ("new, True", "old, False", "0, True"),
     _DEPTH.function,
@@ -108,10 +106,13 @@ OVER = Task(
     "over",
     "blend",
     "blending with over",
-    "over_pixel is given a colour and what is there, each as red, green, blue and alpha; the colour's red, green and "
-    "blue are straight, those that are there are multiplied by their alpha. It returns the four numbers of the result: "
-    "the colour counts alpha, what is there counts 1 - alpha; the new alpha is alpha + (1 - alpha) times the one "
-    "there.",
+    """over_pixel is given a colour and what is there, each as red, green, blue and alpha; the colour's red,
+    green and blue are straight, those that are there are multiplied by their alpha. It returns the four
+    numbers of the result: the colour counts alpha, what is there counts 1 - alpha; the new alpha is alpha +
+    (1 - alpha) times the one there.
+    Hint: What must a layer with alpha 1 give, and one with alpha 0?
+    Hint: Alpha is mixed, too: two half clear layers are not opaque.
+    Hint: Put alpha = 1, then alpha = 0 into each line, over what has alpha 1.""",
     _OVER.source,
     _blend_cases(),
     ("number",) * 4,
@@ -133,11 +134,6 @@ OVER = Task(
         Fault(_ALPHA, "result.append(alpha)", "alpha-of-source"),
         Fault(_ALPHA, "result.append(destination[3])", "alpha-kept"),
         Fault(_ALPHA, "result.append(alpha * alpha + destination[3] * (1 - alpha))", "alpha-squared"),
-    ),
-    (
-        "What must a layer with alpha 1 give, and one with alpha 0?",
-        "Alpha is mixed, too: two half clear layers are not opaque.",
-        "Put alpha = 1, then alpha = 0 into each line, over what has alpha 1.",
     ),
     ("[0, 0, 0, 1]", "source", "destination"),
     _OVER.function,
@@ -163,9 +159,13 @@ BILINEAR = Task(
     "bilinear",
     "shade",
     "bilinear filtering",
-    "bilinear is given four texels, t00 and t10 of the lower row, t01 and t11 of the upper one, and how far the place "
-    "is from t00 to the right, fx, and upwards, fy, from 0 to 1. It returns the mean of the four, each weighed by how "
-    "near it is: first along both rows, then between them.",
+    """bilinear is given four texels, t00 and t10 of the lower row, t01 and t11 of the upper one, and how far
+    the place is from t00 to the right, fx, and upwards, fy, from 0 to 1. It returns the mean of the four,
+    each weighed by how near it is: first along both rows, then between them.
+    Hint: What must come out at fx = 0 and fy = 0?
+    Hint: Along a row, fx says how much the right texel counts, and 1 - fx the left one.
+    Hint: t00 counts (1 - fx) (1 - fy), t11 counts fx fy: check the other two, t10 and t01, at fx = 1, fy =
+    0.""",
     "def bilinear(t00, t10, t01, t11, fx, fy):\n"
     "  low = t00 * (1 - fx) + t10 * fx\n"
     "  high = t01 * (1 - fx) + t11 * fx\n"
@@ -178,11 +178,6 @@ BILINEAR = Task(
         Fault("low = t00 * (1 - fx) + t10 * fx", "low = t00 * fx + t10 * (1 - fx)"),
         Fault("high = t01 * (1 - fx) + t11 * fx", "high = t10 * (1 - fx) + t11 * fx"),
         Fault("return low * (1 - fy) + high * fy", "return (low + high) / 2"),
-    ),
-    (
-        "What must come out at fx = 0 and fy = 0?",
-        "Along a row, fx says how much the right texel counts, and 1 - fx the left one.",
-        "t00 counts (1 - fx) (1 - fy), t11 counts fx fy: check the other two, t10 and t01, at fx = 1, fy = 0.",
     ),
     ("t00", "0", "(t00 + t10 + t01 + t11) / 4"),
 )

@@ -16,6 +16,7 @@ from core.lanes.problem import Problem
 from core.lanes.program import Program
 from core.lanes.python_values import Log, at_lane
 from core.scene import ClipScene
+from lessons.exercises.asked_text import parts_of
 
 SIDE = 12
 """Columns and rows of the raster of hidden lines and triangles."""
@@ -83,8 +84,8 @@ class Task:
     stage: str
     title: str
     """Behind *repair* and *write*, as ``the inside test``."""
-    purpose: str
-    """What it must do, with the rule that decides."""
+    asked: str
+    """What it must do, with the rule that decides, and the hints; see `parts_of`."""
     text: str
     """A right listing: any other that gives the same is right, too."""
     cases: Mapping[str, tuple[Case, ...]]
@@ -96,7 +97,6 @@ class Task:
     told: Callable[[Any], str]
     """A returned value in words."""
     faults: tuple[Fault, ...] = ()
-    hints: tuple[str, ...] = ()
     guesses: tuple[str, ...] = ()
     """What somebody returns who guesses."""
     of: Callable[..., Any] | None = None
@@ -114,6 +114,11 @@ class Task:
     """Begins a note in a line."""
     tail: ClassVar[str] = ""
     """Ends a text."""
+
+    @property
+    def purpose(self) -> str:
+        """What it must do."""
+        return parts_of(self.asked)[0]
 
     @property
     def head(self) -> str:

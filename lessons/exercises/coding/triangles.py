@@ -114,9 +114,12 @@ INSIDE = Task(
     "inside-test",
     "raster",
     "the inside test",
-    "covers is given a, b and c of the three edge functions a x + b y + c, whether each edge owns the centres on it, "
-    "and a centre (x, y). It returns the three values, and whether the centre is covered: every value is positive, or "
-    "0 on an edge that owns it.",
+    """covers is given a, b and c of the three edge functions a x + b y + c, whether each edge owns the
+    centres on it, and a centre (x, y). It returns the three values, and whether the centre is covered: every
+    value is positive, or 0 on an edge that owns it.
+    Hint: Take a centre inside, one outside, and one on each edge: which of them is wrong?
+    Hint: How many of the three edges must agree? What decides where a value is 0?
+    Hint: Put a = 1, b = 0, c = -2 and x = 2 into the lines: the value is 0, and owns_tie decides.""",
     _COVERS.source,
     inside_cases(),
     (("number",) * 3, "flag"),
@@ -129,11 +132,6 @@ INSIDE = Task(
         Fault(TEST, "inside.append(value > 0)", "all-edges-exclusive"),
         Fault(TEST, "inside.append(bool(value > 0 or owns_tie[k]))"),
         Fault("return values, all(inside)", "return values, any(inside)"),
-    ),
-    (
-        "Take a centre inside, one outside, and one on each edge: which of them is wrong?",
-        "How many of the three edges must agree? What decides where a value is 0?",
-        "Put a = 1, b = 0, c = -2 and x = 2 into the lines: the value is 0, and owns_tie decides.",
     ),
     ("[0, 0, 0], True", "[0, 0, 0], False", "[1, 1, 1], True"),
     _COVERS.function,
@@ -170,8 +168,12 @@ TIE_RULE = Task(
     "tie-rule",
     "edges",
     "the tie rule",
-    "owns is given a and b of an edge function a x + b y + c of a counter-clockwise triangle, y up. It returns whether "
-    "the edge owns the centres on it: a left edge does (a > 0), and a level edge where it is the bottom edge (b > 0).",
+    """owns is given a and b of an edge function a x + b y + c of a counter-clockwise triangle, y up. It
+    returns whether the edge owns the centres on it: a left edge does (a > 0), and a level edge where it is
+    the bottom edge (b > 0).
+    Hint: Which edges have a = 0?
+    Hint: Go around a square: which two of its edges own their centres?
+    Hint: Of a square, a is 1 on the left, -1 on the right and 0 on level edges; b is 1 at the bottom.""",
     _OWNS.source,
     tie_cases(),
     "flag",
@@ -184,11 +186,6 @@ TIE_RULE = Task(
         Fault("return b > 0", "return b < 0"),
         Fault("return b > 0", "return a != b", "level-edges-always"),
         Fault("return b > 0", "return b == 0", "level-edges-never"),
-    ),
-    (
-        "Which edges have a = 0?",
-        "Go around a square: which two of its edges own their centres?",
-        "Of a square, a is 1 on the left, -1 on the right and 0 on level edges; b is 1 at the bottom.",
     ),
     ("True", "False", "b > a"),
     _OWNS.function,
@@ -214,9 +211,12 @@ EDGE = Task(
     "edge-function",
     "edges",
     "the edge function",
-    "edge is given two corners and a point (x, y), y up. It returns (x1 - x0) (y - y0) - (y1 - y0) (x - x0): twice the "
-    "area of the triangle of the three, positive where the point lies to the left of the way from corner 0 to corner "
-    "1.",
+    """edge is given two corners and a point (x, y), y up. It returns (x1 - x0) (y - y0) - (y1 - y0) (x - x0):
+    twice the area of the triangle of the three, positive where the point lies to the left of the way from
+    corner 0 to corner 1.
+    Hint: What must come out for a point on the edge, as corner 0 itself?
+    Hint: To the left of the way to the right lies what is above: y > y0.
+    Hint: With corners (0, 0) and (1, 0), the point (0, 1) gives 1, and (1, 0) gives 0.""",
     "def edge(x0, y0, x1, y1, x, y):\n  dx, dy = x1 - x0, y1 - y0\n  return dx * (y - y0) - dy * (x - x0)",
     _edge_cases(),
     "number",
@@ -225,11 +225,6 @@ EDGE = Task(
     (
         Fault("return dx * (y - y0) - dy * (x - x0)", "return dy * (x - x0) - dx * (y - y0)"),
         Fault("return dx * (y - y0) - dy * (x - x0)", "return dx * (y - y0) + dy * (x - x0)"),
-    ),
-    (
-        "What must come out for a point on the edge, as corner 0 itself?",
-        "To the left of the way to the right lies what is above: y > y0.",
-        "With corners (0, 0) and (1, 0), the point (0, 1) gives 1, and (1, 0) gives 0.",
     ),
     ("0", "1", "x - x0"),
 )

@@ -59,8 +59,11 @@ VERTEX = shader_task(
     "vertex-shader",
     "transform",
     "the vertex shader",
-    "This vertex shader of a ShaderMaterial writes gl_Position in clip space, passes on the normal as the eye sees it, "
-    "and the colour of the vertex. three.js declares position, normal, color and the matrices.",
+    """This vertex shader of a ShaderMaterial writes gl_Position in clip space, passes on the normal as the
+    eye sees it, and the colour of the vertex. three.js declares position, normal, color and the matrices.
+    Hint: Which output is wrong, and where: is the mesh moved, turned or stretched, or is there perspective?
+    Hint: The matrix that acts first stands next to the position. A position has w = 1, a direction w = 0.
+    Hint: vNormal and vColor are vec3. Where the matrices change nothing, gl_Position is (x, y, z, 1).""",
     f"""{HEAD}out vec3 vNormal;
 out vec3 vColor;
 void main() {{
@@ -81,11 +84,6 @@ void main() {{
         Fault(_PLACE, "gl_Position = seen;"),
         Fault(_PLACE, "gl_Position = seen * projectionMatrix;", "matrix-on-the-right"),
     ),
-    (
-        "Which output is wrong, and where: is the mesh moved, turned or stretched, or is there perspective?",
-        "The matrix that acts first stands next to the position. A position has w = 1, a direction w = 0.",
-        "vNormal and vColor are vec3. Where the matrices change nothing, gl_Position is (x, y, z, 1).",
-    ),
     ("gl_Position = vec4(position, 1.0);", "vColor = color;", "vNormal = normal;"),
     ("gl_Position", "vNormal", "vColor"),
     beside=lambda text: matte(text, DIFFUSE.text),
@@ -96,8 +94,12 @@ SCALING = shader_task(
     "scaling-shader",
     "transform",
     "the scaling vertex shader",
-    "This vertex shader of a ShaderMaterial scales the mesh: x by 1.5, y by 0.5 and z by 2. Then it writes gl_Position "
-    "in clip space.",
+    """This vertex shader of a ShaderMaterial scales the mesh: x by 1.5, y by 0.5 and z by 2. Then it writes
+    gl_Position in clip space.
+    Hint: Is it wrong already where all matrices change nothing?
+    Hint: What acts first stands next to the vector: the mesh is scaled, then placed before the eye, then
+    projected.
+    Hint: With matrices that change nothing, x = 1 gives 1.5, y = 1 gives 0.5 and z = 1 gives 2; w is 1.""",
     f"""{HEAD}void main() {{
    {_SCALED}
    {_BOTH}
@@ -112,11 +114,6 @@ SCALING = shader_task(
         Fault(_BOTH, "gl_Position = projectionMatrix * scaled;"),
         Fault(_BOTH, "gl_Position = modelViewMatrix * scaled;"),
     ),
-    (
-        "Is it wrong already where all matrices change nothing?",
-        "What acts first stands next to the vector: the mesh is scaled, then placed before the eye, then projected.",
-        "With matrices that change nothing, x = 1 gives 1.5, y = 1 gives 0.5 and z = 1 gives 2; w is 1.",
-    ),
     ("gl_Position = vec4(position, 1.0);", "gl_Position = vec4(0.0);"),
     ("gl_Position",),
 )
@@ -125,8 +122,11 @@ CLIP_POSITION = shader_task(
     "clip-position",
     "transform",
     "the position in clip space",
-    "clipPosition is given the two matrices and the position of a vertex. It returns the position in clip space: first "
-    "modelView, then projection. Nothing is divided by w.",
+    """clipPosition is given the two matrices and the position of a vertex. It returns the position in clip
+    space: first modelView, then projection. Nothing is divided by w.
+    Hint: A matrix of 4 x 4 takes a vector of 4 numbers. Which w has a position?
+    Hint: The matrix that acts first stands next to the vector.
+    Hint: With matrices that change nothing, (1, 2, -3) becomes (1, 2, -3, 1).""",
     """vec4 clipPosition(mat4 projection, mat4 modelView, vec3 position) {
    vec4 seen = modelView * vec4(position, 1.0);
    return projection * seen;
@@ -146,11 +146,6 @@ CLIP_POSITION = shader_task(
         Fault("return projection * seen;", "return seen;"),
         Fault("return projection * seen;", "return seen * projection;"),
         Fault("return projection * seen;", "vec4 clip = projection * seen; return clip / clip.w;"),
-    ),
-    (
-        "A matrix of 4 x 4 takes a vector of 4 numbers. Which w has a position?",
-        "The matrix that acts first stands next to the vector.",
-        "With matrices that change nothing, (1, 2, -3) becomes (1, 2, -3, 1).",
     ),
     ("return vec4(position, 1.0);", "return vec4(0.0);"),
     returns="vec4",

@@ -14,6 +14,7 @@ from lessons.exercises.answers.answer import Answer, Response
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.fields import Column, Follow, NumberAnswer, Numbers, TableAnswer, number_rows
 from lessons.exercises.answers.pixels import PixelAnswer, Pixels
+from lessons.exercises.asked_text import parts_of
 from lessons.exercises.drawn_scene import seen_pixels, window_text
 from lessons.exercises.draws import reject
 from lessons.exercises.numbers import Number, number_text
@@ -67,12 +68,6 @@ def as_numbers(values: Iterable[Any]) -> Numbers:
     return tuple(as_number(value) for value in values)
 
 
-def parts_of(asked: str) -> tuple[str, tuple[str, ...]]:
-    """Return the question and the hints of a block of text; each hint begins a line with ``Hint:``."""
-    text, *hints = " ".join(line.strip() for line in asked.split("\n")).split(" Hint: ")
-    return text, tuple(hints)
-
-
 def drafted(
     asked: str,
     given: str,
@@ -80,15 +75,15 @@ def drafted(
     mistakes: Mapping[str, Response] | None = None,
     scene: AnyScene | None = None,
     settings: Settings = DEFAULTS,
-    within: str = "",
+    behind: str = "",
     **more: Any,
 ) -> Draft:
     """Return a draft of a question and its hints in one block of text; ``more`` are further fields of `Draft`.
 
-    ``within`` says behind the question how near a number must be.
+    ``behind`` stands behind the question: how near a number must be, or what to do with a listing.
     """
     text, hints = parts_of(asked)
-    return Draft(f"{text} {within}".strip(), given, answer, hints, mistakes or {}, scene, settings, **more)
+    return Draft(f"{text} {behind}".strip(), given, answer, hints, mistakes or {}, scene, settings, **more)
 
 
 def numbers(

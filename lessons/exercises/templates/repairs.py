@@ -9,6 +9,7 @@ from lessons.exercises.coding.tasks import TASKS
 from lessons.exercises.drawn_scene import frame_art
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, template
+from lessons.exercises.templates.drafting import drafted
 from lessons.small_scenes import pixel_segments, triangle_scene
 
 REPAIRED = (
@@ -57,17 +58,17 @@ LINES = pixel_segments([((1, 1), (10, 4)), ((2, 10), (10, 7)), ((0, 4), (3, 10))
 TRIANGLE = triangle_scene([[(1.5, 1.0), (10.5, 2.5), (5.0, 11.0)]], (SIDE, SIDE))
 
 
-def code_draft(task: Task, text: str, start: str, scene: ClipScene | None = None) -> Draft:
+def code_draft(task: Task, behind: str, start: str, scene: ClipScene | None = None) -> Draft:
     """Ask for a listing; the mistakes are the task's wrong lines that the shelf names."""
     answer = CodeAnswer(task, start, scene)
     given = "" if answer.picture is None else frame_art(answer.picture)
-    return Draft(text, given, answer, task.hints, answer.named_mistakes)
+    return drafted(task.asked, given, answer, answer.named_mistakes, behind=behind)
 
 
 def draw_repair(task: Task, draws: Draws) -> Draft:
     """A listing with one of its wrong lines."""
     start = task.with_fault(draws.item(task.faults))
-    return code_draft(task, f"{task.purpose} One line of this listing is wrong. Repair it.", start)
+    return code_draft(task, "One line of this listing is wrong. Repair it.", start)
 
 
 def draw_missing(task: Task, draws: Draws) -> Draft:
@@ -75,20 +76,20 @@ def draw_missing(task: Task, draws: Draws) -> Draft:
     lines = [line.strip() for line in task.text.split("\n")]
     asked = list(dict.fromkeys(fault.line for fault in task.faults))
     start = with_line(task, lines.index(draws.item(asked)) + 1, None)
-    return code_draft(task, f"{task.purpose} One line of this listing is missing. Write it.", start)
+    return code_draft(task, "One line of this listing is missing. Write it.", start)
 
 
 def draw_function(task: Task, draws: Draws) -> Draft:
     """The head of a function."""
-    return code_draft(task, f"{task.purpose} Write the function.", head_alone(task))
+    return code_draft(task, "Write the function.", head_alone(task))
 
 
 def draw_picture(task: Task, draws: Draws) -> Draft:
     """The listing of a plain method, and the picture that it must draw."""
     is_line = task.stage == "raster" and task.shape == "list"
     plain = TASKS["bresenham-lecture" if is_line else "inside-test"]
-    text = f"{task.purpose} Change this listing so that it draws this picture, and others of its kind."
-    return code_draft(task, text, plain.text, LINES if is_line else TRIANGLE)
+    behind = "Change this listing so that it draws this picture, and others of its kind."
+    return code_draft(task, behind, plain.text, LINES if is_line else TRIANGLE)
 
 
 for _make, _names, _kind, _title, _points, _is_fixed in (

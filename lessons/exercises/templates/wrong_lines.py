@@ -7,6 +7,7 @@ from functools import partial
 from lessons.exercises.answers.listings import LineAnswer
 from lessons.exercises.draws import Draws
 from lessons.exercises.question import Draft, template
+from lessons.exercises.templates.drafting import drafted
 
 
 @dataclass(frozen=True)
@@ -16,12 +17,11 @@ class Listed:
     name: str
     stage: str
     title: str
-    purpose: str
-    """What the listing must do, with the rule that decides."""
+    asked: str
+    """What the listing must do, with the rule that decides, and the hints."""
     text: str
     faults: Mapping[int, tuple[str, ...]]
     """By the number of a line, from 0, what may stand there in its place."""
-    hints: tuple[str, ...]
 
 
 LISTINGS = (
@@ -29,7 +29,11 @@ LISTINGS = (
         "viewport-line",
         "transform",
         "The wrong line from clip space to the window",
-        "x, y and w of clip space lead to the pixel: divide, then map [-1, 1] to the window of W x H pixels, y up.",
+        """x, y and w of clip space lead to the pixel: divide, then map [-1, 1] to the window of W x H pixels,
+        y up.
+        Hint: Follow the point in the middle of the window, and its corners.
+        Hint: Where must -1 go, and where 1?
+        Hint: (x, y) = (-1, -1) goes to (0, 0), and (1, 1) to (W, H): put them into each line.""",
         """\
 x_ndc = x / w
 y_ndc = y / w
@@ -44,17 +48,16 @@ row = floor(y_window)""",
             3: ("y_window = (1 - y_ndc) / 2 * H",),
             5: ("row = ceil(y_window)",),
         },
-        (
-            "Follow the point in the middle of the window, and its corners.",
-            "Where must -1 go, and where 1?",
-            "(x, y) = (-1, -1) goes to (0, 0), and (1, 1) to (W, H): put them into each line.",
-        ),
     ),
     Listed(
         "coverage-line",
         "raster",
         "The wrong line of a coverage test",
-        "A pixel is covered where its centre lies inside of all three edges of a counter-clockwise triangle.",
+        """A pixel is covered where its centre lies inside of all three edges of a counter-clockwise triangle.
+        Hint: Which point of a pixel is put into the edge functions?
+        Hint: How many of the three values must agree?
+        Hint: Put i = 2 and j = 1 into each line: where is the centre of this pixel, and which values must be
+        positive?""",
         """\
 covered = []
 for j in range(rows):
@@ -68,17 +71,15 @@ for j in range(rows):
             4: ("        values = [a * x - b * y + c for a, b, c in edges]",),
             5: ("        if max(values) > 0:", "        if min(values) < 0:"),
         },
-        (
-            "Which point of a pixel is put into the edge functions?",
-            "How many of the three values must agree?",
-            "Put i = 2 and j = 1 into each line: where is the centre of this pixel, and which values must be positive?",
-        ),
     ),
     Listed(
         "liang-barsky-line",
         "raster",
         "The wrong line of Liang-Barsky",
-        "p < 0 enters, p > 0 leaves; the part from t_in to t_out is kept where t_in <= t_out.",
+        """p < 0 enters, p > 0 leaves; the part from t_in to t_out is kept where t_in <= t_out.
+        Hint: Of several entries, which one counts?
+        Hint: Follow a segment that is parallel to a border.
+        Hint: Put p = -1, q = 0 and p = 1, q = 1 into each line, and follow t_in and t_out.""",
         """\
 t_in, t_out = 0, 1
 outside = False
@@ -97,17 +98,16 @@ kept = not outside and t_in <= t_out""",
             6: ("        t_in = min(t_in, q / p)", "        t_in = max(t_in, p / q)"),
             8: ("        t_out = max(t_out, q / p)",),
         },
-        (
-            "Of several entries, which one counts?",
-            "Follow a segment that is parallel to a border.",
-            "Put p = -1, q = 0 and p = 1, q = 1 into each line, and follow t_in and t_out.",
-        ),
     ),
     Listed(
         "perspective-line",
         "interpolate",
         "The wrong line of perspective interpolation",
-        "u at a pixel with the window weights alpha, beta, gamma, with perspective: u/w and 1/w are linear there.",
+        """u at a pixel with the window weights alpha, beta, gamma, with perspective: u/w and 1/w are linear
+        there.
+        Hint: Put in equal w: what must come out?
+        Hint: Which sum is divided by which?
+        Hint: u = (alpha u0/w0 + beta u1/w1 + gamma u2/w2) / (alpha/w0 + beta/w1 + gamma/w2).""",
         """\
 p = alpha / w0
 q = beta / w1
@@ -120,17 +120,16 @@ u = (p * u0 + q * u1 + r * u2) / total""",
             3: ("total = 1", "total = w0 + w1 + w2"),
             4: ("u = p * u0 + q * u1 + r * u2", "u = (p * u2 + q * u0 + r * u1) / total"),
         },
-        (
-            "Put in equal w: what must come out?",
-            "Which sum is divided by which?",
-            "u = (alpha u0/w0 + beta u1/w1 + gamma u2/w2) / (alpha/w0 + beta/w1 + gamma/w2).",
-        ),
     ),
     Listed(
         "depth-line",
         "depth",
         "The wrong line of a depth test",
-        "Fragments of one pixel come in any order; the nearest is shown, smaller is nearer, a tie keeps what is there.",
+        """Fragments of one pixel come in any order; the nearest is shown, smaller is nearer, a tie keeps what
+        is there.
+        Hint: Follow three fragments with a tie among them.
+        Hint: What must the buffer hold after a fragment passed?
+        Hint: Write stored and shown after every line, with z = 1, z = 2 and z = 1 again.""",
         """\
 stored = inf
 shown = background
@@ -139,17 +138,16 @@ for z, color in fragments:
         stored = z
         shown = color""",
         {0: ("stored = 0",), 3: ("    if z > stored:", "    if z <= stored:"), 4: ("        stored = inf",)},
-        (
-            "Follow three fragments with a tie among them.",
-            "What must the buffer hold after a fragment passed?",
-            "Write stored and shown after every line, with z = 1, z = 2 and z = 1 again.",
-        ),
     ),
     Listed(
         "over-line",
         "blend",
         "The wrong line of blending",
-        "Layers lie over an opaque background, the first of the list lowest; colours are straight, alpha from 0 to 1.",
+        """Layers lie over an opaque background, the first of the list lowest; colours are straight, alpha
+        from 0 to 1.
+        Hint: What must one layer with alpha 1 give, and one with alpha 0?
+        Hint: Which layer hides which?
+        Hint: Each layer gives alpha source + (1 - alpha) color: compare this with the lines of the loop.""",
         """\
 color = background
 for source, alpha in layers:
@@ -162,11 +160,6 @@ shown = color""",
             2: ("    kept = alpha", "    kept = 1"),
             3: ("    color = source + kept * color", "    color = kept * source + alpha * color"),
         },
-        (
-            "What must one layer with alpha 1 give, and one with alpha 0?",
-            "Which layer hides which?",
-            "Each layer gives alpha source + (1 - alpha) color: compare this with the lines of the loop.",
-        ),
     ),
 )
 
@@ -177,8 +170,7 @@ def draw_listing(listed: Listed, draws: Draws) -> Draft:
     wrong = draws.item(listed.faults[number])
     lines = listed.text.split("\n")
     answer = LineAnswer((*lines[:number], wrong, *lines[number + 1 :]), number)
-    text = f"{listed.purpose} One line of this listing is wrong. Which?"
-    return Draft(text, "", answer, listed.hints)
+    return drafted(listed.asked, "", answer, behind="One line of this listing is wrong. Which?")
 
 
 for _listed in LISTINGS:

@@ -1,0 +1,7 @@
+"""A question and its hints in one block of text, as templates and tasks have it."""
+
+
+def parts_of(asked: str) -> tuple[str, tuple[str, ...]]:
+    """Return the question and the hints of a block of text; each hint begins a line with ``Hint:``."""
+    text, *hints = " ".join(line.strip() for line in asked.split("\n")).split(" Hint: ")
+    return text, tuple(hints)
