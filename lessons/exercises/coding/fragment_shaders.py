@@ -7,7 +7,7 @@ import numpy as np
 from core.scene import Texture
 from core.shaders.presets import VERTEX
 from lessons.exercises.coding.shader_scenes import matte, textured
-from lessons.exercises.coding.shader_task import HEAD, cases_of, shader_task
+from lessons.exercises.coding.shader_task import HEAD, ShaderTask, cases_of
 from lessons.exercises.coding.task import Fault
 
 STRAIGHT = tuple(map(float, np.eye(4).ravel()))
@@ -29,7 +29,7 @@ _COSINE, _SURFACE = (
     "outColor = vec4(vColor * (ambient + diffuse * cosine), 1.0);",
 )
 _UNIT, _TO_LIGHT = "vec3 N = normalize(vNormal);", "vec3 L = normalize(mat3(viewMatrix) * -lightDirection);"
-DIFFUSE = shader_task(
+DIFFUSE = ShaderTask(
     "diffuse-shader",
     "shade",
     "the diffuse light",
@@ -55,7 +55,6 @@ void main() {{
    {_COSINE}
    {_SURFACE}
 }}""",
-    _LIGHT,
     cases_of(
         _LIGHT,
         {
@@ -101,11 +100,12 @@ void main() {{
         Fault(_SURFACE, "outColor = vec4(vColor * ambient + diffuse * cosine, 1.0);"),
     ),
     ("outColor = vec4(vColor, 1.0);", "outColor = vec4(0.0);", "outColor = vec4(vColor * ambient, 1.0);"),
-    ("outColor",),
+    given=_LIGHT,
+    outputs=("outColor",),
     beside=partial(matte, VERTEX),
 )
 _RAY = (("vec3", "normal"), ("vec3", "direction"))
-LAMBERT = shader_task(
+LAMBERT = ShaderTask(
     "lambert",
     "shade",
     "the cosine of the light",
@@ -121,7 +121,6 @@ LAMBERT = shader_task(
    vec3 L = normalize(-direction);
    return max(dot(N, L), 0.0);
 }""",
-    _RAY,
     cases_of(
         _RAY,
         {
@@ -142,10 +141,11 @@ LAMBERT = shader_task(
         Fault("return max(dot(N, L), 0.0);", "return dot(N, L);", "cosine-below-zero"),
     ),
     ("return 1.0;", "return 0.0;", "return dot(normal, direction);"),
+    given=_RAY,
     returns="float",
 )
 _MIRROR = (("vec3", "N"), ("vec3", "L"), ("vec3", "V"), ("float", "shininess"))
-HIGHLIGHT = shader_task(
+HIGHLIGHT = ShaderTask(
     "highlight",
     "shade",
     "the highlight",
@@ -160,7 +160,6 @@ HIGHLIGHT = shader_task(
    float cosine = max(dot(N, H), 0.0);
    return pow(cosine, shininess);
 }""",
-    _MIRROR,
     cases_of(
         _MIRROR,
         {
@@ -180,6 +179,7 @@ HIGHLIGHT = shader_task(
         Fault("return pow(cosine, shininess);", "return cosine * shininess;"),
     ),
     ("return 1.0;", "return 0.0;", "return shininess;"),
+    given=_MIRROR,
     returns="float",
 )
 
@@ -188,7 +188,7 @@ _TEXELS = Texture(np.array([[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]], [[0.0, 0.0, 1.0]
 """Red and green in the first row, blue and yellow in the second."""
 _UV = (("vec2", "vUv"),)
 _TEXEL, _OPAQUE = "vec4 texel = texture(map, vUv);", "outColor = vec4(texel.rgb, 1.0);"
-TEXTURE = shader_task(
+TEXTURE = ShaderTask(
     "texture-shader",
     "shade",
     "the textured surface",
@@ -206,7 +206,6 @@ void main() {{
    {_TEXEL}
    {_OPAQUE}
 }}""",
-    _UV,
     cases_of(
         _UV,
         {
@@ -225,13 +224,14 @@ void main() {{
         Fault(_OPAQUE, "outColor = vec4(texel.rgb, 0.0);", "alpha-zero"),
     ),
     ("outColor = vec4(0.0, 0.0, 0.0, 1.0);", "outColor = vec4(vUv, 0.0, 1.0);"),
-    ("outColor",),
+    given=_UV,
+    outputs=("outColor",),
     textures={"map": _TEXELS},
     beside=textured,
 )
 _LEAF = (("vec4", "vColor"), ("float", "threshold"))
 _TEST = "if (vColor.a < threshold) discard;"
-ALPHA_TEST = shader_task(
+ALPHA_TEST = ShaderTask(
     "alpha-test-shader",
     "shade",
     "the alpha test",
@@ -247,7 +247,6 @@ void main() {{
    {_TEST}
    outColor = vec4(vColor.rgb, 1.0);
 }}""",
-    _LEAF,
     cases_of(
         _LEAF,
         {
@@ -266,10 +265,11 @@ void main() {{
         Fault("outColor = vec4(vColor.rgb, 1.0);", "outColor = vColor;"),
     ),
     ("outColor = vColor;", "discard;", "outColor = vec4(0.0);"),
-    ("outColor",),
+    given=_LEAF,
+    outputs=("outColor",),
 )
 _BOARD = (("vec2", "uv"), ("float", "squares"))
-CHECKER = shader_task(
+CHECKER = ShaderTask(
     "checker",
     "shade",
     "a checkerboard",
@@ -282,7 +282,6 @@ CHECKER = shader_task(
    vec2 square = floor(uv * squares);
    return mod(square.x + square.y, 2.0);
 }""",
-    _BOARD,
     cases_of(
         _BOARD,
         {
@@ -301,6 +300,7 @@ CHECKER = shader_task(
         Fault("return mod(square.x + square.y, 2.0);", "return mod(square.x * square.y, 2.0);"),
     ),
     ("return 0.0;", "return 1.0;", "return uv.x;"),
+    given=_BOARD,
     returns="float",
 )
 TASKS = (DIFFUSE, LAMBERT, HIGHLIGHT, TEXTURE, ALPHA_TEST, CHECKER)

@@ -73,9 +73,6 @@ def _interpolation_task(name: str, title: str, purpose: str, n_faults: tuple[Fau
         purpose + INTERPOLATION_HINTS,
         listing.source,
         _weighted(name == "perspective"),
-        (("number",) * 3, "number", "number"),
-        "the three weights, their total, and the value",
-        _interpolation_text,
         (
             *n_faults,
             Fault(_TOTAL, "total = n[0] + n[1]"),
@@ -90,6 +87,9 @@ def _interpolation_task(name: str, title: str, purpose: str, n_faults: tuple[Fau
             Fault(_VALUE, "value = (values[0] + values[1] + values[2]) / 3"),
         ),
         ("[0, 0, 0], 1, 0", "[1, 1, 1], 3, 1"),
+        (("number",) * 3, "number", "number"),
+        "the three weights, their total, and the value",
+        _interpolation_text,
         listing.function,
         shown=lambda case: _interpolation_shown(name, case),
     )

@@ -51,9 +51,6 @@ DEPTH_TEST = Task(
     Hint: Follow the lines with new = 1 and old = 0, once with each value of larger_is_nearer.""",
     _DEPTH.source,
     _depth_cases(),
-    ("number", "flag"),
-    "the depth that is stored then, and whether the new one passes",
-    lambda value: f"{number_text(value[0])} stored, {'passes' if value[1] else 'does not pass'}",
     (
         Fault(
             "nearer = new > old if larger_is_nearer else new < old",
@@ -72,6 +69,9 @@ DEPTH_TEST = Task(
         Fault("return new if writes else old, True", "return old if writes else new, True"),
     ),
     ("new, True", "old, False", "0, True"),
+    ("number", "flag"),
+    "the depth that is stored then, and whether the new one passes",
+    lambda value: f"{number_text(value[0])} stored, {'passes' if value[1] else 'does not pass'}",
     _DEPTH.function,
     shown=_depth_shown,
 )
@@ -115,9 +115,6 @@ OVER = Task(
     Hint: Put alpha = 1, then alpha = 0 into each line, over what has alpha 1.""",
     _OVER.source,
     _blend_cases(),
-    ("number",) * 4,
-    "four numbers",
-    lambda value: numbers_text([*value]),
     (
         Fault(
             _MIX,
@@ -136,6 +133,9 @@ OVER = Task(
         Fault(_ALPHA, "result.append(alpha * alpha + destination[3] * (1 - alpha))", "alpha-squared"),
     ),
     ("[0, 0, 0, 1]", "source", "destination"),
+    ("number",) * 4,
+    "four numbers",
+    lambda value: numbers_text([*value]),
     _OVER.function,
     tolerance=1e-6,
     shown=_blend_shown,
@@ -171,15 +171,15 @@ BILINEAR = Task(
     "  high = t01 * (1 - fx) + t11 * fx\n"
     "  return low * (1 - fy) + high * fy",
     _bilinear_cases(),
-    "number",
-    "the filtered value",
-    number_text,
     (
         Fault("low = t00 * (1 - fx) + t10 * fx", "low = t00 * fx + t10 * (1 - fx)"),
         Fault("high = t01 * (1 - fx) + t11 * fx", "high = t10 * (1 - fx) + t11 * fx"),
         Fault("return low * (1 - fy) + high * fy", "return (low + high) / 2"),
     ),
     ("t00", "0", "(t00 + t10 + t01 + t11) / 4"),
+    "number",
+    "the filtered value",
+    number_text,
 )
 
 

@@ -15,12 +15,11 @@ from core.shaders.fragment_stage import texture_colors_of
 from core.shaders.glsl_types import MATRICES, GlslValue, component_count, from_rows
 from core.shaders.samplers import Sampler
 from core.shaders.shader import SECONDS, Outcome, Shader, compile_shader
-from lessons.exercises.coding.task import Case, Fault, Task
+from lessons.exercises.coding.task import Case, Task
 from lessons.exercises.coding.triangles import numbers_text
 
 HEAD = "#version 300 es\nprecision highp float;\n"
 """Begins a whole shader."""
-Given = Sequence[tuple[str, str]]
 ROUNDED = 4e-6
 """Relative difference of two numbers that are the same: float32 rounds sums in their order."""
 BYTE = 1 / 255
@@ -57,8 +56,7 @@ class Beside:
 class ShaderTask(Task):
     """A shader, or a function, to be repaired or written; a case has a value for each of what is ``given``."""
 
-    kind: str = "fragment"
-    """Which shader it is, or is tried in."""
+    tolerance: float = ROUNDED
     given: tuple[tuple[str, str], ...] = ()
     """Type and name of what the hidden inputs give: in variables, attributes, uniforms, or parameters."""
     outputs: tuple[str, ...] = ()
@@ -72,6 +70,24 @@ class ShaderTask(Task):
 
     note: ClassVar[str] = "//"
     tail: ClassVar[str] = "\n}"
+
+    @property
+    def kind(self) -> str:
+        """Which shader it is, or is tried in."""
+        return "vertex" if "gl_Position" in self.outputs else "fragment"
+
+    def told(self, value: list[float]) -> str:
+        """Return what a shader gives in words: outputs of 3 numbers, gl_Position of 4."""
+        if not value:
+            return "discarded"
+        if len(self.outputs) < 2:
+            return numbers_text(value) if len(value) == 1 else f"({numbers_text(value)})"
+        parts, at = [], 0
+        for name in self.outputs:
+            count = 4 if name == "gl_Position" else 3
+            parts.append(f"{name} ({numbers_text(value[at : at + count])})")
+            at += count
+        return ", ".join(parts)
 
     @property
     def head(self) -> str:
@@ -184,53 +200,3 @@ def cases_of(
         name: tuple(Case(values, said_of(given, values)) for values in inputs)
         for name, inputs in classes.items()
     }
-
-
-def told_of(outputs: Sequence[str], value: list[float]) -> str:
-    """Return what a shader gives in words: outputs of 3 numbers, gl_Position of 4."""
-    if not value:
-        return "discarded"
-    if len(outputs) < 2:
-        return numbers_text(value) if len(value) == 1 else f"({numbers_text(value)})"
-    parts, at = [], 0
-    for name in outputs:
-        count = 4 if name == "gl_Position" else 3
-        parts.append(f"{name} ({numbers_text(value[at : at + count])})")
-        at += count
-    return ", ".join(parts)
-
-
-def shader_task(
-    name: str,
-    stage: str,
-    title: str,
-    asked: str,
-    text: str,
-    given: Given,
-    cases: Mapping[str, tuple[Case, ...]],
-    faults: Sequence[Fault],
-    guesses: tuple[str, ...],
-    outputs: tuple[str, ...] = (),
-    returns: str = "",
-    **more: Any,
-) -> ShaderTask:
-    """Return a task; ``outputs`` are those of a whole shader, ``returns`` is the type of a function."""
-    return ShaderTask(
-        name,
-        stage,
-        title,
-        asked,
-        text,
-        cases,
-        "number",
-        ", ".join(outputs) or returns,
-        partial(told_of, outputs),
-        tuple(faults),
-        guesses,
-        tolerance=ROUNDED,
-        kind="vertex" if "gl_Position" in outputs else "fragment",
-        given=tuple(given),
-        outputs=outputs,
-        returns=returns,
-        **more,
-    )

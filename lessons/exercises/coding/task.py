@@ -90,15 +90,15 @@ class Task:
     """A right listing: any other that gives the same is right, too."""
     cases: Mapping[str, tuple[Case, ...]]
     """By class, short ones first."""
-    shape: Shape
-    """Of what is returned; see `core.edits.typed`."""
-    words: str
-    """What is returned, as ``the list of pixels``."""
-    told: Callable[[Any], str]
-    """A returned value in words."""
     faults: tuple[Fault, ...] = ()
     guesses: tuple[str, ...] = ()
     """What somebody returns who guesses."""
+    shape: Shape = "number"
+    """Of what is returned; see `core.edits.typed`."""
+    words: str = ""
+    """What is returned, as ``the list of pixels``."""
+    written: Callable[[Any], str] = str
+    """Writes a returned value in words."""
     of: Callable[..., Any] | None = None
     """The function of the program whose helpers and constants it knows."""
     plain: Callable[[Any], Any] = field(default=lambda value: value)
@@ -114,6 +114,10 @@ class Task:
     """Begins a note in a line."""
     tail: ClassVar[str] = ""
     """Ends a text."""
+
+    def told(self, value: Any) -> str:
+        """Return a returned value in words."""
+        return self.written(value)
 
     @property
     def purpose(self) -> str:

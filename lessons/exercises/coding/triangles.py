@@ -122,9 +122,6 @@ INSIDE = Task(
     Hint: Put a = 1, b = 0, c = -2 and x = 2 into the lines: the value is 0, and owns_tie decides.""",
     _COVERS.source,
     inside_cases(),
-    (("number",) * 3, "flag"),
-    "the three values, and whether the pixel is covered",
-    _inside_text,
     (
         Fault("value = a[k] * x + (b[k] * y + c[k])", "value = a[k] * x - (b[k] * y + c[k])"),
         Fault("value = a[k] * x + (b[k] * y + c[k])", "value = a[k] * y + (b[k] * x + c[k])"),
@@ -134,6 +131,9 @@ INSIDE = Task(
         Fault("return values, all(inside)", "return values, any(inside)"),
     ),
     ("[0, 0, 0], True", "[0, 0, 0], False", "[1, 1, 1], True"),
+    (("number",) * 3, "flag"),
+    "the three values, and whether the pixel is covered",
+    _inside_text,
     _COVERS.function,
     shown=_inside_shown,
 )
@@ -176,9 +176,6 @@ TIE_RULE = Task(
     Hint: Of a square, a is 1 on the left, -1 on the right and 0 on level edges; b is 1 at the bottom.""",
     _OWNS.source,
     tie_cases(),
-    "flag",
-    "whether the edge owns the centres on it",
-    lambda value: "owns them" if value else "does not own them",
     (
         Fault("if a != 0:", "if b != 0:"),
         Fault("return a > 0", "return a < 0"),
@@ -188,6 +185,9 @@ TIE_RULE = Task(
         Fault("return b > 0", "return b == 0", "level-edges-never"),
     ),
     ("True", "False", "b > a"),
+    "flag",
+    "whether the edge owns the centres on it",
+    lambda value: "owns them" if value else "does not own them",
     _OWNS.function,
     shown=_tie_shown,
 )
@@ -219,14 +219,14 @@ EDGE = Task(
     Hint: With corners (0, 0) and (1, 0), the point (0, 1) gives 1, and (1, 0) gives 0.""",
     "def edge(x0, y0, x1, y1, x, y):\n  dx, dy = x1 - x0, y1 - y0\n  return dx * (y - y0) - dy * (x - x0)",
     _edge_cases(),
-    "number",
-    "the value of the edge function",
-    number_text,
     (
         Fault("return dx * (y - y0) - dy * (x - x0)", "return dy * (x - x0) - dx * (y - y0)"),
         Fault("return dx * (y - y0) - dy * (x - x0)", "return dx * (y - y0) + dy * (x - x0)"),
     ),
     ("0", "1", "x - x0"),
+    "number",
+    "the value of the edge function",
+    number_text,
 )
 
 

@@ -7,7 +7,7 @@ import numpy as np
 
 from lessons.exercises.coding.fragment_shaders import DIFFUSE
 from lessons.exercises.coding.shader_scenes import matte
-from lessons.exercises.coding.shader_task import HEAD, shader_task
+from lessons.exercises.coding.shader_task import HEAD, ShaderTask
 from lessons.exercises.coding.task import Case, Fault
 
 
@@ -55,7 +55,7 @@ def _vertex_cases(*, has_normals: bool) -> dict[str, tuple[Case, ...]]:
 
 _SEEN, _NORMAL = "vec4 seen = modelViewMatrix * vec4(position, 1.0);", "vNormal = normalMatrix * normal;"
 _COLOR, _PLACE = "vColor = color;", "gl_Position = projectionMatrix * seen;"
-VERTEX = shader_task(
+VERTEX = ShaderTask(
     "vertex-shader",
     "transform",
     "the vertex shader",
@@ -72,7 +72,6 @@ void main() {{
    {_COLOR}
    {_PLACE}
 }}""",
-    (*_ATTRIBUTES, *_MATRICES, ("mat3", "normalMatrix")),
     _vertex_cases(has_normals=True),
     (
         Fault(_SEEN, "vec4 seen = modelViewMatrix * vec4(position, 0.0);", "position-as-direction"),
@@ -85,12 +84,13 @@ void main() {{
         Fault(_PLACE, "gl_Position = seen * projectionMatrix;", "matrix-on-the-right"),
     ),
     ("gl_Position = vec4(position, 1.0);", "vColor = color;", "vNormal = normal;"),
-    ("gl_Position", "vNormal", "vColor"),
+    given=(*_ATTRIBUTES, *_MATRICES, ("mat3", "normalMatrix")),
+    outputs=("gl_Position", "vNormal", "vColor"),
     beside=lambda text: matte(text, DIFFUSE.text),
 )
 _SCALED = "vec4 scaled = vec4(position.x * 1.5, position.y * 0.5, position.z * 2.0, 1.0);"
 _BOTH = "gl_Position = projectionMatrix * modelViewMatrix * scaled;"
-SCALING = shader_task(
+SCALING = ShaderTask(
     "scaling-shader",
     "transform",
     "the scaling vertex shader",
@@ -104,7 +104,6 @@ SCALING = shader_task(
    {_SCALED}
    {_BOTH}
 }}""",
-    (("vec3", "position"), *_MATRICES),
     _vertex_cases(has_normals=False),
     (
         Fault(_SCALED, _SCALED.replace("y * 0.5", "y * 1.5"), "one-scale-for-all"),
@@ -115,10 +114,11 @@ SCALING = shader_task(
         Fault(_BOTH, "gl_Position = modelViewMatrix * scaled;"),
     ),
     ("gl_Position = vec4(position, 1.0);", "gl_Position = vec4(0.0);"),
-    ("gl_Position",),
+    given=(("vec3", "position"), *_MATRICES),
+    outputs=("gl_Position",),
 )
 _CLIP = (("mat4", "projection"), ("mat4", "modelView"), ("vec3", "position"))
-CLIP_POSITION = shader_task(
+CLIP_POSITION = ShaderTask(
     "clip-position",
     "transform",
     "the position in clip space",
@@ -131,7 +131,6 @@ CLIP_POSITION = shader_task(
    vec4 seen = modelView * vec4(position, 1.0);
    return projection * seen;
 }""",
-    _CLIP,
     {
         name: tuple(Case((case.values[2], case.values[1], case.values[0]), case.said) for case in cases)
         for name, cases in _vertex_cases(has_normals=False).items()
@@ -148,6 +147,7 @@ CLIP_POSITION = shader_task(
         Fault("return projection * seen;", "vec4 clip = projection * seen; return clip / clip.w;"),
     ),
     ("return vec4(position, 1.0);", "return vec4(0.0);"),
+    given=_CLIP,
     returns="vec4",
 )
 TASKS = (VERTEX, SCALING, CLIP_POSITION)
