@@ -10,7 +10,7 @@ from typing import Any
 
 from core import STAGES
 from lessons.course.lesson_file import Lesson, read_lesson
-from lessons.os_errors import os_error_reason
+from lessons.named_files import read_files, read_folders
 
 FOLDER = Path(__file__).parent
 DATA = ("order.toml", "slides.toml")
@@ -82,7 +82,8 @@ def _ordered() -> dict[str, Any]:
 @cache
 def shipped() -> Course:
     """Return the lessons that ship with the program, read once; those that are not in the order come last."""
-    found, problems = _read(sorted(FOLDER.glob("*.toml")), {}, skipped=DATA)
+    paths = [path for path in sorted(FOLDER.glob("*.toml")) if path.name not in DATA]
+    found, problems = read_files(paths, read_lesson, "a lesson", {})
     order = [name for names in chapters().values() for name in names]
     names = [name for name in order if name in found] + [name for name in found if name not in order]
     return Course({name: found[name] for name in names}, tuple(problems))
@@ -91,41 +92,5 @@ def shipped() -> Course:
 def with_folders(folders: Iterable[Path]) -> Course:
     """Return the shipped lessons, then those of folders, whose ``.toml`` files all are lessons."""
     course = shipped()
-    found, problems = dict(course.lessons), list(course.problems)
-    for folder in folders:
-        try:
-            paths = sorted(path for path in folder.iterdir() if path.suffix.lower() == ".toml")
-        except OSError as problem:
-            problems.append(f"{folder}: expected a folder of lessons: {os_error_reason(problem)}")
-            continue
-        if len(paths) > FILE_LIMIT:
-            problems.append(
-                f"{folder}: expected up to {FILE_LIMIT} lessons, got {len(paths)}: the first are read"
-            )
-        more, skipped = _read(paths[:FILE_LIMIT], found)
-        found |= more
-        problems += skipped
-    return Course(found, tuple(problems))
-
-
-def _read(
-    paths: Iterable[Path], taken: dict[str, Lesson], skipped: Iterable[str] = ()
-) -> tuple[dict[str, Lesson], list[str]]:
-    """Read lessons whose names are not taken, and say why others are not read."""
-    found: dict[str, Lesson] = {}
-    problems = []
-    for path in paths:
-        if path.name in skipped:
-            continue
-        try:
-            lesson = read_lesson(path)
-        except ValueError as problem:
-            problems.append(str(problem))
-        except OSError as problem:
-            problems.append(f"{path}: expected a lesson: {os_error_reason(problem)}")
-        else:
-            if lesson.name in taken or lesson.name in found:
-                problems.append(f"{path}: expected another name: there is a lesson {lesson.name} already")
-            else:
-                found[lesson.name] = lesson
-    return found, problems
+    found, problems = read_folders(folders, read_lesson, "a lesson", FILE_LIMIT, course.lessons)
+    return Course(course.lessons | found, (*course.problems, *problems))
