@@ -1,12 +1,13 @@
 """Listings of interpolation, at centres inside, on edges and at corners, with equal and unequal w."""
 
+from collections.abc import Iterator
 from typing import Any
 
 import numpy as np
 
 from core import Settings
 from core.edits import original
-from lessons.exercises.coding.task import SIDE, Case, Fault, Shown, Task
+from lessons.exercises.coding.task import SIDE, Case, Fault, Shown, Task, in_classes
 from lessons.exercises.coding.triangles import (
     corners_text,
     edges_of,
@@ -17,9 +18,8 @@ from lessons.exercises.coding.triangles import (
 from lessons.small_scenes import triangle_scene
 
 
-def _weighted(is_perspective: bool) -> dict[str, tuple[Case, ...]]:
-    """Return triangles with w and values, and a centre, by what is special."""
-    found: dict[str, list[Case]] = {}
+def _weighted(is_perspective: bool) -> Iterator[tuple[str, Case]]:
+    """Yield triangles with w and values, and a centre, by what is special."""
     equal, unequal = (2.0, 2.0, 2.0), (1.0, 4.0, 2.0)
     for number, (corners, column, row) in enumerate(pixels_of_triangles()):
         rows = edges_of(corners)
@@ -38,9 +38,7 @@ def _weighted(is_perspective: bool) -> dict[str, tuple[Case, ...]]:
                 f"centre ({x:g}, {y:g})"
             )
             given = (a, b, c, x, y, values) if is_perspective else (a, b, c, w, x, y, values)
-            if len(found.setdefault(name, [])) < 12:
-                found[name].append(Case(given, said, (corners, w, values, (column, row))))
-    return {name: tuple(cases) for name, cases in found.items()}
+            yield name, Case(given, said, (corners, w, values, (column, row)))
 
 
 def _interpolation_shown(method: str, case: Case) -> Shown:
@@ -58,6 +56,7 @@ def _interpolation_text(value: Any) -> str:
 _VALUE = "value = weights[0] * values[0] + weights[1] * values[1] + weights[2] * values[2]"
 _TOTAL = "total = n[0] + n[1] + n[2]"
 _WEIGHTS = "weights = [n[k] / total for k in range(3)]"
+_TIMES_W = "n = [(a[k] * x + (b[k] * y + c[k])) * w[k] for k in range(3)]"
 INTERPOLATION_HINTS = """
     Hint: Put in equal values at all corners: what must come out?
     Hint: The three weights add up to one. At a corner its own weight is one.
@@ -72,7 +71,7 @@ def _interpolation_task(name: str, title: str, purpose: str, n_faults: tuple[Fau
         title,
         purpose + INTERPOLATION_HINTS,
         listing.source,
-        _weighted(name == "perspective"),
+        in_classes(_weighted(name == "perspective"), 12),
         (
             *n_faults,
             Fault(_TOTAL, "total = n[0] + n[1]"),
@@ -117,11 +116,11 @@ AFFINE = _interpolation_task(
     "its weight, added up.",
     (
         Fault(
-            "n = [(a[k] * x + (b[k] * y + c[k])) * w[k] for k in range(3)]",
+            _TIMES_W,
             "n = [a[k] * x + (b[k] * y + c[k]) for k in range(3)]",
         ),
         Fault(
-            "n = [(a[k] * x + (b[k] * y + c[k])) * w[k] for k in range(3)]",
+            _TIMES_W,
             "n = [(a[k] * x + (b[k] * y + c[k])) / w[k] for k in range(3)]",
         ),
     ),

@@ -1,18 +1,21 @@
 """Listings of lines: Bresenham, midpoint and DDA, on lines of every octant, with ties, and of one pixel."""
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from math import gcd
 from typing import Any
 
 from core import Settings
 from core.edits import original
-from lessons.exercises.coding.task import SIDE, Case, Fault, Shown, Task
+from lessons.exercises.coding.task import SIDE, Case, Fault, Shown, Task, in_classes
 from lessons.small_scenes import segment_scene
 
 Ends = tuple[float, float, float, float]
 PIXELS = "the list of pixels"
 DRAW = "pixels.append((y, x, D) if is_steep else (x, y, D))"
 ROUND = "pixels.append((Y, x, y) if is_steep else (x, Y, y))"
+WHILE = "while (x1 - x) * sx > 0 or (last_pixel and x == x1):"
+SIGNS = "sx, sy = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)"
+SLOPE = "m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0"
 LINE_HINTS = """
     Hint: Draw a short line by hand, and follow the listing beside it.
     Hint: Is it wrong for steep lines, for falling ones, for lines to the left, at ties, or at an end?
@@ -166,14 +169,8 @@ BRESENHAM = line_task(
     (
         Fault("x0, y0, x1, y1 = y0, x0, y1, x1", "x0, y0, x1, y1 = y0, x0, x1, y1"),
         Fault("dx, dy = abs(x1 - x0), abs(y1 - y0)", "dx, dy = abs(x1 - x0), y1 - y0"),
-        Fault(
-            "sx, sy = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)",
-            "sx, sy = (-1 if x1 < x0 else 1), 1",
-            "slope-always-up",
-        ),
-        Fault(
-            "sx, sy = (-1 if x1 < x0 else 1), (-1 if y1 < y0 else 1)", "sx, sy = 1, (-1 if y1 < y0 else 1)"
-        ),
+        Fault(SIGNS, "sx, sy = (-1 if x1 < x0 else 1), 1", "slope-always-up"),
+        Fault(SIGNS, "sx, sy = 1, (-1 if y1 < y0 else 1)"),
         Fault("D = 2 * dy - dx", "D = dy - dx", "start-not-doubled"),
         Fault("for _ in range(dx + last_pixel):", "for _ in range(dx):", "last-pixel-lost"),
         Fault("for _ in range(dx + last_pixel):", "for _ in range(dx + 1):"),
@@ -191,17 +188,11 @@ MIDPOINT = line_task(
     float_cases(),
     (
         Fault("is_steep = abs(y1 - y0) > abs(x1 - x0)", "is_steep = y1 - y0 > x1 - x0"),
-        Fault(
-            "m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0", "m = (x1 - x0) / (y1 - y0) if y1 != y0 else 0.0"
-        ),
+        Fault(SLOPE, "m = (x1 - x0) / (y1 - y0) if y1 != y0 else 0.0"),
         Fault("b = y0 - m * x0", "b = y0 - m"),
         Fault("sx = -1 if x1 < x0 else 1", "sx = 1"),
         Fault("x = ceil(x0) if sx > 0 else floor(x0)", "x = floor(x0)"),
-        Fault(
-            "while (x1 - x) * sx > 0 or (last_pixel and x == x1):",
-            "while (x1 - x) * sx > 0:",
-            "last-pixel-lost",
-        ),
+        Fault(WHILE, "while (x1 - x) * sx > 0:", "last-pixel-lost"),
         Fault("Y = floor(y) + (y - floor(y) >= 0.5)", "Y = floor(y)"),
         Fault("Y = floor(y) + (y - floor(y) >= 0.5)", "Y = floor(y) + (y - floor(y) > 0.5)"),
     ),
@@ -215,16 +206,9 @@ DDA = line_task(
     float_cases(),
     (
         Fault("x0, y0, x1, y1 = y0, x0, y1, x1", "x0, y0, x1, y1 = y0, y1, x0, x1"),
-        Fault(
-            "m = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0",
-            "m = (y1 - y0) // (x1 - x0) if x1 != x0 else 0.0",
-        ),
+        Fault(SLOPE, "m = (y1 - y0) // (x1 - x0) if x1 != x0 else 0.0"),
         Fault("y = m * x + b", "y = y0"),
-        Fault(
-            "while (x1 - x) * sx > 0 or (last_pixel and x == x1):",
-            "while (x1 - x) * sx > 0:",
-            "last-pixel-lost",
-        ),
+        Fault(WHILE, "while (x1 - x) * sx > 0:", "last-pixel-lost"),
         Fault("Y = floor(y) + (y - floor(y) >= 0.5)", "Y = floor(y)"),
         Fault("y += m * sx", "y += m"),
         Fault("y += m * sx", "y += sx"),
@@ -234,9 +218,8 @@ STEP_CALL = "    y, D = step(y, D, dx, dy, sy)\n"
 STEP_LINES = "    if D > 0:\n      y += sy\n      D -= 2 * dx\n    D += 2 * dy\n"
 
 
-def _step_cases() -> dict[str, tuple[Case, ...]]:
-    """Return states of Bresenham's loop by what must happen."""
-    found: dict[str, list[Case]] = {}
+def _step_cases() -> Iterator[tuple[str, Case]]:
+    """Yield states of Bresenham's loop by what must happen."""
     for dx, dy, sy in (
         (3, 1, 1),
         (5, 2, 1),
@@ -253,11 +236,10 @@ def _step_cases() -> dict[str, tuple[Case, ...]]:
             way = "upwards" if sy > 0 else "downwards"
             said = f"y = {y}, D = {D}, dx = {dx}, dy = {dy}, sy = {sy}"
             label = f"{name}, {way}" if D > 0 else name
-            found.setdefault(label, []).append(Case((y, D, dx, dy, sy), said))
+            yield label, Case((y, D, dx, dy, sy), said)
             if D > 0:
                 y, D = y + sy, D - 2 * dx
             D += 2 * dy
-    return {name: tuple(cases) for name, cases in found.items()}
 
 
 def _step_shown(case: Case) -> Shown:
@@ -277,7 +259,7 @@ STEP = Task(
     Hint: What is taken from D after a step of y, and what is always added?
     Hint: With dx = 2, dy = 1 and sy = 1, D goes from 0 to 2, and y stays. Follow your lines.""",
     "def step(y, D, dx, dy, sy):\n  if D > 0:\n    y += sy\n    D -= 2 * dx\n  D += 2 * dy\n  return y, D",
-    _step_cases(),
+    in_classes(_step_cases()),
     (
         Fault("if D > 0:", "if D >= 0:", "ties-step"),
         Fault("D -= 2 * dx", "D -= 0", "not-corrected"),

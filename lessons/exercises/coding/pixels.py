@@ -1,12 +1,13 @@
 """Listings of one pixel: depth test, blending, and bilinear filtering."""
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 
 from core import Settings
 from core.edits import original
-from lessons.exercises.coding.task import Case, Fault, Shown, Task
+from lessons.exercises.coding.task import Case, Fault, Shown, Task, in_classes
 from lessons.exercises.coding.triangles import number_text, numbers_text
 from lessons.small_scenes import triangle_scene
 
@@ -15,8 +16,7 @@ SIZE = (6, 6)
 DEPTHS = (0.25, 0.5, 0.75, 0.0, 1.0)
 
 
-def _depth_cases() -> dict[str, tuple[Case, ...]]:
-    found: dict[str, list[Case]] = {}
+def _depth_cases() -> Iterator[tuple[str, Case]]:
     for is_larger in (False, True):
         for writes in (True, False):
             for new in DEPTHS:
@@ -24,8 +24,7 @@ def _depth_cases() -> dict[str, tuple[Case, ...]]:
                     way = "larger is nearer" if is_larger else "smaller is nearer"
                     name = "nothing is stored" if not writes else "equal depths" if new == old else way
                     said = f"new {new:g}, old {old:g}, {way}" + ("" if writes else ", writes is false")
-                    found.setdefault(name, []).append(Case((new, old, is_larger, writes), said))
-    return {name: tuple(cases) for name, cases in found.items()}
+                    yield name, Case((new, old, is_larger, writes), said)
 
 
 def _depth_shown(case: Case) -> Shown | None:
@@ -38,6 +37,7 @@ def _depth_shown(case: Case) -> Shown | None:
     return Shown(scene, Settings(depth=method), "depth_test", method, "depth")
 
 
+_NEARER = "nearer = new > old if larger_is_nearer else new < old"
 _DEPTH = original("depth_test", "z-float32")
 DEPTH_TEST = Task(
     "depth-test",
@@ -50,19 +50,11 @@ DEPTH_TEST = Task(
     Hint: What changes where the larger depth is the nearer one?
     Hint: Follow the lines with new = 1 and old = 0, once with each value of larger_is_nearer.""",
     _DEPTH.source,
-    _depth_cases(),
+    in_classes(_depth_cases()),
     (
-        Fault(
-            "nearer = new > old if larger_is_nearer else new < old",
-            "nearer = new < old if larger_is_nearer else new > old",
-            "farther-wins",
-        ),
-        Fault(
-            "nearer = new > old if larger_is_nearer else new < old",
-            "nearer = new >= old if larger_is_nearer else new <= old",
-            "last-wins-ties",
-        ),
-        Fault("nearer = new > old if larger_is_nearer else new < old", "nearer = new < old"),
+        Fault(_NEARER, "nearer = new < old if larger_is_nearer else new > old", "farther-wins"),
+        Fault(_NEARER, "nearer = new >= old if larger_is_nearer else new <= old", "last-wins-ties"),
+        Fault(_NEARER, "nearer = new < old"),
         Fault("return old, False", "return new, False"),
         Fault("return old, False", "return new if writes else old, True", "no-depth-test"),
         Fault("return new if writes else old, True", "return new, True"),
@@ -77,8 +69,7 @@ DEPTH_TEST = Task(
 )
 
 
-def _blend_cases() -> dict[str, tuple[Case, ...]]:
-    found: dict[str, list[Case]] = {}
+def _blend_cases() -> Iterator[tuple[str, Case]]:
     colors = ((1.0, 0.0, 0.25), (0.5, 0.75, 0.0))
     for alpha in (0.0, 0.25, 0.5, 1.0):
         for there in (0.0, 0.5, 1.0):
@@ -88,8 +79,7 @@ def _blend_cases() -> dict[str, tuple[Case, ...]]:
                 name = f"{layer} over {below}" if layer == "a layer between" else layer
                 source, destination = (*one, alpha), (*(part * there for part in other), there)
                 said = f"({numbers_text([*source])}) over ({numbers_text([*destination])})"
-                found.setdefault(name, []).append(Case((source, destination), said))
-    return {name: tuple(cases) for name, cases in found.items()}
+                yield name, Case((source, destination), said)
 
 
 def _blend_shown(case: Case) -> Shown:
@@ -114,7 +104,7 @@ OVER = Task(
     Hint: Alpha is mixed, too: two half clear layers are not opaque.
     Hint: Put alpha = 1, then alpha = 0 into each line, over what has alpha 1.""",
     _OVER.source,
-    _blend_cases(),
+    in_classes(_blend_cases()),
     (
         Fault(
             _MIX,
@@ -142,8 +132,7 @@ OVER = Task(
 )
 
 
-def _bilinear_cases() -> dict[str, tuple[Case, ...]]:
-    found: dict[str, list[Case]] = {}
+def _bilinear_cases() -> Iterator[tuple[str, Case]]:
     texels = ((1.0, 3.0, 5.0, 11.0), (0.0, 8.0, 4.0, 2.0))
     for fx in (0.0, 0.25, 0.5, 1.0):
         for fy in (0.0, 0.5, 0.75, 1.0):
@@ -151,8 +140,7 @@ def _bilinear_cases() -> dict[str, tuple[Case, ...]]:
             name = ("between four texels", "between two texels", "at a texel")[whole]
             for four in texels:
                 said = f"texels {numbers_text([*four])}, fx = {fx:g}, fy = {fy:g}"
-                found.setdefault(name, []).append(Case((*four, fx, fy), said))
-    return {name: tuple(cases) for name, cases in found.items()}
+                yield name, Case((*four, fx, fy), said)
 
 
 BILINEAR = Task(
@@ -170,7 +158,7 @@ BILINEAR = Task(
     "  low = t00 * (1 - fx) + t10 * fx\n"
     "  high = t01 * (1 - fx) + t11 * fx\n"
     "  return low * (1 - fy) + high * fy",
-    _bilinear_cases(),
+    in_classes(_bilinear_cases()),
     (
         Fault("low = t00 * (1 - fx) + t10 * fx", "low = t00 * fx + t10 * (1 - fx)"),
         Fault("high = t01 * (1 - fx) + t11 * fx", "high = t10 * (1 - fx) + t11 * fx"),

@@ -1,6 +1,6 @@
 """What a listing must do: its right text, the hidden inputs by class, and what a run of another text gives on them."""
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from math import isclose
@@ -38,6 +38,18 @@ class Case:
     """What it is shown with."""
     size: float = 0.0
     """How long or large it is: of those that are wrong the smallest is told."""
+
+
+Classes = Mapping[str, tuple[Case, ...]]
+"""Hidden inputs by class, short ones first."""
+
+
+def in_classes(cases: Iterable[tuple[str, Case]], most: int | None = None) -> Classes:
+    """Return hidden inputs, each given with its class, by class: all of them, or the first ``most`` of each."""
+    found: dict[str, list[Case]] = {}
+    for name, case in cases:
+        found.setdefault(name, []).append(case)
+    return {name: tuple(of[:most]) for name, of in found.items()}
 
 
 @dataclass(frozen=True)
@@ -88,8 +100,7 @@ class Task:
     """What it must do, with the rule that decides, and the hints; see `parts_of`."""
     text: str
     """A right listing: any other that gives the same is right, too."""
-    cases: Mapping[str, tuple[Case, ...]]
-    """By class, short ones first."""
+    cases: Classes
     faults: tuple[Fault, ...] = ()
     guesses: tuple[str, ...] = ()
     """What somebody returns who guesses."""

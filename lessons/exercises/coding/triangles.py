@@ -5,7 +5,7 @@ from typing import Any
 
 from core import Settings
 from core.edits import original
-from lessons.exercises.coding.task import SIDE, Case, Fault, Shown, Task
+from lessons.exercises.coding.task import SIDE, Case, Fault, Shown, Task, in_classes
 from lessons.small_scenes import triangle_scene
 
 Point = tuple[float, float]
@@ -50,9 +50,8 @@ def corners_text(corners: Corners) -> str:
     return ", ".join(f"({x:g}, {y:g})" for x, y in corners)
 
 
-def inside_cases() -> dict[str, tuple[Case, ...]]:
-    """Return edges and a centre by where it lies."""
-    found: dict[str, list[Case]] = {}
+def inside_cases() -> Iterator[tuple[str, Case]]:
+    """Yield edges and a centre by where it lies."""
     for corners, column, row in pixels_of_triangles():
         a, b, c = edges_of(corners)
         owns = tuple(_owns(*pair) for pair in zip(a, b, strict=True))
@@ -68,17 +67,13 @@ def inside_cases() -> dict[str, tuple[Case, ...]]:
             name = "on a corner"
         else:
             name = "on an edge that owns its centres" if owns[on[0]] else "on an edge that does not own them"
-        if len(found.setdefault(name, [])) < 24:
-            said = f"triangle {corners_text(corners)}, centre ({x:g}, {y:g})"
-            is_beside = not all(
-                min(side) <= place <= max(side)
-                for side, place in zip(zip(*corners, strict=True), (x, y), strict=True)
-            )
-            # Outside of its box a triangle is not tested.
-            found[name].append(
-                Case((a, b, c, owns, x, y), said, (corners, (column, row)), size=float(is_beside))
-            )
-    return {name: tuple(cases) for name, cases in found.items()}
+        said = f"triangle {corners_text(corners)}, centre ({x:g}, {y:g})"
+        # Outside of its box a triangle is not tested.
+        is_beside = not all(
+            min(side) <= place <= max(side)
+            for side, place in zip(zip(*corners, strict=True), (x, y), strict=True)
+        )
+        yield name, Case((a, b, c, owns, x, y), said, (corners, (column, row)), size=float(is_beside))
 
 
 def number_text(number: float) -> str:
@@ -121,7 +116,7 @@ INSIDE = Task(
     Hint: How many of the three edges must agree? What decides where a value is 0?
     Hint: Put a = 1, b = 0, c = -2 and x = 2 into the lines: the value is 0, and owns_tie decides.""",
     _COVERS.source,
-    inside_cases(),
+    in_classes(inside_cases(), 24),
     (
         Fault("value = a[k] * x + (b[k] * y + c[k])", "value = a[k] * x - (b[k] * y + c[k])"),
         Fault("value = a[k] * x + (b[k] * y + c[k])", "value = a[k] * y + (b[k] * x + c[k])"),
@@ -139,9 +134,8 @@ INSIDE = Task(
 )
 
 
-def tie_cases() -> dict[str, tuple[Case, ...]]:
-    """Return directions of edges by what they are."""
-    found: dict[str, list[Case]] = {}
+def tie_cases() -> Iterator[tuple[str, Case]]:
+    """Yield directions of edges by what they are."""
     for a in range(-3, 4):
         for b in range(-3, 4):
             if (a, b) == (0, 0):
@@ -149,9 +143,7 @@ def tie_cases() -> dict[str, tuple[Case, ...]]:
             side = "left" if a > 0 else "right"
             lean = "upright" if b == 0 else "rising" if (a > 0) != (b > 0) else "falling"
             name = f"{lean} {side} edges" if a else "level edges"
-            case = Case((a, b), f"a = {a}, b = {b}", (a, b), size=abs(a) + abs(b))
-            found.setdefault(name, []).append(case)
-    return {name: tuple(cases) for name, cases in found.items()}
+            yield name, Case((a, b), f"a = {a}, b = {b}", (a, b), size=abs(a) + abs(b))
 
 
 def _tie_shown(case: Case) -> Shown:
@@ -175,7 +167,7 @@ TIE_RULE = Task(
     Hint: Go around a square: which two of its edges own their centres?
     Hint: Of a square, a is 1 on the left, -1 on the right and 0 on level edges; b is 1 at the bottom.""",
     _OWNS.source,
-    tie_cases(),
+    in_classes(tie_cases()),
     (
         Fault("if a != 0:", "if b != 0:"),
         Fault("return a > 0", "return a < 0"),
@@ -193,9 +185,8 @@ TIE_RULE = Task(
 )
 
 
-def _edge_cases() -> dict[str, tuple[Case, ...]]:
-    """Return two corners and a point by the side on which it lies."""
-    found: dict[str, list[Case]] = {}
+def _edge_cases() -> Iterator[tuple[str, Case]]:
+    """Yield two corners and a point by the side on which it lies."""
     for p, q in (((1, 1), (4, 1)), ((4, 1), (4, 4)), ((4, 4), (1, 1)), ((2, 5), (1, 2)), ((5, 3), (2, 3))):
         for x in range(6):
             for y in range(6):
@@ -203,8 +194,7 @@ def _edge_cases() -> dict[str, tuple[Case, ...]]:
                 value = a * x + b * y + c
                 name = "on the edge" if value == 0 else "to its left" if value > 0 else "to its right"
                 said = f"from ({p[0]}, {p[1]}) to ({q[0]}, {q[1]}), point ({x}, {y})"
-                found.setdefault(name, []).append(Case((*map(float, (*p, *q, x, y)),), said))
-    return {name: tuple(cases) for name, cases in found.items()}
+                yield name, Case((*map(float, (*p, *q, x, y)),), said)
 
 
 EDGE = Task(
@@ -218,7 +208,7 @@ EDGE = Task(
     Hint: To the left of the way to the right lies what is above: y > y0.
     Hint: With corners (0, 0) and (1, 0), the point (0, 1) gives 1, and (1, 0) gives 0.""",
     "def edge(x0, y0, x1, y1, x, y):\n  dx, dy = x1 - x0, y1 - y0\n  return dx * (y - y0) - dy * (x - x0)",
-    _edge_cases(),
+    in_classes(_edge_cases()),
     (
         Fault("return dx * (y - y0) - dy * (x - x0)", "return dy * (x - x0) - dx * (y - y0)"),
         Fault("return dx * (y - y0) - dy * (x - x0)", "return dx * (y - y0) + dy * (x - x0)"),
