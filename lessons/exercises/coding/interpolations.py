@@ -115,14 +115,8 @@ AFFINE = _interpolation_task(
     "does not count. It returns the weights n[k] / total, the total of the n, and the value: the values, each times "
     "its weight, added up.",
     (
-        Fault(
-            _TIMES_W,
-            "n = [a[k] * x + (b[k] * y + c[k]) for k in range(3)]",
-        ),
-        Fault(
-            _TIMES_W,
-            "n = [(a[k] * x + (b[k] * y + c[k])) / w[k] for k in range(3)]",
-        ),
+        Fault(_TIMES_W, "n = [a[k] * x + (b[k] * y + c[k]) for k in range(3)]"),
+        Fault(_TIMES_W, "n = [(a[k] * x + (b[k] * y + c[k])) / w[k] for k in range(3)]"),
     ),
 )
 TASKS = (PERSPECTIVE, AFFINE)

@@ -61,10 +61,7 @@ def moves_text(start: tuple[int, int], end: tuple[int, int]) -> str:
 
 
 def of_segments(
-    asked: str,
-    segments: list[Ends],
-    names: tuple[str, ...],
-    direction: tuple[int, int] | None = None,
+    asked: str, segments: list[Ends], names: tuple[str, ...], direction: tuple[int, int] | None = None
 ) -> Draft:
     """Ask for the pixels of segments by the lecture's Bresenham; of one in the ``direction`` that it is drawn in."""
     scene = pixel_segments(segments, SIZE)

@@ -27,11 +27,7 @@ def looked_up(scene: ClipScene, u: float, settings: Settings, v: float = 0.5) ->
 
 
 def of_strip(
-    asked: str,
-    texels: Sequence[Fraction],
-    u: Fraction,
-    settings: Settings,
-    names: Sequence[str],
+    asked: str, texels: Sequence[Fraction], u: Fraction, settings: Settings, names: Sequence[str]
 ) -> Draft:
     """Ask for a look-up in one row of texels."""
     scene = strip([float(texel) for texel in texels])
