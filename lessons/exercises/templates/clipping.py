@@ -5,7 +5,6 @@ from fractions import Fraction
 
 from core import Settings, clip_lines
 from core.geometry.line_clipping.records import ENTER, LEAVE, ParameterRows
-from core.scene import ClipScene
 from lessons.exercises.answers.cells import ENTERS, LEAVES, Value
 from lessons.exercises.answers.fields import Column, Row, Rows, TableAnswer, empty_rows, followed
 from lessons.exercises.draws import Draws, reject
@@ -103,12 +102,18 @@ def _ends(draws: Draws) -> Ends:
     return start, (draws.whole(6, 14), draws.whole(4, 11))
 
 
-@template("liang-barsky-table", 1, "Liang-Barsky's p, q and t", "raster", 6)
-def draw_parameters(draws: Draws) -> Draft:
-    """Liang-Barsky's p, q and t."""
+def cut_ends(draws: Draws) -> Ends:
+    """Draw a segment of which both ends are cut off."""
     ends = _ends(draws)
     clipped = clip_lines([ends], (0, 0, *SIZE))
     reject(not clipped.is_kept[0] or bool((clipped.cut_by < 0).any()))
+    return ends
+
+
+@template("liang-barsky-table", 1, "Liang-Barsky's p, q and t", "raster", 6)
+def draw_parameters(draws: Draws) -> Draft:
+    """Liang-Barsky's p, q and t."""
+    ends = cut_ends(draws)
     names = ("normals-inward", "entries-and-exits", "top-and-bottom")
     wrong = {name: parameter_rows(ends, SHELF[name].change_settings(PARAMETERS)) for name in names}
     x0, x1 = (factor_text(Fraction(x)) for x, _ in ends)
@@ -118,7 +123,9 @@ def draw_parameters(draws: Draws) -> Draft:
         Hint: dx and dy are the differences of the ends.
         Hint: p is -dx, dx, -dy, dy; q is x0 - left, right - x0, y0 - bottom, top - y0.
         Hint: Left: p = -({x1} - {x0}), q = {x0} - 0, and t = q/p; its word depends on the sign of p."""
-    return drafted(asked, _given(ends), parameter_table(ends), wrong, _scene(ends), PARAMETERS)
+    return drafted(
+        asked, segment_text(ends), parameter_table(ends), wrong, segment_scene([ends], SIZE), PARAMETERS
+    )
 
 
 @template("cohen-sutherland-table", 1, "Cohen-Sutherland's outcodes", "raster", 6)
@@ -139,12 +146,9 @@ def draw_outcodes(draws: Draws) -> Draft:
         Hint: The line through the given ends: y = {y0} + (x - {x0}) ({y1} - {y0}) / ({x1} - {x0})."""
     answer = outcode_table(ends, count)
     settings = Settings(line_clipping="cohen-sutherland")
-    return drafted(asked, _given(ends), answer, {}, _scene(ends), settings)
+    return drafted(asked, segment_text(ends), answer, {}, segment_scene([ends], SIZE), settings)
 
 
-def _scene(ends: Ends) -> ClipScene:
-    return segment_scene([ends], SIZE)
-
-
-def _given(ends: Ends) -> str:
+def segment_text(ends: Ends) -> str:
+    """Return the window and a segment as a question states them."""
     return f"Window 0..{SIZE[0]} x 0..{SIZE[1]}, segment from {ends[0]} to {ends[1]}."

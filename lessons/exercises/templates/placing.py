@@ -3,16 +3,15 @@
 from fractions import Fraction
 
 from core import Settings, clip_lines
-from lessons.exercises.answers.cells import ENTERS, LEAVES
-from lessons.exercises.answers.places import PlaceAnswer, Places
+from lessons.exercises.answers.places import PlaceAnswer
 from lessons.exercises.drawn_scene import DrawnScene, window_text
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.file_answers import corner_answer
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.clipping import PARAMETERS, SIZE, Ends, parameter_rows
+from lessons.exercises.templates.clipping import PARAMETERS, SIZE, cut_ends, segment_text
 from lessons.exercises.templates.coverage import RULE, corner_text, twice_area
-from lessons.exercises.templates.drafting import drafted, factor_text
+from lessons.exercises.templates.drafting import drafted, factor_text, run_exactly
 from lessons.exercises.templates.fragments import NAMES
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.transforms import dot
@@ -23,24 +22,12 @@ TOLERANCE = 0.15
 WEIGHT_TOLERANCE = 0.25
 
 
-def clipped_places(ends: Ends) -> Places:
-    """Return exactly where the part of a segment in the window begins and ends."""
-    times: dict[str, list[Fraction]] = {ENTERS: [Fraction(0)], LEAVES: [Fraction(1)]}
-    for row in parameter_rows(ends, PARAMETERS):
-        crossing = row[2]
-        if crossing is not None and crossing[1] is not None:
-            times[crossing[0]].append(Fraction(crossing[1]))
-    (x0, y0), (x1, y1) = ends
-    return tuple((x0 + t * (x1 - x0), y0 + t * (y1 - y0)) for t in (max(times[ENTERS]), min(times[LEAVES])))
-
-
 @template("clip-ends", 2, "Ends of a clipped segment", "raster", 4)
 def draw_ends(draws: Draws) -> Draft:
     """The two ends of a clipped segment."""
-    ends = (draws.whole(-6, 2), draws.whole(-5, 2)), (draws.whole(6, 14), draws.whole(4, 11))
-    clipped = clip_lines([ends], (0, 0, *SIZE))
-    reject(not clipped.is_kept[0] or bool((clipped.cut_by < 0).any()))
-    right = clipped_places(ends)
+    ends = cut_ends(draws)
+    left, _ = run_exactly("line_clipping", "cohen-sutherland", *ends[0], *ends[1], 0, 0, *SIZE)
+    right = tuple(map(tuple, left))
     wrong = {}
     for name in ("ends-clamped", "crossings-rounded", "cut-once"):
         method = SHELF[name].change_settings(PARAMETERS).line_clipping
@@ -54,8 +41,7 @@ def draw_ends(draws: Draws) -> Draft:
         Hint: Left border: t = (0 - {x0}) / ({x1} - {x0}), and the crossing lies at start + t (end -
         start)."""
     answer = PlaceAnswer(SIZE, ("entry", "exit"), right, (right[::-1],), Fraction(1, 4), TOLERANCE)
-    given = f"Window 0..{SIZE[0]} x 0..{SIZE[1]}, segment from {ends[0]} to {ends[1]}."
-    return drafted(asked, given, answer, wrong, segment_scene([ends], SIZE), PARAMETERS)
+    return drafted(asked, segment_text(ends), answer, wrong, segment_scene([ends], SIZE), PARAMETERS)
 
 
 CORNER_SIZE = (12, 9)

@@ -9,7 +9,7 @@ from core import Settings, clip_lines
 from core.geometry.culling import PLANES
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.clipping import SIZE, Ends, code_of
+from lessons.exercises.templates.clipping import SIZE, Ends, code_of, segment_text
 from lessons.exercises.templates.coverage import corner_text
 from lessons.exercises.templates.drafting import by_rule, factor_text, listed, one_of, place_text, several
 from lessons.exercises.templates.transforms import sketched, wholes
@@ -132,7 +132,7 @@ def draw_verdict(draws: Draws) -> Draft:
     wrong = {}
     if verdict == 3:
         wrong["parallel-kept"] = 2 if not kept else 0 if np.array_equal(kept[0], [start, end]) else 1
-    given = f"{WINDOW}, segment from {start} to {end}."
+    given = segment_text((start, end))
     (x0, y0), (x1, y1) = ((factor_text(Fraction(c)) for c in place) for place in (start, end))
     asked = f"""What does Cyrus-Beck do with this segment? t_E is the largest t of the entries and 0, t_L the
         smallest t of the exits and 1; a segment parallel to an edge and outside of it is rejected.
