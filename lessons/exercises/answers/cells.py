@@ -1,7 +1,7 @@
 """Cells of answers: numbers, words, pixels, places and options, each read, compared, written and guessed by itself."""
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import Any
@@ -31,6 +31,11 @@ _WANTED = {
     "crossing": f"{ENTERS} or {LEAVES} and a number such as {ENTERS} 1/2, or none",
     "codes": "two outcodes such as 0101 0010",
 }
+
+
+def with_heads(heads: Iterable[str], texts: Iterable[str]) -> str:
+    """Return a line for each text, behind its head."""
+    return "\n".join(f"{head}{text}" for head, text in zip(heads, texts, strict=True))
 
 
 def behind(text: str, heads: list[str]) -> list[str]:

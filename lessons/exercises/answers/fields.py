@@ -12,7 +12,7 @@ from typing import Any, ClassVar, Literal
 from core.records.cells import Form
 from core.records.words import counted
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict, placed
-from lessons.exercises.answers.cells import Entry, Value, behind, exact, is_blank, random_number
+from lessons.exercises.answers.cells import Entry, Value, behind, exact, is_blank, random_number, with_heads
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import Number, number_text
 
@@ -207,14 +207,15 @@ class NumberAnswer(FieldAnswer):
     def text(self, response: Numbers) -> str:
         """Return the numbers, one on a line where they have names."""
         texts = [number_text(number) for number in response]
-        if self.names:
-            return "\n".join(f"{name} = {text}" for name, text in zip(self.names, texts, strict=True))
-        return ", ".join(texts)
+        return with_heads(self._heads, texts) if self.names else ", ".join(texts)
+
+    @property
+    def _heads(self) -> list[str]:
+        return [f"{name} = " for name in self.names]
 
     def said(self, text: str) -> list[list[str]]:
         """Return the numbers of a text in the rows of their fields."""
-        heads = [f"{name} = " for name in self.names]
-        texts = map(exact, behind(text, heads) if heads else text.split(", "))
+        texts = map(exact, behind(text, self._heads) if self.names else text.split(", "))
         return [[*row] for row in self.rows(texts)]
 
     def first_wrong(self, response: Numbers) -> str:

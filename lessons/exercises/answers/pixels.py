@@ -2,6 +2,7 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from itertools import product
 from typing import ClassVar
 
 from core.records.cells import Form
@@ -14,6 +15,11 @@ Pixels = frozenset[Pixel]
 
 SIDE_LIMIT = 128
 """Most pixels on a side that files may ask for: each can be pointed at."""
+
+
+def all_pixels(size: tuple[int, int]) -> Pixels:
+    """Return all pixels of a raster of ``size`` (columns, rows)."""
+    return frozenset(product(range(size[0]), range(size[1])))
 
 
 class NothingToMarkError(NoQuestionError):
@@ -140,8 +146,7 @@ class PixelAnswer(Answer):
 
     def extremes(self) -> list[Pixels]:
         """Mark all, none."""
-        columns, rows = self.size
-        return [frozenset((i, j) for j in range(rows) for i in range(columns)), frozenset()]
+        return [all_pixels(self.size), frozenset()]
 
 
 def read_art(

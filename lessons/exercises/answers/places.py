@@ -9,7 +9,7 @@ from typing import ClassVar
 from core.records.cells import Form
 from core.scene import ClipScene
 from lessons.exercises.answers.answer import CANDIDATES, Answer, NotCheckedError, Verdict, spread
-from lessons.exercises.answers.cells import Dial, Entry, behind, exact_pair, is_blank, read_entry
+from lessons.exercises.answers.cells import Dial, Entry, behind, exact_pair, is_blank, read_entry, with_heads
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import Number, are_close, number_text, plain_number
 
@@ -155,14 +155,15 @@ class PlaceAnswer(Answer):
 
     def text(self, response: Places) -> str:
         """Return the points by name."""
-        return "\n".join(
-            f"{name}: ({number_text(x)}, {number_text(y)})"
-            for name, (x, y) in zip(self.names, response, strict=True)
-        )
+        return with_heads(self._heads, (f"({number_text(x)}, {number_text(y)})" for x, y in response))
+
+    @property
+    def _heads(self) -> list[str]:
+        return [f"{name}: " for name in self.names]
 
     def said(self, text: str) -> list[list[str]]:
         """Return x and y of the points of a text."""
-        return list(map(exact_pair, behind(text, [f"{name}: " for name in self.names])))
+        return list(map(exact_pair, behind(text, self._heads)))
 
     def first_wrong(self, response: Places) -> str:
         """Name the first point that is wrong."""

@@ -10,7 +10,7 @@ from core.records.words import counted
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
 from lessons.exercises.answers.cells import read_names
 from lessons.exercises.answers.choices import CHOICE_LIMIT
-from lessons.exercises.answers.pixels import Pixel, PixelAnswer, Pixels
+from lessons.exercises.answers.pixels import Pixel, PixelAnswer, Pixels, all_pixels
 from lessons.exercises.draws import Draws
 
 
@@ -166,8 +166,4 @@ class SpotAnswer(Answer):
 
     def extremes(self) -> list[Spot]:
         """Click all pixels, none."""
-        columns, rows = self.size
-        return [
-            Spot(frozenset((i, j) for j in range(rows) for i in range(columns)), None),
-            Spot(frozenset(), None),
-        ]
+        return [Spot(all_pixels(self.size), None), Spot(frozenset(), None)]

@@ -9,7 +9,7 @@ from typing import ClassVar
 from core.records.cells import Form, StepLine, StepsState
 from core.records.words import counted
 from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
-from lessons.exercises.answers.cells import Entry, Value, behind, exact, exact_pair
+from lessons.exercises.answers.cells import Entry, Value, behind, exact, exact_pair, with_heads
 from lessons.exercises.draws import Draws
 
 Tries = tuple[Value, ...]
@@ -52,10 +52,8 @@ class StepsAnswer(Answer):
     def offered(self) -> str:
         """The steps with their numbers, and what each wants."""
         wanted = (" | ".join(step.options) or f"a {step.kind}" for step in self.steps)
-        return "\n".join(
-            f"{number}. {step.label} ({want})"
-            for number, (step, want) in enumerate(zip(self.steps, wanted, strict=True), 1)
-        )
+        heads = [f"{number}. {step.label}" for number, step in enumerate(self.steps, 1)]
+        return with_heads(heads, (f" ({want})" for want in wanted))
 
     @property
     def credit(self) -> str:

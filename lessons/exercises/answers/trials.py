@@ -14,7 +14,7 @@ from core.records.cells import Corner, Form
 from core.scene import ClipScene
 from core.settings import FAMILIES, with_method
 from lessons.exercises.answers.answer import CANDIDATES, Answer, NotCheckedError, Verdict, spread
-from lessons.exercises.answers.cells import Dial, Entry, behind, exact, is_blank
+from lessons.exercises.answers.cells import Dial, Entry, behind, exact, is_blank, with_heads
 from lessons.exercises.draws import Draws
 from lessons.exercises.numbers import number_text
 
@@ -68,10 +68,8 @@ class BreakAnswer(Answer):
     @property
     def offered(self) -> str:
         """The dials, and what they begin with."""
-        return "\n".join(
-            f"{dial.label}: {dial.values}, at first {number_text(value)}"
-            for dial, value in zip(self.dials, self.start, strict=True)
-        )
+        heads = [f"{dial.label}: {dial.values}, at first " for dial in self.dials]
+        return with_heads(heads, map(number_text, self.start))
 
     @property
     def credit(self) -> str:
@@ -150,13 +148,15 @@ class BreakAnswer(Answer):
 
     def text(self, response: Values) -> str:
         """Return the numbers by name."""
-        return "\n".join(
-            f"{dial.label} = {number_text(value)}" for dial, value in zip(self.dials, response, strict=True)
-        )
+        return with_heads(self._heads, map(number_text, response))
+
+    @property
+    def _heads(self) -> list[str]:
+        return [f"{dial.label} = " for dial in self.dials]
 
     def said(self, text: str) -> list[str]:
         """Return the numbers of a text."""
-        return list(map(exact, behind(text, [f"{dial.label} = " for dial in self.dials])))
+        return list(map(exact, behind(text, self._heads)))
 
     def random(self, draws: Draws) -> Values:
         """Guess every number."""
@@ -179,6 +179,12 @@ class Family:
     """Of a setting, as ``interpolation``."""
     methods: tuple[str, ...]
     costs: tuple[Fraction, ...]
+
+    @property
+    def text(self) -> str:
+        """The methods with their costs."""
+        priced = zip(self.methods, self.costs, strict=True)
+        return ", ".join(f"{method} {number_text(cost)}" for method, cost in priced)
 
     @property
     def cell(self) -> Entry:
@@ -262,14 +268,7 @@ class CheapestAnswer(Answer):
     @property
     def offered(self) -> str:
         """The methods with their costs."""
-        return "\n".join(
-            f"{family.name}: "
-            + ", ".join(
-                f"{method} {number_text(cost)}"
-                for method, cost in zip(family.methods, family.costs, strict=True)
-            )
-            for family in self.families
-        )
+        return with_heads(self._heads, (family.text for family in self.families))
 
     @property
     def credit(self) -> str:
@@ -326,13 +325,15 @@ class CheapestAnswer(Answer):
 
     def text(self, response: Choices) -> str:
         """Return the methods by family."""
-        return "\n".join(
-            f"{family.name}: {family.methods[k]}" for family, k in zip(self.families, response, strict=True)
-        )
+        return with_heads(self._heads, self.given(response).values())
+
+    @property
+    def _heads(self) -> list[str]:
+        return [f"{family.name}: " for family in self.families]
 
     def said(self, text: str) -> list[str]:
         """Return the methods of a text."""
-        return behind(text, [f"{family.name}: " for family in self.families])
+        return behind(text, self._heads)
 
     def random(self, draws: Draws) -> Choices:
         """Guess every method."""
