@@ -13,6 +13,7 @@ import pytest
 
 from core import clip_lines, trace
 from lessons.exercises.answers.answer import NotCheckedError
+from lessons.exercises.asked_text import parts_of
 from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.draws import Draws, NoQuestionError, reject
 from lessons.exercises.question import Draft, Template, ask, hints_after, judge
@@ -26,6 +27,11 @@ from tests.lessons.exercises.first_questions import first_question
 
 ROOT = Path(__file__).parents[3]
 SEGMENT = ((-1, -2), (9, 7))
+
+
+def test_a_block_of_text_holds_a_question_and_its_hints() -> None:
+    block = "What is D? It\n    begins at 1.\n    Hint: Add\n    2.\n    Hint: Look."
+    assert parts_of(block) == ("What is D? It begins at 1.", ("Add 2.", "Look."))
 
 
 @pytest.mark.parametrize("template", TEMPLATES.values(), ids=TEMPLATES)
