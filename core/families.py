@@ -96,7 +96,7 @@ NOT_FOR: Mapping[str, Mapping[str, str]] = {
     "no lights": {"shading": "Typed triangles have no lights: they are unlit."},
     "outlined": {"correction_interval": "Lines are interpolated with perspective at every pixel."},
 }
-"""By a fact, the settings that do not matter then, and why; "" as the reason: they do; as the setting: all others."""
+"""By a fact, the settings that do not matter then, and why. No reason: they do; no name: all others do not."""
 
 
 def facts(scene: AnyScene | None) -> list[str]:

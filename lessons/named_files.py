@@ -17,7 +17,7 @@ class Named(Protocol):
 
 Thing = TypeVar("Thing", bound=Named)
 Found = tuple[dict[str, Thing], list[str]]
-"""Things by name in the order in which they were read, and a sentence for each file or folder that was skipped."""
+"""Things by name in the order of reading, and a sentence for each file or folder that was skipped."""
 
 
 def read_files(

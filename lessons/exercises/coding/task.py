@@ -45,7 +45,7 @@ Classes = Mapping[str, tuple[Case, ...]]
 
 
 def in_classes(cases: Iterable[tuple[str, Case]], most: int | None = None) -> Classes:
-    """Return hidden inputs, each given with its class, by class: all of them, or the first ``most`` of each."""
+    """Return hidden inputs by their classes: all of them, or the first ``most`` of each."""
     found: dict[str, list[Case]] = {}
     for name, case in cases:
         found.setdefault(name, []).append(case)

@@ -18,9 +18,10 @@ TRIANGLES: tuple[Corners, ...] = (
     ((2.5, 2.5), (9.5, 3.5), (3.5, 3.0)),
 )
 """Counter-clockwise: two that share an edge through centres, two others, and a thin one."""
+_COVERS, _OWNS = original("fill", "bounding-box"), original("fill_rule", "shared-edge")
 
 
-def edge_of(p: Point, q: Point) -> tuple[float, float, float]:
+def edge_of(p: Any, q: Any) -> tuple[Any, Any, Any]:
     """Return a, b, c of the edge function that is positive to the left of the way from p to q."""
     a, b = p[1] - q[1], q[0] - p[0]
     return a, b, -(a * p[0] + b * p[1])
@@ -31,10 +32,6 @@ def edges_of(corners: Corners) -> tuple[tuple[float, ...], ...]:
     p, q, r = corners
     rows = [edge_of(q, r), edge_of(r, p), edge_of(p, q)]
     return tuple(zip(*rows, strict=True))
-
-
-def _owns(a: float, b: float) -> bool:
-    return a > 0 if a != 0 else b > 0
 
 
 def pixels_of_triangles() -> Iterator[tuple[Corners, int, int]]:
@@ -54,7 +51,7 @@ def inside_cases() -> Iterator[tuple[str, Case]]:
     """Yield edges and a centre by where it lies."""
     for corners, column, row in pixels_of_triangles():
         a, b, c = edges_of(corners)
-        owns = tuple(_owns(*pair) for pair in zip(a, b, strict=True))
+        owns = tuple(map(_OWNS.function, a, b))
         x, y = column + 0.5, row + 0.5
         values = [a[k] * x + b[k] * y + c[k] for k in range(3)]
         on = [k for k in range(3) if values[k] == 0]
@@ -103,7 +100,6 @@ def _inside_shown(case: Case) -> Shown:
     )
 
 
-_COVERS = original("fill", "bounding-box")
 TEST = "inside.append(bool(value > 0 or (value == 0 and owns_tie[k])))"
 INSIDE = Task(
     "inside-test",
@@ -155,7 +151,6 @@ def _tie_shown(case: Case) -> Shown:
     return Shown(scene, Settings(fill="bounding-box"), "fill_rule", "shared-edge", "raster")
 
 
-_OWNS = original("fill_rule", "shared-edge")
 TIE_RULE = Task(
     "tie-rule",
     "edges",

@@ -78,7 +78,7 @@ def drafted(
     behind: str = "",
     **more: Any,
 ) -> Draft:
-    """Return a draft of a question and its hints in one block of text; ``more`` are further fields of `Draft`.
+    """Return a draft of a question and its hints in one block of text; ``more``: other fields of `Draft`.
 
     ``behind`` stands behind the question: how near a number must be, or what to do with a listing.
     """

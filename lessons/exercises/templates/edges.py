@@ -10,6 +10,7 @@ from core import Settings, render
 from core.raster.edges.fill_rule import shared_edge
 from core.raster.edges.snapping import snap_one
 from lessons.exercises.answers.pixels import PixelAnswer
+from lessons.exercises.coding.triangles import edge_of
 from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
@@ -31,21 +32,14 @@ from lessons.mistakes.coverage import owns_level, owns_slanted
 from lessons.mistakes.shelf import RULES
 from lessons.small_scenes import triangle_scene
 
-Coefficients = tuple[Any, Any, Any]
 NAMES = ("from 0 to 1", "from 1 to 2", "from 2 to 0")
 SIZE = (12, 9)
 INWARD = "E(x, y) = a x + b y + c is positive on the left of an edge that runs from one vertex to the next."
 
 
-def coefficients(start: Any, end: Any) -> Coefficients:
-    """Return a, b and c of the edge function that is positive on the left."""
-    a, b = start[1] - end[1], end[0] - start[0]
-    return a, b, -(a * start[0] + b * start[1])
-
-
-def edges_of(corners: list[Corner]) -> list[Coefficients]:
+def edges_of(corners: list[Corner]) -> list[tuple[Any, Any, Any]]:
     """Return the three edge functions of a counter-clockwise triangle."""
-    return [coefficients(corners[k], corners[(k + 1) % 3]) for k in range(3)]
+    return [edge_of(corners[k], corners[(k + 1) % 3]) for k in range(3)]
 
 
 def first_edge(corners: list[Corner]) -> str:
@@ -75,7 +69,7 @@ def draw_coefficients(draws: Draws) -> Draft:
         {factor_text(start[0])}."""
     given = f"Edge from {place_text(start)} to {place_text(end)}."
     sketch = sketched({"start": start, "end": end}, (start, end))
-    return numbers(asked, given, coefficients(start, end), names=("a", "b", "c"), sketch=sketch)
+    return numbers(asked, given, edge_of(start, end), names=("a", "b", "c"), sketch=sketch)
 
 
 @template("edge-values", 1, "Edge functions at a pixel", "edges", 3)
@@ -105,7 +99,7 @@ def draw_stepped(draws: Draws) -> Draft:
     """An edge function along a row, by adding a."""
     start, end = wholes(draws, 2, 0, 9), wholes(draws, 2, 0, 9)
     reject(start[1] == end[1])
-    a, b, c = coefficients(start, end)
+    a, b, c = edge_of(start, end)
     first, row = draws.whole(0, 4), draws.whole(0, 6)
     columns = range(first, first + 6)
     right = [[a * (x + Fraction(1, 2)) + b * (row + Fraction(1, 2)) + c] for x in columns]

@@ -7,13 +7,13 @@ import numpy as np
 
 from core import Settings, render
 from core.records.frame import Frame
+from lessons.exercises.coding.triangles import edge_of
 from lessons.exercises.drawn_scene import window_text
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, SIZE, Corner, corner_text, row_hint, twice_area
 from lessons.exercises.templates.drafting import numbers, pictured, place_text, table
-from lessons.exercises.templates.edges import coefficients
 from lessons.exercises.templates.transforms import wholes
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.scenes import assembled
@@ -29,7 +29,7 @@ def is_decided(corners: list[Corner]) -> bool:
     """Return whether no centre is so near to a side that snapping the corners to 1/256 pixel moves it across."""
     if all(256 % c.denominator == 0 for place in corners for c in place):
         return True
-    sides = [coefficients(corners[k - 1], corner) for k, corner in enumerate(corners)]
+    sides = [edge_of(corners[k - 1], corner) for k, corner in enumerate(corners)]
     return all(
         abs(a * (i + HALF) + b * (j + HALF) + c) > (abs(a) + abs(b)) / 256
         for a, b, c in sides

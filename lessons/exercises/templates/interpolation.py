@@ -5,12 +5,12 @@ from typing import Any
 
 from core import Settings, render
 from lessons.exercises.answers.fields import Numbers
+from lessons.exercises.coding.triangles import edge_of
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
 from lessons.exercises.templates.drafting import by_rule, listed, numbers, place_text, table
-from lessons.exercises.templates.edges import coefficients
 from lessons.exercises.templates.fragments import NAMES, attributes_at, triangle_and_pixel, weights_at
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.transforms import dot
@@ -139,7 +139,7 @@ def draw_plane(draws: Draws) -> Draft:
     reject(area not in (4, 5, 8, 10, 16, 20))
     w, u = ([Fraction(draws.item(items)) for _ in range(3)] for items in ((1, 2, 4), (0, 2, 4, 8)))
     reject(len(set(u)) == 1)
-    edges = [coefficients(corners[(k + 1) % 3], corners[(k + 2) % 3]) for k in range(3)]
+    edges = [edge_of(corners[(k + 1) % 3], corners[(k + 2) % 3]) for k in range(3)]
     u_over_w = [a / b for a, b in zip(u, w, strict=True)]
     right = [dot(column, u_over_w) / area for column in zip(*edges, strict=True)]
     given = listed("Vertex {k}: (X, Y) = {}, w = {}, u = {}", corners, w, u)

@@ -12,13 +12,13 @@ from core.records.arrays import Flags
 from core.records.frame import Frame
 from core.scene import ClipScene
 from lessons.exercises.answers.pixels import PixelAnswer, Pixels
+from lessons.exercises.coding.triangles import edge_of
 from lessons.exercises.drawn_scene import seen_pixels, window_text
 from lessons.exercises.draws import Draws, reject
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, Corner, corner_text, facing_text, row_hint, twice_area
 from lessons.exercises.templates.drafting import drafted, factor_text, listed, pictured
-from lessons.exercises.templates.edges import coefficients
 from lessons.mistakes.coverage import in_window
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import rectangle_corners, triangle_scene
@@ -129,7 +129,7 @@ def draw_side(draws: Draws) -> Draft:
     """The inner side of one edge."""
     corners = halves(draws)
     reject(twice_area(corners) < LEAST)
-    a, b, c = coefficients(corners[0], corners[1])
+    a, b, c = edge_of(corners[0], corners[1])
 
     def inner(shift: Fraction, owns: bool) -> Pixels:
         values = {

@@ -36,7 +36,7 @@ def breaking(
     fails: Fails,
     rule: str,
 ) -> BreakAnswer:
-    """Return the answer: the weak method does not fail from the start, and something that is tried breaks it."""
+    """Return the answer: the weak method fails not from the start, but for values that are tried."""
 
     def breaks(values: Values) -> bool:
         scene = scene_of(values)
