@@ -7,6 +7,7 @@ from math import isnan
 from pathlib import Path
 
 from app.export.sheet import MARGIN, WIDTH, Sheet, sheet_bytes
+from app.files.atlas_files import AxisRecord
 from app.files.file_writing import write_files
 from app.files.state_files import readable_json
 from app.pages.stability.records import atlas_record, cells_of, has_curves, method_titles, severity_chart
@@ -49,7 +50,11 @@ def atlas_json(atlas: Atlas) -> str:
             "title": info.title,
             "question": info.question,
             "claim": info.claim,
-            "axes": [vars(axis) | {"values": list(axis.values)} for axis in info.axes],
+            "axes": [
+                {name: getattr(axis, name) for name in AxisRecord.model_fields}
+                | {"values": list(axis.values)}
+                for axis in info.axes
+            ],
             "seed": atlas.seed,
             "machine": dict(atlas.machine),
             "outcomes": [outcome.name.lower() for outcome in Outcome],

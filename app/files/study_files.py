@@ -10,7 +10,7 @@ from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_files import readable_json
 from app.files.state_models import Count, Record
 from core.settings import Settings, settings_from_texts, settings_record
-from core.study.accuracy.record import Dial, ErrorMeasure, Point, Study, WorkKind
+from core.study.accuracy.record import Axis, ErrorMeasure, Point, Study, WorkKind
 
 VERSION: Literal[1] = 1
 """Of the format; files of others are refused."""
@@ -32,7 +32,7 @@ class MeasureRecord(Record):
 
 
 class DialRecord(Record):
-    """A ``core.study.accuracy.record.Dial``."""
+    """A ``core.study.accuracy.record.Axis``."""
 
     name: str
     title: str
@@ -136,12 +136,7 @@ def study_json(study: Study) -> str:
 
 
 def _work_record(work: WorkKind) -> WorkRecord:
-    dials = (
-        DialRecord(
-            **(vars(dial) | {"values": tuple(map(float, dial.values)), "default": float(dial.default)})
-        )
-        for dial in work.dials
-    )
+    dials = (DialRecord.model_validate(dial, from_attributes=True) for dial in work.dials)
     return WorkRecord(name=work.name, title=work.title, unit=work.unit, dials=tuple(dials))
 
 
@@ -175,7 +170,7 @@ def _study(record: StudyRecord) -> Study:
             record.work.name,
             record.work.title,
             record.work.unit,
-            tuple(Dial(**dial.model_dump()) for dial in record.work.dials),
+            tuple(Axis(**dial.model_dump()) for dial in record.work.dials),
         ),
         dials=record.dials,
         seed=record.seed,

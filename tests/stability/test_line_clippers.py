@@ -5,13 +5,18 @@ import re
 import numpy as np
 import pytest
 
+from core.geometry.line_clipping.clipping import clip_lines
 from core.study.exact.lines import clipped_ends
-from core.study.stability import Outcome, experiments, stress
-from core.study.stability.coverage.line_clippers import PROMISED, judge_clip, stretch_text
+from core.study.stability import Outcome, Verdict, experiments, stress
+from core.study.stability.coverage.line_clippers import PROMISED, SIDE, judge_clip, stretch_text
 from core.trace import trace
 from tests.stability.maps import is_right_everywhere, outcomes
 
 NAMES = ("parallel-segments", "zero-length-segments", "segments-past-a-corner")
+
+
+def judged(segment: np.ndarray, clipper: str) -> Verdict:
+    return judge_clip(segment, clip_lines(segment[None], (0, 0, SIDE, SIDE), clipper))
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -25,7 +30,7 @@ def test_exact_signs_hold_on_random_segments_at_the_border() -> None:
         ends = (
             source.choice([-9.3, 0.0, 17.7, 64.0, 80.1], (2, 2)) + source.integers(-3, 4, (2, 2)) * 2.0**-46
         )
-        assert judge_clip(ends, "exact").outcome == Outcome.RIGHT
+        assert judged(ends, "exact").outcome == Outcome.RIGHT
 
 
 def test_the_printed_program_keeps_parallel_segments_outside() -> None:
@@ -68,7 +73,7 @@ def test_remarks_are_sentences_with_short_numbers(name: str) -> None:
 
 def test_a_remark_tells_where_a_wrong_stretch_lies() -> None:
     level = np.array([[-9.0, 64.0 + 2.0**-45], [80.0, 64.0 + 2.0**-45]])
-    verdict = judge_clip(level, "cyrus-beck-lecture")
+    verdict = judged(level, "cyrus-beck-lecture")
     assert verdict.remark == "the segment is kept from (0, 64) to (64, 64), but lies outside"
     assert stretch_text([[64.0, 64.0], [64.0, 64.0 + 2.0**-45]]) == "at (64, 64)"
     assert stretch_text([[0.0, np.nan], [1.25, -np.inf]]) == "from (0, nan) to (1.25, -inf)"

@@ -52,7 +52,7 @@ def test_a_few_triangles_on_a_pixel_or_two_are_left_and_their_test_fails_until_t
     )
 
 
-@pytest.mark.parametrize("experiment", FRAGMENT_EXPERIMENTS, ids=lambda each: each.info.name)
+@pytest.mark.parametrize("experiment", FRAGMENT_EXPERIMENTS, ids=lambda each: each.name)
 def test_the_truth_of_any_such_scene_is_that_of_the_cell(experiment: Experiment) -> None:
     place = tuple(axis.values[len(axis.values) // 2] for axis in experiment.info.axes)
     for method in experiment.info.methods:
@@ -65,17 +65,17 @@ def test_of_triangles_that_are_as_near_either_may_be_seen() -> None:
     triangle = np.array([[-1.0, -1, 0, 1], [3, -1, 0, 1], [-1, 3, 0, 1]])
     level = flat_scene(np.stack([triangle, triangle]), (2, 2))
     last = Settings(visibility="last-drawn")
-    assert NearestCase(level).judge(last).verdict.outcome == Outcome.RIGHT
+    assert NearestCase(level).run(last).verdict.outcome == Outcome.RIGHT
     behind = triangle + np.array([0, 0, 0.5, 0])
-    assert NearestCase(flat_scene(np.stack([triangle, behind]), (2, 2))).judge(last).wrong.all()
+    assert NearestCase(flat_scene(np.stack([triangle, behind]), (2, 2))).run(last).wrong.all()
 
 
 def test_of_formats_that_store_w_only_what_is_nearer_by_w_and_z_counts() -> None:
     near = np.array([[-2.0, -2, -1, 2], [6, -2, -1, 2], [-2, 6, -1, 2]])
     far = np.array([[-1.0, -1, 0.5, 1], [3, -1, 0.5, 1], [-1, 3, 0.5, 1]])
     scene = flat_scene(np.stack([near, far]), (1, 1))
-    assert NearestCase(scene).judge(Settings(depth="inverse-w")).verdict.outcome == Outcome.RIGHT
-    assert NearestCase(scene).judge(Settings(visibility="last-drawn")).wrong.all()
+    assert NearestCase(scene).run(Settings(depth="inverse-w")).verdict.outcome == Outcome.RIGHT
+    assert NearestCase(scene).run(Settings(visibility="last-drawn")).wrong.all()
 
 
 def test_layers_that_are_as_deep_have_no_right_colour() -> None:

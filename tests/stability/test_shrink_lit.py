@@ -72,11 +72,12 @@ def test_numbers_of_what_is_left_are_short() -> None:
 def test_light_of_normals_that_turn_evenly_is_that_of_the_whole_strip_and_of_a_part() -> None:
     for angle, parts in ((90.0, 1), (180.0, 3)):
         scene = flattened_tube(angle, parts)
-        _, wanted = NormalsCase(scene)._shown_and_wanted(Settings())
+        _, wanted = NormalsCase(scene)._shown_and_wanted(render(scene, Settings()))
         assert wanted == pytest.approx(evenly_lit(angle), abs=1e-12)
     half = LIT_MESHES.take_apart(flattened_tube(180.0, 2))
     half = replace(half, elements=half.elements[:2])
-    _, wanted = NormalsCase(LIT_MESHES.put_together(half))._shown_and_wanted(Settings())
+    part = LIT_MESHES.put_together(half)
+    _, wanted = NormalsCase(part)._shown_and_wanted(render(part, Settings()))
     assert wanted[:, :32] == pytest.approx(evenly_lit(180.0)[:, :32], abs=1e-12)
     assert not wanted[:, 33:].any()
 
@@ -97,17 +98,15 @@ def test_a_highlight_counts_where_its_triangles_are_seen() -> None:
     scene = shining_sphere(16, 64.0, 0)
     whole = HighlightCase(scene)
     frame = render(scene, Settings())
-    _, where = whole._shown_and_where(Settings())
+    _, where = whole._shown_and_where(whole.start(Settings())())
     (mesh,) = scene.meshes
     lit = np.unique(frame.primitive[where])
     dark = np.setdiff1d(np.arange(len(mesh.triangles)), lit)
     of_some = replace(scene, meshes=(replace(mesh, triangles=mesh.triangles[lit]),))
-    assert HighlightCase(of_some).judge(Settings()).verdict.outcome == Outcome.RIGHT
+    assert HighlightCase(of_some).run(Settings()).verdict.outcome == Outcome.RIGHT
     # Without the triangles on the highlight, those on the far side are seen there: they do not count.
     with pytest.raises(ValueError, match="the highlight must be seen on a triangle"):
-        HighlightCase(replace(scene, meshes=(replace(mesh, triangles=mesh.triangles[dark]),))).judge(
-            Settings()
-        )
+        HighlightCase(replace(scene, meshes=(replace(mesh, triangles=mesh.triangles[dark]),))).run(Settings())
 
 
 def test_what_is_no_part_of_a_shining_sphere_has_no_highlight() -> None:
@@ -131,7 +130,7 @@ def test_footprints_follow_from_the_corners_of_any_triangle() -> None:
     )
     assert part.wanted == pytest.approx(whole.wanted, abs=1e-9)
     # Half of the square is left, but for the pixels that its side cuts.
-    _, is_whole = part._shown_and_whole(Settings(antialiasing="ssaa-4"))
+    _, is_whole = part._shown_and_whole(part.start(Settings(antialiasing="ssaa-4"))())
     assert is_whole.sum() == (24 * 24 - 24) / 2
 
 
@@ -146,7 +145,7 @@ def test_textures_in_perspective_or_of_two_layouts_have_no_truth() -> None:
         TextureCase(ClipScene(square.clip, values, square.size, square.texture))
     away = ClipScene(square.clip + np.array([9.0, 0, 0, 0]), square.attributes, square.size, square.texture)
     with pytest.raises(ValueError, match="covered as a whole, none is"):
-        TextureCase(away).judge(Settings())
+        TextureCase(away).run(Settings())
 
 
 # In which ways it gets smaller.

@@ -7,7 +7,7 @@ import numpy as np
 
 from core.explain.stage_texts import family_title
 from core.methods import table
-from core.study.accuracy.record import Dial, ErrorMeasure, Point, Study, best_values, pareto_front
+from core.study.accuracy.record import Axis, ErrorMeasure, Point, Study, best_values, pareto_front
 from core.study.accuracy.speed_accuracy import cost_dial
 from widgets.charts.records import MOST_NAMED, ChartAxis, ChartEmpty, ChartPicture, ChartSeries
 
@@ -131,7 +131,7 @@ def growth_of(study: Study, cost: str, numbers: Mapping[str, int]) -> ChartPictu
     return ChartPicture(*axes, series, is_named=len(series) <= MOST_NAMED)
 
 
-def dial_axis(dial: Dial) -> ChartAxis:
+def dial_axis(dial: Axis) -> ChartAxis:
     """Return the axis of a dial."""
     return ChartAxis(dial.title, dial.unit)
 

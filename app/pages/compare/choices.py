@@ -6,7 +6,7 @@ from app.pages.compare.charts import TIME, cost_title, costs_of
 from app.pages.compare.jobs import StudyResult
 from core.study import study_families
 from core.study.accuracy.family import StudyFamily
-from core.study.accuracy.record import Dial, Study, WorkKind
+from core.study.accuracy.record import Axis, Study, WorkKind
 from core.study.accuracy.speed_accuracy import ROUNDS
 from widgets.charts.dial_control import DialChoice
 from widgets.charts.family_list import FamilyEntry
@@ -38,7 +38,7 @@ class FamilyChoice:
         """The chosen work."""
         return next((work for work in self.works if work.name == self.work), self.works[0])
 
-    def dial_value(self, dial: Dial) -> float:
+    def dial_value(self, dial: Axis) -> float:
         """Return where a dial of the chosen work stands."""
         return self.dials.get((self.work, dial.name), dial.default)
 

@@ -9,7 +9,7 @@ from core.scene import ClipScene, Scene
 from core.settings import Settings
 from core.study.accuracy.family import Assignment, StudyFamily
 from core.study.accuracy.frame_task import LARGEST_COLOR, MEAN_COLOR, ColorTask
-from core.study.accuracy.record import Dial, WorkKind
+from core.study.accuracy.record import Axis, WorkKind
 from core.study.accuracy.sampled import sampled_picture
 from core.study.accuracy.workloads import (
     checkerboard,
@@ -25,8 +25,8 @@ from core.trace import trace
 
 TEXELS = 256
 """Texels on a side of the texture."""
-DENSITIES = Dial("density", "Texels per pixel", "", (0.125, 0.25, 0.5, 1, 2, 4, 8, 16), 4)
-SIDES = Dial("side", "Side of the picture", "pixels", (16, 32, 64, 128, 256), 64, is_cost=True)
+DENSITIES = Axis("density", "Texels per pixel", "", (0.125, 0.25, 0.5, 1, 2, 4, 8, 16), default=4)
+SIDES = Axis("side", "Side of the picture", "pixels", (16, 32, 64, 128, 256), default=64, is_cost=True)
 
 
 class TextureTask(ColorTask):
@@ -133,8 +133,15 @@ SHADING = StudyFamily(
             "A shining sphere",
             "frame",
             (
-                Dial("rings", "Rings of the sphere", "", (4, 6, 8, 12, 16, 24, 32, 48, 64), 16, is_cost=True),
-                Dial("side", "Side of the picture", "pixels", (32, 64, 128, 256), 128),
+                Axis(
+                    "rings",
+                    "Rings of the sphere",
+                    "",
+                    (4, 6, 8, 12, 16, 24, 32, 48, 64),
+                    default=16,
+                    is_cost=True,
+                ),
+                Axis("side", "Side of the picture", "pixels", (32, 64, 128, 256), default=128),
             ),
         ),
     ),

@@ -20,9 +20,9 @@ from core.framebuffer.depth import DepthFormat, Stored
 from core.methods import table
 from core.records.arrays import Floats, Integers, Singles
 from core.settings import Settings
-from core.study.accuracy.family import Assignment, Errors, StudyFamily, Task
+from core.study.accuracy.family import Assignment, StudyFamily, Task
 from core.study.accuracy.frame_task import depth_bits, scalar_pictures
-from core.study.accuracy.record import Dial, ErrorMeasure, Pictures, WorkKind
+from core.study.accuracy.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind, judged
 from core.study.accuracy.workloads import random_source
 
 NEAR = 0.1
@@ -33,8 +33,8 @@ PITCH, YAW, EYE = 0.474747, 1.23123123, (14.9914, 0.832148, 29.7142128)
 
 EQUAL = ErrorMeasure("indistinguishable", "Neighbouring depths that become equal", "%")
 SWAPPED = ErrorMeasure("swapped", "Neighbouring depths that change places", "%")
-FAR = Dial("far", "Far plane over near plane", "", (10, 100, 1e3, 1e4, 1e5, 1e6), 1e5)
-STEPS = Dial("steps", "Depths", "", (100, 400, 2500, 10000), 10000, is_cost=True)
+FAR = Axis("far", "Far plane over near plane", "", (10, 100, 1e3, 1e4, 1e5, 1e6), default=1e5)
+STEPS = Axis("steps", "Depths", "", (100, 400, 2500, 10000), default=10000, is_cost=True)
 
 
 class DepthStepsTask(Task):
@@ -81,10 +81,11 @@ class DepthStepsTask(Task):
         """Return how many of N stored depths (N,) differ, and the bits of one."""
         return {"different depths": len(np.unique(made)), "bits of a depth": depth_bits(settings)}
 
-    def errors(self, settings: Settings, made: Stored) -> Errors:
+    def judge(self, settings: Settings, made: Stored) -> Judgement:
         """Return the shares of neighbours in N depths (N,) that become equal, and that change places."""
         order = self._order(settings, made)
-        return {EQUAL.name: 100 * float((order == 0).mean()), SWAPPED.name: 100 * float((order < 0).mean())}
+        equal, swapped = (100 * float(each.mean()) for each in (order == 0, order < 0))
+        return judged({EQUAL.name: equal, SWAPPED.name: swapped})
 
     def _order(self, settings: Settings, made: Stored) -> Integers:
         """Return (N,) int64: 1 where the nearer of two neighbours stays nearer, 0 equal, -1 swapped."""

@@ -8,10 +8,7 @@ from typing import Any
 from core.methods import table
 from core.scene import AnyScene
 from core.settings import Settings, settings_from_texts
-from core.study.accuracy.record import ErrorMeasure, Opening, Pictures, WorkKind
-
-Errors = Mapping[str, float | str]
-"""By `ErrorMeasure.name`: a number, or a sentence why there is none."""
+from core.study.accuracy.record import ErrorMeasure, Judgement, Opening, Pictures, WorkKind
 
 
 @dataclass(frozen=True)
@@ -37,11 +34,8 @@ class Assignment:
     """The scene to be measured on, for families that take one."""
 
 
-class Task(ABC):
-    """One work, made once and the same for all methods; every run begins from nothing."""
-
-    unit_count: int
-    """Units of work (`WorkKind.unit`) in one run."""
+class Work(ABC):
+    """What methods are put to, made once and the same for all of them; every run begins from nothing."""
 
     @abstractmethod
     def start(self, settings: Settings) -> Callable[[], Any]:
@@ -52,20 +46,31 @@ class Task(ABC):
         return elapsed
 
     @abstractmethod
-    def counts(self, settings: Settings, made: Any) -> dict[str, int]:
-        """Return the work of one run that does not depend on the machine."""
-
-    @abstractmethod
-    def errors(self, settings: Settings, made: Any) -> Errors:
+    def judge(self, settings: Settings, made: Any) -> Judgement:
         """Compare one run with the exact reference."""
 
-    @abstractmethod
-    def pictures(self, settings: Settings, made: Any) -> Pictures:
-        """Return what one run drew, the reference and the difference."""
+    def run(self, settings: Settings) -> Judgement:
+        """Run and judge; ValueError if the method does not take the work."""
+        return self.judge(settings, self.start(settings)())
 
     def opening(self, settings: Settings, made: Any) -> Opening | None:
         """Return what opens in the stepper to look at the run; ``None``: nothing was drawn."""
         return None
+
+
+class Task(Work):
+    """Work of a study."""
+
+    unit_count: int
+    """Units of work (`WorkKind.unit`) in one run."""
+
+    @abstractmethod
+    def counts(self, settings: Settings, made: Any) -> dict[str, int]:
+        """Return the work of one run that does not depend on the machine."""
+
+    @abstractmethod
+    def pictures(self, settings: Settings, made: Any) -> Pictures:
+        """Return what one run drew, the reference and the difference."""
 
 
 @dataclass(frozen=True, eq=False)

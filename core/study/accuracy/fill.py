@@ -13,9 +13,9 @@ from core.settings import Settings
 from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
-from core.study.accuracy.family import Assignment, Errors, StudyFamily
+from core.study.accuracy.family import Assignment, StudyFamily
 from core.study.accuracy.frame_task import MILLION, FrameTask, per_million, scalar_pictures
-from core.study.accuracy.record import Dial, ErrorMeasure, Opening, Pictures, WorkKind
+from core.study.accuracy.record import Axis, ErrorMeasure, Judgement, Opening, Pictures, WorkKind, judged
 from core.study.accuracy.workloads import (
     clip_of_window,
     flat_scene,
@@ -32,19 +32,19 @@ MISCLASSIFIED = ErrorMeasure("misclassified", "Misclassified pixels", "per milli
 CRACKS = ErrorMeasure("cracks", "Pixels of a mesh not covered exactly once", "per million")
 NO_MESH = "Only a mesh without gaps defines how often each pixel must be covered."
 
-SIZES = Dial("size", "Triangle size", "pixels", (2, 4, 8, 16, 32, 64, 128, 256), 16, is_cost=True)
+SIZES = Axis("size", "Triangle size", "pixels", (2, 4, 8, 16, 32, 64, 128, 256), default=16, is_cost=True)
 CHOSEN_SIZES = replace(SIZES, is_cost=False, default=64)
-BLOCK_SIZES = Dial(
+BLOCK_SIZES = Axis(
     "block-size",
     "Block size",
     "pixels",
     (1, 2, 4, 8, 16, 32, 64, 128, 256),
-    8,
+    default=8,
     is_cost=True,
     setting="block_size",
 )
-ANGLES = Dial("angle", "Angle of the tip", "degrees", (0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8), 1)
-CELLS = Dial("cells", "Cells along a side", "", (4, 8, 16, 32, 64), 16, is_cost=True)
+ANGLES = Axis("angle", "Angle of the tip", "degrees", (0.05, 0.1, 0.25, 0.5, 1, 2, 4, 8), default=1)
+CELLS = Axis("cells", "Cells along a side", "", (4, 8, 16, 32, 64), default=16, is_cost=True)
 WORKS = (
     WorkKind("triangles", "Random triangles", "triangle", (SIZES,)),
     WorkKind("slivers", "Slivers in all directions", "triangle", (ANGLES,)),
@@ -103,16 +103,12 @@ class CoverageTask(FrameTask):
         counts["rows solved"] = 0 if runs.crossings is None else len(runs)
         return counts
 
-    def errors(self, settings: Settings, made: Frame) -> Errors:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Count pixels that are covered too often or too seldom, over all triangles."""
         wrong = int(np.abs(made.cover_count - self.reference).sum())
-        errors: dict[str, float | str] = {
-            MISCLASSIFIED.name: per_million(wrong, self.looked_at),
-            CRACKS.name: NO_MESH,
-        }
-        if self.work in ("mesh", "ties"):
-            errors[CRACKS.name] = MILLION * float((made.cover_count != 1).mean())
-        return errors
+        is_mesh = self.work in ("mesh", "ties")
+        cracks = MILLION * float((made.cover_count != 1).mean()) if is_mesh else NO_MESH
+        return judged({MISCLASSIFIED.name: per_million(wrong, self.looked_at), CRACKS.name: cracks})
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
         """Return how often each pixel is covered."""

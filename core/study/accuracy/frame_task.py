@@ -16,8 +16,8 @@ from core.records.cached import cached_property
 from core.records.frame import Frame
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.accuracy.family import Errors, Task
-from core.study.accuracy.record import ErrorMeasure, Opening, Pictures
+from core.study.accuracy.family import Task, Work
+from core.study.accuracy.record import ErrorMeasure, Judgement, Opening, Pictures, judged
 from core.study.accuracy.workloads import COLORS
 from core.trace import scene_triangle_count
 
@@ -25,13 +25,39 @@ MILLION = 1_000_000
 MOST_TESTS = 200_000_000
 """Pixel tests of a brute-force drawing that is measured; it takes some seconds."""
 
+ONE_BYTE = 1.0
+"""Mean colour error, in 1/255, that a map takes as right."""
 WRONG_VISIBLE = ErrorMeasure("wrong-visible", "Pixels that show the wrong triangle", "per million")
 MEAN_COLOR = ErrorMeasure("mean-color", "Mean colour error", "1/255")
 LARGEST_COLOR = ErrorMeasure("largest-color", "Largest colour error", "1/255")
 
 
-class FrameTask(Task):
-    """A scene that every method draws.
+class SceneWork(Work):
+    """A scene that every method draws."""
+
+    scene: Any
+    stage = "raster"
+    """Where the stepper opens, a name of ``core.records.frame.STAGES``."""
+
+    def __init__(self, scene: Any) -> None:
+        self.scene = scene
+
+    def start(self, settings: Settings) -> Callable[[], Any]:
+        """Prepare the drawing of a scene that is new to the pipeline, so that nothing is known from the run before."""
+        check_pixel_tests(self.scene, settings)
+        return partial(render, copy(self.scene), settings)
+
+    def wrong_pixel(self, settings: Settings, made: Any) -> tuple[int, int] | None:
+        """Return column and row of the first pixel that is wrong, if it is about pixels."""
+        return first_pixel(self.judge(settings, made).wrong)
+
+    def opening(self, settings: Settings, made: Any) -> Opening | None:
+        """Return the scene at the first pixel that is wrong; ``None``: there is nothing to see."""
+        return Opening(self.scene, settings, self.stage, self.wrong_pixel(settings, made))
+
+
+class FrameTask(SceneWork, Task):
+    """A scene that a study draws.
 
     Parameters
     ----------
@@ -39,18 +65,10 @@ class FrameTask(Task):
         Only the time of these stages counts; none: the whole drawing.
     """
 
-    stage = "raster"
-    """Where the stepper opens."""
-
     def __init__(self, scene: AnyScene, unit_count: int, stages: tuple[str, ...] = ()) -> None:
-        self.scene = scene
+        super().__init__(scene)
         self.unit_count = unit_count
         self._stages = stages
-
-    def start(self, settings: Settings) -> Callable[[], Frame]:
-        """Prepare the drawing of a scene that is new to the pipeline, so that nothing is known from the run before."""
-        check_pixel_tests(self.scene, settings)
-        return partial(render, copy(self.scene), settings)
 
     def seconds(self, made: Frame, elapsed: float) -> float:
         """Return the time of the stages that the methods differ in."""
@@ -58,15 +76,11 @@ class FrameTask(Task):
             return elapsed
         return sum(made.statistics[stage].seconds for stage in self._stages)
 
-    def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
+    def counts(self, settings: Settings, made: Any) -> dict[str, int]:
         """Return triangles, pixels and bytes."""
         return frame_counts(made)
 
-    def opening(self, settings: Settings, made: Frame) -> Opening | None:
-        """Return the scene with these settings, at the first pixel that is wrong."""
-        return Opening(self.scene, settings, self.stage, self.first_wrong(settings, made))
-
-    def first_wrong(self, settings: Settings, made: Frame) -> tuple[int, int] | None:
+    def wrong_pixel(self, settings: Settings, made: Frame) -> tuple[int, int] | None:
         """Return column and row of the first pixel that differs from the reference, from the bottom left."""
         return first_pixel(self.pictures(settings, made).difference != 0)
 
@@ -99,10 +113,10 @@ class SeenTask(FrameTask):
         """(H, W) int64, what is to be seen."""
         return self._make()
 
-    def errors(self, settings: Settings, made: Frame) -> Errors:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Count the pixels that show something else."""
         wrong = int(np.count_nonzero(self._shown(made.primitive.astype(np.int64)) != self.reference))
-        return {WRONG_VISIBLE.name: per_million(wrong, made.primitive.size)}
+        return judged({WRONG_VISIBLE.name: per_million(wrong, made.primitive.size)})
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
         """Return a colour for each number."""
@@ -137,11 +151,11 @@ class ColorTask(FrameTask):
         """Colours (H, W, 4), and where they count."""
         return self._make()
 
-    def errors(self, settings: Settings, made: Frame) -> Errors:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Return the differences of the colours."""
         color, seen = self.reference
         where = None if seen is None else seen & (made.primitive >= 0)
-        return color_errors(premultiplied(made.color, settings), color, where)
+        return judged(color_errors(premultiplied(made.color, settings), color, where), tolerance=ONE_BYTE)
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
         """Return the colours times alpha."""

@@ -6,9 +6,9 @@ from core.records.arrays import Floats
 from core.records.frame import Frame
 from core.records.primitives import interpolation_form
 from core.settings import Settings
-from core.study.accuracy.family import Assignment, Candidate, Errors, StudyFamily
+from core.study.accuracy.family import Assignment, Candidate, StudyFamily
 from core.study.accuracy.frame_task import FrameTask, scalar_pictures
-from core.study.accuracy.record import Dial, ErrorMeasure, Pictures, WorkKind
+from core.study.accuracy.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind, judged
 from core.study.accuracy.workloads import receding_quad
 from core.study.exact.values import exact_values
 from core.trace import trace
@@ -18,8 +18,8 @@ TEXELS = 256
 MEAN_TEXEL = ErrorMeasure("mean-texel", "Mean error of the texture coordinate", "texels")
 LARGEST_TEXEL = ErrorMeasure("largest-texel", "Largest error of the texture coordinate", "texels")
 
-RATIOS = Dial("w-ratio", "Ratio of w, far over near", "", (1, 1.25, 1.5, 2, 3, 4, 8, 16, 64), 4)
-SIDES = Dial("side", "Side of the picture", "pixels", (16, 32, 64, 128, 256), 64, is_cost=True)
+RATIOS = Axis("w-ratio", "Ratio of w, far over near", "", (1, 1.25, 1.5, 2, 3, 4, 8, 16, 64), default=4)
+SIDES = Axis("side", "Side of the picture", "pixels", (16, 32, 64, 128, 256), default=64, is_cost=True)
 
 
 class InterpolationTask(FrameTask):
@@ -67,12 +67,13 @@ class InterpolationTask(FrameTask):
             divisions = len(np.unique(np.stack([rows.ravel(), places.ravel()]), axis=1).T)
         return super().counts(settings, made) | {"divisions by 1/w": divisions}
 
-    def errors(self, settings: Settings, made: Frame) -> Errors:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Return how far the coordinates are off."""
         result, exact = self._coordinates(settings)
         distance = np.abs(result - exact).max(axis=2)
         distance = distance[np.isfinite(distance)]
-        return {MEAN_TEXEL.name: float(distance.mean()), LARGEST_TEXEL.name: float(distance.max())}
+        errors = {MEAN_TEXEL.name: float(distance.mean()), LARGEST_TEXEL.name: float(distance.max())}
+        return judged(errors, LARGEST_TEXEL.name, tolerance=0.5)
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
         """Return the coordinate, u or v, that runs towards the far side, in texels."""

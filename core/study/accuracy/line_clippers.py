@@ -12,9 +12,9 @@ from core.raster.lines.drawing import draw_lines
 from core.records.arrays import Flags, Floats
 from core.records.cached import cached_property
 from core.settings import Settings
-from core.study.accuracy.family import Assignment, Errors, StudyFamily, Task
+from core.study.accuracy.family import Assignment, StudyFamily, Task
 from core.study.accuracy.frame_task import per_million, scalar_pictures
-from core.study.accuracy.record import Dial, ErrorMeasure, Opening, Pictures, WorkKind
+from core.study.accuracy.record import Axis, ErrorMeasure, Judgement, Opening, Pictures, WorkKind, judged
 from core.study.accuracy.workloads import outline_scene
 from core.study.exact.lines import clipped_ends
 
@@ -22,12 +22,14 @@ SIZE = (64, 48)
 WINDOW = (0.0, 0.0, 64.0, 48.0)
 GRID_STEPS = 4.0
 """Steps of the grid of ties in one pixel."""
+PROMISED = 4.0
+"""Units in the last place that the ends of a clipped segment may be off."""
 
 LARGEST = ErrorMeasure("largest-ulp", "Largest error of an end", "ulp")
 MEAN = ErrorMeasure("mean-ulp", "Mean error of the ends", "ulp")
 DECISIONS = ErrorMeasure("decisions", "Segments wrongly kept or dropped", "per million")
 
-COUNTS = Dial("count", "Segments", "", (3, 10, 30, 100, 300, 1000, 3000), 300, is_cost=True)
+COUNTS = Axis("count", "Segments", "", (3, 10, 30, 100, 300, 1000, 3000), default=300, is_cost=True)
 WORKS = (
     WorkKind("around", "Random segments in and around the window", "line", (COUNTS,)),
     WorkKind("corners", "Segments past the corners of the window", "line", (COUNTS,)),
@@ -92,23 +94,18 @@ class LineClippingTask(Task):
             "bytes": made.segments.nbytes,
         }
 
-    def errors(self, settings: Settings, made: ClippedLines) -> Errors:
+    def judge(self, settings: Settings, made: ClippedLines) -> Judgement:
         """Compare with the exact ends and decisions."""
         _, is_left = self.reference
         error = self._ulps(made)
         decisions = int(np.count_nonzero(made.is_kept != is_left))
-        if not len(error):
-            reason = "No segment is left in the window."
-            return {
-                LARGEST.name: reason,
-                MEAN.name: reason,
-                DECISIONS.name: per_million(decisions, len(is_left)),
-            }
-        return {
-            LARGEST.name: float(error.max()),
-            MEAN.name: float(error.mean()),
-            DECISIONS.name: per_million(decisions, len(is_left)),
-        }
+        errors: dict[str, float | str] = dict.fromkeys(
+            (LARGEST.name, MEAN.name), "No segment is left in the window."
+        )
+        if len(error):
+            errors = {LARGEST.name: float(error.max()), MEAN.name: float(error.mean())}
+        errors[DECISIONS.name] = per_million(decisions, len(is_left))
+        return judged(errors, tolerance=PROMISED)
 
     def _ulps(self, made: ClippedLines) -> Floats:
         """Return the error (K,) of the worse end of rightly kept segments, in ulp of their largest coordinate."""

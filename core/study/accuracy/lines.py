@@ -1,6 +1,7 @@
 """Study of lines: how far the pixels lie from the ideal line, and how well they fill its area."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -11,9 +12,9 @@ from core.records.arrays import Floats, Integers
 from core.records.cached import cached_property
 from core.settings import Settings
 from core.study.accuracy.counted_listings import count_line_operations
-from core.study.accuracy.family import Assignment, Errors, StudyFamily, Task
+from core.study.accuracy.family import Assignment, StudyFamily, Task
 from core.study.accuracy.frame_task import per_million, scalar_pictures
-from core.study.accuracy.record import Dial, ErrorMeasure, Opening, Pictures, WorkKind
+from core.study.accuracy.record import Axis, ErrorMeasure, Judgement, Opening, Pictures, WorkKind, judged
 from core.study.accuracy.workloads import outline_scene, random_lines
 from core.study.exact.lines import distance_from_line, line_areas
 
@@ -28,8 +29,13 @@ LARGEST = ErrorMeasure("largest-distance", "Largest distance from the ideal line
 NOT_NEAREST = ErrorMeasure("not-nearest", "Steps that do not take the nearest pixel", "per million")
 AREA = ErrorMeasure("area", "Mean error of the covered area", "pixels")
 
-LENGTHS = Dial(
-    "length", "Length of the lines", "pixels", (4, 8, 16, 32, 64, 128, 256, 512, 1000), 64, is_cost=True
+LENGTHS = Axis(
+    "length",
+    "Length of the lines",
+    "pixels",
+    (4, 8, 16, 32, 64, 128, 256, 512, 1000),
+    default=64,
+    is_cost=True,
 )
 WORKS = (
     WorkKind("any-ends", "Random lines, ends anywhere", "line", (LENGTHS,)),
@@ -77,20 +83,21 @@ class LineTask(Task):
         scale = COUNT / len(chosen)
         return counts | {name: round(scale * number) for name, number in operations.items()}
 
-    def errors(self, settings: Settings, made: LinePixels) -> Errors:
+    def judge(self, settings: Settings, made: LinePixels) -> Judgement:
         """Compare with the ideal line and with its area."""
         if not len(made.pixels):
             reason = "The method draws no pixel of these lines."
-            return dict.fromkeys((MEAN.name, LARGEST.name, NOT_NEAREST.name, AREA.name), reason)
+            return judged(dict.fromkeys((MEAN.name, LARGEST.name, NOT_NEAREST.name, AREA.name), reason))
         column, row = made.pixels.T
         distance, _ = distance_from_line(self.segments, made.owner, column, row, made.intensities)
         not_nearest = int(np.count_nonzero(distance > 0.5 + SLACK))
-        return {
+        errors = {
             MEAN.name: float(distance.mean()),
             LARGEST.name: float(distance.max()),
             NOT_NEAREST.name: per_million(not_nearest, len(distance)),
             AREA.name: self._area_error(made),
         }
+        return judged(errors, NOT_NEAREST.name)
 
     def _area_error(self, made: LinePixels) -> float:
         """Return the area that is drawn too much or too little, for a pixel's length of line."""
@@ -122,12 +129,8 @@ class LineTask(Task):
         worst = step[int(np.argmax(distance))]
         ends = self.segments[made.owner[worst]]
         pixel = (int(column[worst]), int(row[worst]))
-        wireframe = {"polygon_mode": "wireframe", "cull": "none", "clipping": "homogeneous"}
-        return Opening(outline_scene(ends, self.size), _replaced(settings, wireframe), "raster", pixel)
-
-
-def _replaced(settings: Settings, changes: dict[str, str]) -> Settings:
-    return Settings(**(vars(settings) | changes))
+        outlined = replace(settings, polygon_mode="wireframe", cull="none", clipping="homogeneous")
+        return Opening(outline_scene(ends, self.size), outlined, "raster", pixel)
 
 
 LINE = StudyFamily("line", "Lines", ("line",), WORKS, (MEAN, LARGEST, NOT_NEAREST, AREA), LineTask)

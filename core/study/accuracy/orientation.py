@@ -18,9 +18,9 @@ import numpy as np
 
 from core.records.arrays import Integers
 from core.settings import Settings
-from core.study.accuracy.family import Assignment, Candidate, Errors, StudyFamily, Task
+from core.study.accuracy.family import Assignment, Candidate, StudyFamily, Task
 from core.study.accuracy.frame_task import scalar_pictures
-from core.study.accuracy.record import Dial, ErrorMeasure, Pictures, WorkKind
+from core.study.accuracy.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind, judged
 
 FORMATS: Mapping[str, Any] = {
     "float16": np.float16,
@@ -33,7 +33,7 @@ PIVOTS = ("pivot-p", "pivot-q", "pivot-r")
 
 WRONG = ErrorMeasure("wrong-signs", "Wrong signs", "points")
 TURNED = ErrorMeasure("turned-signs", "Signs turned round", "points")
-SIDES = Dial("side", "Side of the map", "points", (16, 32, 64, 128, 256), 256, is_cost=True)
+SIDES = Axis("side", "Side of the map", "points", (16, 32, 64, 128, 256), default=256, is_cost=True)
 
 
 class OrientationTask(Task):
@@ -60,13 +60,11 @@ class OrientationTask(Task):
         """Return how many signs (H, W) are positive, and 0."""
         return {"points to the left": int((made > 0).sum()), "points on the line": int((made == 0).sum())}
 
-    def errors(self, settings: Settings, made: Integers) -> Errors:
+    def judge(self, settings: Settings, made: Integers) -> Judgement:
         """Count the wrong signs of a map (H, W), and those of them that are not 0."""
         is_wrong = made != self.reference
-        return {
-            WRONG.name: float(np.count_nonzero(is_wrong)),
-            TURNED.name: float(np.count_nonzero(is_wrong & (made != 0))),
-        }
+        wrong, turned = (float(np.count_nonzero(each)) for each in (is_wrong, is_wrong & (made != 0)))
+        return judged({WRONG.name: wrong, TURNED.name: turned})
 
     def pictures(self, settings: Settings, made: Integers) -> Pictures:
         """Return the maps of signs (H, W)."""

@@ -14,9 +14,9 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
-from core.study.accuracy.family import Assignment, Errors, StudyFamily
+from core.study.accuracy.family import Assignment, StudyFamily
 from core.study.accuracy.frame_task import FrameTask, per_million, scalar_pictures
-from core.study.accuracy.record import Dial, ErrorMeasure, Pictures, WorkKind
+from core.study.accuracy.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind, judged
 from core.study.accuracy.workloads import clip_of_window
 from core.study.exact.polygons import exact_cover
 
@@ -27,7 +27,7 @@ WINDOW = np.array([[2.0, 38.0], [46.0, 39.0], [46.0, 47.0], [2.0, 47.0]])
 """(4, 2) convex clip window, in pixels."""
 ON_BORDER = 1e-6
 """How far from the window's border an edge on it may lie by rounding, in pixels."""
-CORNERS = Dial("corners", "Corners of a ring", "", (4, 8, 16, 32, 64, 128, 256), 16, is_cost=True)
+CORNERS = Axis("corners", "Corners of a ring", "", (4, 8, 16, 32, 64, 128, 256), default=16, is_cost=True)
 WORKS = (
     WorkKind("holes", "A concave polygon with a hole", "polygon", (CORNERS,)),
     WorkKind("crossing", "A polygon that crosses itself", "polygon", (CORNERS,)),
@@ -65,10 +65,10 @@ class PolygonTask(FrameTask):
         """By whether the rule is even-odd: (H, W) bool, the pixels inside."""
         return {is_even_odd: exact_cover(self._rings, 0, SIZE, is_even_odd) for is_even_odd in (True, False)}
 
-    def errors(self, settings: Settings, made: Frame) -> Errors:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Count pixels that are wrongly covered or left out."""
         wrong = (made.primitive >= 0) != self.reference[settings.polygon_fill == "even-odd"]
-        return {MISCLASSIFIED.name: per_million(int(np.count_nonzero(wrong)), wrong.size)}
+        return judged({MISCLASSIFIED.name: per_million(int(np.count_nonzero(wrong)), wrong.size)})
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
         """Return which pixels are covered."""
@@ -90,11 +90,12 @@ class ClippedPolygonTask(PolygonTask):
         assert isinstance(self.scene, ClipScene)
         self.scene = replace(self.scene, clip_region=region_of_window(WINDOW, SIZE))
 
-    def errors(self, settings: Settings, made: Frame) -> Errors:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Count wrong pixels, and add up the edges along the window's border that enclose nothing."""
         geometry = process_geometry(self.scene, settings, {stage: StageCount() for stage in STAGES})
         assert geometry.polygons is not None
-        return {**super().errors(settings, made), CONNECTING.name: _connecting_length(geometry.polygons)}
+        errors = super().judge(settings, made).errors
+        return judged({**errors, CONNECTING.name: _connecting_length(geometry.polygons)})
 
 
 def _connecting_length(rings: Rings) -> float:

@@ -4,13 +4,14 @@ import platform
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
+from enum import IntEnum
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.methods import table
-from core.records.arrays import Floats
+from core.records.arrays import Flags, Floats
 from core.records.cached import cached_property
 from core.scene import AnyScene
 from core.settings import Settings
@@ -29,18 +30,74 @@ class ErrorMeasure:
     """``per million``, ``pixels``, ``ulp``, ``1/255``; empty: a plain number."""
 
 
+class Outcome(IntEnum):
+    """What came of one real run."""
+
+    RIGHT = 0
+    HOLE = 1
+    """A pixel that belongs to the shape was not drawn."""
+    DOUBLE_HIT = 2
+    """A pixel was drawn twice, or one that does not belong to the shape was drawn."""
+    WRONG_ORDER = 3
+    """The farther surface is seen."""
+    NOT_A_NUMBER = 4
+    OVERFLOW = 5
+    WRONG_PICTURE = 6
+    """Wrong in another way: values, colours, ends of segments."""
+    REFUSED = 7
+    """The method does not take this input, and said so."""
+
+
 @dataclass(frozen=True)
-class Dial:
-    """One quantity of the work that is chosen: triangle size, line length, sliver angle, triangle count."""
+class Verdict:
+    """What came of one run."""
+
+    outcome: Outcome
+    severity: float = 0.0
+    """How wrong, in the experiment's own unit: pixels, ulp, levels of colour; 0: not at all."""
+    remark: str = ""
+    """One sentence with the numbers of this run: ``3 pixels of 96 are drawn twice``."""
+
+
+Errors = Mapping[str, float | str]
+"""By `ErrorMeasure.name`: a number, or a sentence why there is none."""
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """What came of one run, and where."""
+
+    verdict: Verdict
+    wrong: Flags = field(default_factory=lambda: np.zeros((0, 0), bool))
+    """(H, W) bool, the pixels that are wrong; empty: it is about no pixels, or nothing is known of them."""
+    errors: Errors = field(default_factory=dict)
+    """What a study compares methods by."""
+
+
+def judged(errors: Errors, by: str = "", tolerance: float = 0.0) -> Judgement:
+    """Return what errors come to: right if the one called ``by``, or the first, is within a tolerance."""
+    severity = errors[by or next(iter(errors))]
+    if isinstance(severity, str):
+        return Judgement(Verdict(Outcome.REFUSED, np.nan, severity), errors=errors)
+    outcome = Outcome.RIGHT if severity <= tolerance else Outcome.WRONG_PICTURE
+    remark = ", ".join(f"{name} {value:.4g}" for name, value in errors.items() if not isinstance(value, str))
+    return Judgement(Verdict(outcome, severity, remark), errors=errors)
+
+
+@dataclass(frozen=True)
+class Axis:
+    """One quantity of the work that is varied: triangle size, line length, sliver angle, distance from an edge."""
 
     name: str
     title: str
     unit: str
     values: tuple[float, ...]
-    """Those that can be chosen, rising."""
-    default: float
+    """Rising; a study takes one of them, or one between, and a map all."""
+    is_logarithmic: bool = False
+    default: float = 0.0
+    """What a study takes, unless another value is chosen."""
     is_cost: bool = False
-    """Whether the second chart shows how cost grows with it; one dial of a work at most."""
+    """Whether the second chart shows how cost grows with it; one axis of a work at most."""
     setting: str = ""
     """The setting that it turns, of methods that take it: the value of least cost is looked for. Empty: none."""
 
@@ -54,7 +111,7 @@ class WorkKind:
     """As ``Random triangles``."""
     unit: str
     """What time is divided by: ``pixel``, ``line``, ``triangle``, ``frame``."""
-    dials: tuple[Dial, ...] = ()
+    dials: tuple[Axis, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)

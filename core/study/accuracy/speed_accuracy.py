@@ -17,7 +17,7 @@ from core.scene import AnyScene
 from core.settings import Settings
 from core.study.accuracy.families import study_family
 from core.study.accuracy.family import Assignment, Candidate, StudyFamily, Task, chosen_dials, settings_of
-from core.study.accuracy.record import Dial, Opening, Pictures, Point, Study, WorkKind
+from core.study.accuracy.record import Axis, Opening, Pictures, Point, Study, WorkKind
 from core.study.accuracy.timing import SURE, Load, collector_off, is_settled, ranks
 
 ROUNDS = 9
@@ -181,7 +181,7 @@ def measure(
     )
 
 
-def cost_dial(work: WorkKind) -> Dial | None:
+def cost_dial(work: WorkKind) -> Axis | None:
     """Return the dial that cost grows with, if the work has one."""
     return next((dial for dial in work.dials if dial.is_cost), None)
 
@@ -202,7 +202,7 @@ def _measure_points(
     candidates: tuple[Candidate, ...],
     rounds: int,
     watch: _Watch,
-    grown: Dial | None = None,
+    grown: Axis | None = None,
 ) -> tuple[Point, ...]:
     """Measure all candidates on one work; with ``grown``, the dial that was turned, leave the errors out."""
     where = "" if grown is None else f", {grown.title.lower()} {assignment.dials[grown.name]:g}"
@@ -244,7 +244,7 @@ def _first_run(task: Task, base: Settings, candidate: Candidate, with_errors: bo
         made = task.start(settings)()
         last = perf_counter() - start
         counts = task.counts(settings, made)
-        found = task.errors(settings, made) if with_errors else {}
+        found = task.judge(settings, made).errors if with_errors else {}
     except (ValueError, MemoryError) as problem:
         return _Turn(candidate, settings, replace(point, refused=_sentence(problem)))
     reasons = {name: value for name, value in found.items() if isinstance(value, str)}

@@ -9,10 +9,10 @@ from core.records.frame import Frame
 from core.scene import Camera, DirectionalLight, Mesh, Scene
 from core.settings import Settings
 from core.stages.vertex_program import vertex_stage
-from core.study.accuracy.family import Assignment, Errors, StudyFamily
+from core.study.accuracy.family import Assignment, StudyFamily
 from core.study.accuracy.fill import MISCLASSIFIED
 from core.study.accuracy.frame_task import WRONG_VISIBLE, SeenTask, depth_bits, per_million, scalar_pictures
-from core.study.accuracy.record import Dial, Pictures, WorkKind
+from core.study.accuracy.record import Axis, Judgement, Pictures, WorkKind, judged
 from core.study.accuracy.workloads import (
     clip_of_window,
     cyclic_triangles,
@@ -27,11 +27,11 @@ from core.study.exact.coverage import count_pixels, facing, whole_corner
 from core.study.exact.values import exact_fragments, exact_visible
 
 SIZE = (128, 128)
-COUNTS = Dial("count", "Triangles", "", (2, 4, 8, 16, 32, 64, 128), 16, is_cost=True)
+COUNTS = Axis("count", "Triangles", "", (2, 4, 8, 16, 32, 64, 128), default=16, is_cost=True)
 SIDE = 96
 """Pixels on a side of the sphere's picture."""
-RINGS = Dial("rings", "Rings of the sphere", "", (4, 6, 8, 12, 16, 24, 32), 12, is_cost=True)
-SIDES = Dial("side", "Side of the picture", "pixels", (32, 64, 128, 256, 512), 128, is_cost=True)
+RINGS = Axis("rings", "Rings of the sphere", "", (4, 6, 8, 12, 16, 24, 32), default=12, is_cost=True)
+SIDES = Axis("side", "Side of the picture", "pixels", (32, 64, 128, 256, 512), default=128, is_cost=True)
 
 
 def nearest(clip: Floats, size: tuple[int, int]) -> Integers:
@@ -162,8 +162,14 @@ DEPTH = StudyFamily(
             "Two walls, one just before the other",
             "frame",
             (
-                Dial("far", "Far plane over near plane", "", (10, 100, 1e3, 1e4, 1e5, 1e6), 1e4),
-                Dial("gap", "Gap, as a part of the distance", "", (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2), 1e-5),
+                Axis("far", "Far plane over near plane", "", (10, 100, 1e3, 1e4, 1e5, 1e6), default=1e4),
+                Axis(
+                    "gap",
+                    "Gap, as a part of the distance",
+                    "",
+                    (1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2),
+                    default=1e-5,
+                ),
                 SIDES,
             ),
         ),
@@ -187,11 +193,12 @@ class ClippingTask(SeenTask):
         fragments = exact_fragments(self._clip, SIZE)
         return count_pixels(fragments.column, fragments.row, SIZE)
 
-    def errors(self, settings: Settings, made: Frame) -> Errors:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Count pixels that are covered too often or too seldom."""
         wrong = int(np.abs(made.cover_count - self.cover_reference).sum())
         looked_at = len(self._clip) * made.primitive.size
-        return {MISCLASSIFIED.name: per_million(wrong, looked_at), **super().errors(settings, made)}
+        errors = super().judge(settings, made).errors
+        return judged({MISCLASSIFIED.name: per_million(wrong, looked_at), **errors})
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
         """Return how often each pixel is covered."""

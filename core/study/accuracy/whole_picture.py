@@ -21,30 +21,31 @@ from core.records.cached import cached_property
 from core.records.frame import Frame
 from core.scene import AnyScene, DirectionalLight, Mesh, Scene
 from core.settings import FAMILIES, Settings, families, no_effect
-from core.study.accuracy.family import Assignment, Candidate, Errors, StudyFamily, Task, settings_of
+from core.study.accuracy.family import Assignment, Candidate, StudyFamily, settings_of
 from core.study.accuracy.frame_task import (
     LARGEST_COLOR,
     MEAN_COLOR,
+    ONE_BYTE,
     WRONG_VISIBLE,
+    FrameTask,
     check_pixel_tests,
     color_errors,
     color_pictures,
-    first_pixel,
     frame_counts,
     per_million,
     premultiplied,
 )
-from core.study.accuracy.record import Dial, ErrorMeasure, Opening, Pictures, WorkKind
+from core.study.accuracy.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind, judged
 from core.study.accuracy.sampled import can_be_sampled, sampled_rows, spread_rows
 from core.study.accuracy.workloads import checkerboard, sphere_mesh, sphere_scene
 
 SAMPLED_COLOR = ErrorMeasure("sampled-color", "Mean difference from 256 samples in a pixel", "1/255")
 MEASURES = (MEAN_COLOR, LARGEST_COLOR, WRONG_VISIBLE, SAMPLED_COLOR)
 
-SCALES = Dial("scale", "Scale of the picture", "", (0.125, 0.25, 0.5, 1, 2), 1, is_cost=True)
+SCALES = Axis("scale", "Scale of the picture", "", (0.125, 0.25, 0.5, 1, 2), default=1, is_cost=True)
 
 
-class PictureTask(Task):
+class PictureTask(FrameTask):
     """A scene that is drawn with many settings.
 
     Parameters
@@ -53,9 +54,11 @@ class PictureTask(Task):
         Of the picture that the others are compared with.
     """
 
+    stage = "resolve"
+
     def __init__(self, scene: AnyScene, reference_settings: Settings) -> None:
-        self.scene, self.reference_settings = scene, reference_settings
-        self.unit_count = 1
+        super().__init__(scene, 1)
+        self.reference_settings = reference_settings
         self._last: tuple[Settings, Frame] | None = None
 
     def start(self, settings: Settings) -> Callable[[], Picture]:
@@ -89,14 +92,15 @@ class PictureTask(Task):
             self._last = (settings, render(self.scene, settings))
         return self._last[1]
 
-    def errors(self, settings: Settings, made: Picture) -> Errors:
+    def judge(self, settings: Settings, made: Picture) -> Judgement:
         """Compare the bytes with the reference's, the triangles seen, and the colours with 256 samples."""
         wrong = int(np.count_nonzero(self._frame(settings).primitive != self.reference.primitive))
-        return {
+        errors = {
             **color_errors(_color(made), self._reference_color),
             WRONG_VISIBLE.name: per_million(wrong, self.reference.primitive.size),
             SAMPLED_COLOR.name: self._sampled_error(settings, made),
         }
+        return judged(errors, tolerance=ONE_BYTE)
 
     def _sampled_error(self, settings: Settings, made: Picture) -> float | str:
         if table.get("polygon_mode", self.reference_settings.polygon_mode).function():
@@ -110,11 +114,6 @@ class PictureTask(Task):
     def pictures(self, settings: Settings, made: Picture) -> Pictures:
         """Return the bytes over 255."""
         return color_pictures(_color(made), self._reference_color)
-
-    def opening(self, settings: Settings, made: Picture) -> Opening | None:
-        """Return the scene with these settings, at the first pixel that differs."""
-        pixel = first_pixel(self.pictures(settings, made).difference != 0)
-        return Opening(self.scene, settings, "resolve", pixel)
 
 
 def _color(made: Picture) -> Floats:
@@ -196,9 +195,9 @@ class ChoiceTask(PictureTask):
         kept = settings if FAMILIES[name].is_look else settings_of(settings, first)
         return self._judges.setdefault(kept, PictureTask(self.scene, kept))
 
-    def errors(self, settings: Settings, made: Picture) -> Errors:
+    def judge(self, settings: Settings, made: Picture) -> Judgement:
         """Compare with the reference of these settings."""
-        return self._judge(settings).errors(settings, made)
+        return self._judge(settings).judge(settings, made)
 
     def pictures(self, settings: Settings, made: Picture) -> Pictures:
         """Return the bytes over 255, and those of the reference of these settings."""

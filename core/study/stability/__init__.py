@@ -1,17 +1,10 @@
 """Where methods fail: experiments over one or two parameters, each cell the outcome of a real run."""
 
+from core.study.accuracy.record import Axis, Outcome, Verdict
 from core.study.stability.coverage import COVERAGE_EXPERIMENTS
 from core.study.stability.experiment import Experiment, experiments
 from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
-from core.study.stability.record import (
-    Atlas,
-    Axis,
-    ExperimentInfo,
-    Outcome,
-    StabilityMap,
-    StressCancelledError,
-    Verdict,
-)
+from core.study.stability.record import Atlas, ExperimentInfo, StabilityMap, StressCancelledError
 from core.study.stability.stress import count_outcomes, stress
 
 __all__ = [

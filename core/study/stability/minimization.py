@@ -17,7 +17,8 @@ import numpy as np
 from core.records.arrays import Floats, Integers
 from core.records.words import counted
 from core.scene import AnyScene
-from core.study.stability.record import Outcome, StressCancelledError, Verdict
+from core.study.accuracy.record import Outcome, Verdict
+from core.study.stability.record import StressCancelledError
 
 DIGITS = 17
 """Significant digits of a float64."""

@@ -5,9 +5,9 @@ from functools import cache
 from core.records.arrays import Floats
 from core.scene import AnyScene, ClipScene
 from core.stages.vertex_program import vertex_stage
+from core.study.accuracy.record import Axis
 from core.study.accuracy.workloads import flat_scene
-from core.study.stability.coverage.covered_pixels import CoverageExperiment, coverage_experiment, on_its_grid
-from core.study.stability.record import Axis, ExperimentInfo
+from core.study.stability.coverage.covered_pixels import CoverageExperiment, on_its_grid
 
 NAME = "open-scene"
 COLUMNS = (8.0, 16.0, 24.0, 32.0, 48.0)
@@ -64,20 +64,18 @@ def watertightness(scene: AnyScene, title: str) -> CoverageExperiment:
         there[..., 0] += 2.0 * place[1] / columns * there[..., 3]
         return flat_scene(there, (columns, rows))
 
-    return coverage_experiment(
-        ExperimentInfo(
-            NAME,
-            "Watertightness of the open scene",
-            f"The triangles of {title or 'the scene'}, larger and larger and moved by parts of a pixel: "
-            "is every pixel covered as often as it should be?",
-            (
-                Axis("columns", "Columns of the picture", "", COLUMNS, True),
-                Axis("shift", "Moved to the right by", "pixels", SHIFTS),
-            ),
-            METHODS,
-            "Exclusive edges leave cracks and inclusive ones are drawn twice where edges pass through pixel centres; "
-            "whole numbers of any length are right for every scene.",
+    return CoverageExperiment(
+        NAME,
+        "Watertightness of the open scene",
+        f"The triangles of {title or 'the scene'}, larger and larger and moved by parts of a pixel: "
+        "is every pixel covered as often as it should be?",
+        (
+            Axis("columns", "Columns of the picture", "", COLUMNS, True),
+            Axis("shift", "Moved to the right by", "pixels", SHIFTS),
         ),
+        METHODS,
+        "Exclusive edges leave cracks and inclusive ones are drawn twice where edges pass through pixel centres; "
+        "whole numbers of any length are right for every scene.",
         moved,
-        on_its_grid,
+        wanted=on_its_grid,
     )

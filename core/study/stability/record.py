@@ -2,56 +2,16 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from enum import IntEnum
 
 import numpy as np
 from numpy.typing import NDArray
 
 from core.records.arrays import Floats
-
-
-class Outcome(IntEnum):
-    """What came of one real run."""
-
-    RIGHT = 0
-    HOLE = 1
-    """A pixel that belongs to the shape was not drawn."""
-    DOUBLE_HIT = 2
-    """A pixel was drawn twice, or one that does not belong to the shape was drawn."""
-    WRONG_ORDER = 3
-    """The farther surface is seen."""
-    NOT_A_NUMBER = 4
-    OVERFLOW = 5
-    WRONG_PICTURE = 6
-    """Wrong in another way: values, colours, ends of segments."""
-    REFUSED = 7
-    """The method does not take this input, and said so."""
-
-
-@dataclass(frozen=True)
-class Verdict:
-    """What came of one run."""
-
-    outcome: Outcome
-    severity: float = 0.0
-    """How wrong, in the experiment's own unit: pixels, ulp, levels of colour; 0: not at all."""
-    remark: str = ""
-    """One sentence with the numbers of this run: ``3 pixels of 96 are drawn twice``."""
+from core.study.accuracy.record import Axis, Outcome
 
 
 class StressCancelledError(Exception):
     """Whoever asked for the experiment does not want it any more."""
-
-
-@dataclass(frozen=True)
-class Axis:
-    """One parameter of an experiment."""
-
-    name: str
-    title: str
-    unit: str
-    values: tuple[float, ...]
-    is_logarithmic: bool = False
 
 
 @dataclass(frozen=True)

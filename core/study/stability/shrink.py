@@ -15,11 +15,10 @@ from functools import partial
 
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.accuracy.record import Opening
+from core.study.accuracy.record import Opening, Verdict
 from core.study.stability.case_text import case_text
 from core.study.stability.experiment import Experiment, experiments
 from core.study.stability.minimization import minimize
-from core.study.stability.record import Verdict
 
 MOST_RUNS = 3000
 """Runs after which shrinking stops with what it has."""
@@ -81,17 +80,16 @@ def shrink_cell(
     """
     if isinstance(experiment, str):
         experiment = experiments.get(experiment)
-    name = experiment.info.name
-    if method not in experiment.info.methods:
-        raise ValueError(
-            f"method of {name} must be one of {', '.join(experiment.info.methods)}, got {method}"
-        )
+    if method not in experiment.methods:
+        known = ", ".join(experiment.methods)
+        raise ValueError(f"method of {experiment.name} must be one of {known}, got {method}")
     scene, settings = experiment.case(method, place, seed)
     kind = experiment.kind
     found = minimize(kind, scene, partial(experiment.judge, settings=settings), most_runs, is_cancelled)
     small = kind.put_together(found.parts)
     sentence = f"{method} at {kind.words(found.parts)}: {found.verdict.remark}."
-    title = "_".join([name, *(part.partition("=")[2] for part in method.split())])
-    test = case_text(title, sentence, experiment.test_body(small, settings))
-    pixel = experiment.wrong_pixel(small, settings)
-    return Shrunk(small, settings, found.verdict, sentence, experiment.stage, pixel, found.run_count, test)
+    title = "_".join([experiment.name, *(part.partition("=")[2] for part in method.split())])
+    case = experiment.part(small)
+    test = case_text(title, sentence, case.test_body(settings))
+    pixel = case.wrong_pixel(settings, case.start(settings)())
+    return Shrunk(small, settings, found.verdict, sentence, case.stage, pixel, found.run_count, test)

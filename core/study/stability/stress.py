@@ -7,8 +7,9 @@ from math import sqrt
 
 import numpy as np
 
+from core.study.accuracy.record import Axis, Outcome, Verdict
 from core.study.stability.experiment import Experiment, experiments
-from core.study.stability.record import Atlas, Axis, Outcome, StabilityMap, StressCancelledError, Verdict
+from core.study.stability.record import Atlas, StabilityMap, StressCancelledError
 
 RESOLUTIONS = ("coarse", "normal", "fine")
 FEWEST = 4
@@ -53,34 +54,31 @@ def stress(
     """
     if isinstance(experiment, str):
         experiment = experiments.get(experiment)
-    info = experiment.info
-    chosen = info.axes if axes is None else axes
-    if [axis.name for axis in chosen] != [axis.name for axis in info.axes]:
-        wanted = ", ".join(axis.name for axis in info.axes)
-        raise ValueError(
-            f"axes of {info.name} must be {wanted}, got {', '.join(axis.name for axis in chosen) or 'none'}"
-        )
+    chosen = experiment.axes if axes is None else axes
+    if [axis.name for axis in chosen] != [axis.name for axis in experiment.axes]:
+        wanted, got = (", ".join(axis.name for axis in each) for each in (experiment.axes, chosen))
+        raise ValueError(f"axes of {experiment.name} must be {wanted}, got {got or 'none'}")
     columns = len(chosen[0].values)
     rows = len(chosen[1].values) if len(chosen) > 1 else 1
     places = [place[::-1] for place in product(*(axis.values for axis in reversed(chosen)))]
     maps = []
-    for number, method in enumerate(info.methods):
+    for number, method in enumerate(experiment.methods):
         outcome, severity = np.zeros(len(places), np.uint8), np.zeros(len(places))
         remarks = []
         for cell, place in enumerate(places):
             if is_cancelled is not None and is_cancelled():
-                raise StressCancelledError(f"{info.title} was cancelled")
+                raise StressCancelledError(f"{experiment.title} was cancelled")
             verdict = experiment.run(method, place, seed)
             outcome[cell], severity[cell] = int(verdict.outcome), verdict.severity
             remarks.append(verdict.remark)
             if cell_done is not None:
                 cell_done(method, cell % columns, cell // columns, verdict)
             if progress is not None and cell % max(columns // 2, 1) == 0:
-                progress((number + cell / len(places)) / len(info.methods), method)
+                progress((number + cell / len(places)) / len(experiment.methods), method)
         said = tuple(tuple(remarks[row * columns : (row + 1) * columns]) for row in range(rows))
         shape = rows, columns
         maps.append(StabilityMap(method, method, outcome.reshape(shape), severity.reshape(shape), said))
-    return Atlas(replace(info, axes=chosen), tuple(maps), seed, dict(machine or {}))
+    return Atlas(replace(experiment.info, axes=chosen), tuple(maps), seed, dict(machine or {}))
 
 
 def count_outcomes(atlas: Atlas) -> dict[str, dict[str, int]]:

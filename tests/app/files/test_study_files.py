@@ -17,7 +17,7 @@ from app.files.study_files import StudyFileError, load_study, study_json
 from app.pages.words import digits, time_text
 from core import Settings
 from core.study import ErrorMeasure, Point, Study, WorkKind, machine, measure, pareto_front
-from core.study.accuracy.record import Dial
+from core.study.accuracy.record import Axis
 from widgets.basics.theme import DARK, LIGHT, current_theme, paint_as
 from widgets.charts.chart import Chart
 
@@ -44,7 +44,7 @@ def study() -> Study:
         ),
         Point("fill=brute-force", "Brute force", refused="It takes too long."),
     )
-    dial = Dial("size", "Triangle size", "pixels", (2, 4, 8), 4, is_cost=True)
+    dial = Axis("size", "Triangle size", "pixels", (2, 4, 8), default=4, is_cost=True)
     return Study(
         family="fill",
         title="Fills",

@@ -4,9 +4,9 @@ import numpy as np
 
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.record import Axis
 from core.study.accuracy.workloads import flat_scene, random_source
-from core.study.stability.coverage.covered_pixels import coverage_experiment, once_everywhere
-from core.study.stability.record import Axis, ExperimentInfo
+from core.study.stability.coverage.covered_pixels import CoverageExperiment, once_everywhere
 
 SIZE = (32, 32)
 NOT_SNAPPED = Settings(fill="bounding-box", coverage="exact")
@@ -64,53 +64,47 @@ def pair_over_the_border(place: tuple[float, ...], seed: int) -> ClipScene:
 
 RATIOS = (0.1, 0.2, 0.3, 0.7, 1.0, 1.3, 2.9, 4.7, 9.1)
 SIGNS = tuple((np.arange(-8, 9) / 4).tolist())
-SIGNS_OF_W = coverage_experiment(
-    ExperimentInfo(
-        "signs-of-w",
-        "w through 0, mixed signs",
-        "Two corners of a triangle move through the eye's plane, independently. Which methods draw the part in "
-        "front?",
-        (
-            Axis("second", "w of the second corner", "", SIGNS),
-            Axis("third", "w of the third corner", "", SIGNS),
-        ),
-        CLIPPINGS,
-        "Projecting first is right only while all w > 0: it mirrors corners behind the eye, and draws nothing "
-        "where w = 0. Clipping in clip space and homogeneous edge functions are right for all signs.",
+SIGNS_OF_W = CoverageExperiment(
+    "signs-of-w",
+    "w through 0, mixed signs",
+    "Two corners of a triangle move through the eye's plane, independently. Which methods draw the part in "
+    "front?",
+    (
+        Axis("second", "w of the second corner", "", SIGNS),
+        Axis("third", "w of the third corner", "", SIGNS),
     ),
+    CLIPPINGS,
+    "Projecting first is right only while all w > 0: it mirrors corners behind the eye, and draws nothing "
+    "where w = 0. Clipping in clip space and homogeneous edge functions are right for all signs.",
     signs_of_w,
     base=NOT_SNAPPED,
 )
-AFTER_DIVIDE = coverage_experiment(
-    ExperimentInfo(
-        "clip-after-divide",
-        "Clipping after the division by w",
-        "A corner approaches the eye's plane and passes behind it. Can the division come before the clipping?",
-        (
-            Axis("size", "Size of the corner's w", "", tuple(2.0**k for k in range(-60, 1, 4)), True),
-            Axis("side", "Sign of w", "", (-1.0, 0.0, 1.0)),
-        ),
-        CLIPPINGS,
-        "Dividing first is right for every w > 0, however small, and wrong for every w <= 0. Clipping before the "
-        "division and homogeneous edge functions are always right.",
+AFTER_DIVIDE = CoverageExperiment(
+    "clip-after-divide",
+    "Clipping after the division by w",
+    "A corner approaches the eye's plane and passes behind it. Can the division come before the clipping?",
+    (
+        Axis("size", "Size of the corner's w", "", tuple(2.0**k for k in range(-60, 1, 4)), True),
+        Axis("side", "Sign of w", "", (-1.0, 0.0, 1.0)),
     ),
+    CLIPPINGS,
+    "Dividing first is right for every w > 0, however small, and wrong for every w <= 0. Clipping before the "
+    "division and homogeneous edge functions are always right.",
     through_small_w,
     base=NOT_SNAPPED,
 )
-CLIP_ORDER = coverage_experiment(
-    ExperimentInfo(
-        "clip-order",
-        "An edge clipped from A to B and from B to A",
-        "Two triangles share an edge that crosses the border, in opposite directions. Do they still meet?",
-        (
-            Axis("slope", "Slope of the edge", "1/256", tuple(map(float, range(1, 64, 4)))),
-            Axis("ratio", "w of the second end over the first", "", RATIOS, True),
-        ),
-        CLIPPINGS,
-        "Clipped in the polygon's order, the two new corners of a shared edge differ by rounding and may snap to "
-        "different places. Clipped from the inside end to the outside end, they are one corner.",
+CLIP_ORDER = CoverageExperiment(
+    "clip-order",
+    "An edge clipped from A to B and from B to A",
+    "Two triangles share an edge that crosses the border, in opposite directions. Do they still meet?",
+    (
+        Axis("slope", "Slope of the edge", "1/256", tuple(map(float, range(1, 64, 4)))),
+        Axis("ratio", "w of the second end over the first", "", RATIOS, True),
     ),
+    CLIPPINGS,
+    "Clipped in the polygon's order, the two new corners of a shared edge differ by rounding and may snap to "
+    "different places. Clipped from the inside end to the outside end, they are one corner.",
     pair_over_the_border,
-    once_everywhere,
+    wanted=once_everywhere,
 )
 EXPERIMENTS = (SIGNS_OF_W, AFTER_DIVIDE, CLIP_ORDER)

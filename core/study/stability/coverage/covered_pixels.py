@@ -1,6 +1,7 @@
 """Experiments on coverage: triangles are drawn, and how often each pixel is covered is counted."""
 
 from collections.abc import Callable
+from copy import copy
 from dataclasses import dataclass
 from functools import lru_cache, partial
 
@@ -16,15 +17,17 @@ from core.stages.bin_and_raster import covered
 from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
 from core.study.accuracy.family import settings_of
+from core.study.accuracy.record import Judgement, Outcome, Verdict
 from core.study.exact.coverage import count_pixels, exact_spans
 from core.study.stability.case_text import clip_text, cover_text, settings_text
-from core.study.stability.experiment import Case, Experiment, Judgement
-from core.study.stability.record import ExperimentInfo, Outcome, Verdict
+from core.study.stability.experiment import Case, Experiment
 
 EVERY_PIXEL = Settings(fill="bounding-box")
 """Any number format can be drawn so, and every pixel of a triangle's box is tested by it."""
 Wanted = Callable[[ClipScene, Settings], Integers]
 """How often each pixel of a scene is to be covered, (H, W) int64."""
+Cover = tuple[Integers, Geometry]
+"""How often each pixel is covered, (H, W) int64, and the geometry."""
 
 
 def as_given(scene: ClipScene, settings: Settings) -> Integers:
@@ -54,11 +57,16 @@ class CoverCase(Case):
     scene: ClipScene
 
     def __init__(self, scene: ClipScene, wanted: Wanted = as_given) -> None:
-        self.scene, self.wanted = scene, wanted
+        super().__init__(scene)
+        self.wanted = wanted
 
-    def judge(self, settings: Settings) -> Judgement:
-        """Draw the triangles and say how many pixels are missing or drawn too often, and why."""
-        cover, geometry = count_cover(self.scene, settings)
+    def start(self, settings: Settings) -> Callable[[], Cover]:
+        """Prepare the stages up to the rasterization."""
+        return partial(count_cover, copy(self.scene), settings)
+
+    def judge(self, settings: Settings, made: Cover) -> Judgement:
+        """Say how many pixels of the cover (H, W) are missing or drawn too often, and why."""
+        cover, geometry = made
         error = cover - self.wanted(self.scene, settings)
         missing, extra = int(np.maximum(-error, 0).sum()), int(np.maximum(error, 0).sum())
         if not missing and not extra:
@@ -97,9 +105,9 @@ class MeshPartCase(CoverCase):
     One triangle that draws a pixel of its neighbour is not wrong by itself: only together they tell.
     """
 
-    def judge(self, settings: Settings) -> Judgement:
-        """Draw the triangles and say how many pixels are lost or drawn twice."""
-        cover, geometry = count_cover(self.scene, settings)
+    def judge(self, settings: Settings, made: Cover) -> Judgement:
+        """Say how many pixels of the cover (H, W) are lost or drawn twice."""
+        cover, geometry = made
         wanted = self.wanted(self.scene, settings)
         extra = int(np.maximum(cover - np.maximum(wanted, 1), 0).sum())
         missing = int(((cover == 0) & (wanted > 0)).sum())
@@ -111,27 +119,25 @@ class MeshPartCase(CoverCase):
 
 @dataclass(frozen=True, eq=False)
 class CoverageExperiment(Experiment):
-    """An experiment that knows how often each pixel of its scenes is to be covered."""
+    """An experiment on triangles that knows how often each pixel is to be covered.
 
+    Of a mesh that covers everything once, parts are judged as parts.
+    """
+
+    case_of: Callable[..., CoverCase] = CoverCase
+    base: Settings = EVERY_PIXEL
     wanted: Wanted = as_given
 
+    def work(self, place: tuple[float, ...], seed: int) -> CoverCase:
+        """Return the triangles at a place."""
+        return self.case_of(self.make(place, seed), self.wanted)
 
-def coverage_experiment(
-    info: ExperimentInfo,
-    make: Callable[[tuple[float, ...], int], ClipScene],
-    wanted: Wanted = as_given,
-    base: Settings = EVERY_PIXEL,
-) -> CoverageExperiment:
-    """Return an experiment on triangles; of a mesh that covers everything once, parts are judged as parts.
-
-    ``wanted`` gives how often each pixel is to be covered, (H, W).
-    """
-    whole = partial(CoverCase, wanted=wanted)
-    part = MeshPartCase if wanted is once_everywhere else whole
-    return CoverageExperiment(info, make, part, "raster", base, whole=whole, wanted=wanted)
+    def part(self, scene: ClipScene) -> CoverCase:
+        """Return any triangles with what is right for them."""
+        return MeshPartCase(scene) if self.wanted is once_everywhere else self.case_of(scene, self.wanted)
 
 
-def count_cover(scene: ClipScene, settings: Settings) -> tuple[Integers, Geometry]:
+def count_cover(scene: ClipScene, settings: Settings) -> Cover:
     """Run the stages up to the rasterization: (H, W) int64 how often each pixel is covered, and the geometry.
 
     Raises ValueError if a method does not take the scene.

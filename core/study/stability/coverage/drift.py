@@ -3,19 +3,22 @@
 What is right of a line follows from its ends in whole numbers, so any such line can be judged, and made smaller.
 """
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 
 from core.raster.lines.drawing import draw_lines
+from core.raster.lines.records import LinePixels
 from core.records.arrays import Floats, Integers
 from core.scene import ClipScene
 from core.settings import Settings
-from core.study.accuracy.record import Opening
+from core.study.accuracy.record import Axis, Judgement, Opening, Outcome, Verdict
 from core.study.accuracy.workloads import on_grid, outline_scene
-from core.study.stability.coverage.covered_pixels import coverage_experiment, on_its_grid
+from core.study.stability.coverage.covered_pixels import CoverageExperiment, on_its_grid
 from core.study.stability.coverage.number_formats import powers, scene_of_window
-from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.experiment import Case, Experiment
 from core.study.stability.kinds import SEGMENTS, first_edge, scene_of_segment
-from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
 
 LENGTHS = powers(4, 13)
 FIRST_ROW = 8192.0
@@ -29,29 +32,27 @@ def long_triangle(place: tuple[float, ...], seed: int) -> ClipScene:
     return scene_of_window(on_grid(window, 1 << 16)[None], (int(length), 8))
 
 
-INCREMENTAL = coverage_experiment(
-    ExperimentInfo(
-        "incremental-drift",
-        "Edge functions by additions",
-        "A flat triangle is filled by adding a from pixel to pixel. When have the sums drifted?",
-        (
-            Axis("length", "Width of the triangle", "pixels", LENGTHS, True),
-            Axis("rise", "Rise of its long side", "pixels", (0.7, 1.3, 1.9, 2.6, 3.3, 4.1, 5.3, 6.7)),
-        ),
-        (
-            "coverage=float16 fill=incremental",
-            "coverage=float32 fill=incremental",
-            "coverage=float32",
-            "coverage=float64 fill=incremental",
-            "coverage=snapped fill=incremental",
-            "coverage=int64 fill=incremental",
-            "coverage=float64",
-        ),
-        "Sums in float16 drift from the start, sums in float32 within a few thousand pixels, where evaluating "
-        "every pixel in float32 is still right. float64 and whole numbers do not drift.",
+INCREMENTAL = CoverageExperiment(
+    "incremental-drift",
+    "Edge functions by additions",
+    "A flat triangle is filled by adding a from pixel to pixel. When have the sums drifted?",
+    (
+        Axis("length", "Width of the triangle", "pixels", LENGTHS, True),
+        Axis("rise", "Rise of its long side", "pixels", (0.7, 1.3, 1.9, 2.6, 3.3, 4.1, 5.3, 6.7)),
     ),
+    (
+        "coverage=float16 fill=incremental",
+        "coverage=float32 fill=incremental",
+        "coverage=float32",
+        "coverage=float64 fill=incremental",
+        "coverage=snapped fill=incremental",
+        "coverage=int64 fill=incremental",
+        "coverage=float64",
+    ),
+    "Sums in float16 drift from the start, sums in float32 within a few thousand pixels, where evaluating "
+    "every pixel in float32 is still right. float64 and whole numbers do not drift.",
     long_triangle,
-    on_its_grid,
+    wanted=on_its_grid,
 )
 
 
@@ -61,30 +62,35 @@ class LineCase(Case):
     scene: ClipScene
 
     def __init__(self, scene: ClipScene) -> None:
-        self.scene, self.ends = scene, first_edge(scene)
+        super().__init__(scene)
+        self.ends = first_edge(scene)
 
-    def judge(self, settings: Settings) -> Judgement:
-        """Draw the line; severity is in pixels."""
-        _, off = _line_distances(self.ends, settings.line, self.scene.size)
+    def start(self, settings: Settings) -> Callable[[], LinePixels]:
+        """Prepare the drawing; ValueError for a line that does not lead between pixel centres of the raster."""
+        check_line(self.ends, self.scene.size)
+        return partial(draw_lines, self.ends[None], *self.scene.size, settings.line)
+
+    def judge(self, settings: Settings, made: LinePixels) -> Judgement:
+        """Count the steps that miss a nearest pixel; severity is in pixels."""
+        off = _pixels_off(self.ends, made.pixels)
         wrong, farthest = int(np.count_nonzero(off)), int(off.max(initial=0))
         remark = f"{wrong} of {len(off)} steps do not take a nearest pixel, by up to {farthest} pixels"
         return Judgement(Verdict(Outcome.WRONG_PICTURE if wrong else Outcome.RIGHT, float(farthest), remark))
 
-    def wrong_pixel(self, settings: Settings) -> tuple[int, int] | None:
+    def wrong_pixel(self, settings: Settings, made: LinePixels) -> tuple[int, int] | None:
         """Return column and row of the first step that misses a nearest pixel; ``None``: none does."""
-        pixels, off = _line_distances(self.ends, settings.line, self.scene.size)
-        wrong = np.flatnonzero(off)
+        wrong = np.flatnonzero(_pixels_off(self.ends, made.pixels))
         if not len(wrong):
             return None
-        column, row = pixels[wrong[0]].tolist()
+        column, row = made.pixels[wrong[0]].tolist()
         return column, row
 
-    def opening(self, settings: Settings, stage: str, pixel: tuple[int, int] | None) -> Opening | None:
+    def opening(self, settings: Settings, made: LinePixels) -> Opening:
         """Return the line on a raster that reaches to its first wrong step; the stepper shows a part around it."""
-        pixel = pixel or (int(self.ends[0, 0]), int(self.ends[0, 1]))
+        pixel = self.wrong_pixel(settings, made) or (int(self.ends[0, 0]), int(self.ends[0, 1]))
         # Powers of two, so that the ends are the same numbers in clip space.
         near = size_around(np.array(pixel, float))
-        return Opening(outline_scene(self.ends, near), settings, stage, pixel)
+        return Opening(outline_scene(self.ends, near), settings, self.stage, pixel)
 
     def test_body(self, settings: Settings) -> str:
         """Return the statements of a test: twice the distance from the line, across, is at most a pixel's."""
@@ -123,38 +129,38 @@ def line_at(place: tuple[float, ...], seed: int) -> ClipScene:
     return scene_of_segment(ends, size_around(ends.max(axis=0)))
 
 
-def _line_distances(ends: Floats, line: str, size: tuple[int, int]) -> tuple[Integers, Integers]:
-    """Draw a line; return its pixels (P, 2) and by how many whole pixels (P,) each misses a nearest one."""
+def check_line(ends: Floats, size: tuple[int, int]) -> None:
+    """Refuse ends (2, 2) with ValueError unless they are two pixel centres of a raster of this size."""
     if (ends - np.floor(ends) != 0.5).any() or (ends[0] == ends[1]).all():
         raise ValueError(f"the line must lead from one pixel centre to another, got {ends.tolist()}")
     if (ends < 0).any() or (ends > size).any():
         raise ValueError(f"the line must lie in {size[0]}x{size[1]} pixels, got {ends.tolist()}")
+
+
+def _pixels_off(ends: Floats, pixels: Integers) -> Integers:
+    """Return by how many whole pixels each pixel (P, 2) of a line misses a nearest one, (P,) int64."""
     (x0, y0), (x1, y1) = np.floor(ends).astype(int).tolist()
-    pixels = draw_lines(ends[None], *size, line).pixels
     columns, rows = pixels.T
     # In whole numbers: right is a distance of at most half a pixel across the longer axis, ties either way.
     across, up = x1 - x0, y1 - y0
     longer = max(abs(across), abs(up))
     distance = np.abs(2 * ((rows - y0) * across - (columns - x0) * up))
-    return pixels, np.maximum(-((longer - distance) // (2 * longer)), 0)
+    return np.asarray(np.maximum(-((longer - distance) // (2 * longer)), 0))
 
 
 LINES = Experiment(
-    ExperimentInfo(
-        "line-drift",
-        "Lines by an added slope",
-        "A line is drawn by adding its slope from column to column. How long may it be?",
-        (
-            Axis("length", "Length of the line", "columns", LENGTHS, True),
-            Axis("slope", "Slope of the line", "", tuple((np.arange(2, 20) / 20).tolist())),
-        ),
-        ("line=dda-float32", "line=bresenham-float", "line=dda", "line=midpoint", "line=bresenham"),
-        "Slopes added in float32 drift off the line within thousands of columns. Sums in float64 and whole "
-        "numbers always take a nearest pixel.",
+    "line-drift",
+    "Lines by an added slope",
+    "A line is drawn by adding its slope from column to column. How long may it be?",
+    (
+        Axis("length", "Length of the line", "columns", LENGTHS, True),
+        Axis("slope", "Slope of the line", "", tuple((np.arange(2, 20) / 20).tolist())),
     ),
+    ("line=dda-float32", "line=bresenham-float", "line=dda", "line=midpoint", "line=bresenham"),
+    "Slopes added in float32 drift off the line within thousands of columns. Sums in float64 and whole "
+    "numbers always take a nearest pixel.",
     line_at,
     LineCase,
-    "raster",
     Settings(polygon_mode="wireframe"),
     SEGMENTS,
 )

@@ -1,21 +1,18 @@
 """Culling by three ways to see which side of a face is turned to the eye, beside the centre of the picture."""
 
-from functools import partial
-
 import numpy as np
 
 from core.records.arrays import Integers
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.record import Axis
 from core.study.accuracy.workloads import flat_scene
 from core.study.exact.values import exact_planes
 from core.study.stability.coverage.covered_pixels import (
-    EVERY_PIXEL,
     CoverageExperiment,
     CoverCase,
     on_its_grid,
 )
-from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 96
 """Columns and rows of the pictures, which see 45 degrees to every side."""
@@ -47,31 +44,31 @@ def tilted_face(angle: float, tilt: float) -> ClipScene:
     return flat_scene(np.stack([x, y, np.zeros(3), -z], axis=1)[None], (SIDE, SIDE))
 
 
-_CASE = partial(CoverCase, wanted=fronts_alone)
+class FacingCase(CoverCase):
+    """One triangle, of which the fronts alone are to be drawn."""
+
+    stage = "cull"
+
+
 FACING = CoverageExperiment(
-    ExperimentInfo(
-        "facing-off-axis",
-        "Which side of a face beside the centre",
-        "A triangle beside the centre of the picture turns its front or its back to the eye. Does culling keep it "
-        "exactly where its front is seen?",
-        (
-            Axis("angle", "Angle from the camera's axis", "degrees", (0.0, 5.0, 10.0, 20.0, 30.0, 40.0)),
-            Axis(
-                "tilt",
-                "Tilt of the front towards the eye",
-                "degrees",
-                (-30.0, -20.0, -10.0, -5.0, 5.0, 10.0, 20.0, 30.0),
-            ),
+    "facing-off-axis",
+    "Which side of a face beside the centre",
+    "A triangle beside the centre of the picture turns its front or its back to the eye. Does culling keep it "
+    "exactly where its front is seen?",
+    (
+        Axis("angle", "Angle from the camera's axis", "degrees", (0.0, 5.0, 10.0, 20.0, 30.0, 40.0)),
+        Axis(
+            "tilt",
+            "Tilt of the front towards the eye",
+            "degrees",
+            (-30.0, -20.0, -10.0, -5.0, 5.0, 10.0, 20.0, 30.0),
         ),
-        ("cull=back-axis", "cull=back-normal", "cull=back-stored-normal", "cull=back"),
-        "With the direction of the camera as V, fronts are lost whose tilt is less than their angle from the axis. "
-        "With V from the eye to the face, and with the determinant, all are right.",
     ),
+    ("cull=back-axis", "cull=back-normal", "cull=back-stored-normal", "cull=back"),
+    "With the direction of the camera as V, fronts are lost whose tilt is less than their angle from the axis. "
+    "With V from the eye to the face, and with the determinant, all are right.",
     lambda place, _: tilted_face(*place),
-    _CASE,
-    "cull",
-    EVERY_PIXEL,
-    whole=_CASE,
+    FacingCase,
     wanted=fronts_alone,
 )
 EXPERIMENTS = (FACING,)

@@ -13,11 +13,11 @@ from core.raster.fills.scanline_lecture import draw_triangle
 from core.records.arrays import Integers
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.record import Axis, Judgement, Outcome, Verdict
 from core.study.exact.coverage import facing, whole_corner
-from core.study.stability.coverage.covered_pixels import CoverCase, count_cover, on_its_grid
+from core.study.stability.coverage.covered_pixels import Cover, CoverCase, on_its_grid
 from core.study.stability.coverage.number_formats import scene_of_window
-from core.study.stability.experiment import Experiment, Judgement
-from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
+from core.study.stability.experiment import Experiment
 
 
 class SlopeCase(CoverCase):
@@ -26,9 +26,9 @@ class SlopeCase(CoverCase):
     def __init__(self, scene: ClipScene) -> None:
         super().__init__(scene, lambda scene, settings: RULES[settings.fill](scene, settings))
 
-    def judge(self, settings: Settings) -> Judgement:
-        """Fill the triangles and compare."""
-        cover, _ = count_cover(self.scene, settings)
+    def judge(self, settings: Settings, made: Cover) -> Judgement:
+        """Compare the cover (H, W)."""
+        cover, _ = made
         error = cover - self.wanted(self.scene, settings)
         wrong = int(np.abs(error).sum())
         remark = f"{wrong} pixels of {cover.size} are too many or missing"
@@ -74,20 +74,17 @@ RULES: dict[str, Callable[[ClipScene, Settings], Integers]] = {
 """Name of a fill to how often it should cover each pixel."""
 
 SLOPES = Experiment(
-    ExperimentInfo(
-        "inverse-slopes",
-        "Spans by an added inverse slope",
-        "The sides of a triangle are followed by adding the inverse slope row by row. Do the sums still round to "
-        "the same pixel?",
-        (
-            Axis("height", "Height of the triangle", "rows", tuple(map(float, range(2, 62, 3)))),
-            Axis("shift", "Place of the far corner", "columns", tuple(map(float, range(2, 32, 3)))),
-        ),
-        ("fill=scanline-lecture", "fill=scanline"),
-        "Inverse slopes added in float64 miss ties and round to another pixel. Spans in closed form do not.",
+    "inverse-slopes",
+    "Spans by an added inverse slope",
+    "The sides of a triangle are followed by adding the inverse slope row by row. Do the sums still round to "
+    "the same pixel?",
+    (
+        Axis("height", "Height of the triangle", "rows", tuple(map(float, range(2, 62, 3)))),
+        Axis("shift", "Place of the far corner", "columns", tuple(map(float, range(2, 32, 3)))),
     ),
+    ("fill=scanline-lecture", "fill=scanline"),
+    "Inverse slopes added in float64 miss ties and round to another pixel. Spans in closed form do not.",
     level_triangle,
     SlopeCase,
-    "raster",
 )
 EXPERIMENTS = (SLOPES,)

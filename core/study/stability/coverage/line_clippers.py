@@ -2,25 +2,25 @@
 
 from collections.abc import Callable
 from fractions import Fraction
+from functools import partial
 
 import numpy as np
 
 from core.geometry.line_clipping.clipping import clip_lines
+from core.geometry.line_clipping.records import ClippedLines
 from core.records.arrays import Floats
 from core.scene import ClipScene
 from core.settings import Settings
-from core.study.accuracy.record import Opening
+from core.study.accuracy.line_clippers import PROMISED
+from core.study.accuracy.record import Axis, Judgement, Opening, Outcome, Verdict
 from core.study.accuracy.workloads import on_grid
 from core.study.exact.lines import Ends, clipped_ends
-from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.experiment import Case, Experiment
 from core.study.stability.kinds import SEGMENTS, first_edge, scene_of_segment
-from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
 
 SIDE = 64
 ULP = 2.0**-46
 """Unit in the last place of coordinates at the right and upper border; exact in clip space too."""
-PROMISED = 4.0
-"""Units in the last place that the ends of a clipped segment may be off."""
 CLIPPERS = (
     "line_clipping=cyrus-beck-lecture",
     "line_clipping=cohen-sutherland",
@@ -38,11 +38,16 @@ class ClippedSegmentCase(Case):
     scene: ClipScene
 
     def __init__(self, scene: ClipScene) -> None:
-        self.scene, self.segment = scene, first_edge(scene)
+        super().__init__(scene)
+        self.segment = first_edge(scene)
 
-    def judge(self, settings: Settings) -> Judgement:
-        """Clip the segment to the raster; it is about no pixel, but about the ends."""
-        return Judgement(judge_clip(self.segment, settings.line_clipping, self.scene.size))
+    def start(self, settings: Settings) -> Callable[[], ClippedLines]:
+        """Prepare the clipping to the raster."""
+        return partial(clip_lines, self.segment[None], (0, 0, *self.scene.size), settings.line_clipping)
+
+    def judge(self, settings: Settings, made: ClippedLines) -> Judgement:
+        """Compare with rational arithmetic; it is about no pixel, but about the ends."""
+        return Judgement(judge_clip(self.segment, made, self.scene.size))
 
     def test_body(self, settings: Settings) -> str:
         """Return the statements of a test: what is left of the segment."""
@@ -58,27 +63,15 @@ class ClippedSegmentCase(Case):
             f"np.testing.assert_allclose(clipped.segments[0], wanted, rtol=0, atol={tolerance})"
         )
 
-    def opening(self, settings: Settings, stage: str, pixel: tuple[int, int] | None) -> Opening | None:
+    def opening(self, settings: Settings, made: ClippedLines) -> Opening | None:
         """Return the segment as an edge of an outlined triangle; ``None`` for a segment without length."""
-        if (self.segment[0] == self.segment[1]).all():
-            return None
-        return super().opening(settings, stage, pixel)
+        has_length = bool((self.segment[0] != self.segment[1]).any())
+        return super().opening(settings, made) if has_length else None
 
 
-def segment_experiment(info: ExperimentInfo, segment: Callable[[tuple[float, ...]], Floats]) -> Experiment:
-    """Return an experiment on a segment (2, 2) in pixels, made from a place of the axes."""
-
-    def make(place: tuple[float, ...], seed: int) -> ClipScene:
-        return scene_of_segment(segment(place), (SIDE, SIDE))
-
-    return Experiment(info, make, ClippedSegmentCase, "raster", WIREFRAME, SEGMENTS)
-
-
-def judge_clip(segment: Floats, clipper: str, size: tuple[int, int] = (SIDE, SIDE)) -> Verdict:
-    """Clip a segment (2, 2) to the raster and compare with rational arithmetic; severity is in ulp."""
-    window = (0.0, 0.0, float(size[0]), float(size[1]))
-    clipped = clip_lines(segment[None], window, clipper)
-    wanted = clipped_ends(segment, window)
+def judge_clip(segment: Floats, clipped: ClippedLines, size: tuple[int, int] = (SIDE, SIDE)) -> Verdict:
+    """Compare what is left of a segment (2, 2) in the raster with rational arithmetic; severity is in ulp."""
+    wanted = clipped_ends(segment, (0.0, 0.0, float(size[0]), float(size[1])))
     if wanted is None:
         if not clipped.is_kept[0]:
             return Verdict(Outcome.RIGHT, 0.0, "the segment lies outside, and is dropped")
@@ -120,67 +113,66 @@ def stretch_text(ends: list[list[float]]) -> str:
     return f"at {first}" if first == second else f"from {first} to {second}"
 
 
-def along_the_border(place: tuple[float, ...]) -> Floats:
+def along_the_border(place: tuple[float, ...], seed: int) -> ClipScene:
     """Return a long segment at the upper border; both ends are given by how many ulp they lie above it."""
     first, second = place
-    return np.array([[-9.0, SIDE + first * ULP], [80.0, SIDE + second * ULP]])
+    ends = np.array([[-9.0, SIDE + first * ULP], [80.0, SIDE + second * ULP]])
+    return scene_of_segment(ends, (SIDE, SIDE))
 
 
-def beside_the_corner(place: tuple[float, ...]) -> Floats:
+def beside_the_corner(place: tuple[float, ...], seed: int) -> ClipScene:
     """Return a segment of a few ulp, or a point, that begins 2 ulp right of the right border and 2 below the top."""
     start = np.array([SIDE + 2 * ULP, SIDE - 2 * ULP])
-    return np.array([start, start + np.array(place) * ULP])
+    return scene_of_segment(np.array([start, start + np.array(place) * ULP]), (SIDE, SIDE))
 
 
-def past_the_corner(place: tuple[float, ...]) -> Floats:
+def past_the_corner(place: tuple[float, ...], seed: int) -> ClipScene:
     """Return a falling segment that passes the upper right corner ``offset`` ulp above it, ends to a whole ulp."""
     offset, slope = place
     corner = np.array([SIDE, SIDE + offset * ULP])
     ends = [corner + 24.1 * np.array([-1.0, slope]), corner + 16.7 * np.array([1.0, -slope])]
-    return on_grid(np.array(ends), round(1 / ULP))
+    return scene_of_segment(on_grid(np.array(ends), round(1 / ULP)), (SIDE, SIDE))
 
 
+CLIPPED_SEGMENTS = ClippedSegmentCase, WIREFRAME, SEGMENTS
 STEPS = tuple(map(float, range(-6, 7)))
-PARALLEL = segment_experiment(
-    ExperimentInfo(
-        "parallel-segments",
-        "Segments along a border",
-        "A segment lies along the upper border, its ends a few ulp above or below. Which part of it is kept?",
-        (
-            Axis("first", "First end above the border", "ulp", STEPS),
-            Axis("second", "Second end above the border", "ulp", STEPS),
-        ),
-        CLIPPERS,
-        "Cyrus-Beck as printed keeps segments that are parallel to a border and outside it. The other methods "
-        "drop them.",
+PARALLEL = Experiment(
+    "parallel-segments",
+    "Segments along a border",
+    "A segment lies along the upper border, its ends a few ulp above or below. Which part of it is kept?",
+    (
+        Axis("first", "First end above the border", "ulp", STEPS),
+        Axis("second", "Second end above the border", "ulp", STEPS),
     ),
+    CLIPPERS,
+    "Cyrus-Beck as printed keeps segments that are parallel to a border and outside it. The other methods "
+    "drop them.",
     along_the_border,
+    *CLIPPED_SEGMENTS,
 )
-SHORT = segment_experiment(
-    ExperimentInfo(
-        "zero-length-segments",
-        "Segments of zero length, or of a few ulp",
-        "A segment of zero length, or of a few ulp, begins just right of the window. Is it dropped where it lies "
-        "outside?",
-        (Axis("across", "Reach to the right", "ulp", STEPS), Axis("up", "Reach upwards", "ulp", STEPS)),
-        CLIPPERS,
-        "Cyrus-Beck as printed keeps vertical segments outside, however short. All methods drop a point outside, "
-        "and keep segments that reach the inside.",
-    ),
+SHORT = Experiment(
+    "zero-length-segments",
+    "Segments of zero length, or of a few ulp",
+    "A segment of zero length, or of a few ulp, begins just right of the window. Is it dropped where it lies "
+    "outside?",
+    (Axis("across", "Reach to the right", "ulp", STEPS), Axis("up", "Reach upwards", "ulp", STEPS)),
+    CLIPPERS,
+    "Cyrus-Beck as printed keeps vertical segments outside, however short. All methods drop a point outside, "
+    "and keep segments that reach the inside.",
     beside_the_corner,
+    *CLIPPED_SEGMENTS,
 )
-CORNER = segment_experiment(
-    ExperimentInfo(
-        "segments-past-a-corner",
-        "Segments past a corner",
-        "A segment passes the corner of the window within a few ulp. Does it touch the window?",
-        (
-            Axis("offset", "Above the corner", "ulp", STEPS),
-            Axis("slope", "Fall of the segment", "", tuple((np.arange(4, 68, 5) / 32).tolist())),
-        ),
-        CLIPPERS,
-        "Every clipper that rounds its crossings errs within a few ulp of a corner. Exact signs never err.",
+CORNER = Experiment(
+    "segments-past-a-corner",
+    "Segments past a corner",
+    "A segment passes the corner of the window within a few ulp. Does it touch the window?",
+    (
+        Axis("offset", "Above the corner", "ulp", STEPS),
+        Axis("slope", "Fall of the segment", "", tuple((np.arange(4, 68, 5) / 32).tolist())),
     ),
+    CLIPPERS,
+    "Every clipper that rounds its crossings errs within a few ulp of a corner. Exact signs never err.",
     past_the_corner,
+    *CLIPPED_SEGMENTS,
 )
 EXPERIMENTS = (PARALLEL, SHORT, CORNER)

@@ -3,10 +3,10 @@
 import numpy as np
 
 from core.scene import ClipScene
+from core.study.accuracy.record import Axis
 from core.study.accuracy.workloads import flat_scene, on_grid, random_source, window_mesh
-from core.study.stability.coverage.covered_pixels import coverage_experiment, once_everywhere
+from core.study.stability.coverage.covered_pixels import CoverageExperiment, once_everywhere
 from core.study.stability.coverage.number_formats import powers, scene_of_window
-from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 32
 """Columns and rows of the pictures."""
@@ -39,56 +39,52 @@ def through_the_eye(tilt: float, cells: int, seed: int) -> ClipScene:
     return flat_scene(pairs, (SIDE, SIDE))
 
 
-SHARED_EDGES = coverage_experiment(
-    ExperimentInfo(
-        "shared-edges",
-        "Shared edges of a mesh",
-        "A mesh fills the window, with its corners on a grid. Is every pixel drawn exactly once?",
-        (
-            Axis("steps", "Grid steps of the corners per pixel", "", powers(0, 10), True),
-            Axis("cells", "Cells along a side", "", (4.0, 6.0, 8.0, 12.0, 16.0), True),
-        ),
-        (
-            "fill=scanline-lecture",
-            "fill_rule=exclusive",
-            "fill_rule=inclusive",
-            "coverage=float16",
-            "coverage=inverse",
-            "coverage=float32",
-            "coverage=float64",
-            "fill_rule=shared-edge",
-            "fill=spans",
-            "coverage=exact",
-        ),
-        "Where corners lie on pixel centres, exclusive edges leave cracks and inclusive edges are drawn twice. "
-        "The shared-edge rule draws every pixel once if an edge has the same value in both triangles.",
+SHARED_EDGES = CoverageExperiment(
+    "shared-edges",
+    "Shared edges of a mesh",
+    "A mesh fills the window, with its corners on a grid. Is every pixel drawn exactly once?",
+    (
+        Axis("steps", "Grid steps of the corners per pixel", "", powers(0, 10), True),
+        Axis("cells", "Cells along a side", "", (4.0, 6.0, 8.0, 12.0, 16.0), True),
     ),
+    (
+        "fill=scanline-lecture",
+        "fill_rule=exclusive",
+        "fill_rule=inclusive",
+        "coverage=float16",
+        "coverage=inverse",
+        "coverage=float32",
+        "coverage=float64",
+        "fill_rule=shared-edge",
+        "fill=spans",
+        "coverage=exact",
+    ),
+    "Where corners lie on pixel centres, exclusive edges leave cracks and inclusive edges are drawn twice. "
+    "The shared-edge rule draws every pixel once if an edge has the same value in both triangles.",
     lambda place, seed: uneven_grid(int(place[1]), int(place[0]), seed),
-    once_everywhere,
+    wanted=once_everywhere,
 )
-THROUGH_THE_EYE = coverage_experiment(
-    ExperimentInfo(
-        "mesh-through-the-eye",
-        "A mesh that continues behind the eye",
-        "A plane fills the window and continues behind the eye, where w is negative. Is every pixel drawn exactly"
-        " once?",
-        (
-            Axis("tilt", "Decrease of w per unit of y", "", tuple((np.arange(9) / 10).tolist())),
-            Axis("cells", "Cells along a side", "", (2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0), True),
-        ),
-        (
-            "clipping=project-first",
-            "clipping=after-divide",
-            "clipping=sutherland-hodgman-lecture",
-            "clipping=sutherland-hodgman",
-            "clipping=homogeneous",
-            "coverage=float64",
-            "coverage=exact",
-        ),
-        "Projecting first mirrors corners with w < 0 and draws the wrong triangle. Clipping in clip space and "
-        "homogeneous edge functions draw every pixel once.",
+THROUGH_THE_EYE = CoverageExperiment(
+    "mesh-through-the-eye",
+    "A mesh that continues behind the eye",
+    "A plane fills the window and continues behind the eye, where w is negative. Is every pixel drawn exactly"
+    " once?",
+    (
+        Axis("tilt", "Decrease of w per unit of y", "", tuple((np.arange(9) / 10).tolist())),
+        Axis("cells", "Cells along a side", "", (2.0, 3.0, 4.0, 6.0, 8.0, 12.0, 16.0), True),
     ),
+    (
+        "clipping=project-first",
+        "clipping=after-divide",
+        "clipping=sutherland-hodgman-lecture",
+        "clipping=sutherland-hodgman",
+        "clipping=homogeneous",
+        "coverage=float64",
+        "coverage=exact",
+    ),
+    "Projecting first mirrors corners with w < 0 and draws the wrong triangle. Clipping in clip space and "
+    "homogeneous edge functions draw every pixel once.",
     lambda place, seed: through_the_eye(place[0], int(place[1]), seed),
-    once_everywhere,
+    wanted=once_everywhere,
 )
 EXPERIMENTS = (SHARED_EDGES, THROUGH_THE_EYE)

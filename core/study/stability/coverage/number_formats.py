@@ -4,9 +4,9 @@ import numpy as np
 
 from core.records.arrays import Floats
 from core.scene import ClipScene
+from core.study.accuracy.record import Axis
 from core.study.accuracy.workloads import clip_of_window, flat_scene, on_grid, random_source
-from core.study.stability.coverage.covered_pixels import coverage_experiment, once_everywhere
-from core.study.stability.record import Axis, ExperimentInfo
+from core.study.stability.coverage.covered_pixels import CoverageExperiment, once_everywhere
 
 SIZE = (64, 64)
 """A power of two: window positions that are multiples of 1/256 pixel are exact in clip space."""
@@ -102,76 +102,68 @@ def crowded_mesh(place: tuple[float, ...], seed: int) -> ClipScene:
     return scene_of_window(pairs.reshape(-1, 3, 2), (side, side))
 
 
-SLIVERS = coverage_experiment(
-    ExperimentInfo(
-        "slivers",
-        "Slivers by width and offset",
-        "The lower side of a long thin triangle lies just below ten pixel centres. How thin may it be, and how "
-        "close?",
-        (
-            Axis("width", "Height of the sliver", "pixels", powers(-24, 0, 3), True),
-            Axis("offset", "Distance of the centres from its side", "pixels", powers(-50, -2, 3), True),
-        ),
-        FORMATS,
-        "Snapped corners lose slivers thinner than 1/256 pixel. float32 errs from 2^-17 pixel on, float64 from "
-        "2^-47. Whole numbers of any length are right at every width and offset.",
+SLIVERS = CoverageExperiment(
+    "slivers",
+    "Slivers by width and offset",
+    "The lower side of a long thin triangle lies just below ten pixel centres. How thin may it be, and how "
+    "close?",
+    (
+        Axis("width", "Height of the sliver", "pixels", powers(-24, 0, 3), True),
+        Axis("offset", "Distance of the centres from its side", "pixels", powers(-50, -2, 3), True),
     ),
+    FORMATS,
+    "Snapped corners lose slivers thinner than 1/256 pixel. float32 errs from 2^-17 pixel on, float64 from "
+    "2^-47. Whole numbers of any length are right at every width and offset.",
     sliver,
 )
-COORDINATES = coverage_experiment(
-    ExperimentInfo(
-        "coordinates",
-        "Coordinates from 1 to 2^30 pixels",
-        "An edge passes just below pixel centres of the window while its ends move away. When is a pixel lost?",
-        (
-            Axis("distance", "Distance of the corners", "pixels", powers(3, 30, 1), True),
-            Axis(
-                "steps",
-                "Distance of the edge from the centres",
-                "1/256 pixel",
-                tuple(map(float, range(-4, 5))),
-            ),
+COORDINATES = CoverageExperiment(
+    "coordinates",
+    "Coordinates from 1 to 2^30 pixels",
+    "An edge passes just below pixel centres of the window while its ends move away. When is a pixel lost?",
+    (
+        Axis("distance", "Distance of the corners", "pixels", powers(3, 30, 1), True),
+        Axis(
+            "steps",
+            "Distance of the edge from the centres",
+            "1/256 pixel",
+            tuple(map(float, range(-4, 5))),
         ),
-        FORMATS,
-        "32 bits wrap around from 128 pixels on, 64 bits beyond 4 million. float32 errs from 2^17 pixels on. "
-        "float64 and whole numbers of any length are right up to 2^30.",
     ),
+    FORMATS,
+    "32 bits wrap around from 128 pixels on, 64 bits beyond 4 million. float32 errs from 2^17 pixels on. "
+    "float64 and whole numbers of any length are right up to 2^30.",
     far_corners,
 )
-SINGULAR = coverage_experiment(
-    ExperimentInfo(
-        "singular-matrix",
-        "Triangles seen almost edge-on",
-        "The 3x3 matrix of the corners is nearly singular. Do its inverse, its adjugate and whole numbers agree?",
-        (
-            Axis("distance", "Distance from a singular matrix", "pixels", powers(-54, 0, 3), True),
-            Axis("ratio", "w of the second corner over the first", "", W_RATIOS, True),
-        ),
-        ("coverage=float32", "coverage=inverse", "coverage=snapped", "coverage=float64", "coverage=exact"),
-        "Floats err where a triangle is flatter than their spacing, snapped corners where it is flatter than "
-        "1/256 pixel. Whole numbers of any length are right at any distance.",
+SINGULAR = CoverageExperiment(
+    "singular-matrix",
+    "Triangles seen almost edge-on",
+    "The 3x3 matrix of the corners is nearly singular. Do its inverse, its adjugate and whole numbers agree?",
+    (
+        Axis("distance", "Distance from a singular matrix", "pixels", powers(-54, 0, 3), True),
+        Axis("ratio", "w of the second corner over the first", "", W_RATIOS, True),
     ),
+    ("coverage=float32", "coverage=inverse", "coverage=snapped", "coverage=float64", "coverage=exact"),
+    "Floats err where a triangle is flatter than their spacing, snapped corners where it is flatter than "
+    "1/256 pixel. Whole numbers of any length are right at any distance.",
     edge_on,
 )
-SNAPPING = coverage_experiment(
-    ExperimentInfo(
-        "snapping",
-        "Corners snapped or not",
-        "The grid lines of a mesh move closer and closer around pixel centres. Is every pixel drawn exactly once?",
-        (
-            Axis("cell", "Size of a cell", "pixels", powers(-20, -3, 1), True),
-            Axis(
-                "shift",
-                "Place of the lines",
-                "cells",
-                (-0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5),
-            ),
+SNAPPING = CoverageExperiment(
+    "snapping",
+    "Corners snapped or not",
+    "The grid lines of a mesh move closer and closer around pixel centres. Is every pixel drawn exactly once?",
+    (
+        Axis("cell", "Size of a cell", "pixels", powers(-20, -3, 1), True),
+        Axis(
+            "shift",
+            "Place of the lines",
+            "cells",
+            (-0.5, -0.375, -0.25, -0.125, 0.0, 0.125, 0.25, 0.375, 0.5),
         ),
-        ("coverage=float32", "coverage=snapped", "coverage=int64", "coverage=float64", "coverage=exact"),
-        "Snapping can turn over triangles of about 1/256 pixel, and they are drawn twice. float32 errs below 2^-9"
-        " pixel, whatever the grid. float64 and whole numbers draw every pixel once.",
     ),
+    ("coverage=float32", "coverage=snapped", "coverage=int64", "coverage=float64", "coverage=exact"),
+    "Snapping can turn over triangles of about 1/256 pixel, and they are drawn twice. float32 errs below 2^-9"
+    " pixel, whatever the grid. float64 and whole numbers draw every pixel once.",
     crowded_mesh,
-    once_everywhere,
+    wanted=once_everywhere,
 )
 EXPERIMENTS = (SLIVERS, COORDINATES, SINGULAR, SNAPPING)

@@ -17,11 +17,11 @@ from core.raster.number_formats.number_format import NumberFormat
 from core.raster.pixel_runs import half
 from core.records.arrays import Flags, Floats
 from core.scene import ClipScene
+from core.study.accuracy.record import Axis
 from core.study.exact.coverage import Corner, facing, homogeneous_corner, owns_edge
-from core.study.stability.coverage.covered_pixels import coverage_experiment
+from core.study.stability.coverage.covered_pixels import CoverageExperiment
 from core.study.stability.coverage.edge_steps import EdgeStep, edge_steps
 from core.study.stability.coverage.number_formats import FORMATS, powers, sliver
-from core.study.stability.record import Axis, ExperimentInfo
 
 INVERSE = "inverse"
 """The format whose edges come from an elimination, not from products of two corners."""
@@ -186,16 +186,14 @@ def _bits(value: float, numbers: NumberFormat) -> str:
     return bit_pattern(value, numbers.value_layout)
 
 
-DIAL = coverage_experiment(
-    ExperimentInfo(
-        "precision-dial",
-        "The precision dial",
-        "A pixel centre moves closer and closer to an edge. Which format stays correct longest?",
-        (Axis("offset", "Distance of the centre from the edge", "pixels", powers(-50, -1), True),),
-        FORMATS,
-        "Every format agrees with exact arithmetic until the distance falls below its spacing: 1/256 pixel for "
-        "snapped corners, then float32, then float64. Whole numbers of any length are always right.",
-    ),
+DIAL = CoverageExperiment(
+    "precision-dial",
+    "The precision dial",
+    "A pixel centre moves closer and closer to an edge. Which format stays correct longest?",
+    (Axis("offset", "Distance of the centre from the edge", "pixels", powers(-50, -1), True),),
+    FORMATS,
+    "Every format agrees with exact arithmetic until the distance falls below its spacing: 1/256 pixel for "
+    "snapped corners, then float32, then float64. Whole numbers of any length are always right.",
     lambda place, seed: sliver((1.0, *place), seed),
 )
 EXPERIMENTS = (DIAL,)

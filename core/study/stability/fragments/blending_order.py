@@ -11,15 +11,16 @@ from itertools import permutations
 import numpy as np
 
 from core.records.arrays import Flags, Floats
+from core.records.frame import Frame
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.record import Axis, Judgement
 from core.study.accuracy.workloads import COLORS
 from core.study.exact.values import exact_fragments
 from core.study.stability.case_text import pixels_text
-from core.study.stability.experiment import Case, Experiment, Judgement
-from core.study.stability.fragments.cases import drawn_colors, judge_colors
+from core.study.stability.experiment import Case, Experiment
+from core.study.stability.fragments.cases import judge_colors
 from core.study.stability.kinds import VALUED_TRIANGLES
-from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 4
 """Pixels on a side of the picture: all of them are alike."""
@@ -37,12 +38,13 @@ class LayersCase(Case):
     """
 
     scene: ClipScene
+    stage = "blend"
 
     def __init__(self, scene: ClipScene) -> None:
         assert scene.attributes is not None
         if (scene.attributes != scene.attributes[:, :1]).any():
             raise ValueError("every triangle must have one colour, got several")
-        self.scene = scene
+        super().__init__(scene)
         self._fragments = exact_fragments(scene.clip, scene.size)
 
     def wanted(self, adds: bool) -> Floats:
@@ -72,13 +74,13 @@ class LayersCase(Case):
             color = [alpha * own + through * behind for own, behind in zip(light, color, strict=True)]
         return tuple(float(value) for value in color)
 
-    def judge(self, settings: Settings) -> Judgement:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Compare the colour with that of glass, or of light where light is added."""
-        shown = drawn_colors(self.scene, settings)[..., :3]
+        shown = made.color[..., :3].astype(np.float64)
         wanted = self.wanted(settings.blend == "additive")
         return judge_colors(shown, np.where(np.isnan(wanted), shown, wanted), TOLERANCE)
 
-    def assertions(self, settings: Settings, wrong: Flags) -> str:
+    def assertions(self, settings: Settings, made: Frame, wrong: Flags) -> str:
         """Return statements that ``wrong`` pixels, (H, W) bool, have the colour of the layers from back to front."""
         check = f"255 * np.abs(frame.color[row, column, :3] - wanted).max() <= {TOLERANCE}"
         return pixels_text(wrong, self.wanted(settings.blend == "additive"), check)
@@ -103,33 +105,30 @@ def glass_at(place: tuple[float, ...], seed: int) -> ClipScene:
 
 
 BLENDING = Experiment(
-    ExperimentInfo(
-        "blending-order",
-        "Blending by the order of drawing",
-        "Layers of glass (for additive blending, of light) are drawn in every order. The first order of two and "
-        "of three is from back to front. Is the picture the same?",
-        (
-            Axis(
-                "order",
-                "Order of drawing (two layers: 0 and 1, three: 2 to 7)",
-                "",
-                tuple(float(k) for k in range(len(ORDERS[2]) + len(ORDERS[3]))),
-            ),
-            Axis("alpha", "Alpha of the layers", "", (0.0, 0.125, 0.25, 0.5, 0.75, 0.875, 1.0)),
+    "blending-order",
+    "Blending by the order of drawing",
+    "Layers of glass (for additive blending, of light) are drawn in every order. The first order of two and "
+    "of three is from back to front. Is the picture the same?",
+    (
+        Axis(
+            "order",
+            "Order of drawing (two layers: 0 and 1, three: 2 to 7)",
+            "",
+            tuple(float(k) for k in range(len(ORDERS[2]) + len(ORDERS[3]))),
         ),
-        (
-            "visibility=last-drawn blend=opaque",
-            "visibility=z-buffer blend=over",
-            "visibility=last-drawn blend=over",
-            "visibility=painters blend=over",
-            "visibility=last-drawn blend=additive",
-        ),
-        "Over is wrong in every order except from back to front, with a z-buffer too, unless alpha is 0 or 1. "
-        "Sorted, it is always right. Additive light is the same in any order. Opaque is wrong for any alpha below"
-        " 1.",
+        Axis("alpha", "Alpha of the layers", "", (0.0, 0.125, 0.25, 0.5, 0.75, 0.875, 1.0)),
     ),
+    (
+        "visibility=last-drawn blend=opaque",
+        "visibility=z-buffer blend=over",
+        "visibility=last-drawn blend=over",
+        "visibility=painters blend=over",
+        "visibility=last-drawn blend=additive",
+    ),
+    "Over is wrong in every order except from back to front, with a z-buffer too, unless alpha is 0 or 1. "
+    "Sorted, it is always right. Additive light is the same in any order. Opaque is wrong for any alpha below"
+    " 1.",
     glass_at,
     LayersCase,
-    "blend",
     kind=VALUED_TRIANGLES,
 )

@@ -3,16 +3,16 @@
 import numpy as np
 
 from core.methods import table
-from core.pipeline import render
 from core.records.arrays import Flags, Floats, Integers
 from core.records.cached import cached_property
-from core.scene import AnyScene, ClipScene, Mesh, Scene
+from core.records.frame import Frame
+from core.scene import ClipScene, Mesh, Scene
 from core.settings import Settings
 from core.stages.vertex_program import vertex_stage
+from core.study.accuracy.record import Judgement, Outcome, Verdict
 from core.study.exact.values import exact_fragments, exact_visible
 from core.study.stability.case_text import pixels_text
-from core.study.stability.experiment import Case, Judgement
-from core.study.stability.record import Outcome, Verdict
+from core.study.stability.experiment import Case
 
 
 def judge_colors(
@@ -56,18 +56,11 @@ def judge_order(wrong: Flags, what: str) -> Judgement:
     )
 
 
-def drawn_colors(scene: AnyScene, settings: Settings) -> Floats:
-    """Draw a scene, and return its colours (H, W, 4) float64."""
-    return render(scene, settings).color.astype(np.float64)
-
-
 class NearestCase(Case):
     """Triangles given in clip space; right is the nearest one at every pixel. Of two as near, either is right."""
 
     scene: ClipScene
-
-    def __init__(self, scene: ClipScene) -> None:
-        self.scene = scene
+    stage = "depth"
 
     @cached_property
     def nearest(self) -> Integers:
@@ -98,16 +91,16 @@ class NearestCase(Case):
         backwards = exact_visible(exact_fragments(clip[::-1], self.scene.size), self.scene.size)
         return np.where(backwards < 0, -1, len(clip) - 1 - backwards)
 
-    def judge(self, settings: Settings) -> Judgement:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Count the pixels that show a triangle which is hidden."""
-        wrong = np.asarray(render(self.scene, settings).primitive != self.nearest)
+        wrong = np.asarray(made.primitive != self.nearest)
         if wrong.any():
             wrong = wrong & self.is_decided
         if wrong.any() and "perspective" in table.get("depth", settings.depth).needs:
             wrong = wrong & self.is_decided_by_w
         return judge_order(wrong, "a triangle that should be hidden")
 
-    def assertions(self, settings: Settings, wrong: Flags) -> str:
+    def assertions(self, settings: Settings, made: Frame, wrong: Flags) -> str:
         """Return statements that ``wrong`` pixels, (H, W) bool, show the nearest triangle."""
         return pixels_text(wrong, self.nearest, "frame.primitive[row, column] == wanted")
 

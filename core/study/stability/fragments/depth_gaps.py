@@ -16,12 +16,13 @@ from numpy.typing import NDArray
 from core.pipeline import render
 from core.records.arrays import Floats
 from core.records.cached import cached_property
+from core.records.frame import Frame
 from core.scene import AnyScene, Camera, Scene
 from core.settings import Settings
+from core.study.accuracy.record import Axis, Judgement
 from core.study.accuracy.workloads import layered_walls, random_source, wall_scene
-from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.experiment import Case, Experiment
 from core.study.stability.fragments.cases import NearestCase, judge_order
-from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 32
 """Pixels on a side of the picture."""
@@ -55,19 +56,17 @@ def visible_triangles(scene: AnyScene, settings: Settings | None = None) -> NDAr
 class HiddenCase(Case):
     """A scene of opaque triangles; right is the nearest one at every pixel."""
 
-    def __init__(self, scene: Scene) -> None:
-        self.scene = scene
+    scene: Scene
+    stage = "depth"
 
     @cached_property
     def nearest(self) -> NDArray[np.int32]:
         """(H, W) int32, the triangle that ray casting sees."""
         return visible_triangles(self.scene, Settings(fill="bounding-box"))
 
-    def judge(self, settings: Settings) -> Judgement:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Count the pixels that show the farther wall."""
-        return judge_order(
-            np.asarray(render(self.scene, settings).primitive != self.nearest), "the farther wall"
-        )
+        return judge_order(np.asarray(made.primitive != self.nearest), "the farther wall")
 
 
 def facing_walls(distance: float, gap: float, lean: float) -> Scene:
@@ -120,69 +119,57 @@ BASE = Settings(shading="unlit", fill="bounding-box")
 """What the depth formats share: nothing but depth matters."""
 
 BY_DISTANCE = Experiment(
-    ExperimentInfo(
-        "z-fighting-distance",
-        "Z-fighting by gap and distance",
-        "Two walls with a gap between them move away (near plane 1, far plane 100,000). From which distance does "
-        "the farther wall show through?",
-        (
-            Axis("distance", "Distance, near plane = 1", "", decades(1, 4), True),
-            Axis("gap", "Gap, near plane = 1", "", decades(-6, 0), True),
-        ),
-        FORMATS,
-        "For z the gap must grow with the square of the distance: 2^-16 of it with 16 bits, 2^-24 with 24 bits "
-        "and with float32, 2^-31 with 38 bits on planes. For 1/w, the logarithm and reversed z it must grow with "
-        "the distance only. Ray casting needs no gap.",
+    "z-fighting-distance",
+    "Z-fighting by gap and distance",
+    "Two walls with a gap between them move away (near plane 1, far plane 100,000). From which distance does "
+    "the farther wall show through?",
+    (
+        Axis("distance", "Distance, near plane = 1", "", decades(1, 4), True),
+        Axis("gap", "Gap, near plane = 1", "", decades(-6, 0), True),
     ),
-    lambda place, seed: facing_walls(place[0], place[1], leaning(seed)),
+    FORMATS,
+    "For z the gap must grow with the square of the distance: 2^-16 of it with 16 bits, 2^-24 with 24 bits "
+    "and with float32, 2^-31 with 38 bits on planes. For 1/w, the logarithm and reversed z it must grow with "
+    "the distance only. Ray casting needs no gap.",
+    lambda place, seed: HiddenCase(facing_walls(place[0], place[1], leaning(seed))),
     NearestCase,
-    "depth",
     BASE,
-    whole=HiddenCase,
 )
 BY_RANGE = Experiment(
-    ExperimentInfo(
-        "z-fighting-range",
-        "Z-fighting by gap and depth range",
-        "Two walls reach from the near plane to the far plane. The gap is a fraction of the distance. Which depth"
-        " range can a format resolve?",
-        (
-            Axis("far", "Far plane over near plane", "", decades(1, 6), True),
-            Axis("gap", "Gap, as a part of the distance", "", decades(-7, -2), True),
-        ),
-        FORMATS,
-        "z in 16 or 24 bits or float32 loses pixels as the range grows, whatever the gap. 1/w, the logarithm, "
-        "reversed z and 38 bits of z are right for a gap of 10^-6 of the distance at any range up to 10^6.",
+    "z-fighting-range",
+    "Z-fighting by gap and depth range",
+    "Two walls reach from the near plane to the far plane. The gap is a fraction of the distance. Which depth"
+    " range can a format resolve?",
+    (
+        Axis("far", "Far plane over near plane", "", decades(1, 6), True),
+        Axis("gap", "Gap, as a part of the distance", "", decades(-7, -2), True),
     ),
-    lambda place, _: wall_scene(place[0], place[1], SIDE),
+    FORMATS,
+    "z in 16 or 24 bits or float32 loses pixels as the range grows, whatever the gap. 1/w, the logarithm, "
+    "reversed z and 38 bits of z are right for a gap of 10^-6 of the distance at any range up to 10^6.",
+    lambda place, _: HiddenCase(wall_scene(place[0], place[1], SIDE)),
     NearestCase,
-    "depth",
     BASE,
-    whole=HiddenCase,
 )
 ORTHOGRAPHIC = Experiment(
-    ExperimentInfo(
-        "orthographic-depth",
-        "Depth without perspective",
-        "Two walls stand before an orthographic camera. How small may the gap be, and does the format work at "
-        "all?",
-        (
-            Axis(
-                "distance",
-                "Distance, as a part of the range",
-                "",
-                (0.01, 0.03, 0.1, 0.3, 0.5, 0.7, 0.8),
-                True,
-            ),
-            Axis("gap", "Gap, as a part of the range", "", tuple(2.0**-k for k in range(30, 8, -2)), True),
+    "orthographic-depth",
+    "Depth without perspective",
+    "Two walls stand before an orthographic camera. How small may the gap be, and does the format work at "
+    "all?",
+    (
+        Axis(
+            "distance",
+            "Distance, as a part of the range",
+            "",
+            (0.01, 0.03, 0.1, 0.3, 0.5, 0.7, 0.8),
+            True,
         ),
-        FORMATS,
-        "1/w and the logarithm refuse, because w is constant. 16 bits are right down to a gap of 2^-16 of the "
-        "range; 24 bits, float32 and reversed z, which is no better here, down to 2^-24; 38 bits down to 2^-30.",
+        Axis("gap", "Gap, as a part of the range", "", tuple(2.0**-k for k in range(30, 8, -2)), True),
     ),
-    lambda place, seed: orthographic_walls(place[0], place[1], leaning(seed)),
+    FORMATS,
+    "1/w and the logarithm refuse, because w is constant. 16 bits are right down to a gap of 2^-16 of the "
+    "range; 24 bits, float32 and reversed z, which is no better here, down to 2^-24; 38 bits down to 2^-30.",
+    lambda place, seed: HiddenCase(orthographic_walls(place[0], place[1], leaning(seed))),
     NearestCase,
-    "depth",
     BASE,
-    whole=HiddenCase,
 )

@@ -9,10 +9,10 @@ import numpy as np
 
 from core.records.arrays import Floats
 from core.scene import ClipScene
+from core.study.accuracy.record import Axis
 from core.study.accuracy.workloads import clip_of_window, flat_scene, on_grid, random_source
 from core.study.stability.experiment import Experiment
 from core.study.stability.fragments.cases import NearestCase
-from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 64
 """Pixels on a side of the picture: a power of two, so that places on the grid are exact in clip space."""
@@ -75,44 +75,38 @@ def layers_at(place: tuple[float, ...], seed: int) -> ClipScene:
 
 
 CIRCLE = Experiment(
-    ExperimentInfo(
-        "painters-cycle",
-        "Painter's algorithm on three bars in a circle",
-        "Each of three bars lies in front of the next one at one end. What happens if they overlap more, and if "
-        "one is lifted off the next?",
-        (
-            Axis(
-                "overlap",
-                "Reach beyond the crossings, in half lengths",
-                "",
-                (-0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5),
-            ),
-            Axis("lift", "Lift, in depths of a bar", "", (0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.1, 1.5)),
+    "painters-cycle",
+    "Painter's algorithm on three bars in a circle",
+    "Each of three bars lies in front of the next one at one end. What happens if they overlap more, and if "
+    "one is lifted off the next?",
+    (
+        Axis(
+            "overlap",
+            "Reach beyond the crossings, in half lengths",
+            "",
+            (-0.2, -0.1, -0.05, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5),
         ),
-        ("visibility=last-drawn", "visibility=painters", "visibility=z-buffer", "visibility=ray-casting"),
-        "Where the bars overlap and none is lifted by half its depth, no order is right: sorting fails, and so "
-        "does drawing without a depth test. Lifted by a whole depth, sorting is right. A z-buffer is always "
-        "right.",
+        Axis("lift", "Lift, in depths of a bar", "", (0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.1, 1.5)),
     ),
+    ("visibility=last-drawn", "visibility=painters", "visibility=z-buffer", "visibility=ray-casting"),
+    "Where the bars overlap and none is lifted by half its depth, no order is right: sorting fails, and so "
+    "does drawing without a depth test. Lifted by a whole depth, sorting is right. A z-buffer is always "
+    "right.",
     lambda place, _: flat_scene(circle_of_bars(place[0], place[1]), (SIDE, SIDE)),
     NearestCase,
-    "depth",
 )
 LAYERS = Experiment(
-    ExperimentInfo(
-        "drawing-order",
-        "Layers drawn in a wrong order",
-        "Triangles one behind the other are drawn from back to front, except for some swaps of neighbours. Is the"
-        " nearest one visible?",
-        (
-            Axis("layers", "Layers", "", (2, 3, 4, 6, 8, 12, 16)),
-            Axis("swaps", "Swaps of neighbours", "", (0, 1, 2, 3, 4, 6, 8, 12)),
-        ),
-        ("visibility=last-drawn", "visibility=painters", "visibility=z-buffer", "visibility=ray-casting"),
-        "Without a depth test every swap of two visible layers is wrong. Sorted layers and a z-buffer are right "
-        "in any order.",
+    "drawing-order",
+    "Layers drawn in a wrong order",
+    "Triangles one behind the other are drawn from back to front, except for some swaps of neighbours. Is the"
+    " nearest one visible?",
+    (
+        Axis("layers", "Layers", "", (2, 3, 4, 6, 8, 12, 16)),
+        Axis("swaps", "Swaps of neighbours", "", (0, 1, 2, 3, 4, 6, 8, 12)),
     ),
+    ("visibility=last-drawn", "visibility=painters", "visibility=z-buffer", "visibility=ray-casting"),
+    "Without a depth test every swap of two visible layers is wrong. Sorted layers and a z-buffer are right "
+    "in any order.",
     layers_at,
     NearestCase,
-    "depth",
 )

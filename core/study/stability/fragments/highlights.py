@@ -9,16 +9,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.pipeline import render
 from core.records.arrays import Flags, Floats
+from core.records.frame import Frame
 from core.scene import Material, Scene
 from core.settings import Settings
+from core.study.accuracy.record import Axis, Judgement, Outcome, Verdict
 from core.study.accuracy.workloads import random_source, sphere_scene
 from core.study.exact.sphere import sphere_picture
-from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.experiment import Case, Experiment
 from core.study.stability.fragments.cases import faces_the_eye, mesh_and_normals
 from core.study.stability.kinds import LIT_MESHES
-from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
 
 SIDE = 96
 """Pixels on a side of the picture."""
@@ -35,6 +35,7 @@ class HighlightCase(Case):
     """
 
     scene: Scene
+    stage = "shade"
 
     def __init__(self, scene: Scene) -> None:
         mesh, normals = mesh_and_normals(scene)
@@ -45,7 +46,7 @@ class HighlightCase(Case):
             )
         if mesh.material.specular == 0:
             raise ValueError("the sphere must shine, got one without a highlight")
-        self.scene = scene
+        super().__init__(scene)
         self._specular = mesh.material.specular
         self._is_front = faces_the_eye(scene)
         matte = replace(mesh, material=replace(mesh.material, specular=0.0))
@@ -56,18 +57,17 @@ class HighlightCase(Case):
         highlight = self._wanted - diffuse[..., 0]
         self._where = seen & (highlight > highlight[seen].max(initial=0.0) / 2)
 
-    def _shown_and_where(self, settings: Settings) -> tuple[Floats, Flags]:
+    def _shown_and_where(self, frame: Frame) -> tuple[Floats, Flags]:
         """Return what is drawn, (H, W) float64, and where it should be bright, (H, W) bool."""
-        frame = render(self.scene, settings)
         is_front = (frame.primitive >= 0) & self._is_front[np.maximum(frame.primitive, 0)]
         where = np.asarray(self._where & is_front)
         if not where.any():
             raise ValueError("the highlight must be seen on a triangle, got triangles beside it")
         return frame.color[..., 0].astype(np.float64), where
 
-    def judge(self, settings: Settings) -> Judgement:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Return which part of the highlight is missing at its brightest pixel."""
-        shown, where = self._shown_and_where(settings)
+        shown, where = self._shown_and_where(made)
         missing = max(float(self._wanted[where].max() - shown[where].max()) / self._specular, 0.0)
         remark = f"{100 * missing:.3g} % of the highlight is missing, over {int(where.sum())} pixels"
         if missing <= TOLERANCE:
@@ -75,10 +75,10 @@ class HighlightCase(Case):
         dark = where & (self._wanted - shown > TOLERANCE * self._specular)
         return Judgement(Verdict(Outcome.WRONG_PICTURE, missing, remark), dark)
 
-    def assertions(self, settings: Settings, wrong: Flags) -> str:
+    def assertions(self, settings: Settings, made: Frame, wrong: Flags) -> str:
         """Return statements that a pixel on the highlight, ``wrong`` (H, W) or not, is as bright as the sphere."""
         del wrong
-        _, where = self._shown_and_where(settings)
+        _, where = self._shown_and_where(made)
         least = float(self._wanted[where].max()) - TOLERANCE * self._specular
         rows, columns = np.nonzero(where)
         pixels = list(zip(columns.tolist(), rows.tolist(), strict=True))
@@ -94,7 +94,7 @@ def highlight_case(scene: Scene) -> HighlightCase:
     looked at.
     """
     case = HighlightCase(scene)
-    if case.judge(Settings(shading="phong")).verdict.outcome != Outcome.RIGHT:
+    if case.run(Settings(shading="phong")).verdict.outcome != Outcome.RIGHT:
         raise ValueError("the triangles must be fine enough for light per pixel, got coarser ones")
     return case
 
@@ -109,23 +109,19 @@ def shining_sphere(rings: int, shininess: float, seed: int) -> Scene:
 
 
 HIGHLIGHT = Experiment(
-    ExperimentInfo(
-        "lost-highlight",
-        "Gouraud's lost highlight",
-        "A shining sphere has more and more triangles and a smaller and smaller highlight. Is the highlight as "
-        "bright as that of the true sphere?",
-        (
-            Axis("rings", "Rings of the sphere", "", (4, 6, 8, 12, 16, 24, 32, 48), True),
-            Axis("shininess", "Shininess", "", (4, 8, 16, 32, 64, 128, 256, 512), True),
-        ),
-        ("shading=flat", "shading=gouraud", "shading=phong"),
-        "Gouraud loses highlights between vertices: for shininess 128 and more it loses most of one on a sphere "
-        "of 8 rings in some places. Flat shading loses it on all but very fine spheres. Phong keeps at least nine"
-        " tenths everywhere.",
+    "lost-highlight",
+    "Gouraud's lost highlight",
+    "A shining sphere has more and more triangles and a smaller and smaller highlight. Is the highlight as "
+    "bright as that of the true sphere?",
+    (
+        Axis("rings", "Rings of the sphere", "", (4, 6, 8, 12, 16, 24, 32, 48), True),
+        Axis("shininess", "Shininess", "", (4, 8, 16, 32, 64, 128, 256, 512), True),
     ),
-    lambda place, seed: shining_sphere(int(place[0]), place[1], seed),
+    ("shading=flat", "shading=gouraud", "shading=phong"),
+    "Gouraud loses highlights between vertices: for shininess 128 and more it loses most of one on a sphere "
+    "of 8 rings in some places. Flat shading loses it on all but very fine spheres. Phong keeps at least nine"
+    " tenths everywhere.",
+    lambda place, seed: HighlightCase(shining_sphere(int(place[0]), place[1], seed)),
     highlight_case,
-    "shade",
     kind=LIT_MESHES,
-    whole=HighlightCase,
 )

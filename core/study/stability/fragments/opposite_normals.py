@@ -9,17 +9,17 @@ K. Shoemake, *Animating rotation with quaternion curves*, 1985 (turning evenly a
 import numpy as np
 
 from core.fragments.lighting import light_surface
-from core.pipeline import render
 from core.records.arrays import Flags, Floats, Integers
+from core.records.frame import Frame
 from core.scene import Camera, DirectionalLight, Material, Mesh, Scene
 from core.settings import Settings
 from core.stages.vertex_light import viewpoint
+from core.study.accuracy.record import Axis, Judgement
 from core.study.exact.values import exact_values
 from core.study.stability.case_text import pixels_text
-from core.study.stability.experiment import Case, Experiment, Judgement
+from core.study.stability.experiment import Case, Experiment
 from core.study.stability.fragments.cases import clip_corners, faces_the_eye, judge_colors, mesh_and_normals
 from core.study.stability.kinds import LIT_MESHES
-from core.study.stability.record import Axis, ExperimentInfo
 
 SIZE = (65, 3)
 """An odd number of columns: the centre of the middle one is where opposite normals interpolate to 0."""
@@ -36,19 +36,19 @@ class NormalsCase(Case):
     """
 
     scene: Scene
+    stage = "shade"
 
     def __init__(self, scene: Scene) -> None:
+        super().__init__(scene)
         self._mesh, normals = mesh_and_normals(scene)
         if normals[:, 1].any() or (normals[:, 2] < 0).any() or not normals.any(axis=1).all():
             raise ValueError("every normal must be turned from the front about the upright, got another one")
         if scene.camera.projection != "orthographic" or not faces_the_eye(scene).all():
             raise ValueError("every triangle must be seen from the front, by parallel rays, got another one")
-        self.scene = scene
         self._turn = np.arctan2(normals[:, 0], normals[:, 2])
 
-    def _shown_and_wanted(self, settings: Settings) -> tuple[Floats, Floats]:
+    def _shown_and_wanted(self, frame: Frame) -> tuple[Floats, Floats]:
         """Return the colours as drawn and as they should be, (H, W, 3) each; the same where nothing is drawn."""
-        frame = render(self.scene, settings)
         shown = frame.color[..., :3].astype(np.float64)
         wanted = shown.copy()
         for triangle in np.unique(frame.primitive[frame.primitive >= 0]).tolist():
@@ -69,13 +69,13 @@ class NormalsCase(Case):
         )
         return diffuse + specular
 
-    def judge(self, settings: Settings) -> Judgement:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Compare the colours with those of normals that turn evenly."""
-        return judge_colors(*self._shown_and_wanted(settings), TOLERANCE)
+        return judge_colors(*self._shown_and_wanted(made), TOLERANCE)
 
-    def assertions(self, settings: Settings, wrong: Flags) -> str:
+    def assertions(self, settings: Settings, made: Frame, wrong: Flags) -> str:
         """Return statements that ``wrong`` pixels, (H, W) bool, are lit as by normals that turn evenly."""
-        _, wanted = self._shown_and_wanted(settings)
+        _, wanted = self._shown_and_wanted(made)
         return pixels_text(
             wrong, wanted, f"255 * np.abs(frame.color[row, column, :3] - wanted).max() <= {TOLERANCE}"
         )
@@ -107,22 +107,19 @@ def turned_normals(part: Floats, angle: float) -> Floats:
 
 
 NORMALS = Experiment(
-    ExperimentInfo(
-        "opposite-normals",
-        "Normals that interpolate to zero",
-        "The normals at the two ends of a strip point away from each other, up to opposite directions. Which "
-        "colour lies between them, and does dividing the strip help?",
-        (
-            Axis("angle", "Angle between the normals", "degrees", (0, 30, 60, 90, 120, 150, 170, 179, 180)),
-            Axis("parts", "Parts of the strip", "", (1, 2, 3, 4, 6, 8, 16, 32), True),
-        ),
-        ("shading=flat", "shading=gouraud", "shading=phong"),
-        "Nothing becomes NaN. Where opposite normals meet, the interpolated normal has no direction, and Phong "
-        "and Gouraud draw a wrong picture. Divided into three parts or more, Phong is right at every angle. "
-        "Gouraud needs sixteen.",
+    "opposite-normals",
+    "Normals that interpolate to zero",
+    "The normals at the two ends of a strip point away from each other, up to opposite directions. Which "
+    "colour lies between them, and does dividing the strip help?",
+    (
+        Axis("angle", "Angle between the normals", "degrees", (0, 30, 60, 90, 120, 150, 170, 179, 180)),
+        Axis("parts", "Parts of the strip", "", (1, 2, 3, 4, 6, 8, 16, 32), True),
     ),
+    ("shading=flat", "shading=gouraud", "shading=phong"),
+    "Nothing becomes NaN. Where opposite normals meet, the interpolated normal has no direction, and Phong "
+    "and Gouraud draw a wrong picture. Divided into three parts or more, Phong is right at every angle. "
+    "Gouraud needs sixteen.",
     lambda place, _: flattened_tube(place[0], int(place[1])),
     NormalsCase,
-    "shade",
     kind=LIT_MESHES,
 )

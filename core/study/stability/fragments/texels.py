@@ -9,15 +9,16 @@ import numpy as np
 
 from core.fragments.footprint_mean import footprint_means
 from core.records.arrays import Flags, Floats
+from core.records.frame import Frame
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.record import Axis, Judgement
 from core.study.accuracy.workloads import checkerboard, random_source
 from core.study.exact.values import exact_values
 from core.study.stability.case_text import listed_pixels
-from core.study.stability.experiment import Case, Experiment, Judgement
-from core.study.stability.fragments.cases import drawn_colors, judge_colors
+from core.study.stability.experiment import Case, Experiment
+from core.study.stability.fragments.cases import judge_colors
 from core.study.stability.kinds import TEXTURED_TRIANGLES
-from core.study.stability.record import Axis, ExperimentInfo
 
 SIDE = 24
 """Pixels on a side of the picture."""
@@ -43,9 +44,10 @@ class TextureCase(Case):
     """
 
     scene: ClipScene
+    stage = "shade"
 
     def __init__(self, scene: ClipScene) -> None:
-        self.scene = scene
+        super().__init__(scene)
         assert scene.texture is not None
         width, height = scene.size
         start, right, up = _laid_out(scene)
@@ -55,9 +57,9 @@ class TextureCase(Case):
         footprints = start + squares[..., :1] * right + squares[..., 1:] * up
         self.wanted = footprint_means(scene.texture, footprints).reshape(height, width, -1)
 
-    def _shown_and_whole(self, settings: Settings) -> tuple[Floats, Flags]:
+    def _shown_and_whole(self, frame: Frame) -> tuple[Floats, Flags]:
         """Return the colours (H, W, 3) that are drawn, and which pixels (H, W) bool are covered as a whole."""
-        colors = drawn_colors(self.scene, settings)
+        colors = frame.color.astype(np.float64)
         whole = np.asarray(colors[..., 3] > 1 - ROUNDING)
         if not whole.any():
             raise ValueError("a pixel must be covered as a whole, none is")
@@ -67,15 +69,15 @@ class TextureCase(Case):
             )
         return colors[..., :3], whole
 
-    def judge(self, settings: Settings) -> Judgement:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Compare the colours with the means of the footprints."""
-        shown, whole = self._shown_and_whole(settings)
+        shown, whole = self._shown_and_whole(made)
         return judge_colors(shown, self.wanted, TOLERANCE, whole, of_mean=True)
 
-    def assertions(self, settings: Settings, wrong: Flags) -> str:
+    def assertions(self, settings: Settings, made: Frame, wrong: Flags) -> str:
         """Return statements that the mean error over all pixels that count, ``wrong`` (H, W) bool or not, is small."""
         del wrong
-        _, whole = self._shown_and_whole(settings)
+        _, whole = self._shown_and_whole(made)
         pixels = listed_pixels(whole, self.wanted)
         return (
             f"{pixels}\n"
@@ -119,46 +121,40 @@ def textured_square(density: float, angle: float, seed: int) -> ClipScene:
 
 
 MINIFICATION = Experiment(
-    ExperimentInfo(
-        "minification",
-        "Minification by each texture filter",
-        "A pixel covers more and more texels, seen at an angle. How far is its colour from their mean?",
-        (DENSITIES, ANGLES),
-        (
-            "texture_filter=nearest",
-            "texture_filter=bilinear",
-            "texture_filter=mipmap-nearest",
-            "texture_filter=trilinear",
-        ),
-        "Nearest and bilinear are wrong from two texels per pixel on, at every angle. Trilinear is right up to 45"
-        " degrees at any number of texels, and blurs where footprints are longer and narrower.",
+    "minification",
+    "Minification by each texture filter",
+    "A pixel covers more and more texels, seen at an angle. How far is its colour from their mean?",
+    (DENSITIES, ANGLES),
+    (
+        "texture_filter=nearest",
+        "texture_filter=bilinear",
+        "texture_filter=mipmap-nearest",
+        "texture_filter=trilinear",
     ),
+    "Nearest and bilinear are wrong from two texels per pixel on, at every angle. Trilinear is right up to 45"
+    " degrees at any number of texels, and blurs where footprints are longer and narrower.",
     lambda place, seed: textured_square(place[0], place[1], seed),
     TextureCase,
-    "shade",
     kind=TEXTURED_TRIANGLES,
 )
 SHADING_ALIASING = Experiment(
-    ExperimentInfo(
-        "shading-aliasing",
-        "Samples against detail inside a triangle",
-        "The detail lies in the texture, not at edges. Do more samples per pixel give its mean?",
-        (DENSITIES, ANGLES),
-        (
-            "antialiasing=none",
-            "antialiasing=msaa-4",
-            "antialiasing=area",
-            "antialiasing=ssaa-4",
-            "antialiasing=ssaa-16",
-            "antialiasing=none texture_filter=trilinear",
-        ),
-        "Msaa-4 is as wrong as no antialiasing, because it shades once per pixel, and exact area is hardly "
-        "better. 16 samples are right up to 4 texels per pixel and 60 degrees. A texture with mipmaps is right "
-        "beyond that, with one sample.",
+    "shading-aliasing",
+    "Samples against detail inside a triangle",
+    "The detail lies in the texture, not at edges. Do more samples per pixel give its mean?",
+    (DENSITIES, ANGLES),
+    (
+        "antialiasing=none",
+        "antialiasing=msaa-4",
+        "antialiasing=area",
+        "antialiasing=ssaa-4",
+        "antialiasing=ssaa-16",
+        "antialiasing=none texture_filter=trilinear",
     ),
+    "Msaa-4 is as wrong as no antialiasing, because it shades once per pixel, and exact area is hardly "
+    "better. 16 samples are right up to 4 texels per pixel and 60 degrees. A texture with mipmaps is right "
+    "beyond that, with one sample.",
     lambda place, seed: textured_square(place[0], place[1], seed),
     TextureCase,
-    "shade",
     Settings(texture_filter="nearest"),
     kind=TEXTURED_TRIANGLES,
 )

@@ -9,13 +9,13 @@ E. Catmull, *A hidden-surface algorithm with anti-aliasing*, 1978 (exact area).
 import numpy as np
 
 from core.records.arrays import Flags, Floats
+from core.records.frame import Frame
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.record import Axis, Judgement, Outcome, Verdict
 from core.study.accuracy.workloads import clip_of_window
 from core.study.exact.areas import area_in_pixels
-from core.study.stability.experiment import Case, Experiment, Judgement, check_in_view_volume
-from core.study.stability.fragments.cases import drawn_colors
-from core.study.stability.record import Axis, ExperimentInfo, Outcome, Verdict
+from core.study.stability.experiment import Case, Experiment, check_in_view_volume
 
 SIZE = (16, 32)
 FOOT, TIP = 8.0, 1024.0
@@ -34,20 +34,21 @@ class ThinCase(Case):
     """
 
     scene: ClipScene
+    stage = "resolve"
 
     def __init__(self, scene: ClipScene) -> None:
         if len(scene.clip) != 1:
             raise ValueError(f"expected one triangle, got {len(scene.clip)}")
         check_in_view_volume(scene)
-        self.scene = scene
+        super().__init__(scene)
         width, height = scene.size
         row, column = np.mgrid[0:height, 0:width]
         window = counter_clockwise_window(scene)
         self.wanted = area_in_pixels(window, column.ravel(), row.ravel()).reshape(row.shape)
 
-    def judge(self, settings: Settings) -> Judgement:
+    def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Compare how much of each pixel is covered with the exact area; a row without any cover is a hole."""
-        shown = drawn_colors(self.scene, settings)[..., 3]
+        shown = made.color[..., 3].astype(np.float64)
         error = np.abs(shown - self.wanted)
         largest = float(error.max())
         is_lost = (shown.sum(axis=1) == 0) & (self.wanted.sum(axis=1) > 0)
@@ -60,7 +61,7 @@ class ThinCase(Case):
             outcome = Outcome.RIGHT if largest <= TOLERANCE else Outcome.WRONG_PICTURE
         return Judgement(Verdict(outcome, largest, remark), wrong)
 
-    def assertions(self, settings: Settings, wrong: Flags) -> str:
+    def assertions(self, settings: Settings, made: Frame, wrong: Flags) -> str:
         """Return statements about the cover of all pixels (H, W), and the rows that have to have some."""
         rows = np.flatnonzero(self.wanted.sum(axis=1) > 0).tolist()
         return (
@@ -91,27 +92,24 @@ def needle(width: float, offset: float) -> ClipScene:
 
 
 THIN = Experiment(
-    ExperimentInfo(
-        "thin-triangles",
-        "Needles between the samples",
-        "A needle becomes thinner and moves across a pixel. Is it visible in every row, and how close is its "
-        "area?",
-        (
-            Axis("width", "Width", "pixels", tuple(2.0**k for k in range(-6, 3)), True),
-            Axis("offset", "Offset in the pixel", "pixels", tuple(k / 8 for k in range(8))),
-        ),
-        (
-            "antialiasing=none",
-            "antialiasing=msaa-4",
-            "antialiasing=ssaa-4",
-            "antialiasing=ssaa-16",
-            "antialiasing=area",
-        ),
-        "Rows of a needle are lost where it is narrower than the distance between columns of samples: 1 pixel "
-        "with one sample, 1/2 with four on a grid (ssaa-4), 1/4 with four on a rotated grid (msaa-4) and with "
-        "sixteen. Exact area loses none.",
+    "thin-triangles",
+    "Needles between the samples",
+    "A needle becomes thinner and moves across a pixel. Is it visible in every row, and how close is its "
+    "area?",
+    (
+        Axis("width", "Width", "pixels", tuple(2.0**k for k in range(-6, 3)), True),
+        Axis("offset", "Offset in the pixel", "pixels", tuple(k / 8 for k in range(8))),
     ),
+    (
+        "antialiasing=none",
+        "antialiasing=msaa-4",
+        "antialiasing=ssaa-4",
+        "antialiasing=ssaa-16",
+        "antialiasing=area",
+    ),
+    "Rows of a needle are lost where it is narrower than the distance between columns of samples: 1 pixel "
+    "with one sample, 1/2 with four on a grid (ssaa-4), 1/4 with four on a rotated grid (msaa-4) and with "
+    "sixteen. Exact area loses none.",
     lambda place, _: needle(place[0], place[1]),
     ThinCase,
-    "resolve",
 )

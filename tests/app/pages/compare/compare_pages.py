@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from app.pages.compare.page import ComparePage
 from app.window.main_window import MainWindow
 from core.settings import Settings
-from core.study.accuracy.record import Dial, ErrorMeasure, Point, Study, WorkKind
+from core.study.accuracy.record import Axis, ErrorMeasure, Point, Study, WorkKind
 
 WRONG = "wrong-visible"
 
@@ -58,7 +58,7 @@ def wait_for_pictures(page: ComparePage, qtbot: QtBot) -> None:
 
 def hand_made(family: str = "line") -> Study:
     """Return a study with an exact method, a wrong one, one without the error, and one that refused."""
-    length = Dial("length", "Length", "pixels", (4, 8), 4, is_cost=True)
+    length = Axis("length", "Length", "pixels", (4, 8), default=4, is_cost=True)
 
     def point(name: str, seconds: float, **others: object) -> Point:
         times = np.array([seconds, 1.1 * seconds, 1.3 * seconds])

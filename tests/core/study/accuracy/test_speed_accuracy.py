@@ -235,8 +235,7 @@ def test_outlines_with_samples_are_as_bright_whatever_the_blending_keeps() -> No
         base = Settings(antialiasing=name)
         task = PictureTask(scene, same_look(base))
         opaque, over = (
-            task.errors(settings, task.start(settings)())[SAMPLED_COLOR.name]
-            for settings in (base, replace(base, blend="over"))
+            task.run(settings).errors[SAMPLED_COLOR.name] for settings in (base, replace(base, blend="over"))
         )
         assert opaque == pytest.approx(over, rel=1e-3)  # opaque pictures may be a byte off here and there
 

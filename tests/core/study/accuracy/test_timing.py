@@ -10,7 +10,7 @@ from core.settings import Settings
 from core.study import Point, Study, measure, pareto_front
 from core.study.accuracy import speed_accuracy as module
 from core.study.accuracy.family import Assignment, Candidate, StudyFamily, Task
-from core.study.accuracy.record import ErrorMeasure, WorkKind
+from core.study.accuracy.record import ErrorMeasure, Judgement, WorkKind, judged
 from core.study.accuracy.timing import median_interval, ranks
 from tests.core.study.accuracy.order_agreement import kendall_tau
 
@@ -40,14 +40,11 @@ class FakeTask(Task):
     def counts(self, settings: Settings, made: str) -> dict[str, int]:
         return {}
 
-    def errors(self, settings: Settings, made: str) -> dict[str, float | str]:
-        return {"wrong": 0.0}
+    def judge(self, settings: Settings, made: str) -> Judgement:
+        return judged({"wrong": 0.0})
 
     def pictures(self, settings: Settings, made: str):
         raise NotImplementedError
-
-    def opening(self, settings: Settings, made: str) -> None:
-        return None
 
 
 def timed(monkeypatch: pytest.MonkeyPatch, seconds: Callable[[str, int], float], **options) -> Study:

@@ -26,5 +26,5 @@ def run(
         settings = settings_of(study.base, candidate.method)
         made = task.start(settings)()
         name = candidate.method.removeprefix(f"{study.varies[0]}=") if study.varies else candidate.method
-        found[name] = Found(task.counts(settings, made), task.errors(settings, made))
+        found[name] = Found(task.counts(settings, made), task.judge(settings, made).errors)
     return found
