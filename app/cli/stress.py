@@ -12,7 +12,7 @@ from app.export.atlas_text import atlas_text
 from app.files.shrunk_files import export_shrunk
 from app.usage import UsageError
 from core.study import machine
-from core.study.stability import Experiment, Outcome, experiments, stress
+from core.study.stability import Atlas, Experiment, Outcome, experiments, stress
 from core.study.stability.shrink import shrink_cell
 
 DESCRIPTION = (
@@ -38,6 +38,7 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--list", action="store_true", help="list the experiments with their axes, methods and claims"
     )
+    parser.add_argument("--times", action="store_true", help="time every run too")
     parser.add_argument("--shrink", metavar="METHOD", help="shrink the first failing cell of this method")
     parser.add_argument(
         "--seed", metavar="N", type=whole_number(0, MOST_SEED), default=0, help="seed of the random cases (0)"
@@ -64,14 +65,25 @@ def run(options: argparse.Namespace) -> int:
     if options.shrink is not None:
         return run_shrink(experiment, options.shrink, options.seed, folder)
     with progress_line() as progress:
-        atlas = stress(options.experiment, seed=options.seed, progress=progress, machine=machine(__version__))
+        atlas = stress(
+            experiment,
+            seed=options.seed,
+            progress=progress,
+            machine=machine(__version__),
+            with_times=options.times,
+        )
+    show_atlas(atlas, folder)
+    return 0
+
+
+def show_atlas(atlas: Atlas, folder: Path | None) -> None:
+    """Print maps, and write them."""
     print("\n".join(atlas_text(atlas)))
     if folder is not None:
         from app.export.atlas import export_atlas  # Maps need Qt, their text does not.
 
         for path in export_atlas(atlas, folder):
             print(f"wrote {path}")
-    return 0
 
 
 def list_text() -> list[str]:

@@ -5,6 +5,7 @@ import argparse
 from app import __version__
 from app.cli.arguments import FILE_HELP, add_settings, chosen_settings, outside_hinted, progress_line
 from app.cli.commands import MOST_ROUNDS, MOST_SEED, add_allow_outside, output_folder, whole_number
+from app.cli.stress import show_atlas
 from app.cli.window import load_qt
 from app.files.open_any import open_any
 from app.pages.words import (
@@ -23,6 +24,7 @@ from core.study import Study, machine, measure, pareto_front, study_families, st
 from core.study.accuracy.family import chosen_dials
 from core.study.accuracy.speed_accuracy import ROUNDS
 from core.study.accuracy.timing import ranks
+from core.study.stability import stress, study_experiment
 
 DESCRIPTION = """Measure every method of a family on the same work: time, work counts and errors against an exact
 reference. If a method cannot do the work, the reason is printed."""
@@ -32,10 +34,12 @@ examples:
   rasterscope study --list
   rasterscope study fill --dial size=64
   rasterscope study fill --work block-size --dial size=128
+  rasterscope study fill --work slivers --map angle -o results
   rasterscope study line --work pixel-ends -o results
   rasterscope study orientation --work pivot-q
   rasterscope study pipeline --scene teapot.obj --set cull=back -o results
 
+--map runs every method at all values of a dial, prints a map for each, and -o writes stress-FAMILY-WORK.
 -o writes study-FAMILY-WORK .csv, .json, .svg and .png into a folder, with the machine, versions, date and settings.
 """
 
@@ -65,6 +69,13 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--seed", metavar="N", type=whole_number(0, MOST_SEED), default=0, help="seed of the random work (0)"
+    )
+    parser.add_argument(
+        "--map",
+        metavar="DIAL",
+        nargs="+",
+        default=[],
+        help="map error and time over the values of one dial, or of two, instead of comparing at one",
     )
     parser.add_argument("--no-growth", action="store_true", help="leave out how time grows with the work")
     parser.add_argument(
@@ -120,6 +131,23 @@ def run(options: argparse.Namespace) -> int:
             if opened.state is not None:
                 settings = opened.document.settings
         settings = chosen_settings(settings, options.set)
+    if options.map:
+        try:
+            experiment = study_experiment(
+                family, options.map, options.work, dials, scene=scene, settings=settings
+            )
+        except ValueError as problem:
+            raise UsageError(str(problem)) from problem
+        with progress_line() as progress:
+            atlas = stress(
+                experiment,
+                seed=options.seed,
+                progress=progress,
+                machine=machine(__version__),
+                with_times=True,
+            )
+        show_atlas(atlas, folder)
+        return 0
     with progress_line() as progress:
         study = measure(
             family.name,

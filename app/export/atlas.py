@@ -12,6 +12,7 @@ from app.files.file_writing import write_files
 from app.files.state_files import readable_json
 from app.pages.stability.records import atlas_record, cells_of, has_curves, method_titles, severity_chart
 from app.pages.words import machine_words
+from core.records.arrays import Floats
 from core.study.stability import Atlas, Outcome
 from widgets.atlas.view import AtlasView
 
@@ -24,6 +25,8 @@ def atlas_csv(atlas: Atlas) -> str:
     """Return a table with a row for every cell of every method, in rows that stand alone."""
     axes = atlas.experiment.axes
     names = ["experiment", "seed", "method", *(axis.name for axis in axes), "outcome", "severity", "remark"]
+    is_timed = all(each.seconds.size for each in atlas.maps)
+    names += ["seconds"] * is_timed
     text = StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([*names, *atlas.machine])
@@ -32,11 +35,21 @@ def atlas_csv(atlas: Atlas) -> str:
         for row, values in enumerate(each.outcome.tolist()):
             for column, value in enumerate(values):
                 place = [repr(axis.values[k]) for axis, k in zip(axes, (column, row), strict=False)]
-                severity = float(each.severity[row, column])
-                shown = "" if isnan(severity) else repr(severity)
+                severity = _shown(each.severity[row, column])
+                seconds = [_shown(each.seconds[row, column])] if is_timed else []
                 cells = [atlas.experiment.name, atlas.seed, each.method, *place, Outcome(value).name.lower()]
-                writer.writerow([*cells, shown, each.remark(column, row), *machine])
+                writer.writerow([*cells, severity, each.remark(column, row), *seconds, *machine])
     return text.getvalue()
+
+
+def _shown(value: float) -> str:
+    """Return a number of a cell; nothing for one that is not known."""
+    return "" if isnan(value) else repr(float(value))
+
+
+def _numbers(cells: Floats) -> list[list[float | None]]:
+    """Return the numbers of cells (rows, columns) as JSON has them; one that is not known is null."""
+    return [[None if isnan(value) else value for value in row] for row in cells.tolist()]
 
 
 def atlas_json(atlas: Atlas) -> str:
@@ -63,9 +76,10 @@ def atlas_json(atlas: Atlas) -> str:
                     "method": each.method,
                     "title": each.title,
                     "outcome": each.outcome.tolist(),
-                    "severity": [[None if isnan(v) else v for v in row] for row in each.severity.tolist()],
+                    "severity": _numbers(each.severity),
                     "remarks": [list(row) for row in each.remarks],
                 }
+                | ({"seconds": _numbers(each.seconds)} if each.seconds.size else {})
                 for each in atlas.maps
             ],
         }

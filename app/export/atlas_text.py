@@ -1,6 +1,8 @@
 """A stability experiment as text: one map of characters for every method, with a legend and the counts."""
 
-from app.pages.words import digits
+import numpy as np
+
+from app.pages.words import digits, time_text
 from core.study.stability import Atlas, Axis, Outcome, StabilityMap, count_outcomes
 
 MARKS = {
@@ -51,11 +53,18 @@ def axis_text(direction: str, axis: Axis) -> str:
     return f"{direction}: {axis.title}, {digits(axis.values[0])} to {digits(axis.values[-1])}{unit}"
 
 
+def _times(each: StabilityMap) -> str:
+    """Return the shortest and the longest run of a map that was timed."""
+    seconds = each.seconds[~np.isnan(each.seconds)]
+    return f"; {time_text(seconds.min())} to {time_text(seconds.max())} a run" if seconds.size else ""
+
+
 def counts_text(atlas: Atlas) -> list[str]:
     """Return how many cells of each method ended in which way."""
     width = max(len(each.method) for each in atlas.maps)
     return [
         f"{method.ljust(width)}  "
         + ", ".join(f"{count} {WORDS[Outcome[name]]}" for name, count in counts.items())
-        for method, counts in count_outcomes(atlas).items()
+        + _times(each)
+        for each, (method, counts) in zip(atlas.maps, count_outcomes(atlas).items(), strict=True)
     ]

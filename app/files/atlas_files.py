@@ -1,5 +1,6 @@
 """An atlas that was saved as JSON opens again: it shows the runs of the day it was made."""
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated, Literal
 
@@ -8,6 +9,7 @@ from pydantic import Field, model_validator
 
 from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_models import Count, Record
+from core.records.arrays import Floats
 from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
 
 PROGRAM = "rasterscope stress"
@@ -40,6 +42,8 @@ class MapRecord(Record):
     """``None``: no number."""
     remarks: tuple[tuple[str, ...], ...] = ()
     """Files of earlier versions of the program have none."""
+    seconds: tuple[list[float | None], ...] = ()
+    """Of maps that were timed; ``None``: no number."""
 
 
 class AtlasFileRecord(Record):
@@ -67,7 +71,8 @@ class AtlasFileRecord(Record):
         rows = len(self.axes[1].values) if len(self.axes) > 1 else 1
         columns = len(self.axes[0].values)
         for each in self.maps:
-            for cells in (each.outcome, each.severity, each.remarks or each.outcome):
+            optional = (each.remarks or each.outcome, each.seconds or each.outcome)
+            for cells in (each.outcome, each.severity, *optional):
                 if len(cells) != rows or any(len(row) != columns for row in cells):
                     raise ValueError(f"maps must have {rows} rows of {columns} cells, {each.method} has not")
             if any(number >= len(self.outcomes) for row in each.outcome for number in row):
@@ -88,6 +93,11 @@ def load_atlas(path: str | Path) -> Atlas:
         raise AtlasFileError(f"{path.name} cannot be opened: {problem}") from problem
 
 
+def _numbers(cells: Sequence[list[float | None]]) -> Floats:
+    """Return numbers of cells, (rows, columns) float64; NaN where there is none."""
+    return np.array([[np.nan if value is None else value for value in row] for row in cells], float, ndmin=2)
+
+
 def _atlas(record: AtlasFileRecord) -> Atlas:
     numbers = np.array([Outcome[name.upper()] for name in record.outcomes], np.uint8)
     maps = tuple(
@@ -95,8 +105,9 @@ def _atlas(record: AtlasFileRecord) -> Atlas:
             each.method,
             each.title,
             numbers[np.array(each.outcome, np.int64)],
-            np.array([[np.nan if value is None else value for value in row] for row in each.severity]),
+            _numbers(each.severity),
             each.remarks,
+            _numbers(each.seconds),
         )
         for each in record.maps
     )

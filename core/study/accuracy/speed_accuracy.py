@@ -16,7 +16,15 @@ import numpy as np
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study.accuracy.families import study_family
-from core.study.accuracy.family import Assignment, Candidate, StudyFamily, Task, chosen_dials, settings_of
+from core.study.accuracy.family import (
+    Assignment,
+    Candidate,
+    StudyFamily,
+    Task,
+    Work,
+    chosen_dials,
+    settings_of,
+)
 from core.study.accuracy.record import Axis, Opening, Pictures, Point, Study, WorkKind
 from core.study.accuracy.timing import SURE, Load, collector_off, is_settled, ranks
 
@@ -54,6 +62,12 @@ class _Turn:
         if self.point.refused:
             return False
         return not self.seconds or self.spent + self.last <= BUDGET
+
+    def add(self, spent: float, least: float) -> None:
+        """Count a block, and add its shortest run to the point."""
+        self.last, self.spent = spent, self.spent + spent
+        self.seconds.append(least)
+        self.point = replace(self.point, seconds=np.array(self.seconds))
 
 
 @dataclass(frozen=True, eq=False)
@@ -222,7 +236,7 @@ def _measure_points(
             if turn.takes_part():
                 of = f"{rounds}" if number < rounds else f"at most {rounds * MOST_TIMES}"
                 watch.next(f"{turn.candidate.title}{where}, round {number + 1} of {of}", number >= rounds)
-                _timed_block(task, turn, watch.load)
+                turn.add(*timed_block(task, turn.settings, watch.load))
                 watch.show(turn.point)
         if number + 2 < rounds:
             continue
@@ -259,21 +273,19 @@ def _sentence(problem: Exception) -> str:
     return text if text.endswith((".", "!", "?")) else f"{text}."
 
 
-def _timed_block(task: Task, turn: _Turn, load: Load) -> None:
-    """Run a method until a block is full, and add its shortest run to its point."""
+def timed_block(work: Work, settings: Settings, load: Load) -> tuple[float, float]:
+    """Run a method until a block is full; return the seconds of the block, and of its shortest run."""
     spent, least = 0.0, np.inf
     while least == np.inf or spent < BLOCK:
-        call = task.start(turn.settings)
+        call = work.start(settings)
         with collector_off():
             own, start = thread_time(), perf_counter()
             made = call()
             elapsed = perf_counter() - start
             load.add(elapsed, thread_time() - own)
         spent += elapsed
-        least = min(least, task.seconds(made, elapsed))
-    turn.last, turn.spent = spent, turn.spent + spent
-    turn.seconds.append(least)
-    turn.point = replace(turn.point, seconds=np.array(turn.seconds))
+        least = min(least, work.seconds(made, elapsed))
+    return spent, least
 
 
 def pictures(study: Study, point: Point, scene: AnyScene | None = None) -> Pictures:

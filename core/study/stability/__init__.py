@@ -5,7 +5,7 @@ from core.study.stability.coverage import COVERAGE_EXPERIMENTS
 from core.study.stability.experiment import Experiment, experiments
 from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
 from core.study.stability.record import Atlas, ExperimentInfo, StabilityMap, StressCancelledError
-from core.study.stability.stress import count_outcomes, stress
+from core.study.stability.stress import count_outcomes, stress, study_experiment
 
 __all__ = [
     "Atlas",
@@ -19,6 +19,7 @@ __all__ = [
     "count_outcomes",
     "experiments",
     "stress",
+    "study_experiment",
 ]
 
 for each in (*COVERAGE_EXPERIMENTS, *FRAGMENT_EXPERIMENTS):

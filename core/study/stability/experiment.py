@@ -16,6 +16,8 @@ from core.settings import Settings
 from core.study.accuracy.family import Work, settings_of
 from core.study.accuracy.frame_task import SceneWork
 from core.study.accuracy.record import Opening, Outcome, Verdict
+from core.study.accuracy.speed_accuracy import timed_block
+from core.study.accuracy.timing import Load
 from core.study.stability.case_text import scene_text, settings_text
 from core.study.stability.kinds import TRIANGLES
 from core.study.stability.minimization import Kind
@@ -75,6 +77,13 @@ class Experiment(ExperimentInfo):
             return _work(self, place, seed).run(settings_of(self.base, method)).verdict
         except ValueError as problem:
             return Verdict(Outcome.REFUSED, np.nan, str(problem))
+
+    def time(self, method: str, place: tuple[float, ...], seed: int) -> float:
+        """Return the seconds of that run, the least of a block; NaN where the method does not take the work."""
+        try:
+            return timed_block(_work(self, place, seed), settings_of(self.base, method), Load())[1]
+        except ValueError:
+            return np.nan
 
     def opening(self, method: str, place: tuple[float, ...], seed: int) -> Opening | None:
         """Return what opens in the stepper to look at that very run; ``None``: it is refused there too."""

@@ -44,6 +44,8 @@ class StabilityMap:
     """(rows, columns) float64, how wrong: pixels, values; 0 where right, NaN where there is no number."""
     remarks: tuple[tuple[str, ...], ...] = ()
     """(rows, columns) what was said of each run, in a sentence; empty: nothing was kept."""
+    seconds: Floats = field(default_factory=lambda: np.empty((0, 0)))
+    """(rows, columns) float64 seconds of a run, the least of a block; NaN where it was refused; empty: not timed."""
 
     def count(self, outcome: Outcome) -> int:
         """Return how many cells ended so."""

@@ -1,12 +1,15 @@
 """Run an experiment over its whole grid, coarse or fine: one real run for every cell of every method."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from itertools import product
 from math import sqrt
 
 import numpy as np
 
+from core.scene import AnyScene
+from core.settings import Settings
+from core.study.accuracy.family import Assignment, StudyFamily, Task, chosen_dials
 from core.study.accuracy.record import Axis, Outcome, Verdict
 from core.study.stability.experiment import Experiment, experiments
 from core.study.stability.record import Atlas, StabilityMap, StressCancelledError
@@ -25,13 +28,14 @@ def stress(
     is_cancelled: Callable[[], bool] | None = None,
     machine: Mapping[str, str] | None = None,
     cell_done: Callable[[str, int, int, Verdict], None] | None = None,
+    with_times: bool = False,
 ) -> Atlas:
     """Run every method of an experiment at every place of its axes.
 
     Parameters
     ----------
     experiment : str or Experiment
-        One of `core.study.stability.experiment.experiments`, or another one.
+        One of `core.study.stability.experiment.experiments`, or another one, as of `study_experiment`.
     seed : int
         What is random in the experiment follows from it.
     axes : tuple of Axis, optional
@@ -44,6 +48,8 @@ def stress(
         Kept in the atlas.
     cell_done : callable, optional
         Called after every run with the method, the column and the row of the cell, and what came of it.
+    with_times : bool
+        Time every cell too.
 
     Raises
     ------
@@ -59,26 +65,85 @@ def stress(
         wanted, got = (", ".join(axis.name for axis in each) for each in (experiment.axes, chosen))
         raise ValueError(f"axes of {experiment.name} must be {wanted}, got {got or 'none'}")
     columns = len(chosen[0].values)
-    rows = len(chosen[1].values) if len(chosen) > 1 else 1
     places = [place[::-1] for place in product(*(axis.values for axis in reversed(chosen)))]
     maps = []
     for number, method in enumerate(experiment.methods):
-        outcome, severity = np.zeros(len(places), np.uint8), np.zeros(len(places))
-        remarks = []
+        verdicts, seconds = [], []
         for cell, place in enumerate(places):
             if is_cancelled is not None and is_cancelled():
                 raise StressCancelledError(f"{experiment.title} was cancelled")
-            verdict = experiment.run(method, place, seed)
-            outcome[cell], severity[cell] = int(verdict.outcome), verdict.severity
-            remarks.append(verdict.remark)
+            verdicts.append(experiment.run(method, place, seed))
+            if with_times:
+                seconds.append(experiment.time(method, place, seed))
             if cell_done is not None:
-                cell_done(method, cell % columns, cell // columns, verdict)
+                cell_done(method, cell % columns, cell // columns, verdicts[-1])
             if progress is not None and cell % max(columns // 2, 1) == 0:
                 progress((number + cell / len(places)) / len(experiment.methods), method)
-        said = tuple(tuple(remarks[row * columns : (row + 1) * columns]) for row in range(rows))
-        shape = rows, columns
-        maps.append(StabilityMap(method, method, outcome.reshape(shape), severity.reshape(shape), said))
+        maps.append(_map(method, verdicts, seconds, columns))
     return Atlas(replace(experiment.info, axes=chosen), tuple(maps), seed, dict(machine or {}))
+
+
+def _map(method: str, verdicts: list[Verdict], seconds: list[float], columns: int) -> StabilityMap:
+    """Return the map of a method, from what came of its cells, row by row; ``seconds`` may be empty."""
+    return StabilityMap(
+        method,
+        method,
+        np.array([each.outcome for each in verdicts], np.uint8).reshape(-1, columns),
+        np.array([each.severity for each in verdicts], float).reshape(-1, columns),
+        tuple(
+            tuple(each.remark for each in verdicts[first : first + columns])
+            for first in range(0, len(verdicts), columns)
+        ),
+        np.array(seconds).reshape(-1, columns),
+    )
+
+
+def study_experiment(
+    family: StudyFamily,
+    across: Sequence[str],
+    work: str | None = None,
+    dials: Mapping[str, float] | None = None,
+    *,
+    scene: AnyScene | None = None,
+    settings: Settings | None = None,
+) -> Experiment:
+    """Return a study as an experiment, to be run at every value of one or two of its dials.
+
+    Parameters
+    ----------
+    across : sequence of str
+        The dials that become axes, from left to right and upwards; the others stay at ``dials``, or their defaults.
+    work, dials, scene, settings : optional
+        As of ``core.study.measure``.
+
+    Raises
+    ------
+    ValueError
+        For a work, dial or value that there is not, or another number of axes.
+    """
+    kind, base = family.work(work), family.base if settings is None else settings
+    fixed = chosen_dials(kind, dials)
+    found = {axis.name: axis for axis in kind.dials}
+    if not 1 <= len(set(across)) == len(across) <= 2 or not set(across) <= set(found):
+        known, got = ", ".join(found) or "none", ", ".join(across) or "none"
+        raise ValueError(f"axes of {kind.name} must be one or two of {known}, got {got}")
+
+    def make(place: tuple[float, ...], seed: int) -> Task:
+        values = fixed | dict(zip(across, place, strict=True))
+        return family.make(Assignment(kind.name, values, seed, base, scene))
+
+    others = (axis for axis in kind.dials if axis.name not in across)
+    stays = [f"{axis.title}: {fixed[axis.name]:g}{f' {axis.unit}' if axis.unit else ''}." for axis in others]
+    return Experiment(
+        f"{family.name}-{kind.name}",
+        f"{family.title}: {kind.title}",
+        " ".join(["How wrong, and how fast, is each method?", *stays]),
+        tuple(replace(found[name], is_logarithmic=True) for name in across),
+        tuple(each.method for each in family.candidates(base)),
+        "No method is promised to be right here. The maps show what was measured.",
+        make,
+        base=base,
+    )
 
 
 def count_outcomes(atlas: Atlas) -> dict[str, dict[str, int]]:

@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from app.files.atlas_files import load_atlas
 from app.files.study_files import load_study
 from core.study import study_families
 from tests.app.cli.cli_runs import refused, run_program
@@ -22,6 +23,17 @@ def test_a_family_is_measured_printed_and_written(tmp_path: Path) -> None:
     assert "* on the Pareto front" in run.stdout
     assert study.machine["rasterscope"] in run.stdout
     assert sorted(path.suffix for path in tmp_path.iterdir()) == [".csv", ".json", ".png", ".svg"]
+
+
+def test_a_study_is_mapped_over_a_dial_and_opens_again_with_its_times(tmp_path: Path) -> None:
+    run = run_program("study", "cull", "--map", "rings", "-o", tmp_path)
+    assert run.returncode == 0, run.stderr
+    assert "across: Rings of the sphere" in run.stdout
+    atlas = load_atlas(tmp_path / "stress-cull-closed.json")
+    assert [axis.name for axis in atlas.experiment.axes] == ["rings"]
+    for each in atlas.maps:
+        assert each.outcome.shape == each.seconds.shape == (1, 7)
+        assert (each.seconds > 0).all()
 
 
 def test_the_pipeline_takes_a_scene_and_settings(tmp_path: Path) -> None:
@@ -65,6 +77,7 @@ def test_the_list_names_every_family_and_work() -> None:
         (["fill", "--rounds", "0"], "must be a whole number from 1 to 1000, got 0"),
         (["fill", "--seed", "x"], "must be a whole number from 0"),
         (["fill", "--error", "none"], "error of fill must be one of misclassified, cracks, got none"),
+        (["fill", "--map", "angle"], "axes of triangles must be one or two of size, got angle"),
         (["fill", "--scene", "cube"], "--scene and --set are for pipeline"),
         (["fill", "-o", "no such folder"], "there is no folder no such folder"),
         (["pipeline", "--set", "fill=magic"], "fill must be one of"),

@@ -133,6 +133,19 @@ def test_every_cell_is_in_the_table(atlas) -> None:
     assert found["coverage=exact", 2.0**-12]["outcome"] == "right"
 
 
+def test_times_are_in_text_table_and_json_only_where_they_were_taken(atlas) -> None:
+    timed = stress("precision-dial", axes=QUICK, with_times=True)
+    assert not atlas.maps[0].seconds.size
+    assert timed.maps[0].seconds.shape == (1, 2)
+    assert (timed.maps[0].seconds > 0).all()
+    rows = list(csv.DictReader(atlas_csv(timed).splitlines()))
+    assert [float(row["seconds"]) for row in rows[:2]] == timed.maps[0].seconds[0].tolist()
+    assert json.loads(atlas_json(timed))["maps"][0]["seconds"] == timed.maps[0].seconds.tolist()
+    assert "seconds" not in atlas_csv(atlas) + atlas_json(atlas)
+    assert "s a run" in "\n".join(atlas_text(timed))
+    assert "s a run" not in "\n".join(atlas_text(atlas))
+
+
 def test_everything_is_in_the_json(atlas) -> None:
     found = json.loads(atlas_json(atlas))
     assert found["experiment"] == "precision-dial"
