@@ -34,7 +34,7 @@ def test_a_cell_of_a_study_opens_and_is_not_made_smaller() -> None:
 def test_what_is_not_an_axis_stays_and_is_named() -> None:
     walls = study_experiment(study_family("depth"), ("far", "gap"), dials={"side": 32})
     assert walls.question.endswith("Side of the picture: 32 pixels.")
-    assert walls.run("depth=z-16", (1e4, 1e-5), 0).outcome == Outcome.WRONG_PICTURE
+    assert walls.run("depth=z-16", (1e4, 1e-5), 0).outcome == Outcome.WRONG_ORDER
     assert walls.run("depth=reversed-z", (1e4, 1e-5), 0).outcome == Outcome.RIGHT
 
 

@@ -17,7 +17,7 @@ from core.records.frame import Frame
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study.accuracy.family import Task, Work
-from core.study.accuracy.record import ErrorMeasure, Judgement, Opening, Pictures, judged
+from core.study.accuracy.record import ErrorMeasure, Judgement, Opening, Outcome, Pictures, Verdict, judged
 from core.study.accuracy.workloads import COLORS
 from core.trace import scene_triangle_count
 
@@ -115,8 +115,8 @@ class SeenTask(FrameTask):
 
     def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Count the pixels that show something else."""
-        wrong = int(np.count_nonzero(self._shown(made.primitive.astype(np.int64)) != self.reference))
-        return judged({WRONG_VISIBLE.name: per_million(wrong, made.primitive.size)})
+        wrong = self._shown(made.primitive.astype(np.int64)) != self.reference
+        return judge_order(np.asarray(wrong), "what should be hidden")
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
         """Return a colour for each number."""
@@ -155,7 +155,8 @@ class ColorTask(FrameTask):
         """Return the differences of the colours."""
         color, seen = self.reference
         where = None if seen is None else seen & (made.primitive >= 0)
-        return judged(color_errors(premultiplied(made.color, settings), color, where), tolerance=ONE_BYTE)
+        shown = premultiplied(made.color, settings)
+        return judge_colors(shown[..., :3], color[..., :3], ONE_BYTE, where, of_mean=True)
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
         """Return the colours times alpha."""
@@ -229,18 +230,50 @@ def colors_of(triangle: Integers) -> Floats:
     return np.asarray(colors)
 
 
-def color_errors(result: Floats, reference: Floats, where: Flags | None = None) -> dict[str, float | str]:
-    """Return mean and largest difference of colours (H, W, 4), in 1/255 of linear light, over the pixels ``where``."""
-    difference = np.abs(result - reference)[..., :3].max(axis=-1)
-    if where is not None:
-        difference = difference[where]
-    if not difference.size:
+def judge_colors(
+    shown: Floats, wanted: Floats, tolerance: float, where: Flags | None = None, of_mean: bool = False
+) -> Judgement:
+    """Compare colours, and say how far they are off, in 1/255 of linear light.
+
+    Parameters
+    ----------
+    shown, wanted : (H, W, C) float64
+        Linear colours.
+    tolerance : float
+        In 1/255: so much is taken as right.
+    where : (H, W) bool, optional
+        The pixels that count; all by default.
+    of_mean : bool
+        Whether the mean over the pixels decides, rather than the largest difference.
+    """
+    difference = np.abs(shown - wanted).max(axis=2)
+    counts = np.ones(difference.shape, bool) if where is None else where
+    counted = difference[counts]
+    if not counted.size:
         reason = "No pixel is drawn both by the method and in the reference."
-        return {MEAN_COLOR.name: reason, LARGEST_COLOR.name: reason}
-    return {
-        MEAN_COLOR.name: 255 * float(difference.mean()),
-        LARGEST_COLOR.name: 255 * float(difference.max()),
-    }
+        return judged({MEAN_COLOR.name: reason, LARGEST_COLOR.name: reason})
+    mean, largest = 255 * float(counted.mean()), 255 * float(counted.max())
+    errors = {MEAN_COLOR.name: mean, LARGEST_COLOR.name: largest}
+    if np.isnan(largest):
+        unknown = counts & np.isnan(difference)
+        remark = f"{int(unknown.sum())} pixels of {counted.size} are not a number"
+        return Judgement(Verdict(Outcome.NOT_A_NUMBER, np.nan, remark), unknown, errors)
+    severity = float((255 * counted).mean()) if of_mean else largest  # To the last bit as in saved maps.
+    remark = f"colours are off by {mean:.3g}/255 in the mean and {largest:.3g}/255 at most"
+    if severity <= tolerance:
+        verdict = Verdict(Outcome.RIGHT, severity, f"{remark}: within {tolerance:g}/255")
+        return Judgement(verdict, np.zeros(counts.shape, bool), errors)
+    verdict = Verdict(Outcome.WRONG_PICTURE, severity, remark)
+    return Judgement(verdict, counts & (255 * difference > tolerance), errors)
+
+
+def judge_order(wrong: Flags, what: str) -> Judgement:
+    """Say how many pixels are ``wrong``, (H, W) bool, and what they show."""
+    count = int(np.count_nonzero(wrong))
+    verdict = Verdict(Outcome.RIGHT, 0.0, f"all {wrong.size} pixels show what is nearest")
+    if count:
+        verdict = Verdict(Outcome.WRONG_ORDER, float(count), f"{count} pixels of {wrong.size} show {what}")
+    return Judgement(verdict, wrong, {WRONG_VISIBLE.name: per_million(count, wrong.size)})
 
 
 def per_million(wrong: int, count: int) -> float:

@@ -149,11 +149,6 @@ class Point:
         """Median of the seconds per unit."""
         return float(np.median(self.seconds_per_unit))
 
-    @property
-    def run_count(self) -> int:
-        """How many blocks were timed."""
-        return len(self.seconds)
-
     @cached_property
     def least(self) -> float:
         """Least of the seconds per unit: what a machine that does something else cannot lengthen."""

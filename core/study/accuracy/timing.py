@@ -16,11 +16,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from itertools import combinations
 from math import comb
-from typing import Protocol
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from core.records.arrays import Floats
+
+if TYPE_CHECKING:
+    from core.study.accuracy.record import Point
 
 CHANCE = 0.05
 """That the median lies outside its interval, at most, from six runs on."""
@@ -42,34 +45,6 @@ def collector_off() -> Iterator[None]:
             gc.enable()
 
 
-class Timed(Protocol):
-    """A method that was timed."""
-
-    @property
-    def method(self) -> str:
-        """Its name."""
-
-    @property
-    def is_measured(self) -> bool:
-        """Whether there are times."""
-
-    @property
-    def run_count(self) -> int:
-        """How many blocks were timed."""
-
-    @property
-    def least(self) -> float:
-        """Least time."""
-
-    @property
-    def median(self) -> float:
-        """Median of the times."""
-
-    @property
-    def interval(self) -> tuple[float, float]:
-        """As `median_interval`."""
-
-
 def median_interval(seconds: Floats) -> tuple[float, float]:
     """Return the narrowest pair of times (R,), equally far from both ends in order, that hold the true median.
 
@@ -85,9 +60,9 @@ def median_interval(seconds: Floats) -> tuple[float, float]:
     return float(ordered[index]), float(ordered[-1 - index])
 
 
-def is_faster(first: Timed, second: Timed) -> bool:
+def is_faster(first: "Point", second: "Point") -> bool:
     """Return whether the ``first`` method is faster for sure: least, median and the whole interval are below."""
-    needed = CLOSE if min(first.run_count, second.run_count) < SURE else 1.0
+    needed = CLOSE if min(len(first.seconds), len(second.seconds)) < SURE else 1.0
     return (
         first.interval[1] < second.interval[0]
         and first.least < second.least
@@ -95,7 +70,7 @@ def is_faster(first: Timed, second: Timed) -> bool:
     )
 
 
-def ranks(points: Sequence[Timed]) -> dict[str, tuple[int, int]]:
+def ranks(points: Sequence["Point"]) -> dict[str, tuple[int, int]]:
     """Return the first and the last place that each method may have by its time, the fastest first."""
     timed = [point for point in points if point.is_measured]
     found = {}
@@ -106,7 +81,7 @@ def ranks(points: Sequence[Timed]) -> dict[str, tuple[int, int]]:
     return found
 
 
-def is_settled(points: Sequence[Timed]) -> bool:
+def is_settled(points: Sequence["Point"]) -> bool:
     """Return whether all methods whose medians differ by more than `CLOSE` are told apart."""
     for first, second in combinations([point for point in points if point.is_measured], 2):
         low, high = sorted((first.median, second.median))

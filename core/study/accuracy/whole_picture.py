@@ -29,13 +29,13 @@ from core.study.accuracy.frame_task import (
     WRONG_VISIBLE,
     FrameTask,
     check_pixel_tests,
-    color_errors,
     color_pictures,
     frame_counts,
+    judge_colors,
     per_million,
     premultiplied,
 )
-from core.study.accuracy.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind, judged
+from core.study.accuracy.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind
 from core.study.accuracy.sampled import can_be_sampled, sampled_rows, spread_rows
 from core.study.accuracy.workloads import checkerboard, sphere_mesh, sphere_scene
 
@@ -95,12 +95,12 @@ class PictureTask(FrameTask):
     def judge(self, settings: Settings, made: Picture) -> Judgement:
         """Compare the bytes with the reference's, the triangles seen, and the colours with 256 samples."""
         wrong = int(np.count_nonzero(self._frame(settings).primitive != self.reference.primitive))
-        errors = {
-            **color_errors(_color(made), self._reference_color),
+        found = judge_colors(_color(made)[..., :3], self._reference_color[..., :3], ONE_BYTE, of_mean=True)
+        others = {
             WRONG_VISIBLE.name: per_million(wrong, self.reference.primitive.size),
             SAMPLED_COLOR.name: self._sampled_error(settings, made),
         }
-        return judged(errors, tolerance=ONE_BYTE)
+        return replace(found, errors={**found.errors, **others})
 
     def _sampled_error(self, settings: Settings, made: Picture) -> float | str:
         if table.get("polygon_mode", self.reference_settings.polygon_mode).function():

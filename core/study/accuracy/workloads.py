@@ -86,10 +86,14 @@ def window_mesh(size: tuple[int, int], cells: int, seed: int, steps: int = GRID_
     reach = max(0.24 - 0.5 / (steps * cell * min(size)), 0.0)
     jitter = source.uniform(-reach, reach, grid.shape) * cell
     points = on_grid((grid + jitter) * np.array(size), steps)
-    first, second = points[:-1, :-1].reshape(-1, 2), points[:-1, 1:].reshape(-1, 2)
-    fourth, third = points[1:, :-1].reshape(-1, 2), points[1:, 1:].reshape(-1, 2)
-    pairs = np.stack([first, second, third, first, third, fourth], axis=1)
-    return pairs.reshape(-1, 3, 2)
+    return grid_triangles(points)
+
+
+def grid_triangles(points: Floats) -> Floats:
+    """Return the corners (T, 3, C) of two triangles for each cell between rows of points (R, Q, C)."""
+    first, second, third, fourth = points[:-1, :-1], points[:-1, 1:], points[1:, 1:], points[1:, :-1]
+    pairs = np.stack([first, second, third, first, third, fourth], axis=2)
+    return pairs.reshape(-1, 3, points.shape[2])
 
 
 def random_lines(size: tuple[int, int], count: int, length: float, seed: int, is_on_centers: bool) -> Floats:
@@ -135,17 +139,29 @@ def overlapping_triangles(size: tuple[int, int], count: int, seed: int) -> Float
     )
 
 
-def cyclic_triangles(size: tuple[int, int]) -> Floats:
-    """Return clip corners (3, 3, 4) of three bars that overlap in a circle: no order of drawing is right."""
+def bars_in_a_circle(size: tuple[int, int], length: float, half: float, depth: Floats) -> Floats:
+    """Return clip corners (3, 3, 4) of three bars, each from its foot to a tip of two corners, turned by 120 degrees.
+
+    Parameters
+    ----------
+    length, half : float
+        From the middle of a bar to its ends, and half its width at the tip, in 0.45 of the shorter side of the picture.
+    depth : (3, 3) float64
+        Window depth of every corner.
+    """
     turn = 2 * np.pi / 3 * np.arange(3)
     middle, reach = np.array(size) / 2, 0.45 * min(size)
     along = np.stack([np.cos(turn), np.sin(turn)], axis=1)
     across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-    start = middle - reach * along - 0.35 * reach * across
-    tip = middle + reach * along - 0.35 * reach * across
-    window = on_grid(np.stack([start, tip - 0.12 * reach * across, tip + 0.12 * reach * across], axis=1))
-    depth = np.tile([0.2, 0.8, 0.8], (3, 1))
+    start, tip = (middle + way * length * reach * along - 0.35 * reach * across for way in (-1, 1))
+    side = half * reach * across
+    window = on_grid(np.stack([start, tip - side, tip + side], axis=1))
     return clip_of_window(window, size, depth, np.ones((3, 3)))
+
+
+def cyclic_triangles(size: tuple[int, int]) -> Floats:
+    """Return clip corners (3, 3, 4) of three bars that overlap in a circle: no order of drawing is right."""
+    return bars_in_a_circle(size, 1.0, 0.12, np.tile([0.2, 0.8, 0.8], (3, 1)))
 
 
 def sphere_mesh(rows: int, radius: float = 1.0) -> Mesh:
@@ -190,6 +206,12 @@ def layered_walls(farther: Floats, nearer: Floats, triangles: Integers, is_early
     )
 
 
+def strip_triangles(count: int) -> Integers:
+    """Return the triangles (2 count, 3) of a strip of ``count`` parts, whose vertices are pairs: lower, upper."""
+    first = 2 * np.arange(count)
+    return np.stack([first, first + 2, first + 3, first, first + 3, first + 1], axis=1).reshape(-1, 3)
+
+
 def wall_scene(far_ratio: float, gap: float, size: int) -> Scene:
     """Return two slanted walls that fill the picture, the first mesh a part ``gap`` of the distance before the others.
 
@@ -204,8 +226,7 @@ def wall_scene(far_ratio: float, gap: float, size: int) -> Scene:
     # A wall along the line of sight: at distance d it stands d/3 to the side, so it narrows from left to right.
     side = np.linspace(-0.6, 0.6, len(steps)) * steps
     positions = np.array([[x, y * d, -d] for x, d in zip(side, steps, strict=True) for y in (-0.6, 0.6)])
-    first = 2 * np.arange(len(steps) - 1)
-    triangles = np.stack([first, first + 2, first + 3, first, first + 3, first + 1], axis=1).reshape(-1, 3)
+    triangles = strip_triangles(len(steps) - 1)
     # Every second part of the farther wall, of two triangles each, is drawn before the nearer wall.
     is_early = np.arange(len(triangles)) // 2 % 2 == 0
     meshes = layered_walls(positions, (1.0 - gap) * positions, triangles, is_early)

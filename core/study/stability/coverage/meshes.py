@@ -4,7 +4,7 @@ import numpy as np
 
 from core.scene import ClipScene
 from core.study.accuracy.record import Axis
-from core.study.accuracy.workloads import flat_scene, on_grid, random_source, window_mesh
+from core.study.accuracy.workloads import flat_scene, grid_triangles, on_grid, random_source, window_mesh
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, once_everywhere
 from core.study.stability.coverage.number_formats import powers, scene_of_window
 
@@ -33,10 +33,7 @@ def through_the_eye(tilt: float, cells: int, seed: int) -> ClipScene:
     points[1:-1, 1:-1] += source.uniform(-0.24, 0.24, (cells - 1, cells - 1, 2)) * step
     x, y = on_grid(points).transpose(2, 0, 1)
     clip = np.stack([x, y, np.zeros_like(x), 1.0 - tilt * y], axis=-1)
-    first, second = clip[:-1, :-1].reshape(-1, 4), clip[:-1, 1:].reshape(-1, 4)
-    fourth, third = clip[1:, :-1].reshape(-1, 4), clip[1:, 1:].reshape(-1, 4)
-    pairs = np.stack([first, second, third, first, third, fourth], axis=1).reshape(-1, 3, 4)
-    return flat_scene(pairs, (SIDE, SIDE))
+    return flat_scene(grid_triangles(clip), (SIDE, SIDE))
 
 
 SHARED_EDGES = CoverageExperiment(

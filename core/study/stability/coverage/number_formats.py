@@ -5,7 +5,7 @@ import numpy as np
 from core.records.arrays import Floats
 from core.scene import ClipScene
 from core.study.accuracy.record import Axis
-from core.study.accuracy.workloads import clip_of_window, flat_scene, on_grid, random_source
+from core.study.accuracy.workloads import clip_of_window, flat_scene, grid_triangles, on_grid, random_source
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, once_everywhere
 
 SIZE = (64, 64)
@@ -96,10 +96,7 @@ def crowded_mesh(place: tuple[float, ...], seed: int) -> ClipScene:
     lines = np.concatenate([[-1.0], (0.5 + np.arange(side)[:, None] + around).ravel(), [side + 1.0]])
     points = np.stack(np.meshgrid(lines, lines), axis=-1)
     points[1:-1, 1:-1] += cell * on_grid(source.uniform(-0.24, 0.24, (len(lines) - 2, len(lines) - 2, 2)))
-    first, second = points[:-1, :-1].reshape(-1, 2), points[:-1, 1:].reshape(-1, 2)
-    fourth, third = points[1:, :-1].reshape(-1, 2), points[1:, 1:].reshape(-1, 2)
-    pairs = np.stack([first, second, third, first, third, fourth], axis=1)
-    return scene_of_window(pairs.reshape(-1, 3, 2), (side, side))
+    return scene_of_window(grid_triangles(points), (side, side))
 
 
 SLIVERS = CoverageExperiment(

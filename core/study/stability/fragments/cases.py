@@ -9,51 +9,11 @@ from core.records.frame import Frame
 from core.scene import ClipScene, Mesh, Scene
 from core.settings import Settings
 from core.stages.vertex_program import vertex_stage
-from core.study.accuracy.record import Judgement, Outcome, Verdict
+from core.study.accuracy.frame_task import judge_order
+from core.study.accuracy.record import Judgement
 from core.study.exact.values import exact_fragments, exact_visible
 from core.study.stability.case_text import pixels_text
 from core.study.stability.experiment import Case
-
-
-def judge_colors(
-    shown: Floats, wanted: Floats, tolerance: float, where: Flags | None = None, of_mean: bool = False
-) -> Judgement:
-    """Compare colours, and say how far they are off, in 1/255 of linear light.
-
-    Parameters
-    ----------
-    shown, wanted : (H, W, C) float64
-        Linear colours.
-    tolerance : float
-        In 1/255: so much is taken as right.
-    where : (H, W) bool, optional
-        The pixels that count; all by default.
-    of_mean : bool
-        Whether the mean over the pixels decides, rather than the largest difference.
-    """
-    difference = 255 * np.abs(shown - wanted).max(axis=2)
-    counts = np.ones(difference.shape, bool) if where is None else where
-    if np.isnan(difference[counts]).any():
-        unknown = counts & np.isnan(difference)
-        remark = f"{int(unknown.sum())} pixels of {int(counts.sum())} are not a number"
-        return Judgement(Verdict(Outcome.NOT_A_NUMBER, np.nan, remark), unknown)
-    largest, mean = float(difference[counts].max()), float(difference[counts].mean())
-    severity = mean if of_mean else largest
-    remark = f"colours are off by {mean:.3g}/255 in the mean and {largest:.3g}/255 at most"
-    if severity <= tolerance:
-        verdict = Verdict(Outcome.RIGHT, severity, f"{remark}: within {tolerance:g}/255")
-        return Judgement(verdict, np.zeros(counts.shape, bool))
-    return Judgement(Verdict(Outcome.WRONG_PICTURE, severity, remark), counts & (difference > tolerance))
-
-
-def judge_order(wrong: Flags, what: str) -> Judgement:
-    """Say how many pixels, (H, W) bool, show ``what`` should be hidden."""
-    count = int(np.count_nonzero(wrong))
-    if not count:
-        return Judgement(Verdict(Outcome.RIGHT, 0.0, f"all {wrong.size} pixels show what is nearest"), wrong)
-    return Judgement(
-        Verdict(Outcome.WRONG_ORDER, float(count), f"{count} pixels of {wrong.size} show {what}"), wrong
-    )
 
 
 class NearestCase(Case):

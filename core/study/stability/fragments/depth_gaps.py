@@ -19,10 +19,11 @@ from core.records.cached import cached_property
 from core.records.frame import Frame
 from core.scene import AnyScene, Camera, Scene
 from core.settings import Settings
+from core.study.accuracy.frame_task import judge_order
 from core.study.accuracy.record import Axis, Judgement
 from core.study.accuracy.workloads import layered_walls, random_source, wall_scene
 from core.study.stability.experiment import Case, Experiment
-from core.study.stability.fragments.cases import NearestCase, judge_order
+from core.study.stability.fragments.cases import NearestCase
 
 SIDE = 32
 """Pixels on a side of the picture."""

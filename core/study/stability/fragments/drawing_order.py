@@ -10,7 +10,7 @@ import numpy as np
 from core.records.arrays import Floats
 from core.scene import ClipScene
 from core.study.accuracy.record import Axis
-from core.study.accuracy.workloads import clip_of_window, flat_scene, on_grid, random_source
+from core.study.accuracy.workloads import bars_in_a_circle, clip_of_window, flat_scene, on_grid, random_source
 from core.study.stability.experiment import Experiment
 from core.study.stability.fragments.cases import NearestCase
 
@@ -31,18 +31,9 @@ def circle_of_bars(overlap: float, lift: float) -> Floats:
         Each bar is farther by this part of a bar's own depth than the one before: lifted enough, one lies wholly
         before the next, and there is no circle.
     """
-    turn = 2 * np.pi / 3 * np.arange(3)
-    middle, reach = np.full(2, SIDE / 2), 0.45 * SIDE
-    along = np.stack([np.cos(turn), np.sin(turn)], axis=1)
-    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
-    length = (CROSSING + overlap) * reach
-    start = middle - length * along - 0.35 * reach * across
-    tip = middle + length * along - 0.35 * reach * across
-    half = 0.2 * reach * across
-    window = on_grid(np.stack([start, tip - half, tip + half], axis=1))
     slant = 0.12
     depth = 0.3 + slant * (np.array([0.0, 1.0, 1.0]) + lift * np.arange(3)[:, None])
-    return clip_of_window(window, (SIDE, SIDE), depth, np.ones((3, 3)))
+    return bars_in_a_circle((SIDE, SIDE), CROSSING + overlap, 0.2, depth)
 
 
 def shuffled_layers(count: int, swaps: int, seed: int) -> Floats:

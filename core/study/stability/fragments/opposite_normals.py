@@ -14,11 +14,13 @@ from core.records.frame import Frame
 from core.scene import Camera, DirectionalLight, Material, Mesh, Scene
 from core.settings import Settings
 from core.stages.vertex_light import viewpoint
+from core.study.accuracy.frame_task import judge_colors
 from core.study.accuracy.record import Axis, Judgement
+from core.study.accuracy.workloads import strip_triangles
 from core.study.exact.values import exact_values
 from core.study.stability.case_text import pixels_text
 from core.study.stability.experiment import Case, Experiment
-from core.study.stability.fragments.cases import clip_corners, faces_the_eye, judge_colors, mesh_and_normals
+from core.study.stability.fragments.cases import clip_corners, faces_the_eye, mesh_and_normals
 from core.study.stability.kinds import LIT_MESHES
 
 SIZE = (65, 3)
@@ -88,9 +90,7 @@ def flattened_tube(angle: float, parts: int) -> Scene:
     x = np.linspace(-aspect, aspect, parts + 1)
     positions = np.array([[at, y, 0.0] for at in x for y in (-1.0, 1.0)])
     normals = np.repeat(turned_normals(np.linspace(0, 1, parts + 1), angle), 2, axis=0)
-    first = 2 * np.arange(parts)
-    triangles = np.stack([first, first + 2, first + 3, first, first + 3, first + 1], axis=1).reshape(-1, 3)
-    mesh = Mesh(positions, triangles, normals, material=MATERIAL, name="half a tube, flattened")
+    mesh = Mesh(positions, strip_triangles(parts), normals, material=MATERIAL, name="half a tube, flattened")
     camera = Camera(
         np.array([0.0, 0.0, 1.0]), np.zeros(3), projection="orthographic", view_height=2.0, near=0.5, far=2.0
     )

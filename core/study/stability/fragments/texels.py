@@ -12,12 +12,12 @@ from core.records.arrays import Flags, Floats
 from core.records.frame import Frame
 from core.scene import ClipScene
 from core.settings import Settings
+from core.study.accuracy.frame_task import judge_colors
 from core.study.accuracy.record import Axis, Judgement
 from core.study.accuracy.workloads import checkerboard, random_source
 from core.study.exact.values import exact_values
 from core.study.stability.case_text import listed_pixels
 from core.study.stability.experiment import Case, Experiment
-from core.study.stability.fragments.cases import judge_colors
 from core.study.stability.kinds import TEXTURED_TRIANGLES
 
 SIDE = 24
