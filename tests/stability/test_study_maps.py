@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core.study import study_family
-from core.study.accuracy.record import Opening
+from core.study.accuracy.record import Opening, Verdict, judged
 from core.study.stability import Outcome, stress, study_experiment
 from core.study.stability.shrink import shrink_cell
 
@@ -21,6 +21,13 @@ def test_speed_and_accuracy_of_number_formats_over_the_angle_of_slivers() -> Non
     assert snapped.count(Outcome.WRONG_PICTURE) > 0
     assert (snapped.severity[0, :3] > 0).all()
     assert snapped.remark(0, 0) == f"misclassified {snapped.severity[0, 0]:.4g}"
+
+
+def test_every_error_with_a_number_decides_or_the_one_that_is_named() -> None:
+    found = judged({"ulp": 0.0, "decisions": 333.0, "cracks": "No mesh."}, tolerance=4.0)
+    assert found.verdict == Verdict(Outcome.WRONG_PICTURE, 333.0, "ulp 0, decisions 333")
+    assert judged({"ulp": 3.0, "far": 9.0}, "ulp", 4.0).verdict.outcome == Outcome.RIGHT
+    assert judged({"cracks": "No mesh."}).verdict.remark == "No mesh."
 
 
 def test_a_cell_of_a_study_opens_and_is_not_made_smaller() -> None:

@@ -51,8 +51,7 @@ def study_families() -> tuple[StudyFamily, ...]:
 
 def study_family(name: str) -> StudyFamily:
     """Return one study, or raise ValueError with the names that there are."""
-    for family in study_families():
-        if family.name == name:
-            return family
-    known = ", ".join(family.name for family in study_families())
-    raise ValueError(f"family must be one of {known}, got {name}")
+    studies = {family.name: family for family in study_families()}
+    if name not in studies:
+        raise ValueError(f"family must be one of {', '.join(studies)}, got {name}")
+    return studies[name]

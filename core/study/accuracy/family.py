@@ -105,13 +105,11 @@ class StudyFamily:
 
     def work(self, name: str | None = None) -> WorkKind:
         """Return the work of a name, or the first; ValueError lists those that there are."""
-        if name is None:
-            return self.works[0]
-        for kind in self.works:
-            if kind.name == name:
-                return kind
-        known = ", ".join(kind.name for kind in self.works)
-        raise ValueError(f"work of {self.name} must be one of {known}, got {name}")
+        kinds = {kind.name: kind for kind in self.works}
+        name = self.works[0].name if name is None else name
+        if name not in kinds:
+            raise ValueError(f"work of {self.name} must be one of {', '.join(kinds)}, got {name}")
+        return kinds[name]
 
 
 def settings_of(base: Settings, method: str) -> Settings:

@@ -75,13 +75,18 @@ class Judgement:
 
 
 def judged(errors: Errors, by: str = "", tolerance: float = 0.0) -> Judgement:
-    """Return what errors come to: right if the one called ``by``, or the first, is within a tolerance."""
-    severity = errors[by or next(iter(errors))]
-    if isinstance(severity, str):
-        return Judgement(Verdict(Outcome.REFUSED, np.nan, severity), errors=errors)
-    outcome = Outcome.RIGHT if severity <= tolerance else Outcome.WRONG_PICTURE
-    remark = ", ".join(f"{name} {value:.4g}" for name, value in errors.items() if not isinstance(value, str))
-    return Judgement(Verdict(outcome, severity, remark), errors=errors)
+    """Return what errors come to: right if all that have a number, or the one called ``by``, are within a tolerance.
+
+    The severity is the first that is not.
+    """
+    numbers = {name: value for name, value in errors.items() if not isinstance(value, str)}
+    decisive = [value for name, value in numbers.items() if by in ("", name)]
+    if not decisive:
+        return Judgement(Verdict(Outcome.REFUSED, np.nan, str(next(iter(errors.values())))), errors=errors)
+    wrong = [value for value in decisive if value > tolerance]
+    outcome = Outcome.WRONG_PICTURE if wrong else Outcome.RIGHT
+    remark = ", ".join(f"{name} {value:.4g}" for name, value in numbers.items())
+    return Judgement(Verdict(outcome, (wrong or decisive)[0], remark), errors=errors)
 
 
 @dataclass(frozen=True)

@@ -24,7 +24,7 @@ from core.study.accuracy.workloads import (
     wall_scene,
 )
 from core.study.exact.coverage import count_pixels, facing, whole_corner
-from core.study.exact.values import exact_fragments, exact_visible
+from core.study.exact.values import exact_fragments, exact_nearest
 
 SIZE = (128, 128)
 COUNTS = Axis("count", "Triangles", "", (2, 4, 8, 16, 32, 64, 128), default=16, is_cost=True)
@@ -34,16 +34,11 @@ RINGS = Axis("rings", "Rings of the sphere", "", (4, 6, 8, 12, 16, 24, 32), defa
 SIDES = Axis("side", "Side of the picture", "pixels", (32, 64, 128, 256, 512), default=128, is_cost=True)
 
 
-def nearest(clip: Floats, size: tuple[int, int]) -> Integers:
-    """Return (H, W) int64, the nearest of triangles (T, 3, 4) in clip space, whichever way it faces; -1: none."""
-    return exact_visible(exact_fragments(clip, size), size)
-
-
 class VisibilityTask(SeenTask):
     """Triangles (T, 3, 4) in clip space, of which the nearest is to be seen."""
 
     def __init__(self, clip: Floats) -> None:
-        super().__init__(flat_scene(clip, SIZE), 1, "depth", lambda: nearest(clip, SIZE))
+        super().__init__(flat_scene(clip, SIZE), 1, "depth", lambda: exact_nearest(clip, SIZE))
         self._clip = clip
 
     def counts(self, settings: Settings, made: Frame) -> dict[str, int]:
@@ -111,7 +106,7 @@ def make_culling(assignment: Assignment) -> SeenTask:
         if assignment.work == "closed":
             turns = [facing([whole_corner(corner, scene.size, True) for corner in each]) for each in clip]
             seen = np.flatnonzero(np.array(turns) > 0)
-        return np.append(seen, -1)[nearest(clip[seen], scene.size)]
+        return np.append(seen, -1)[exact_nearest(clip[seen], scene.size)]
 
     return SeenTask(scene, len(mesh.triangles), "cull", reference)
 
@@ -184,7 +179,7 @@ class ClippingTask(SeenTask):
     """Triangles that cross planes of the view volume; the reference keeps what is covered and in depth range."""
 
     def __init__(self, clip: Floats) -> None:
-        super().__init__(flat_scene(clip, SIZE), len(clip), "clip", lambda: nearest(clip, SIZE))
+        super().__init__(flat_scene(clip, SIZE), len(clip), "clip", lambda: exact_nearest(clip, SIZE))
         self._clip = clip
 
     @cached_property

@@ -169,6 +169,11 @@ def exact_visible(fragments: ExactFragments, size: tuple[int, int]) -> Integers:
     return seen.reshape(height, width)
 
 
+def exact_nearest(clip: Floats, size: tuple[int, int]) -> Integers:
+    """Return (H, W) int64, the nearest of triangles (T, 3, 4) in clip space, whichever way it faces; -1: none."""
+    return exact_visible(exact_fragments(clip, size), size)
+
+
 def _exact_depth(fragments: ExactFragments, index: int) -> Fraction:
     a, b, c, below = fragments.planes[int(fragments.triangle[index])].depth
     center = doubled_center("half")

@@ -11,7 +11,7 @@ from core.settings import Settings
 from core.stages.vertex_program import vertex_stage
 from core.study.accuracy.frame_task import judge_order
 from core.study.accuracy.record import Judgement
-from core.study.exact.values import exact_fragments, exact_visible
+from core.study.exact.values import exact_nearest
 from core.study.stability.case_text import pixels_text
 from core.study.stability.experiment import Case
 
@@ -25,7 +25,7 @@ class NearestCase(Case):
     @cached_property
     def nearest(self) -> Integers:
         """(H, W) int64, the triangle that is seen; of those as near, the first."""
-        return exact_visible(exact_fragments(self.scene.clip, self.scene.size), self.scene.size)
+        return exact_nearest(self.scene.clip, self.scene.size)
 
     @cached_property
     def is_decided(self) -> Flags:
@@ -43,12 +43,12 @@ class NearestCase(Case):
         clip = self.scene.clip.copy()
         # The depth -c/w grows with w, and with c so small it is between the planes.
         clip[..., 2] = -np.abs(clip[..., 3]).min() / 2
-        first = exact_visible(exact_fragments(clip, self.scene.size), self.scene.size)
+        first = exact_nearest(clip, self.scene.size)
         return np.asarray((first == self.nearest) & (self._last(clip) == self.nearest))
 
     def _last(self, clip: Floats) -> Integers:
         """Return the nearest triangle, (H, W) int64; of those as near, the last."""
-        backwards = exact_visible(exact_fragments(clip[::-1], self.scene.size), self.scene.size)
+        backwards = exact_nearest(clip[::-1], self.scene.size)
         return np.where(backwards < 0, -1, len(clip) - 1 - backwards)
 
     def judge(self, settings: Settings, made: Frame) -> Judgement:
