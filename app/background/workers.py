@@ -182,6 +182,11 @@ class JobGroup(QObject):
         self._jobs.append(Job(self, expected))
         return self._jobs[-1]
 
+    @property
+    def is_running(self) -> bool:
+        """Whether any result is being waited for."""
+        return any(job.is_running for job in self._jobs)
+
     def shut_down(self) -> None:
         """Cancel everything and wait for the threads."""
         for job in self._jobs:

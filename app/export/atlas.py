@@ -10,7 +10,7 @@ from app.export.sheet import MARGIN, WIDTH, Sheet, sheet_bytes
 from app.files.atlas_files import AxisRecord
 from app.files.file_writing import write_files
 from app.files.state_files import readable_json
-from app.pages.stability.records import atlas_record, cells_of, has_curves, method_titles, severity_chart
+from app.pages.stability.records import atlas_record, has_curves, severity_chart
 from app.pages.words import machine_words
 from core.records.arrays import Floats
 from core.study.stability import Atlas, Outcome
@@ -19,6 +19,11 @@ from widgets.atlas.view import AtlasView
 ENDINGS = (".csv", ".json", ".svg", ".png")
 """Of the files that an atlas is written to."""
 CURVES_HEIGHT = 300
+
+
+def atlas_stem(atlas: Atlas) -> str:
+    """Return what the files of an atlas are called, without their endings."""
+    return f"stress-{atlas.experiment.name}"
 
 
 def atlas_csv(atlas: Atlas) -> str:
@@ -100,13 +105,11 @@ def atlas_sheet(atlas: Atlas) -> Sheet:
     info = atlas.experiment
     sheet = Sheet(info.title, info.question)
     maps = AtlasView(sheet)
-    maps.show_atlas(atlas_record(info, cells_of(atlas.maps)))
+    maps.show_atlas(atlas_record(atlas))
     maps.show_whole(WIDTH - 2 * MARGIN)
     sheet.add(maps)
     if has_curves(info):
-        titles = method_titles(info.methods)
-        lines = {each.method: each.severity[0] for each in atlas.maps}
-        sheet.draw(severity_chart(info.axes[0], lines, titles), CURVES_HEIGHT)
+        sheet.draw(severity_chart(info.axes[0], atlas.maps), CURVES_HEIGHT)
     sheet.write([info.claim, f"Seed {atlas.seed}. {machine_words(atlas.machine)}"])
     return sheet
 
@@ -116,5 +119,4 @@ def export_atlas(atlas: Atlas, folder: Path) -> list[Path]:
 
     Raises OSError if a file cannot be written; the message is one sentence.
     """
-    stem = f"stress-{atlas.experiment.name}"
-    return write_files(folder, stem, ENDINGS, partial(atlas_content, atlas))
+    return write_files(folder, atlas_stem(atlas), ENDINGS, partial(atlas_content, atlas))

@@ -25,6 +25,11 @@ FIXED = ("method", "title", "rounds", "unit", "units")
 TIMES = ("median_seconds_per_unit", "least", "interval_low", "interval_high")
 
 
+def study_stem(study: Study) -> str:
+    """Return what the files of a study are called, without their endings."""
+    return f"study-{study.family}-{study.work.name}"
+
+
 def study_csv(study: Study) -> str:
     """Return a table with a row for every method, in rows that stand alone.
 
@@ -124,5 +129,4 @@ def export_study(study: Study, folder: Path, measure: str | None = None) -> list
     OSError
         If a file cannot be written; the message is one sentence.
     """
-    stem = f"study-{study.family}-{study.work.name}"
-    return write_files(folder, stem, ENDINGS, partial(study_content, study, measure))
+    return write_files(folder, study_stem(study), ENDINGS, partial(study_content, study, measure))

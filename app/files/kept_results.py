@@ -34,10 +34,8 @@ def results_folder() -> Path:
 class KeptResults(JobGroup):
     """Writes results and reads them again, off the GUI thread; does nothing before it has begun."""
 
-    found = Signal(object)
-    """A result of an earlier start."""
-    example_found = Signal(object)
-    """The example, where nothing was kept."""
+    found = Signal(object, bool)
+    """A result of an earlier start, or where nothing was kept the example, and whether it is that."""
     failed = Signal(str)
     """Why something cannot be kept or read again, as a sentence."""
 
@@ -76,8 +74,7 @@ class KeptResults(JobGroup):
 
     @Slot(object)
     def _take(self, read: tuple[Any, bool]) -> None:
-        content, is_example = read
-        (self.example_found if is_example else self.found).emit(content)
+        self.found.emit(*read)
 
     def keep(self, name: str, content: Callable[[], bytes | None]) -> None:
         """Replace the last result of this ``name``."""

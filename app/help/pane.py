@@ -196,7 +196,7 @@ class HelpPane(QObject):
 
     def _show_result(self, page: str, name: str) -> None:
         self.window.pages.show_page(page)
-        self.window.pages.current.results.show_named(name)  # type: ignore[attr-defined]
+        self.window.pages.current.show_named(name)  # type: ignore[attr-defined]
 
 
 def address_of(window: QWidget) -> str:

@@ -1,149 +1,86 @@
-"""Pages that do long work: its results above what a choice in them opens; kept, exported and opened again."""
+"""Pages with a list of experiments: the choices and results of all are kept, those of one are shown; and its files."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any, Generic, TypeVar
 
-from PySide6.QtCore import QEvent, Qt, Slot
-from PySide6.QtWidgets import QPushButton, QScrollArea, QSplitter, QWidget
+from PySide6.QtCore import Qt, Slot
+from PySide6.QtWidgets import QPushButton, QSplitter, QWidget
 
-from app.background.workers import JobGroup
+from app.background.workers import PartWork
 from app.export.views import copy_widget, export_widget
 from app.files.file_dialogs import SaveDialog
 from app.files.file_writing import write_file
 from app.files.kept_results import ENDING, KeptResults
-from app.pages.background_task import BackgroundTask
-from app.pages.page_bar import Page
-from app.pages.result_presenter import Result, ResultPresenter
-from app.pages.side_columns import SideColumns
+from app.pages.experiment_page import ExperimentPage, PacedDrawing, WorkWords, splitter
+from app.pages.words import machine_words
+from core.scene import AnyScene
 from lessons.os_errors import problem_text
-from widgets.basics.controls import button_with_tip, column_layout, flat_button
+from widgets.basics.controls import button_with_tip, flat_button
 from widgets.basics.labels import ElidedLabel, Readout
-from widgets.basics.pane_splitter import PaneSplitter
-from widgets.basics.run_panel import RunPanel
-from widgets.charts.family_list import FamilyList
+from widgets.charts.family_list import FamilyEntry, FamilyList
+
+Content = TypeVar("Content")
 
 
-class Opened(Protocol):
-    """Shows what a choice in a result opens."""
+@dataclass(frozen=True, eq=False)
+class Result(Generic[Content]):
+    """What came of an experiment, a study or an atlas, and where it is from."""
 
-    def dismiss(self) -> bool:
-        """Close it; return whether there was anything."""
-
-
-class WorkPage(Page):
-    """A page around one job and what its result opens."""
-
-    def join(self, jobs: JobGroup, work: BackgroundTask, opened: Opened) -> None:
-        """Let Escape and the end of the window reach what the page does."""
-        self._jobs, self._work, self._opened = jobs, work, opened
-
-    def lay_out(
-        self,
-        left: QWidget,
-        controls: RunPanel,
-        above: Sequence[tuple[QWidget, int]],
-        below: QWidget,
-        spacing: int = 4,
-    ) -> None:
-        """Put ``left`` beside the controls, the widgets ``above``, each with its stretch, and ``below``."""
-        top = _WrappingPane(self)
-        layout = column_layout(top, spacing)
-        self.place = ElidedLabel(self)
-        self.place.hide()
-        layout.addWidget(self.place)
-        layout.addWidget(controls)
-        for widget, stretch in above:
-            layout.addWidget(widget, stretch)
-        self._controls, self._below = controls, below
-        self.panes = splitter(Qt.Orientation.Vertical, ((top, 3, 440), (below, 2, 280)), self)
-        # Where all of it has no room, as in large type on a low screen, it scrolls: nothing lies over something else.
-        scroll = QScrollArea(self)
-        scroll.setWidget(self.panes)
-        scroll.setWidgetResizable(True)
-        scroll.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.columns = SideColumns(left, scroll, self)
-        self._desk: tuple[dict[str, str], bool] | None = None
-        """While presenting, the sizes of the panes at the desk, and whether nothing was opened."""
-        page = column_layout(self, margins=(8, 4, 8, 8))
-        page.addWidget(self.columns)
-
-    def set_presenting(self, is_presenting: bool) -> None:
-        """Leave the room to the result: only what is opened of it shares the room."""
-        if is_presenting == (self._desk is not None):
-            return
-        if is_presenting:
-            self._desk = self.layout_state(), self._below.isHidden()
-        self.place.setVisible(is_presenting and bool(self.place.text()))
-        for widget in self.for_the_desk():
-            widget.setVisible(not is_presenting)
-        self._controls.set_brief(is_presenting)
-        if is_presenting:
-            self._below.hide()
-        elif self._desk is not None:
-            layout, is_hidden = self._desk
-            self._below.setHidden(is_hidden)
-            self.restore_layout(layout)
-            self._desk = None
-
-    def for_the_desk(self) -> list[QWidget]:
-        """Return what is left out while presenting, beside most of the controls."""
-        return []
-
-    def dismiss(self) -> bool:
-        """Cancel the work, or else close what is opened."""
-        if self._work.is_running:
-            self._work.cancel()
-            return True
-        was_open = self._opened.dismiss()
-        if self._desk is not None:
-            self._below.hide()
-        return was_open
-
-    def is_busy(self) -> bool:
-        """Return whether the work runs."""
-        return bool(self._work.is_running)
-
-    def focus_panes(self) -> list[QWidget]:
-        """Return the controls with the result, what is opened of it, and the column at the left."""
-        return [*self.panes.findChildren(QWidget, options=Qt.FindChildOption.FindDirectChildrenOnly), self]
-
-    def stop(self) -> None:
-        """End all work."""
-        self._jobs.shut_down()
+    content: Content
+    scene: AnyScene | None = None
+    """What was measured on, where that is the open scene; a file does not hold it."""
+    path: str = ""
+    """The file it was opened from; empty: it was made here."""
+    is_kept: bool = False
+    """Whether it is of an earlier start of the window."""
+    is_example: bool = False
+    """Whether it came with the program."""
 
 
-class _WrappingPane(QWidget):
-    """A pane of a splitter, never lower than its wrapped rows: a splitter does not ask for a height by the width."""
+@dataclass(eq=False, kw_only=True)
+class Choice(Generic[Content]):
+    """One experiment: what is chosen for it, and its last result."""
 
-    def event(self, event: QEvent) -> bool:
-        """Ask for the height that the rows have at this width, whenever they are laid out."""
-        layout = self.layout()
-        if layout is not None and event.type() in (QEvent.Type.Resize, QEvent.Type.LayoutRequest):
-            self.setMinimumHeight(layout.minimumHeightForWidth(self.width()))
-        return super().event(event)
+    name: str
+    title: str
+    """What it is called in the list."""
+    families: tuple[str, ...] = ()
+    """The families of methods that differ in it; empty: all may."""
+    can_run: bool = True
+    """Whether this version can do it again: a saved result may be of another version."""
+    seed: int = 0
+    result: Result[Content] | None = None
 
+    @property
+    def entry(self) -> FamilyEntry:
+        """The row of the list."""
+        return FamilyEntry(self.name, self.title, is_measured=self.result is not None)
 
-def splitter(
-    direction: Qt.Orientation, panes: Sequence[tuple[QWidget, int, int]], parent: QWidget
-) -> QSplitter:
-    """Return a splitter of panes, each with its stretch and the pixels that it begins with."""
-    made = PaneSplitter(direction, parent)
-    for number, (pane, stretch, _) in enumerate(panes):
-        made.addWidget(pane)
-        made.setStretchFactor(number, stretch)
-    made.setSizes([size for _, _, size in panes])
-    return made
+    @property
+    def is_changed(self) -> bool:
+        """Whether something else is chosen now than what the result is of."""
+        return False
+
+    def take(self, result: Result[Content]) -> None:
+        """Keep a result; one that was opened from a file, or is of an earlier start, sets the choices too."""
+        self.result = result
 
 
 @dataclass(frozen=True)
-class FileWords:
-    """What is said of the files of a page."""
+class ResultWords(WorkWords):
+    """What is said of results, and of their files."""
 
+    running: str
+    """After the title of what runs: ``is still being measured``."""
+    unknown: str
+    """Why a kind of work of another version cannot be done again."""
+    again: str
+    """What to do once the settings have changed: ``measure again (F5)``."""
     noun: str
-    """What is written: ``study``."""
+    """What is written: ``study``, the first word of its files."""
     view: str
     """What is copied as a picture: ``charts``."""
     nothing: str
@@ -154,18 +91,37 @@ class FileWords:
     copy_tip: str
 
 
-class ResultPage(WorkPage):
-    """A page with a list of what can be done; a page says what a file of its results is, and opens one."""
+ChoiceType = TypeVar("ChoiceType", bound=Choice[Any])
 
-    results: ResultPresenter[Any]
 
-    def __init__(self, words: FileWords, load: Callable[[Path], Any], parent: QWidget | None = None) -> None:
+class ResultPage(ExperimentPage, Generic[ChoiceType]):
+    """Keeps the choices and results of all experiments and shows those of one."""
+
+    words: ResultWords
+
+    def __init__(
+        self,
+        words: ResultWords,
+        choices: dict[str, ChoiceType],
+        load: Callable[[Path], Any],
+        first: str = "",
+        parent: QWidget | None = None,
+    ) -> None:
         """Make the widgets that all such pages have; ``load`` opens a file and raises ValueError."""
-        super().__init__(parent)
-        self._words, self._load = words, load
+        super().__init__(words, parent)
+        self._choices, self._load = choices, load
+        self._current = first or next(iter(choices))
+        self._running = ""
+        """Name of what is being done; empty: nothing."""
+        self._pointed: Any = None
+        """The method or the cell that is pointed at; ``None``: none."""
+        self._pace = PacedDrawing(self)
+        self._pace.due.connect(self._show_parts)
         self.kept = KeptResults(words.noun, load, self)
         self.kept.failed.connect(self.edit_refused)
+        self.kept.found.connect(self.take_kept)
         self.entries, self.readout = FamilyList(self), Readout("Figures", self)
+        self.entries.family_chosen.connect(self.show_named)
         self.shown_text = ElidedLabel(self)
         self.shown_text.setProperty("role", "muted")
         self.shown_text.setAccessibleDescription(f"What the {words.view} show")
@@ -176,25 +132,16 @@ class ResultPage(WorkPage):
         self.reference_button.setMinimumSize(24, 24)
         self.reference_button.clicked.connect(self._show_reference)
 
-    @Slot()
-    def _show_reference(self) -> None:
-        """Show the reference of the family that is measured, or that of all families."""
-        families = self.results.choice.families
-        self.help_requested.emit(f"family/{families[0]}" if families else "methods")
-
     def _button(self, text: str, tip: str, action: Callable[[], None]) -> QPushButton:
         button = button_with_tip(text, tip, self)
         button.clicked.connect(action)
         return button
 
-    def join_results(self, jobs: JobGroup, results: ResultPresenter[Any], opened: Opened) -> None:
-        """Connect the presenters with the page and its files."""
-        self.join(jobs, results, opened)
-        self.kept.found.connect(results.take_kept)
-        self.kept.example_found.connect(results.take_example)
-        results.result_taken.connect(self._keep)
-        results.shown_text_changed.connect(self.shown_text.setText)
-        results.shown_text_changed.connect(self._show_place)
+    @Slot()
+    def _show_reference(self) -> None:
+        """Show the reference of the family that is measured, or that of all families."""
+        families = self.choice.families
+        self.help_requested.emit(f"family/{families[0]}" if families else "methods")
 
     def list_column(self, heights: tuple[int, int]) -> QSplitter:
         """Return the list over the figures, which begin with these ``heights`` in pixels."""
@@ -202,60 +149,168 @@ class ResultPage(WorkPage):
         self.left = splitter(Qt.Orientation.Vertical, panes, self)
         return self.left
 
-    def set_presenting(self, is_presenting: bool) -> None:
-        """Leave the room to the result, and name it."""
-        self._show_place()
-        super().set_presenting(is_presenting)
-
     def for_the_desk(self) -> list[QWidget]:
         """Return the list and the figures: keys go through the list."""
         return [self.columns.left]
 
+    # What is shown.
+
+    @property
+    def choice(self) -> ChoiceType:
+        """What is shown."""
+        return self._choices[self._current]
+
+    @property
+    def is_partial(self) -> bool:
+        """Whether what is shown is being done now."""
+        return self._running == self._current
+
+    @property
+    def names(self) -> list[str]:
+        """Names of all that can be shown, in their order."""
+        return list(self._choices)
+
+    @Slot(str)
+    def show_named(self, name: str) -> None:
+        """Show another one of the list."""
+        if name != self._current:
+            self._turn_to(name)
+
+    def show_neighbour(self, direction: int) -> None:
+        """Show the next of the list, or the one before."""
+        self.show_named(self.names[(self.names.index(self._current) + direction) % len(self.names)])
+
+    def _turn_to(self, name: str) -> None:
+        """Show one of the list, afresh."""
+        self._current, self._pointed = name, None
+        self.refresh()
+        self._show_opened()
+
     @Slot()
-    def _show_place(self) -> None:
-        """Name what is shown, as the list does."""
-        self.place.setText(self.results.choice.title)
+    def refresh(self) -> None:
+        """Show the list, the controls and the result."""
+        self.entries.show_families([choice.entry for choice in self._choices.values()], self._current)
+        self._show_controls()
+        self._show()
 
-    # What a page says.
+    def _show(self) -> None:
+        """Show the result, or as much of it as has come."""
+        self._pace.settle()
+        self._show_result()
+        self._show_text()
 
-    def stem_of(self, result: Any) -> str:
-        """Return what a file of a result is called, without its ending."""
-        raise NotImplementedError
+    @Slot()
+    def _show_parts(self) -> None:
+        """Show the parts that have come since."""
+        self._show()
 
-    def content_of(self, result: Any, ending: str) -> bytes | None:
-        """Return the content of a file of a result; ``None``: the file is a picture of the view."""
-        raise NotImplementedError
+    def _show_text(self) -> None:
+        """Say in words what is shown: the result or the choices have changed."""
+        self.shown_text.setText(self._text())
+        self.place.setText(self.choice.title)
 
-    # Results of other days.
+    def _text(self) -> str:
+        choice = self.choice
+        result = choice.result
+        if self.is_partial or result is None:
+            return self._partial_text() if self.is_partial else ""
+        parts = self._result_texts(result)
+        if result.is_example:
+            # First: the line is cut at its end where the page is narrow.
+            parts.insert(0, "An example from another computer: F5 makes your own.")
+        elif result.is_kept:
+            parts.append("Kept from an earlier start.")
+        if choice.can_run and choice.is_changed:
+            parts.append(f"The settings have changed since: {self.words.again}.")
+        if result.content.machine:
+            parts.append(f"{machine_words(result.content.machine)}.")
+        return " ".join(parts)
+
+    @Slot(str, object)
+    def _choose(self, name: str, value: Any) -> None:
+        setattr(self.choice, name, value)
+        self._show_text()
+
+    # Doing the work.
+
+    @Slot()
+    def start(self) -> None:
+        """Start the chosen work."""
+        if not self.choice.can_run:
+            self.refuse(self.words.unknown)
+        elif self._running:
+            title = self._choices[self._running].title
+            self.tell(f"{title} {self.words.running}. Wait until it is done, or cancel it first (Shift+F5).")
+        else:
+            self._running, self._pointed = self._current, None
+            run = self._prepare()
+            self._show()
+            self._show_opened()
+            self.begin(run, "Preparing")
+
+    def _doing(self, doing: str) -> str:
+        """Name what is being done while something else is shown."""
+        return (
+            doing
+            if not self._running or self.is_partial
+            else f"{self._choices[self._running].title}: {doing}"
+        )
+
+    @Slot(object)
+    def _take_part(self, part: Any) -> None:
+        self._keep_part(part)
+        if self.is_partial:
+            self._pace.ask()
+
+    @Slot(object)
+    def _take_result(self, result: Result[Any]) -> None:
+        name = self.name_of(result.content)
+        self._choices[name].take(result)
+        self.refresh()
+        self.tell(self._done_text(self._choices[name]))
+        self.kept.keep(name, partial(self.content_of, result, ENDING))
+
+    def _put_back(self) -> None:
+        """Show the result that there was before."""
+        self._running = ""
+        self.refresh()
+
+    # Results of earlier days, and of files.
 
     def keep_results(self) -> None:
         """Show the results of the last start, and keep those that come from now on."""
         self.kept.begin()
 
-    @Slot(object)
-    def _keep(self, result: Result) -> None:
-        self.kept.keep(result.name, partial(self.content_of, result, ENDING))
+    @Slot(object, bool)
+    def take_kept(self, content: Any, is_example: bool = False) -> None:
+        """Show what was kept from an earlier start, or the program's example, unless there is a newer result."""
+        name = self.name_of(content)
+        choice = self._choices.get(name)
+        if choice is not None and choice.result is None and self._running != name:
+            choice.take(Result(content, is_kept=True, is_example=is_example))
+            self.refresh()
 
-    def stop(self) -> None:
-        """End all work, and finish what is being written."""
-        super().stop()
-        self.kept.shut_down()
+    def take_saved(self, content: Any, path: str) -> None:
+        """Show what was opened from a file."""
+        name = self.name_of(content)
+        if name not in self._choices:
+            self._choices[name] = self._unknown_choice(content)
+        self._choices[name].take(Result(content, path=path))
+        self._turn_to(name)
 
     def open_path(self, path: str) -> None:
         """Open a saved result."""
         try:
-            self.results.take_saved(self._load(Path(path)), Path(path).name)
+            self.take_saved(self._load(Path(path)), Path(path).name)
         except ValueError as error:
             self.refuse(f"{error}. The page is unchanged.")
         else:
             self.went_well.emit()
 
-    # Files.
-
     @property
-    def finished(self) -> Any:
+    def finished(self) -> Result[Any] | None:
         """The result that is shown; ``None``: there is none, or it is not finished."""
-        return None if self.results.is_partial else self.results.choice.result
+        return None if self.is_partial else self.choice.result
 
     def export_view(self) -> bool:
         """Ask where to export the result."""
@@ -270,14 +325,14 @@ class ResultPage(WorkPage):
     @Slot()
     def ask_export(self) -> None:
         """Ask for a file and write the result to it."""
-        if self._is_finished():
-            title, name = f"Export {self._words.noun}", f"{self.stem_of(self.finished)}.png"
-            self.ask_path(title, name, self._words.kinds, self.export_to)
+        if self._is_finished() and self.finished is not None:
+            name = f"{self.stem_of(self.finished.content)}.png"
+            self.ask_path(f"Export {self.words.noun}", name, self.words.kinds, self.export_to)
 
     def export_to(self, path: str) -> None:
         """Write the result by the ending of the file."""
         if self._is_finished():
-            self.tell_written(path, lambda: self._write(path), "exported", self._words.noun)
+            self.tell_written(path, lambda: self._write(path), "exported", self.words.noun)
 
     def ask_path(self, title: str, name: str, kinds: str, write: Callable[[str], None]) -> None:
         """Ask for a file, and write to it unless there is none."""
@@ -296,19 +351,69 @@ class ResultPage(WorkPage):
 
     def _is_finished(self) -> bool:
         if self.finished is None:
-            self.tell(f"There is nothing to export yet: {self._words.nothing}.")
-            return False
-        return True
+            self.tell(f"There is nothing to export yet: {self.words.nothing}.")
+        return self.finished is not None
 
     def _write(self, path: str) -> None:
-        content = self.content_of(self.finished, Path(path).suffix.lower())
+        content = None if self.finished is None else self.content_of(self.finished, Path(path).suffix.lower())
         if content is None:
             export_widget(self.main_view(), path)
-            return
-        write_file(path, content)
+        else:
+            write_file(path, content)
 
     @Slot()
     def copy(self) -> None:
         """Put the view on the clipboard as a picture."""
         copy_widget(self.main_view())
-        self.tell(f"Copied the {self._words.view}.")
+        self.tell(f"Copied the {self.words.view}.")
+
+    def stop(self) -> None:
+        """End all work, and finish what is being written."""
+        super().stop()
+        self.kept.shut_down()
+
+    # What a page says.
+
+    def name_of(self, content: Any) -> str:
+        """Return the name of the experiment that a result is of."""
+        raise NotImplementedError
+
+    def stem_of(self, content: Any) -> str:
+        """Return what a file of a result is called, without its ending."""
+        raise NotImplementedError
+
+    def content_of(self, result: Result[Any], ending: str) -> bytes | None:
+        """Return the content of a file of a result; ``None``: the file is a picture of the view."""
+        raise NotImplementedError
+
+    def _show_controls(self) -> None:
+        """Show the choices."""
+
+    def _show_result(self) -> None:
+        """Show the result, or the parts of it that have come."""
+
+    def _show_opened(self) -> None:
+        """Show what is opened of the result, or close it."""
+
+    def _prepare(self) -> PartWork:
+        """Forget the parts of earlier work; return the new one, which gives a `Result`."""
+        raise NotImplementedError
+
+    def _keep_part(self, part: Any) -> None:
+        """Keep a part of the result."""
+
+    def _partial_text(self) -> str:
+        """Return what is shown while it is being made."""
+        raise NotImplementedError
+
+    def _result_texts(self, result: Result[Any]) -> list[str]:
+        """Return what the result that is shown is of, in sentences."""
+        raise NotImplementedError
+
+    def _done_text(self, choice: ChoiceType) -> str:
+        """Return the message that work is done."""
+        raise NotImplementedError
+
+    def _unknown_choice(self, content: Any) -> ChoiceType:
+        """Return the choice of a result that this version cannot make."""
+        raise NotImplementedError

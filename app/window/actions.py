@@ -276,7 +276,7 @@ ACTIONS: tuple[Action, ...] = (
             is_on=lambda w: w.session.document.before == "cleared",
         ),
     ),
-    *rows_of("compare", MEASURING, "Compare", lambda w: w.compare.results)(
+    *rows_of("compare", MEASURING, "Compare", lambda w: w.compare)(
         Row("measure", "F5", "Measure all methods of the family", lambda p: p.start()),
         Row(
             "measure_scene",
@@ -291,12 +291,12 @@ ACTIONS: tuple[Action, ...] = (
         ),
     ),
     *rows_of("compare", CHARTS, "Compare", whole_window)(
-        Row("next_error", "E", "Next error on the axis", lambda w: w.compare.results.show_next_measure()),
+        Row("next_error", "E", "Next error on the axis", lambda w: w.compare.show_next_measure()),
         Row(
             "next_cost",
             "X",
             "Next cost on the axis: time or a count of work",
-            lambda w: w.compare.results.show_next_cost(),
+            lambda w: w.compare.show_next_cost(),
         ),
         Row("show_numbers", "T", "Charts or numbers", lambda w: w.compare.toggle_numbers()),
         Row(
@@ -317,7 +317,7 @@ ACTIONS: tuple[Action, ...] = (
         ),
         Row("copy_pictures", "", "Copy the pictures", lambda w: w.compare.opened.copy()),
     ),
-    *rows_of("stability", EXPERIMENTS, "Stability", lambda w: w.stability.results)(
+    *rows_of("stability", EXPERIMENTS, "Stability", lambda w: w.stability)(
         Row("run_experiment", "F5", "Run every method of the experiment", lambda p: p.start()),
         Row("cancel_experiment", "Shift+F5", "Cancel running", lambda p: p.cancel()),
         Row("next_experiment", "Ctrl+PgDown", "Next experiment", lambda p: p.show_neighbour(1)),
@@ -335,14 +335,14 @@ ACTIONS: tuple[Action, ...] = (
         Row("save_case", "", "Save the smallest case…", lambda p: p.ask_save_case()),
     ),
     *rows_of("plan", PLANNING, "Plan", whole_window)(
-        Row("analyse", "F5", "Analyse the scene", lambda w: w.plan.plans.analyse()),
-        Row("cancel_analysis", "Shift+F5", "Cancel the analysis", lambda w: w.plan.plans.cancel()),
-        Row("apply_plan", "Ctrl+Return", "Apply these settings", lambda w: w.plan.plans.apply()),
+        Row("analyse", "F5", "Analyse the scene", lambda w: w.plan.start()),
+        Row("cancel_analysis", "Shift+F5", "Cancel the analysis", lambda w: w.plan.cancel()),
+        Row("apply_plan", "Ctrl+Return", "Apply these settings", lambda w: w.plan.apply()),
         Row(
             "plan_difference",
             "D",
             "Difference from the reference settings",
-            lambda w: w.plan.opened.open_all(),
+            lambda w: w.plan.open(),
         ),
         Row("plan_chart", "Ctrl+M", "Show the plan on the scene’s chart", lambda w: w.plan.show_on_chart()),
         Row("plan_findings", "I", "Show or hide the findings", lambda w: w.plan.findings.toggle_findings()),

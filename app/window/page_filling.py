@@ -2,6 +2,7 @@
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 from PySide6.QtCore import QEventLoop
 from PySide6.QtWidgets import QApplication
@@ -58,8 +59,8 @@ def fill_page(window: MainWindow, content: PageContent) -> None:
     elif isinstance(page, StartPage):
         _wait_until(lambda: not page.is_drawing)
     elif isinstance(page, PlanPage):
-        page.plans.analyse()
-        _wait_until(lambda: not page.plans.is_running)
+        page.start()
+        _wait_until(lambda: not page.is_running)
     elif isinstance(page, ExercisesPage):
         _ask(page, content)
     if refusals.texts:
@@ -91,34 +92,30 @@ class _Refusals:
         self.texts.append(text)
 
 
-def _show_result(page: ResultPage, content: PageContent) -> None:
+def _show_result(page: ResultPage[Any], content: PageContent) -> None:
     """Run the requested work, and open the requested method."""
-    results = page.results
     if content.name:
-        results.show_named(
-            _known("family" if content.page == "compare" else "experiment", content.name, results.names)
+        page.show_named(
+            _known("family" if content.page == "compare" else "experiment", content.name, page.names)
         )
     if isinstance(page, ComparePage):
-        choice = page.results.choice
+        choice = page.choice
         if content.work:
             works = [work.name for work in choice.works]
             choice.work = _known(f"work of {choice.name}", content.work, works)
         choice.rounds = content.rounds or PICTURE_ROUNDS
         choice.grow = content.grow or (choice.family is not None and not choice.family.takes_scene)
-        results.refresh()
-    results.start()
-    _wait_until(lambda: not results.is_running)
-    if not content.method or results.choice.result is None:
+        page.refresh()
+    page.start()
+    _wait_until(lambda: not page.is_running)
+    if not content.method or page.choice.result is None:
         return
-    what = f"method of {results.choice.name}"
-    if isinstance(page, ComparePage) and page.results.study is not None:
-        page.opened.choose(
-            _known(what, content.method, [point.method for point in page.results.study.points])
-        )
-        _wait_until(lambda: not page.jobs.drawing.is_running)
+    what = f"method of {page.choice.name}"
+    if isinstance(page, ComparePage) and page.study is not None:
+        page.choose(_known(what, content.method, [point.method for point in page.study.points]))
     elif isinstance(page, StabilityPage):
-        page.opened.choose_failure(_known(what, content.method, list(page.results.cells)))
-        _wait_until(lambda: not page.jobs.looking.is_running)
+        page.choose_failure(_known(what, content.method, list(page.info.methods)))
+    _wait_until(lambda: not page.jobs.is_running)
 
 
 def _ask(page: ExercisesPage, content: PageContent) -> None:

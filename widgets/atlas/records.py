@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-UNKNOWN = -1
+UNKNOWN = 255
 """Kind of a cell that has not been run."""
 
 
@@ -41,8 +41,8 @@ class AtlasMap:
     key: str
     """What signals name it by."""
     title: str
-    cells: NDArray[np.int16]
-    """(rows, columns) int16, index of the kind or `UNKNOWN`; row 0 is the lowest."""
+    cells: NDArray[np.uint8]
+    """(rows, columns) uint8, index of the kind or `UNKNOWN`; row 0 is the lowest."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,6 +1,5 @@
 """What stands above the maps of an experiment: what it claims, how fine it is run, and running it."""
 
-from PySide6.QtCore import Signal, Slot
 from PySide6.QtWidgets import QLabel, QWidget
 
 from widgets.basics.labels import text_label
@@ -9,9 +8,6 @@ from widgets.basics.run_panel import Named, RunPanel, fill_box, set_number
 
 class StabilityControls(RunPanel):
     """Shows question and claim; offers the grid, the seed, and running."""
-
-    resolution_chosen = Signal(str)
-    seed_chosen = Signal(int)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(
@@ -26,13 +22,11 @@ class StabilityControls(RunPanel):
         )
         self.question, self.claim = self._sentence("Question"), self._sentence("Claim")
         self.question.setProperty("role", "muted")
-        self.resolution_box = self.box("Grid", "Number of cells in a map")
-        self.seed_box = self.number("Seed", "Seed of the random scenes", 0, 9999)
+        self.resolution_box = self.box("resolution", "Grid", "Number of cells in a map")
+        self.seed_box = self.number("seed", "Seed", "Seed of the random scenes", 0, 9999)
         self.rows.setSpacing(4)
         running = (self.start_button, self.cancel_button, self.progress, self.doing)
         self.add_row((("Grid", self.resolution_box), ("Seed", self.seed_box), *running))
-        self.resolution_box.activated.connect(self._choose_resolution)
-        self.seed_box.valueChanged.connect(self.seed_chosen)
         self.show_progress(None)
 
     def _sentence(self, name: str) -> QLabel:
@@ -52,7 +46,3 @@ class StabilityControls(RunPanel):
         set_number(self.seed_box, seed)
         self.start_button.setEnabled(can_run)
         self.keep_height()
-
-    @Slot(int)
-    def _choose_resolution(self, index: int) -> None:
-        self.resolution_chosen.emit(self.resolution_box.itemData(index))

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Sequence
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QComboBox, QLabel, QProgressBar, QSizePolicy, QSpinBox, QWidget
 
@@ -18,6 +18,8 @@ Named = Sequence[tuple[str, str]]
 class RunPanel(QWidget):
     """Rows of controls that wrap; emits nothing when it is set by the program."""
 
+    chosen = Signal(str, object)
+    """Name of a control, and the value that the user has chosen there."""
     start_requested = Signal()
     cancel_requested = Signal()
 
@@ -49,22 +51,36 @@ class RunPanel(QWidget):
 
     # Making controls.
 
-    def box(self, name: str, tip: str) -> QComboBox:
-        """Return a new list of choices."""
+    def box(self, name: str, title: str, tip: str) -> QComboBox:
+        """Return a new list of choices, with its name for `chosen`."""
         box = QComboBox(self)
-        box.setAccessibleName(name)
+        box.setObjectName(name)
+        box.activated.connect(self._tell_item)
+        box.setAccessibleName(title)
         box.setToolTip(tip)
         box.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToContents)
         return box
 
-    def number(self, name: str, tip: str, lowest: int, highest: int) -> QSpinBox:
-        """Return a new field for a whole number."""
+    def number(self, name: str, title: str, tip: str, lowest: int, highest: int) -> QSpinBox:
+        """Return a new field for a whole number, with its name for `chosen`."""
         box = QSpinBox(self)
+        box.setObjectName(name)
         box.setRange(lowest, highest)
-        box.setAccessibleName(name)
+        box.setAccessibleName(title)
         box.setToolTip(tip)
         box.setKeyboardTracking(False)
+        box.valueChanged.connect(self._tell_number)
         return box
+
+    @Slot(int)
+    def _tell_item(self, index: int) -> None:
+        box = self.sender()
+        assert isinstance(box, QComboBox)
+        self.chosen.emit(box.objectName(), box.itemData(index))
+
+    @Slot(int)
+    def _tell_number(self, value: int) -> None:
+        self.chosen.emit(self.sender().objectName(), value)
 
     def add_row(self, controls: Iterable[QWidget | tuple[str, QWidget]]) -> FlowLayout:
         """Add a row of controls, some with a label before them, and return its layout."""

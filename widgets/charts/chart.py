@@ -59,13 +59,10 @@ class Chart(ChartCanvas):
 
     # Showing.
 
-    def show_empty(self, empty: ChartEmpty) -> None:
-        """Say why there is no chart, and what to do."""
-        self._empty = empty
-        self.show_picture(None)
-
-    def show_picture(self, picture: ChartPicture | None) -> None:
-        """Show series; one that is no longer there is not pointed at any more."""
+    def show_picture(self, picture: ChartPicture | ChartEmpty | None) -> None:
+        """Show series, or say why there are none; one that is no longer there is not pointed at any more."""
+        if isinstance(picture, ChartEmpty):
+            self._empty, picture = picture, None
         super().show_picture(picture)
         if picture is None or self._pointed not in {series.key for series in picture.series}:
             self._pointed, self._index = "", -1

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from PySide6.QtCore import Signal, Slot
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QWidget
 
 from widgets.basics.run_panel import Named, RunPanel, fill_box, set_number
@@ -31,14 +31,7 @@ class StudyChoices:
 class StudyControls(RunPanel):
     """Offers the work, the axes of the chart, and measuring."""
 
-    work_chosen = Signal(str)
     dial_chosen = Signal(str, float)
-    measure_chosen = Signal(str)
-    """The error on the vertical axis."""
-    cost_chosen = Signal(str)
-    """What is on the horizontal axis."""
-    rounds_chosen = Signal(int)
-    seed_chosen = Signal(int)
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(
@@ -52,26 +45,21 @@ class StudyControls(RunPanel):
             "Stop measuring; the previous results are unchanged (Escape)",
             parent,
         )
-        self.work_box = self.box("Work", "The work that all methods do")
-        self.measure_box = self.box("Error", "The error on the vertical axis of the chart")
+        self.work_box = self.box("work", "Work", "The work that all methods do")
+        self.measure_box = self.box("measure", "Error", "The error on the vertical axis of the chart")
         self.cost_box = self.box(
-            "Cost", "Time on this machine, or a count of work that is the same on every machine"
+            "cost", "Cost", "Time on this machine, or a count of work that is the same on every machine"
         )
         self.rounds_box = self.number(
-            "Rounds", "Rounds of measurement, more until the order is stable", 1, MOST_ROUNDS
+            "rounds", "Rounds", "Rounds of measurement, more until the order is stable", 1, MOST_ROUNDS
         )
-        self.seed_box = self.number("Seed", "Seed of the random work", 0, 9999)
+        self.seed_box = self.number("seed", "Seed", "Seed of the random work", 0, 9999)
         self._dials: dict[str, DialControl] = {}
         self._work_flow = self.add_row(
             (("Work", self.work_box), ("Rounds", self.rounds_box), ("Seed", self.seed_box))
         )
         running = (self.start_button, self.cancel_button, self.progress, self.doing)
         self.add_row((("Error", self.measure_box), ("Cost", self.cost_box), *running))
-        self.work_box.activated.connect(self._choose_work)
-        self.measure_box.activated.connect(self._choose_measure)
-        self.cost_box.activated.connect(self._choose_cost)
-        self.rounds_box.valueChanged.connect(self.rounds_chosen)
-        self.seed_box.valueChanged.connect(self.seed_chosen)
         self.show_progress(None)
 
     # Showing.
@@ -110,17 +98,3 @@ class StudyControls(RunPanel):
                 control.show()
         for dial in dials:
             self._dials[dial.name].show_value(dial.value)
-
-    # What the user chose.
-
-    @Slot(int)
-    def _choose_work(self, index: int) -> None:
-        self.work_chosen.emit(self.work_box.itemData(index))
-
-    @Slot(int)
-    def _choose_measure(self, index: int) -> None:
-        self.measure_chosen.emit(self.measure_box.itemData(index))
-
-    @Slot(int)
-    def _choose_cost(self, index: int) -> None:
-        self.cost_chosen.emit(self.cost_box.itemData(index))

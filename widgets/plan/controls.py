@@ -30,20 +30,23 @@ class PlanControls(RunPanel):
             parent,
         )
         self.kind_box = self.box(
+            "kind",
             "Tolerance",
             "Allowed difference from the picture with the reference settings. Exact: every byte is equal",
         )
         self.kind_box.addItem("Within", WITHIN)
         self.kind_box.addItem("Exact", EXACT)
-        self.color_box = self.number("Colour", "Largest difference of a channel, in 1/255", 0, MOST_COLOR)
+        self.color_box = self.number(
+            "color", "Colour", "Largest difference of a channel, in 1/255", 0, MOST_COLOR
+        )
         self.color_box.setSuffix("/255")
         self.color_box.setValue(2)
         self.pixels_box = self.number(
-            "Allowed exceptions", "Number of pixels that may differ by more", 0, MOST_PIXELS
+            "pixels", "Allowed exceptions", "Number of pixels that may differ by more", 0, MOST_PIXELS
         )
         self.pixels_box.setGroupSeparatorShown(True)
         self.rounds_box = self.number(
-            "Rounds", "Rounds of measurement; more rounds take longer", 1, MOST_ROUNDS
+            "rounds", "Rounds", "Rounds of measurement; more rounds take longer", 1, MOST_ROUNDS
         )
         self.rounds_box.setValue(3)
         self.apply_button = button_with_tip(
@@ -66,7 +69,7 @@ class PlanControls(RunPanel):
         self.apply_button.clicked.connect(self.applying_requested)
         self.chart_button.clicked.connect(self.chart_requested)
         self.show_progress(None)
-        self.show_usable(False, False)
+        self.show_usable(False)
 
     # What is chosen.
 
@@ -80,7 +83,7 @@ class PlanControls(RunPanel):
         for box in (self.color_box, self.pixels_box):
             box.setEnabled(not self.is_exact)
 
-    def show_usable(self, can_apply: bool, can_chart: bool) -> None:
-        """Show whether there is something to be applied and to be put on the chart."""
-        self.apply_button.setEnabled(can_apply)
-        self.chart_button.setEnabled(can_chart)
+    def show_usable(self, is_usable: bool) -> None:
+        """Show whether there is a plan to be applied and to be put on the chart."""
+        self.apply_button.setEnabled(is_usable)
+        self.chart_button.setEnabled(is_usable)

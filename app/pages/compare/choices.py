@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field
 
 from app.pages.compare.charts import TIME, cost_title, costs_of
-from app.pages.compare.jobs import StudyResult
+from app.pages.result_page import Choice, Result
 from core.study import study_families
 from core.study.accuracy.family import StudyFamily
 from core.study.accuracy.record import Axis, Study, WorkKind
@@ -13,14 +13,12 @@ from widgets.charts.family_list import FamilyEntry
 from widgets.charts.study_controls import StudyChoices
 
 
-@dataclass(eq=False)
-class FamilyChoice:
+@dataclass(eq=False, kw_only=True)
+class FamilyChoice(Choice[Study]):
     """One family: its choices, and the last study of it."""
 
-    name: str
-    title: str
     works: tuple[WorkKind, ...]
-    family: StudyFamily | None
+    family: StudyFamily | None = None
     """``None``: a saved study of a family that this version does not have."""
     work: str
     dials: dict[tuple[str, str], float] = field(default_factory=dict)
@@ -30,8 +28,6 @@ class FamilyChoice:
     rounds: int = ROUNDS
     grow: bool = True
     """Whether growth is measured too; a picture of the page may do without."""
-    seed: int = 0
-    result: StudyResult | None = None
 
     @property
     def work_kind(self) -> WorkKind:
@@ -50,39 +46,30 @@ class FamilyChoice:
     @property
     def measures(self) -> list[tuple[str, str]]:
         """Names and titles of the errors."""
-        source = self.result.study.measures if self.result else self.family.measures if self.family else ()
+        source = self.result.content.measures if self.result else self.family.measures if self.family else ()
         return [(m.name, f"{m.title} ({m.unit})" if m.unit else m.title) for m in source]
-
-    @property
-    def families(self) -> tuple[str, ...]:
-        """The families of methods that differ in it; empty: all may."""
-        return self.family.varies if self.family else ()
-
-    @property
-    def can_run(self) -> bool:
-        """Whether this version has the family."""
-        return self.family is not None
 
     @property
     def is_changed(self) -> bool:
         """Whether other work is chosen now than the result was measured on."""
         if self.result is None:
             return False
-        study = self.result.study
+        study = self.result.content
         return (study.work.name, dict(study.dials), study.seed) != (self.work, self.dial_values, self.seed)
 
+    @property
     def entry(self) -> FamilyEntry:
-        """Return the row of the list."""
+        """The row of the list."""
         note = f"{len(self.works)} kinds of work" if len(self.works) > 1 else self.works[0].title
         if self.result is not None:
-            note += f"\nMeasured {self.result.machine.get('date', '')}".rstrip()
+            note += f"\nMeasured {self.result.content.machine.get('date', '')}".rstrip()
         is_of_scene = self.family is not None and self.family.takes_scene
         return FamilyEntry(self.name, self.title, note, self.result is not None, ends_group=is_of_scene)
 
-    def take(self, result: StudyResult) -> None:
+    def take(self, result: Result[Study]) -> None:
         """Keep a result; one that was opened from a file, or is of an earlier start, sets the controls too."""
-        self.result = result
-        study = result.study
+        super().take(result)
+        study = result.content
         if study.work.name not in {work.name for work in self.works}:
             self.works = (*self.works, study.work)
         if result.path or result.is_kept:
@@ -99,27 +86,23 @@ def choices_of_all() -> dict[str, FamilyChoice]:
     families = sorted(study_families(), key=lambda family: not family.takes_scene)
     return {
         family.name: FamilyChoice(
-            family.name,
-            "Whole pipeline on the open scene" if family.takes_scene else family.title,
-            family.works,
-            family,
-            family.works[0].name,
+            name=family.name,
+            title="Whole pipeline on the open scene" if family.takes_scene else family.title,
+            families=family.varies,
+            works=family.works,
+            family=family,
+            work=family.works[0].name,
             measure=family.measures[0].name,
         )
         for family in families
     }
 
 
-def choice_of_saved(study: Study) -> FamilyChoice:
-    """Return the choice of a family that this version does not have."""
-    return FamilyChoice(study.family, study.title, (study.work,), None, study.work.name)
-
-
 def controls_of(choice: FamilyChoice) -> StudyChoices:
     """Return what stands above the charts."""
     work = choice.work_kind
-    points = choice.result.study.points if choice.result else ()
-    unit = choice.result.study.work.unit if choice.result else work.unit
+    points = choice.result.content.points if choice.result else ()
+    unit = choice.result.content.work.unit if choice.result else work.unit
     return StudyChoices(
         works=[(kind.name, kind.title) for kind in choice.works],
         work=work.name,

@@ -5,6 +5,7 @@ from html import escape
 from math import isinf, isnan
 
 from app.pages.compare.charts import costs_of, title_of
+from app.pages.compare.choices import FamilyChoice
 from app.pages.words import (
     best_sentences,
     digits,
@@ -103,6 +104,17 @@ def study_text(study: Study, path: str = "") -> str:
     if study.machine:
         parts.append(f"{escape(machine_sentence(study))}.")
     return _paragraphs(parts)
+
+
+def family_text(choice: FamilyChoice) -> str:
+    """Return what can be compared of a family, as rich text."""
+    works = "".join(f"<li>{work.title}</li>" for work in choice.works)
+    errors = "".join(f"<li>{title}</li>" for _, title in choice.measures)
+    return (
+        f"<b>{choice.title}</b><p>All methods of this family do the same work; each is timed and compared with an "
+        f"exact reference.</p>Work:<ul style='margin-left:-24px'>{works}</ul>"
+        f"Errors:<ul style='margin-left:-24px'>{errors}</ul>"
+    )
 
 
 def table_of(study: Study) -> TableRecord:

@@ -1,155 +1,127 @@
-"""Runs studies off the GUI thread: measures, draws the pictures of points, finds where two of them diverge."""
+"""What the Compare page does off the GUI thread: draws points, finds where two diverge, measures what a plan chose."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
-from PySide6.QtCore import QObject, Slot
+from numpy.typing import NDArray
 
-from app import __version__
-from app.background.turns import turns
-from app.background.workers import JobGroup, Progress
+from app.background.workers import Progress
+from app.pages.compare.charts import title_of
+from app.pages.opened import DrawnPictures
 from app.pages.page_bar import StepRequest
+from app.pages.result_page import Result
 from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER
 from app.session.opening_document import part_around
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study import Opening, Pictures, Plan, Point, Study, machine, measure, opening, pictures
+from core.study import Opening, Pictures, Plan, Point, Study, opening, pictures
 from core.study.accuracy.divergence import first_divergence
 from core.study.accuracy.family import Candidate, settings_of
 from core.trace import scene_triangle_count
+from widgets.charts.study_pictures import PicturesRecord
+from widgets.grid.buffer import BufferKind, GridBuffer, number_text
+from widgets.grid.linked_grids import Pixel
 
 
-@dataclass(frozen=True, eq=False)
-class StudyOrder:
-    """What is to be measured."""
-
-    family: str
-    work: str
-    dials: dict[str, float]
-    rounds: int
-    seed: int
-    scene: AnyScene | None = None
-    """For the family that takes a scene, with ``settings`` and ``scene_title``."""
-    settings: Settings | None = None
-    scene_title: str = ""
-    extra: tuple[Candidate, ...] = ()
-    """Settings that are measured along with the family's own."""
-    grow: bool = True
-    """Whether to measure how cost grows with the size of the work too."""
+def measured(
+    measure: Callable[..., Study],
+    scene: AnyScene | None,
+    progress: Progress,
+    is_cancelled: Callable[[], bool],
+    point_done: Callable[[Point], None],
+) -> Result[Study]:
+    """Measure on a scene, or on work that the family makes itself; points come as they are measured."""
+    return Result(measure(progress=progress, is_cancelled=is_cancelled, point_done=point_done), scene)
 
 
-@dataclass(frozen=True, eq=False)
-class StudyResult:
-    """A study, and what it takes to run one of its methods once more."""
-
-    study: Study
-    scene: AnyScene | None = None
-    """What was measured on, where the family takes a scene."""
-    path: str = ""
-    """The file it was opened from; empty: it was measured here."""
-    is_kept: bool = False
-    """Whether it is of an earlier start of the window."""
-    is_example: bool = False
-    """Whether it came with the program."""
-
-    @property
-    def name(self) -> str:
-        """Family of the study."""
-        return self.study.family
-
-    @property
-    def machine(self) -> Mapping[str, str]:
-        """Where it was measured."""
-        return self.study.machine
-
-    @property
-    def can_run_again(self) -> bool:
-        """Whether the work is still there: a saved study keeps the name of its scene only."""
-        return not self.study.scene or self.scene is not None
+def drawn_points(result: Result[Study], points: tuple[Point, ...]) -> DrawnPictures:
+    """Return what one method drew beside the reference, or what two drew, A and B, and where they differ."""
+    study, scene = result.content, result.scene
+    titles = [title_of(point, [each.method for each in study.points]) for point in points]
+    drawn = [pictures(study, point, scene) for point in points]
+    openings = [opening(study, point, scene) for point in points]
+    request = partial(_request, titles[-1], openings[-1], drawn[-1])
+    can_step = openings[-1] is not None
+    if len(points) == 1:
+        only, heads = drawn[0], (titles[0], "Reference", "Difference")
+        shown, names = (only.result, only.reference), ("picture", "reference")
+        return DrawnPictures(_record(titles[0], heads, names, shown, only.difference, can_step), request)
+    shown = drawn[0].result, drawn[1].result
+    if shown[0].shape != shown[1].shape:
+        raise ValueError("two methods of one study must draw pictures of one size")
+    heads = f"A: {titles[0]}", f"B: {titles[1]}", "Difference, B − A"
+    record = _record("A and B", heads, ("A", "B"), shown, difference_of(*shown), can_step)
+    both = " and ".join(point.title for point in points)
+    record = replace(record, can_diverge=None not in openings)
+    return DrawnPictures(record, request, partial(divergence_of, both, drawn, openings))
 
 
-@dataclass(frozen=True, eq=False)
-class PointsShown:
-    """The pictures of one chosen point, or of two."""
-
-    points: tuple[Point, ...]
-    pictures: tuple[Pictures, ...]
-    openings: tuple[Opening | None, ...]
-
-
-class StudyJobs(JobGroup):
-    """At most one measurement, one drawing of pictures and one search at a time."""
-
-    def __init__(self, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self.measuring = self.add_job()
-        """Gives every ``Point`` as it is measured anew, and in the end a `StudyResult`."""
-        self.drawing = self.add_job()
-        """Gives a `PointsShown`."""
-        self.searching = self.add_job()
-        """Gives a ``StepRequest``, or a text: they never part ways."""
-
-    def measure(self, order: StudyOrder) -> None:
-        """Measure; points come as they are measured."""
-
-        def work(
-            progress: Progress, is_cancelled: Callable[[], bool], point_done: Callable[[Point], None]
-        ) -> StudyResult:
-            with turns.take("Compare", progress, is_cancelled):
-                study = measure(
-                    order.family,
-                    order.work,
-                    order.dials,
-                    scene=order.scene,
-                    settings=order.settings,
-                    scene_title=order.scene_title,
-                    extra=order.extra,
-                    rounds=order.rounds,
-                    grow=order.grow,
-                    seed=order.seed,
-                    machine=machine(__version__),
-                    progress=progress,
-                    is_cancelled=is_cancelled,
-                    point_done=point_done,
-                )
-            return StudyResult(study, order.scene)
-
-        self.measuring.start_in_parts(work)
-
-    def draw(self, result: StudyResult, points: tuple[Point, ...]) -> None:
-        """Draw the pictures of one or two points."""
-
-        def work() -> PointsShown:
-            study, scene = result.study, result.scene
-            drawn = tuple(pictures(study, point, scene) for point in points)
-            return PointsShown(points, drawn, tuple(opening(study, point, scene) for point in points))
-
-        self.drawing.call(work)
-
-    @Slot()
-    def stop_drawing(self) -> None:
-        """Wait for no picture any more."""
-        self.drawing.cancel()
-        self.searching.cancel()
-
-    def find_divergence(self, shown: PointsShown) -> None:
-        """Find the first place at which two points part ways."""
-        self.searching.call(partial(divergence_of, shown))
+def _request(title: str, opened: Opening | None, drawn: Pictures, pin: Pixel | None) -> StepRequest | str:
+    """Return what opens a run at the pinned pixel, where the pixels of the picture are those of the scene."""
+    if opened is None:
+        return f"{title} cannot be stepped: it is not a stage of the pipeline."
+    width, height = opened.scene.size
+    is_of_scene = drawn.result.shape[:2] == (height, width)
+    return StepRequest(opened if pin is None or not is_of_scene else replace(opened, pixel=pin), title)
 
 
-def divergence_of(shown: PointsShown) -> StepRequest | str:
+def _record(
+    title: str,
+    heads: tuple[str, str, str],
+    names: tuple[str, str],
+    shown: tuple[NDArray[np.float32], NDArray[np.float32]],
+    difference: NDArray[np.float32],
+    can_step: bool,
+) -> PicturesRecord:
+    """Return two pictures in one range of values, and how much they differ."""
+    scale = _scale(*shown)
+    first, second = (_buffer(name, values, scale) for name, values in zip(names, shown, strict=True))
+    buffers = first, second, GridBuffer("difference", difference, "signed")
+    return PicturesRecord(f"{title}: {_amount(difference)}", buffers, heads, can_step)
+
+
+def difference_of(first: NDArray[np.float32], second: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Return (H, W) second minus first, of (H, W, C) colours the channel that differs most."""
+    amount = second - first
+    if amount.ndim == 2:
+        return amount
+    largest = np.abs(amount).argmax(axis=2)
+    return np.take_along_axis(amount, largest[..., None], axis=2)[..., 0]
+
+
+def _buffer(name: str, values: NDArray[np.float32], scale: tuple[float, float] | None) -> GridBuffer:
+    kind: BufferKind = "color" if values.ndim == 3 else "scalar"
+    return GridBuffer(name, values, kind, range=None if kind == "color" else scale)
+
+
+def _scale(first: NDArray[np.float32], second: NDArray[np.float32]) -> tuple[float, float] | None:
+    """Return one range for two pictures, so that equal values look alike."""
+    finite = np.concatenate([values[np.isfinite(values)] for values in (first, second)])
+    return (float(finite.min()), float(finite.max())) if len(finite) else None
+
+
+def _amount(difference: NDArray[np.float32]) -> str:
+    """Return in words how much of a picture differs."""
+    differs = difference != 0
+    count = int(np.count_nonzero(differs))
+    if not count:
+        return f"none of {differs.size:,} pixels differs."
+    largest = number_text(float(np.nanmax(np.abs(difference))))
+    return f"{count:,} of {differs.size:,} pixels differ; largest difference {largest}."
+
+
+def divergence_of(names: str, drawn: list[Pictures], openings: list[Opening | None]) -> StepRequest | str:
     """Return what opens where two points part ways, or a sentence: they do not.
 
     A picture that is too large to be traced as a whole is traced around one pixel: the first that differs, or else
     those at which the two runs are wrong first (what opens may be a part of the work, as one line of many).
     """
-    first, second = shown.openings
+    first, second = openings
     if first is None or second is None:
         return "These methods cannot be stepped."
-    names = " and ".join(point.title for point in shown.points)
-    differing = first_difference(shown.pictures[0], shown.pictures[1])
+    differing = first_difference(*drawn)
     for scene, pixel in ((first.scene, differing), (first.scene, first.pixel), (second.scene, second.pixel)):
         region = _region(scene.size, pixel)
         if region is None and _is_too_large(scene.size):

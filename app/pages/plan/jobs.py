@@ -1,95 +1,96 @@
-"""Runs the planner off the GUI thread: plans, measures the plan, draws the pictures of what was chosen."""
+"""What the Plan page does off the GUI thread: plans, measures the plan, draws the pictures of what was chosen."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
-from PySide6.QtCore import QObject, Slot
 
-from app.background.turns import turns
-from app.background.workers import JobGroup, Progress
+from app.background.workers import Progress
+from app.pages.opened import DrawnPictures
+from app.pages.page_bar import StepRequest
+from core.explain.stage_texts import family_title
+from core.methods import table
+from core.records.words import counted
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study import Plan, PlanReport, StudyCancelledError, Tolerance, check_plan, plan
+from core.study import Opening, Plan, PlanReport, StudyCancelledError, Tolerance, check_plan, plan
 from core.study.planner.measuring import alone_settings
 from core.study.planner.trials import difference, shown
+from widgets.charts.study_pictures import PicturesRecord
+from widgets.grid.buffer import GridBuffer
+from widgets.grid.linked_grids import Pixel
 
 
 @dataclass(frozen=True, eq=False)
-class PlanOrder:
-    """What to analyse, and with which tolerance."""
+class PlanShown:
+    """A plan of a scene, and once it is measured its report."""
 
     scene: AnyScene
-    settings: Settings
-    """What is to be seen, not how well."""
-    tolerance: Tolerance
-    rounds: int
     title: str
     """What the scene is called."""
+    plan: Plan
+    report: PlanReport | None = None
 
 
-@dataclass(frozen=True, eq=False)
-class PlanPictures:
-    """What some choices of a plan draw, and what the reference settings draw."""
+def planned(
+    scene: AnyScene,
+    title: str,
+    settings: Settings,
+    tolerance: Tolerance,
+    rounds: int,
+    progress: Progress,
+    is_cancelled: Callable[[], bool],
+    part_done: Callable[[PlanShown], None],
+) -> PlanShown:
+    """Plan, then measure; the plan comes before its numbers.
 
-    setting: str
-    """The stage whose choice is drawn alone; empty: all choices together."""
-    settings: Settings
-    before: Settings
-    """The reference settings, but for what the choice rests on."""
-    result: NDArray[np.uint8]
-    """(H, W, 3), bytes of a screen."""
-    reference: NDArray[np.uint8]
-    """(H, W, 3), drawn with ``before``."""
-    difference: NDArray[np.float32]
-    """(H, W), of the channel that differs most, in 1/255."""
+    Parameters
+    ----------
+    settings : Settings
+        What is to be seen, not how well.
+    """
+
+    def watch(done: float, doing: str) -> None:
+        if is_cancelled():
+            raise StudyCancelledError("The analysis was cancelled.")
+        progress(done, doing)
+
+    found = PlanShown(scene, title, plan(scene, tolerance, settings, watch))
+    part_done(found)
+    return replace(found, report=check_plan(scene, found.plan, rounds, watch, times_each=True))
 
 
-class PlanJobs(JobGroup):
-    """At most one analysis and one drawing at a time."""
+def drawn_choice(scene: AnyScene, chosen: Plan, setting: str) -> DrawnPictures:
+    """Return what a plan chose at one stage alone, or with an empty ``setting`` all of it, beside the reference."""
+    before, settings, title = chosen.everything, chosen.settings, "All choices together"
+    if setting:
+        decision = next(each for each in chosen.decisions if each.setting == setting)
+        before, settings = alone_settings(chosen, decision)
+        title = f"{family_title(setting)}: {table.get(setting, getattr(settings, setting)).title}"
+    result, reference = shown(scene, settings), shown(scene, before)
+    differs = difference(result, reference).astype(np.float32)
+    count = int(np.count_nonzero(differs))
+    amount = (
+        f"{counted(count, 'pixel')} of {differs.size:,} differ, by {int(differs.max())}/255 at most."
+        if count
+        else f"none of {differs.size:,} pixels differs."
+    )
+    buffers = (
+        GridBuffer("chosen", result.astype(np.uint8), "color"),
+        GridBuffer("reference settings", reference.astype(np.uint8), "color"),
+        # White is no difference at any size of it.
+        GridBuffer("difference", differs, "signed", unit="/255"),
+    )
+    except_for = "" if before == chosen.everything else ", except what this choice needs"
+    heads = title, f"Reference settings{except_for}", "Difference, in 1/255"
+    row, column = np.unravel_index(int(differs.argmax()), differs.shape)
+    request = partial(_request, scene, settings, before, title, (int(column), int(row)))
+    return DrawnPictures(PicturesRecord(f"{title}: {amount}", buffers, heads, can_step=True), request)
 
-    def __init__(self, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self.analysing = self.add_job()
-        """Gives the ``Plan`` before it is measured, and in the end a ``PlanReport``."""
-        self.drawing = self.add_job()
-        """Gives a `PlanPictures`."""
 
-    def analyse(self, order: PlanOrder) -> None:
-        """Plan, then measure; the plan comes before its numbers."""
-
-        def work(
-            progress: Progress, is_cancelled: Callable[[], bool], planned: Callable[[Plan], None]
-        ) -> PlanReport:
-            def watch(done: float, doing: str) -> None:
-                if is_cancelled():
-                    raise StudyCancelledError("The analysis was cancelled.")
-                progress(done, doing)
-
-            with turns.take("Plan", progress, is_cancelled):
-                chosen = plan(order.scene, order.tolerance, order.settings, watch)
-                planned(chosen)
-                return check_plan(order.scene, chosen, order.rounds, watch, times_each=True)
-
-        self.analysing.start_in_parts(work)
-
-    def draw(self, scene: AnyScene, chosen: Plan, setting: str) -> None:
-        """Draw what a plan chose at one stage and nowhere else, or with an empty ``setting`` all that it chose."""
-        before, settings = chosen.everything, chosen.settings
-        if setting:
-            decision = next(each for each in chosen.decisions if each.setting == setting)
-            before, settings = alone_settings(chosen, decision)
-
-        def work() -> PlanPictures:
-            result, reference = shown(scene, settings), shown(scene, before)
-            differs = difference(result, reference).astype(np.float32)
-            pictures = result.astype(np.uint8), reference.astype(np.uint8)
-            return PlanPictures(setting, settings, before, *pictures, differs)
-
-        self.drawing.call(work)
-
-    @Slot()
-    def stop_drawing(self) -> None:
-        """Wait for no picture any more."""
-        self.drawing.cancel()
+def _request(
+    scene: AnyScene, settings: Settings, before: Settings, title: str, worst: Pixel, pin: Pixel | None
+) -> StepRequest:
+    """Return the choice beside the reference settings, A | B, at the pinned pixel or where they differ most."""
+    return StepRequest(Opening(scene, settings, "resolve", pin or worst), title, before)

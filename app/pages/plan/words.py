@@ -4,6 +4,7 @@ from html import escape
 
 import numpy as np
 
+from app.pages.plan.jobs import PlanShown
 from app.pages.words import digits, time_text
 from core.explain.stage_texts import family_title
 from core.methods import table
@@ -14,6 +15,7 @@ from core.study import Decision, Findings, Plan, PlanReport, Tolerance
 from core.study.planner import Outcome, Tessellation
 from core.study.planner.phrases import in_bytes
 from widgets.plan.rows import PlanRow, Verdict
+from widgets.plan.summary import SummaryRecord
 
 EMPTY = (
     "The choices appear here, one for each stage, with the reason, the predicted and the measured error: clipping or "
@@ -36,6 +38,23 @@ def tolerance_text(tolerance: Tolerance) -> str:
         few = f" except for {counted(tolerance.pixels, 'pixel')}" if tolerance.pixels else ""
         return f"exact{few}"
     return f"within {tolerance.bytes}/255, {counted(tolerance.pixels, 'pixel')} beyond"
+
+
+def summary_of(shown: PlanShown, applied: str, stale: str) -> SummaryRecord:
+    """Return a plan in short: what applying it has changed, and why it is not of what is open, as they are given."""
+    plan, report = shown.plan, shown.report
+    return SummaryRecord(
+        applied=applied,
+        headline=headline(plan, report),
+        details="" if report is None else details(plan, report),
+        is_within=None if report is None else report.is_within,
+        about=about(shown.title, shown.scene.size, plan.tolerance),
+        stale=stale,
+        findings=findings_html(plan.findings),
+        findings_note=f"({len(plan.findings.facts)})",
+        advice=advice_html(plan.tessellations, plan.findings.corner_count),
+        can_draw=report is not None,
+    )
 
 
 def rows_of(plan: Plan, report: PlanReport | None) -> tuple[PlanRow, ...]:

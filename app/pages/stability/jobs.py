@@ -1,21 +1,17 @@
-"""Runs experiments off the GUI thread: whole grids, single cells, and the shrinker."""
+"""What the Stability page does off the GUI thread: runs whole grids and single cells, and makes them small."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
-
-from PySide6.QtCore import QObject, Slot
+from dataclasses import dataclass, replace
 
 from app import __version__
-from app.background.turns import turns
-from app.background.workers import JobGroup, Progress
-from app.pages.stability.choices import AtlasResult
+from app.background.workers import Progress
+from app.pages.result_page import Result
 from core import Frame, render
-from core.scene import AnyScene, ClipScene
+from core.scene import AnyScene
 from core.settings import Settings
 from core.study import Opening, machine
-from core.study.stability import Axis, Experiment, StressCancelledError, Verdict, stress
+from core.study.stability import Atlas, Axis, Experiment, Verdict, stress
 from core.study.stability.coverage.covered_pixels import CoverageExperiment, Wanted, as_given, once_everywhere
-from core.study.stability.coverage.dial_pixel import PixelInFormats, pixel_in_formats
 from core.study.stability.shrink import Shrunk, shrink_cell
 from widgets.atlas.records import CellPlace
 
@@ -24,23 +20,15 @@ MOST_PIXELS = 1 << 20
 
 
 @dataclass(frozen=True, eq=False)
-class StressOrder:
-    """What is to be run."""
+class RowRun:
+    """One finished row of a map of the present run."""
 
-    experiment: Experiment
-    axes: tuple[Axis, ...]
-    seed: int
-
-
-@dataclass(frozen=True, eq=False)
-class CellRun:
-    """One finished cell of the present run."""
-
-    place: CellPlace
-    verdict: Verdict
+    method: str
+    row: int
+    verdicts: tuple[Verdict, ...]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class CaseOrder:
     """One cell to open."""
 
@@ -59,101 +47,54 @@ class CaseFound:
     opening: Opening | None
     frame: Frame | None
     """``None``: there is nothing to be drawn, or the method refused."""
+    shrunk: Shrunk | None = None
+    """What it was made small to, which opens and is drawn instead; ``None``: it is shown as it was run."""
 
 
-@dataclass(frozen=True, eq=False)
-class ShrunkFound:
-    """A cell made small."""
+def run_grid(
+    experiment: Experiment,
+    axes: tuple[Axis, ...],
+    seed: int,
+    progress: Progress,
+    is_cancelled: Callable[[], bool],
+    row_done: Callable[[RowRun], None],
+) -> Result[Atlas]:
+    """Run an experiment; rows of cells come as they are done."""
+    verdicts: list[Verdict] = []
 
-    order: CaseOrder
-    shrunk: Shrunk
-    frame: Frame | None
+    def cell_done(method: str, column: int, row: int, verdict: Verdict) -> None:
+        verdicts.append(verdict)
+        if len(verdicts) == len(axes[0].values):
+            row_done(RowRun(method, row, tuple(verdicts)))
+            verdicts.clear()
+
+    atlas = stress(
+        experiment,
+        seed=seed,
+        axes=axes,
+        progress=progress,
+        is_cancelled=is_cancelled,
+        machine=machine(__version__),
+        cell_done=cell_done,
+    )
+    return Result(atlas)
 
 
-class StabilityJobs(JobGroup):
-    """At most one run of a grid, one look at a cell, one shrinking and one reading at a time."""
+def run_case(order: CaseOrder) -> CaseFound:
+    """Run one cell once more and draw it."""
+    experiment, case = order.experiment, (order.place.key, order.values, order.seed)
+    verdict, opening = experiment.run(*case), experiment.opening(*case)
+    frame = None if opening is None else drawn(opening.scene, opening.settings)
+    return CaseFound(order, verdict, opening, frame)
 
-    def __init__(self, parent: QObject | None = None) -> None:
-        super().__init__(parent)
-        self.running = self.add_job()
-        """Gives a tuple of `CellRun` for every row of a map, and in the end an `AtlasResult`."""
-        self.looking = self.add_job()
-        """Gives a `CaseFound`."""
-        self.shrinking = self.add_job((ValueError, MemoryError, StressCancelledError))
-        """Gives a `ShrunkFound`."""
-        self.reading = self.add_job()
-        """Gives a ``PixelInFormats``."""
 
-    def run(self, order: StressOrder) -> None:
-        """Run an experiment; rows of cells come as they are done."""
-        last = len(order.axes[0].values) - 1
-
-        def work(
-            progress: Progress,
-            is_cancelled: Callable[[], bool],
-            row_done: Callable[[tuple[CellRun, ...]], None],
-        ) -> AtlasResult:
-            row: list[CellRun] = []
-
-            def cell_done(method: str, column: int, number: int, verdict: Verdict) -> None:
-                place = CellPlace(method, column, number)
-                row.append(CellRun(place, verdict))
-                if column == last:
-                    row_done(tuple(row))
-                    row.clear()
-
-            with turns.take("Stability", progress, is_cancelled):
-                atlas = stress(
-                    order.experiment,
-                    seed=order.seed,
-                    axes=order.axes,
-                    progress=progress,
-                    is_cancelled=is_cancelled,
-                    machine=machine(__version__),
-                    cell_done=cell_done,
-                )
-            return AtlasResult(atlas)
-
-        self.running.start_in_parts(work)
-
-    def look(self, order: CaseOrder) -> None:
-        """Run one cell once more and draw it."""
-
-        def work() -> CaseFound:
-            experiment, method = order.experiment, order.place.key
-            verdict = experiment.run(method, order.values, order.seed)
-            opening = experiment.opening(method, order.values, order.seed)
-            frame = None if opening is None else drawn(opening.scene, opening.settings)
-            return CaseFound(order, verdict, opening, frame)
-
-        self.shrinking.cancel()
-        self.looking.call(work)
-
-    def shrink(self, order: CaseOrder) -> None:
-        """Make one cell small."""
-
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> ShrunkFound:
-            method = order.place.key
-            shrunk = shrink_cell(
-                order.experiment, method, order.values, order.seed, is_cancelled=is_cancelled
-            )
-            return ShrunkFound(order, shrunk, drawn(shrunk.scene, shrunk.settings))
-
-        self.shrinking.start(work)
-
-    def read_dial(self, scene: ClipScene, settings: Settings, pixel: tuple[int, int], wanted: Wanted) -> None:
-        """Look at a pixel of a run in every number format."""
-
-        def work(progress: Progress, is_cancelled: Callable[[], bool]) -> PixelInFormats:
-            return pixel_in_formats(scene, settings, pixel, wanted, is_cancelled)
-
-        self.reading.start(work)
-
-    @Slot()
-    def stop_looking(self) -> None:
-        """Wait for no single cell any more."""
-        for job in (self.reading, self.looking, self.shrinking):
-            job.cancel()
+def shrink_case(found: CaseFound, progress: Progress, is_cancelled: Callable[[], bool]) -> CaseFound:
+    """Make one cell small."""
+    order = found.order
+    shrunk = shrink_cell(
+        order.experiment, order.place.key, order.values, order.seed, is_cancelled=is_cancelled
+    )
+    return replace(found, opening=shrunk.opening, frame=drawn(shrunk.scene, shrunk.settings), shrunk=shrunk)
 
 
 def wanted_cover(experiment: Experiment, is_part: bool) -> Wanted:

@@ -1,28 +1,60 @@
 """The page of the atlas: experiments, one map for each method, and the case behind a cell."""
 
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QSplitter, QWidget
 
-from app.export.atlas import atlas_content
+from app.background.workers import PartWork
+from app.export.atlas import atlas_content, atlas_stem
 from app.files.atlas_files import EXTENSION, load_atlas
 from app.files.shrunk_files import save_shrunk, shrunk_name
 from app.files.state_files import EXTENSION as STATE_EXTENSION
-from app.pages.result_page import FileWords, ResultPage, splitter
-from app.pages.stability.case_presenter import StabilityCasePresenter
-from app.pages.stability.choices import AtlasResult
-from app.pages.stability.jobs import StabilityJobs
-from app.pages.stability.presenter import StabilityPresenter
+from app.pages.experiment_page import splitter
+from app.pages.result_page import Result, ResultPage, ResultWords
+from app.pages.stability.case_presenter import CasePresenter
+from app.pages.stability.choices import ExperimentChoice, choice_of, choices_of_all
+from app.pages.stability.jobs import CaseOrder, RowRun, run_grid
+from app.pages.stability.records import (
+    atlas_record,
+    blank_atlas,
+    cell_text,
+    counts_sentence,
+    experiment_text,
+    first_failure,
+    has_curves,
+    method_titles,
+    place_on_curve,
+    place_sentence,
+    severity_chart,
+    spoken_cell,
+    values_at,
+    with_row,
+)
+from app.session.moment import Change
 from app.session.session import Session
+from core.study.stability import Atlas, ExperimentInfo
+from core.study.stability.open_scene import NAME as OPEN_SCENE
+from core.study.stability.open_scene import watertightness
 from widgets.atlas.case_view import CaseView
+from widgets.atlas.records import CellPlace
 from widgets.atlas.stability_controls import StabilityControls
 from widgets.atlas.view import AtlasView
+from widgets.basics.accessible import announce
 from widgets.basics.controls import row_layout
 from widgets.charts.chart import Chart
 from widgets.charts.legend import ChartLegend
+from widgets.charts.records import ChartPicture
 
-FILE_WORDS = FileWords(
+WORDS = ResultWords(
+    page="Stability",
+    cancelled="Running was cancelled",
+    failed="It could not be run",
+    kept="the previous maps are unchanged",
+    running="is still being run",
+    unknown="This version has no such experiment. A saved atlas can be viewed, but not run again.",
+    again="run again (F5)",
     noun="atlas",
     view="maps",
     nothing="run the experiment first (F5)",
@@ -32,31 +64,46 @@ FILE_WORDS = FileWords(
     copy_tip="Put the maps on the clipboard",
 )
 CASE_KINDS = f"Scene, to be opened again (*{STATE_EXTENSION});;Python test (*.py)"
+NOTHING = (
+    "One map for each method appears here. Run (F5) takes a few seconds to a minute; cells appear row by row."
+)
 
 
-class StabilityPage(ResultPage):
-    """All panes of the Stability page and their presenters."""
+class StabilityPage(ResultPage[ExperimentChoice]):
+    """Runs experiments; shows each as maps, and the case behind one of their cells."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(FILE_WORDS, load_atlas, parent)
-        self.jobs = StabilityJobs(self)
+        choices = choices_of_all() | {OPEN_SCENE: open_scene_choice(session)}
+        super().__init__(WORDS, choices, load_atlas, parent=parent)
+        self._session = session
         self.entries.setAccessibleName("Experiments")
-        self.controls, self.maps, self.case = StabilityControls(self), AtlasView(self), CaseView(self)
+        self.controls: StabilityControls = StabilityControls(self)
+        self.maps, self.case = AtlasView(self), CaseView(self)
         self.curves = Chart("Severity along the axis", self), ChartLegend(self)
-        self.results: StabilityPresenter = StabilityPresenter(
-            session, self.jobs, self.entries, self.controls, self.maps, self.curves, self.readout, self
-        )
-        self.opened = StabilityCasePresenter(self.results, self.jobs, self.maps, self.curves, self.case, self)
-        self.join_results(self.jobs, self.results, self.opened)
-        curves = splitter(
-            Qt.Orientation.Horizontal, ((self.curves[0], 1, 800), (self.curves[1], 0, 150)), self
-        )
+        self._chart, self._legend = self.curves
+        self.opened = CasePresenter(self.case, self.jobs, self)
+        self._partial: Atlas | None = None
+        """What runs or ran last, with the cells so far, whatever experiment is shown meanwhile."""
+        self.refresh()
+        curves = splitter(Qt.Orientation.Horizontal, ((self._chart, 1, 800), (self._legend, 0, 150)), self)
         self.seen = splitter(Qt.Orientation.Vertical, ((self.maps, 1, 200), (curves, 1, 200)), self)
         self.seen.setAccessibleName("Maps")
         above = ((self.seen, 1), (self._foot(), 0))
-        self.lay_out(self.list_column((360, 300)), self.controls, above, self.case)
+        self.lay_out(self.list_column((360, 300)), above, self.case)
         self.setFocusProxy(self.maps)
+        self.maps.cell_hovered.connect(self._point_at)
+        self.maps.cell_left.connect(self._point_away)
+        self.maps.cell_chosen.connect(self.choose)
+        self.maps.cell_opened.connect(self._open_cell)
+        self._chart.point_hovered.connect(self._point_at_curve)
+        self._chart.point_chosen.connect(self._choose_on_curve)
+        self._legend.series_hovered.connect(self._chart.show_pointed)
+        self._legend.series_chosen.connect(self.choose_failure)
+        for pane in self.curves:
+            pane.series_left.connect(self._point_away)
+        self.case.closing_requested.connect(self.close_opened)
         self.case.save_requested.connect(self.ask_save_case)
+        session.changed.connect(self._follow)
 
     def _foot(self) -> QWidget:
         foot = QWidget(self)
@@ -67,7 +114,191 @@ class StabilityPage(ResultPage):
         row.addWidget(self.copy_button)
         return foot
 
-    # As a page of the window.
+    @Slot(Change)
+    def _follow(self, what: Change) -> None:
+        """Make the experiment on the open scene one on the scene that is open now, unless it has been run."""
+        is_unused = self._choices[OPEN_SCENE].result is None
+        if Change.DOCUMENT in what and is_unused and self._running != OPEN_SCENE:
+            self._choices[OPEN_SCENE] = open_scene_choice(self._session)
+            if self._current == OPEN_SCENE:
+                self.refresh()
+
+    # What is shown.
+
+    @property
+    def atlas(self) -> Atlas | None:
+        """The atlas that is shown: a whole one, or the cells that have been run so far; ``None``: there are no maps."""
+        if self.is_partial:
+            return self._partial
+        return None if self.choice.result is None else self.choice.result.content
+
+    @property
+    def info(self) -> ExperimentInfo:
+        """The experiment with the axes of the maps that are shown."""
+        return self.choice.info if self.atlas is None else self.atlas.experiment
+
+    def _show_controls(self) -> None:
+        choice = self.choice
+        self.controls.show_sentences(choice.info.question, f"Claim: {choice.info.claim}")
+        self.controls.show_choices(choice.resolutions, choice.resolution, choice.seed, choice.can_run)
+
+    def _show_result(self) -> None:
+        self._show_parts()
+        self.maps.show_chosen(self.choice.chosen)
+        self._show_readout()
+
+    @Slot()
+    def _show_parts(self) -> None:
+        """Show the cells that have been run so far; the figures of the cell that is pointed at wait."""
+        if self.atlas is None:
+            self.maps.show_empty(NOTHING)
+        else:
+            self.maps.show_atlas(atlas_record(self.atlas))
+        has = has_curves(self.info)
+        self._chart.setVisible(has)
+        self._legend.setVisible(has)
+        if has:
+            picture = severity_chart(self.info.axes[0], () if self.atlas is None else self.atlas.maps)
+            self._chart.show_picture(picture)
+            self._legend.show_series(picture.series if isinstance(picture, ChartPicture) else ())
+            self._legend.setVisible(isinstance(picture, ChartPicture))
+
+    def _partial_text(self) -> str:
+        return "Running; cells appear row by row."
+
+    def _result_texts(self, result: Result[Atlas]) -> list[str]:
+        return [counts_sentence(result.content), f"Seed {result.content.seed}."]
+
+    # The cell that is pointed at.
+
+    @Slot(object)
+    def _point_at(self, place: CellPlace | None) -> None:
+        self._pointed = place
+        self._show_readout()
+
+    @Slot(str, int)
+    def _point_at_curve(self, method: str, index: int) -> None:
+        self._point_at(place_on_curve(self.info, method, index))
+
+    @Slot()
+    def _point_away(self) -> None:
+        self._point_at(None)
+
+    def _show_readout(self) -> None:
+        place = self._pointed or self.choice.chosen
+        key, column = ("", -1) if place is None else (place.key, place.column)
+        self._chart.show_pointed(key, column)
+        self._legend.show_pointed(key)
+        if self.atlas is None or place is None or not self._is_shown(place):
+            self.readout.show_text(experiment_text(self.choice))
+            self.maps.canvas.setAccessibleDescription("")
+            return
+        self.readout.show_text(cell_text(self.atlas, place))
+        spoken = spoken_cell(self.atlas, place)
+        self.maps.canvas.setAccessibleDescription(spoken)
+        announce(self.maps.canvas, spoken)
+
+    def _is_shown(self, place: CellPlace) -> bool:
+        """Return whether the maps that are shown have such a cell."""
+        shapes = (
+            [each.outcome.shape for each in self.atlas.maps if each.method == place.key] if self.atlas else []
+        )
+        return any(place.row < rows and place.column < columns for rows, columns in shapes)
+
+    # Running.
+
+    def _prepare(self) -> PartWork:
+        """Return what runs the experiment that is shown on the chosen grid."""
+        choice = self.choice
+        if choice.name == OPEN_SCENE:
+            made = open_scene_choice(self._session)
+            choice.info, choice.experiment = made.info, made.experiment
+        assert choice.experiment is not None
+        self._partial, choice.chosen = blank_atlas(choice.info, choice.axes, choice.seed), None
+        return partial(run_grid, choice.experiment, choice.axes, choice.seed)
+
+    def _come_to_nothing(self) -> None:
+        """Choose no cell any more: the previous maps are shown again."""
+        self._pointed = None
+        self.close_opened()
+
+    def _keep_part(self, part: RowRun) -> None:
+        assert self._partial is not None
+        self._partial = with_row(self._partial, part)
+
+    @Slot(object)
+    def _take_result(self, result: Result[Atlas]) -> None:
+        super()._take_result(result)
+        self._show_opened()
+
+    def _done_text(self, choice: ExperimentChoice) -> str:
+        assert choice.result is not None
+        return f"Ran {choice.title.lower()}: {counts_sentence(choice.result.content)}"
+
+    # The cell that is opened.
+
+    def _order(self, place: CellPlace) -> CaseOrder | None:
+        """Return a cell to be run once more; ``None``: this version has no such experiment."""
+        experiment = self.choice.experiment
+        seed = self.choice.seed if self.atlas is None else self.atlas.seed
+        return None if experiment is None else CaseOrder(experiment, place, values_at(self.info, place), seed)
+
+    @Slot(object)
+    def choose(self, place: CellPlace) -> None:
+        """Run the cell once more and show it."""
+        self._show_chosen(place)
+        info, order = self.info, self._order(place)
+        title = method_titles((*info.methods, place.key))[place.key]
+        heading = f"{title} at {place_sentence(info, values_at(info, place))}"
+        if order is None:
+            self.opened.say(heading, _no_experiment(info.name))
+        elif place.key not in order.experiment.info.methods:
+            self.opened.say(heading, "This version has no such method: the case cannot be run.")
+        else:
+            self.opened.look(heading, order)
+
+    @Slot(str, int)
+    def _choose_on_curve(self, method: str, index: int) -> None:
+        self.choose(place_on_curve(self.info, method, index))
+
+    @Slot(str, bool)
+    def choose_failure(self, method: str) -> None:
+        """Show the first cell, row by row, at which a method fails."""
+        place = None if self.atlas is None else first_failure(self.atlas, method)
+        if place is None:
+            self.tell(f"No cell of {method} fails here.")
+        else:
+            self.choose(place)
+
+    @Slot(object)
+    def _open_cell(self, place: CellPlace) -> None:
+        """Open a cell in the stepper, as soon as it has been run."""
+        if self.choice.chosen != place:
+            self.choose(place)
+        self.opened.step_when_found()
+
+    def _show_chosen(self, place: CellPlace | None) -> None:
+        self.choice.chosen = place
+        self.maps.show_chosen(place)
+        self._show_readout()
+
+    def _show_opened(self) -> None:
+        """Show the case of the cell that was chosen of this experiment before, unless it is shown already."""
+        chosen, found = self.choice.chosen, self.opened.found
+        if chosen is None or not self._is_shown(chosen):
+            self.close_opened()
+        elif found is None or found.order != self._order(chosen):
+            self.choose(chosen)
+
+    @Slot()
+    def close_opened(self) -> bool:
+        """Close the case and choose no cell; return whether there was one."""
+        was_open = self.choice.chosen is not None
+        self.opened.close()
+        self._show_chosen(None)
+        return was_open
+
+    # Files.
 
     def main_view(self) -> QWidget:
         """Return what is copied: the maps, and the curves where there are some."""
@@ -82,21 +313,26 @@ class StabilityPage(ResultPage):
             "stability maps": self.seen,
         }
 
-    # Files.
+    def name_of(self, content: Atlas) -> str:
+        """Return the name of the experiment of an atlas."""
+        return content.experiment.name
 
-    def stem_of(self, result: AtlasResult) -> str:
+    def stem_of(self, content: Atlas) -> str:
         """Return the name of a file of an atlas."""
-        return f"stress-{result.name}"
+        return atlas_stem(content)
 
-    def content_of(self, result: AtlasResult, ending: str) -> bytes | None:
+    def content_of(self, result: Result[Atlas], ending: str) -> bytes | None:
         """Return an atlas as the content of a file."""
-        return atlas_content(result.atlas, ending)
+        return atlas_content(result.content, ending)
+
+    def _unknown_choice(self, content: Atlas) -> ExperimentChoice:
+        return choice_of(content.experiment, None)
 
     @Slot()
     def ask_save_case(self) -> None:
         """Ask where the small case is to go, and write it there."""
-        found = self.opened.shrunk
-        if found is None:
+        found = self.opened.found
+        if found is None or found.shrunk is None:
             self.tell("Shrink a failing cell first (S). Only the smallest case can be saved.")
             return
         stem = shrunk_name(found.order.experiment.info.name, found.order.place.key)
@@ -104,7 +340,21 @@ class StabilityPage(ResultPage):
 
     def save_case_to(self, path: str) -> None:
         """Write the small case as a scene or as a Python test, by the ending of the file."""
-        found = self.opened.shrunk
+        found = self.opened.found
         assert found is not None
-        title = f"{found.order.experiment.info.name}: {found.order.place.key}"
-        self.tell_written(path, lambda: save_shrunk(Path(path), found.shrunk, title), "saved", "case")
+        assert found.shrunk is not None
+        shrunk, title = found.shrunk, f"{found.order.experiment.info.name}: {found.order.place.key}"
+        self.tell_written(path, lambda: save_shrunk(Path(path), shrunk, title), "saved", "case")
+
+
+def open_scene_choice(session: Session) -> ExperimentChoice:
+    """Return the experiment on the scene that is open now."""
+    experiment = watertightness(session.document.scene, session.document.title)
+    return choice_of(experiment.info, experiment)
+
+
+def _no_experiment(name: str) -> str:
+    """Return why a cell of a saved atlas cannot be run."""
+    if name == OPEN_SCENE:
+        return "An atlas is saved without its scene. Open that scene and run the experiment to see its cases."
+    return "This version has no such experiment: the case cannot be run."

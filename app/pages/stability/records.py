@@ -1,52 +1,64 @@
 """From an atlas to what the page shows: maps, curves of severity, the figures of a cell, the picture of a case."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
+from dataclasses import replace
 from html import escape
 from math import isnan
 
 import numpy as np
-from numpy.typing import NDArray
 
 from app.export.atlas_text import MARKS, WORDS
-from app.pages.stability.choices import AtlasResult, ExperimentChoice
-from app.pages.stability.jobs import CaseFound, ShrunkFound
+from app.pages.stability.choices import ExperimentChoice
+from app.pages.stability.jobs import CaseFound, RowRun
 from app.pages.words import machine_words
 from core import Frame
 from core.explain.number_text import number_text
 from core.explain.stage_texts import family_title
 from core.framebuffer.display import to_display
-from core.records.arrays import Floats
 from core.records.words import counted
 from core.scene import ClipScene
 from core.study import Opening
-from core.study.stability import Axis, ExperimentInfo, Outcome, StabilityMap
+from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap, Verdict
 from widgets.atlas.case_view import CaseRecord
 from widgets.atlas.records import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellKind, CellPlace
 from widgets.charts.records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
 from widgets.grid.buffer import GridBuffer
 
-Cells = Mapping[str, NDArray[np.int16]]
-"""Method to the kinds (rows, columns) int16 of its cells."""
+
+def blank_atlas(info: ExperimentInfo, axes: tuple[Axis, ...], seed: int) -> Atlas:
+    """Return an atlas of an experiment on these axes without a cell that has been run."""
+    shape = len(axes[1].values) if len(axes) > 1 else 1, len(axes[0].values)
+    remarks = (("",) * shape[1],) * shape[0]
+    maps = tuple(
+        StabilityMap(method, method, np.full(shape, UNKNOWN, np.uint8), np.full(shape, np.nan), remarks)
+        for method in info.methods
+    )
+    return Atlas(replace(info, axes=axes), maps, seed)
 
 
-def blank_cells(info: ExperimentInfo) -> dict[str, NDArray[np.int16]]:
-    """Return maps of an experiment without a cell that has been run."""
-    rows = len(info.axes[1].values) if len(info.axes) > 1 else 1
-    shape = (rows, len(info.axes[0].values))
-    return {method: np.full(shape, UNKNOWN, np.int16) for method in info.methods}
+def with_row(atlas: Atlas, run: RowRun) -> Atlas:
+    """Return an atlas with a row that has been run; the cells of its map are set in their place."""
+    maps = list(atlas.maps)
+    number = atlas.experiment.methods.index(run.method)
+    each, remarks = maps[number], list(maps[number].remarks)
+    each.outcome[run.row] = [verdict.outcome for verdict in run.verdicts]
+    each.severity[run.row] = [verdict.severity for verdict in run.verdicts]
+    remarks[run.row] = tuple(verdict.remark for verdict in run.verdicts)
+    maps[number] = replace(each, remarks=tuple(remarks))
+    return replace(atlas, maps=tuple(maps))
 
 
-def cells_of(maps: tuple[StabilityMap, ...]) -> dict[str, NDArray[np.int16]]:
-    """Return the kinds of all cells of an atlas."""
-    return {each.method: each.outcome.astype(np.int16) for each in maps}
+def map_of(atlas: Atlas, method: str) -> StabilityMap:
+    """Return the map of a method."""
+    return next(each for each in atlas.maps if each.method == method)
 
 
-def atlas_record(info: ExperimentInfo, cells: Cells) -> AtlasRecord:
+def atlas_record(atlas: Atlas) -> AtlasRecord:
     """Return what the maps show."""
-    up = axis_record(info.axes[1]) if len(info.axes) > 1 else None
-    titles = method_titles(tuple(cells))
-    maps = tuple(AtlasMap(method, titles[method], kinds) for method, kinds in cells.items())
-    return AtlasRecord(cell_kinds(), axis_record(info.axes[0]), up, maps)
+    axes, titles = atlas.experiment.axes, method_titles(atlas.experiment.methods)
+    up = axis_record(axes[1]) if len(axes) > 1 else None
+    maps = tuple(AtlasMap(each.method, titles[each.method], each.outcome) for each in atlas.maps)
+    return AtlasRecord(cell_kinds(), axis_record(axes[0]), up, maps)
 
 
 def axis_record(axis: Axis) -> AtlasAxis:
@@ -76,9 +88,9 @@ def values_at(info: ExperimentInfo, place: CellPlace) -> tuple[float, ...]:
     )
 
 
-def first_failure(cells: Cells, method: str) -> CellPlace | None:
+def first_failure(atlas: Atlas, method: str) -> CellPlace | None:
     """Return the first cell, row by row, at which a method fails; ``None``: there is none."""
-    kinds = cells[method]
+    kinds = map_of(atlas, method).outcome
     fails = ~np.isin(kinds, (Outcome.RIGHT, Outcome.REFUSED, UNKNOWN))
     row, column = divmod(int(fails.argmax()), kinds.shape[1])
     return CellPlace(method, column, row) if fails.any() else None
@@ -100,7 +112,7 @@ def place_sentence(info: ExperimentInfo, values: tuple[float, ...]) -> str:
 
 def experiment_text(choice: ExperimentChoice) -> str:
     """Return what is known of an experiment, as rich text."""
-    info = choice.info if choice.result is None else choice.result.atlas.experiment
+    info = choice.info if choice.result is None else choice.result.content.experiment
     axes = "".join(
         f"<li>{escape(axis.title)}: {number_text(axis.values[0])} to {number_text(axis.values[-1])}"
         f"{escape(f' {axis.unit}' if axis.unit else '')}, {counted(len(axis.values), 'value')}</li>"
@@ -116,7 +128,7 @@ def experiment_text(choice: ExperimentChoice) -> str:
     if result is not None:
         origin = f"Opened from {escape(result.path)}. " if result.path else ""
         parts.append(
-            f"<p>{origin}Seed {result.atlas.seed}. {escape(machine_words(result.atlas.machine))}</p>"
+            f"<p>{origin}Seed {result.content.seed}. {escape(machine_words(result.content.machine))}</p>"
             "<p>Point at a cell to read its outcome. Click it to see the case; double-click to step it.</p>"
         )
     return "".join(parts)
@@ -126,18 +138,18 @@ def method_lines(choice: ExperimentChoice) -> tuple[str, ...]:
     """Return the methods; of an experiment that has been run with what was measured, most failures first."""
     if choice.result is None:
         return tuple(method_titles(choice.info.methods).values())
-    fails = failure_counts(choice.result)
-    size = {each.method: each.outcome.size for each in choice.result.atlas.maps}
+    fails = failure_counts(choice.result.content)
+    size = {each.method: each.outcome.size for each in choice.result.content.maps}
     worst = sorted(fails, key=lambda method: -fails[method])
     titles = method_titles(tuple(fails))
     return tuple(f"{titles[method]}: {fails[method]:,} of {size[method]:,} fail" for method in worst)
 
 
-def cell_text(
-    info: ExperimentInfo, place: CellPlace, kind: int, severity: float, remark: str, title: str
-) -> str:
+def cell_text(atlas: Atlas, place: CellPlace) -> str:
     """Return the figures of one cell, as rich text."""
-    lines = [f"<b>{escape(title)}</b>"]
+    info, each = atlas.experiment, map_of(atlas, place.key)
+    kind, severity = int(each.outcome[place.row, place.column]), float(each.severity[place.row, place.column])
+    lines = [f"<b>{escape(method_titles(info.methods)[place.key])}</b>"]
     for axis, value in zip(info.axes, values_at(info, place), strict=True):
         unit = f" {escape(axis.unit)}" if axis.unit else ""
         lines.append(f"{escape(axis.title)}: <b>{number_text(value)}</b>{unit}")
@@ -147,51 +159,50 @@ def cell_text(
         lines.append(f"Outcome: <b>{WORDS[Outcome(kind)]}</b>")
         if severity and not isnan(severity):
             lines.append(f"Severity: <b>{number_text(severity)}</b>")
+        remark = each.remark(place.column, place.row)
         if remark:
             lines.append(f"{escape(remark[:1].upper() + remark[1:])}.")
     return "<p>" + "</p><p>".join(lines) + "</p>"
 
 
+def spoken_cell(atlas: Atlas, place: CellPlace) -> str:
+    """Return what a screen reader says of one cell."""
+    info, each = atlas.experiment, map_of(atlas, place.key)
+    kind, severity = int(each.outcome[place.row, place.column]), float(each.severity[place.row, place.column])
+    where = place_sentence(info, values_at(info, place))
+    outcome = "not run yet" if kind == UNKNOWN else WORDS[Outcome(kind)]
+    amount = f", severity {number_text(severity, 3)}" if severity and kind != UNKNOWN else ""
+    return f"{method_titles(info.methods)[place.key]}, {where}: {outcome}{amount}"
+
+
 def case_record(found: CaseFound) -> CaseRecord:
-    """Return what is shown of a cell."""
-    info, verdict = found.order.experiment.info, found.verdict
-    is_failure = verdict.outcome not in (Outcome.RIGHT, Outcome.REFUSED)
+    """Return what is shown of a cell, as it was run or made small."""
+    info, opening, shrunk = found.order.experiment.info, found.opening, found.shrunk
+    if shrunk is None:
+        heading = f"{found.order.place.key} at {place_sentence(info, found.order.values)}"
+        verdict = verdict_sentence(found.verdict.outcome, found.verdict.remark)
+    else:
+        heading = f"{info.title}: smallest case of {found.order.place.key}"
+        verdict = f"{shrunk.sentence} It took {counted(shrunk.run_count, 'run')}."
+    is_refused = shrunk is None and found.verdict.outcome is Outcome.REFUSED
+    if found.frame is None and opening is not None and not is_refused:
+        size = "{:,} × {:,}".format(*opening.scene.size)
+        verdict += f" Its picture has {size} pixels: open it in the stepper to see the part that matters."
     return CaseRecord(
-        heading=f"{found.order.place.key} at {place_sentence(info, found.order.values)}",
-        verdict=verdict_sentence(verdict.outcome, verdict.remark) + _missing_picture(found),
+        heading,
+        verdict,
         buffers=None if found.frame is None else case_buffers(found.frame),
-        pixel=None if found.opening is None or found.frame is None else found.opening.pixel,
-        has_formats=found.opening is not None and has_formats(found.opening),
-        can_step=found.opening is not None,
-        can_shrink=is_failure,
+        pixel=None if opening is None or found.frame is None else opening.pixel,
+        has_formats=opening is not None and has_formats(opening),
+        can_step=opening is not None,
+        can_shrink=shrunk is None and is_failure(found.verdict),
+        can_save=shrunk is not None,
     )
 
 
-def _missing_picture(found: CaseFound) -> str:
-    """Return why no picture is shown, where one is opened in the stepper."""
-    if found.frame is not None or found.opening is None or found.verdict.outcome is Outcome.REFUSED:
-        return ""
-    return _too_large(found.opening)
-
-
-def _too_large(opening: Opening) -> str:
-    width, height = opening.scene.size
-    return f" Its picture has {width:,} × {height:,} pixels: open it in the stepper to see the part that matters."
-
-
-def shrunk_record(found: ShrunkFound) -> CaseRecord:
-    """Return what is shown of a cell that has been made small."""
-    opening = found.shrunk.opening
-    runs = counted(found.shrunk.run_count, "run")
-    return CaseRecord(
-        heading=f"{found.order.experiment.info.title}: smallest case of {found.order.place.key}",
-        verdict=f"{found.shrunk.sentence} It took {runs}.{'' if found.frame is not None else _too_large(opening)}",
-        buffers=None if found.frame is None else case_buffers(found.frame),
-        pixel=opening.pixel if found.frame is not None else None,
-        has_formats=has_formats(opening),
-        can_step=True,
-        can_save=True,
-    )
+def is_failure(verdict: Verdict) -> bool:
+    """Return whether a run went wrong; a method that refuses, with a reason, does not."""
+    return verdict.outcome not in (Outcome.RIGHT, Outcome.REFUSED)
 
 
 def has_formats(opening: Opening) -> bool:
@@ -216,20 +227,20 @@ def case_buffers(frame: Frame) -> tuple[GridBuffer, GridBuffer]:
     )
 
 
-def failure_counts(result: AtlasResult) -> dict[str, int]:
+def failure_counts(atlas: Atlas) -> dict[str, int]:
     """Return how many cells of each method fail; what was refused, with a reason, does not."""
     return {
         each.method: each.outcome.size - each.count(Outcome.RIGHT) - each.count(Outcome.REFUSED)
-        for each in result.atlas.maps
+        for each in atlas.maps
     }
 
 
-def counts_sentence(result: AtlasResult) -> str:
+def counts_sentence(atlas: Atlas) -> str:
     """Return in words how many cells of which method fail."""
-    fails = failure_counts(result)
+    fails = failure_counts(atlas)
     total = sum(fails.values())
     worst = max(fails, key=lambda method: fails[method])
-    cells = sum(each.outcome.size for each in result.atlas.maps)
+    cells = sum(each.outcome.size for each in atlas.maps)
     if not total:
         return f"None of {cells:,} runs fails."
     title = method_titles(tuple(fails))[worst]
@@ -288,17 +299,15 @@ def has_curves(info: ExperimentInfo) -> bool:
     return len(info.axes) == 1
 
 
-def severity_chart(
-    axis: Axis, severities: Mapping[str, Floats], titles: Mapping[str, str]
-) -> ChartPicture | ChartEmpty:
-    """Return the chart of the severities (N,) of methods at the N values of an axis; NaN has no place."""
+def severity_chart(axis: Axis, maps: Sequence[StabilityMap]) -> ChartPicture | ChartEmpty:
+    """Return the chart of severity, of maps of one row, at the values of their axis; NaN has no place."""
     if min(axis.values) < 0:
         return ChartEmpty(BELOW_ZERO)
-    numbers = {method: number for number, method in enumerate(titles)}
+    titles = method_titles(tuple(each.method for each in maps))
     series = tuple(
-        ChartSeries(method, titles[method], numbers[method], np.array(axis.values), values)
-        for method, values in severities.items()
-        if not np.isnan(values).all()
+        ChartSeries(each.method, titles[each.method], number, np.array(axis.values), each.severity[0])
+        for number, each in enumerate(maps)
+        if not np.isnan(each.severity).all()
     )
     if not series:
         return ChartEmpty(NOTHING_RUN)

@@ -4,7 +4,7 @@ import pytest
 from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
-from app.pages.background_task import PAUSE, PacedDrawing
+from app.pages.experiment_page import PAUSE, PacedDrawing
 
 
 @pytest.fixture

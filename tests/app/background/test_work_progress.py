@@ -2,11 +2,10 @@
 
 from pytestqt.qtbot import QtBot
 
-from app.background.workers import Job
-from app.pages.background_task import BackgroundTask, WorkWords
-from app.pages.page_bar import Page
+from app.pages.experiment_page import ExperimentPage, WorkWords
 from app.window.main_window import MainWindow
 from widgets.basics.message_bar import Progress
+from widgets.basics.run_panel import RunPanel
 
 
 def test_the_progress_of_opening_names_the_file(window: MainWindow, qtbot: QtBot) -> None:
@@ -22,18 +21,14 @@ def test_the_progress_of_opening_names_the_file(window: MainWindow, qtbot: QtBot
 def test_each_percent_is_told_once(qtbot: QtBot) -> None:
     shown: list[tuple[str, int] | None] = []
 
-    class Controls:
+    class Controls(RunPanel):
         def show_progress(self, progress: Progress | None) -> None:
             shown.append(progress and (progress.text, progress.done))
 
-    class Task(BackgroundTask):
-        def _put_back(self) -> None:
-            pass
-
-    # The page is held here: held by the task only, it would go while the task goes, and delete it once more.
-    job, page = Job(), Page()
+    page = ExperimentPage(WorkWords("", "", "", ""))
+    page.controls = Controls("", "", "", "", "", page)
     qtbot.addWidget(page)
-    Task(job, Controls(), WorkWords("", "", ""), page)
+    job = page.work
     for k in range(100):
         job.progressed.emit(0.2 + 0.0001 * k, "slivers")
     job.progressed.emit(0.21, "cracks")

@@ -41,12 +41,12 @@ def test_an_atlas_is_exported_and_opened_again(
     assert len(rows) == sum(each.outcome.size for each in atlas.maps)
     assert atlas.experiment.claim.split(". ")[0] in (tmp_path / "atlas.svg").read_text().replace("\n", " ")
     assert {row["date"] for row in rows} == {atlas.machine["date"]}
-    page.results.choice.result = None
+    page.choice.result = None
     window.pages.show_page("step")
     window.open_path(str(tmp_path / "atlas.json"))
     assert window.pages.current_name == "stability"
-    assert page.results.result is not None
-    again = page.results.result.atlas
+    assert page.choice.result is not None
+    again = page.choice.result.content
     assert (again.experiment, again.seed, again.machine) == (atlas.experiment, atlas.seed, atlas.machine)
     for first, second in zip(atlas.maps, again.maps, strict=True):
         assert np.array_equal(first.outcome, second.outcome)
@@ -70,8 +70,8 @@ def test_an_atlas_of_before_there_were_remarks_opens(page: StabilityPage, tmp_pa
         del each["remarks"]
     (tmp_path / "old.json").write_text(json.dumps(record))
     page.open_path(str(tmp_path / "old.json"))
-    assert page.results.result is not None
-    assert page.results.result.atlas.maps[0].remark(0, 0) == ""
+    assert page.choice.result is not None
+    assert page.choice.result.content.maps[0].remark(0, 0) == ""
     point_at(page, CellPlace(EXCLUSIVE, 0, 0))
     assert "Outcome" in page.readout.text()
 

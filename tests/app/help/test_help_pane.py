@@ -87,8 +87,8 @@ def test_typing_finds_and_a_link_shows_the_entry_with_a_way_back(window: MainWin
         ("use/fill/scanline", lambda window: window.session.document.settings.fill == "scanline"),
         ("view/clip", lambda window: window.page.current_view() == "clip"),
         ("action/page_compare", lambda window: window.pages.current_name == "compare"),
-        ("compare/fill", lambda window: window.pages.current.results.choice.name == "fill"),
-        ("stability/slivers", lambda window: window.pages.current.results.choice.name == "slivers"),
+        ("compare/fill", lambda window: window.pages.current.choice.name == "fill"),
+        ("stability/slivers", lambda window: window.pages.current.choice.name == "slivers"),
     ],
     ids=lambda value: value if isinstance(value, str) else "",
 )

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 from app.pages.compare.page import ComparePage
-from app.pages.result_page import WorkPage
+from app.pages.experiment_page import ExperimentPage
 from app.window.main_window import MainWindow
 from core import STAGES
 
@@ -134,8 +134,8 @@ def test_f5_measures_on_compare(window: MainWindow) -> None:
     page = window.pages.current
     assert isinstance(page, ComparePage)
     press(window, Qt.Key.Key_F5)
-    assert page.results.is_running
-    page.results.cancel()
+    assert page.is_running
+    page.cancel()
     assert window.pages.current is page
 
 
@@ -157,7 +157,7 @@ def test_charts_have_half_of_the_screen_and_the_desk_comes_back(
     for name in ("stability", "compare"):
         window.pages.show_page(name)
         shown = window.pages.current
-        assert isinstance(shown, WorkPage)
+        assert isinstance(shown, ExperimentPage)
         window.page.settle()
         view = shown.main_view()
         assert view.width() * view.height() >= 0.5 * size[0] * size[1], name

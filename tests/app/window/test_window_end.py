@@ -29,7 +29,7 @@ sys.exit(window_start.run_window({target!r}))
 
 
 OPENED = ("torus", "window.files.open_path('knot')")
-MAPPED = ("single-triangle", "window.pages.show_page('stability'); window.pages.current.results.start()")
+MAPPED = ("single-triangle", "window.pages.show_page('stability'); window.pages.current.start()")
 ALONE = [
     ("/nowhere/gone.obj", "pass"),
     OPENED,
@@ -37,7 +37,7 @@ ALONE = [
     ("single-triangle", "window.page.timeline.toggle_play()"),
     ("knot", "window.page.show_view('scene')"),
     ("sphere", "window.session.set_setting('fill', 'brute-force')"),
-    ("single-triangle", "window.pages.show_page('compare'); window.pages.current.results.start()"),
+    ("single-triangle", "window.pages.show_page('compare'); window.pages.current.start()"),
 ]
 AT_ONCE = ("/nowhere/gone.obj", f"{MAPPED[1]}; {OPENED[1]}")
 WITHOUT_END = "window.files.job.start(lambda progress, is_cancelled: __import__('time').sleep(1000))"

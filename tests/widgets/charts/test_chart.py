@@ -174,11 +174,11 @@ def test_the_wheel_zooms_and_fit_shows_all_again(chart: Chart) -> None:
 
 def test_an_empty_chart_says_what_to_do(chart: Chart) -> None:
     full = image_of(chart)
-    chart.show_empty(ChartEmpty("Press Measure."))
+    chart.show_picture(ChartEmpty("Press Measure."))
     assert chart.places() == []
     empty = image_of(chart)
     assert empty != full
-    chart.show_empty(ChartEmpty(""))
+    chart.show_picture(ChartEmpty(""))
     assert image_of(chart) != empty
     chart.show_picture(PICTURE)
     assert image_of(chart) == full

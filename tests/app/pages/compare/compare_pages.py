@@ -20,27 +20,27 @@ def compare_page(window: MainWindow) -> ComparePage:
     window.pages.show_page("compare")
     found = window.pages.current
     assert isinstance(found, ComparePage)
-    found.results.show_named("visibility")
-    found.results.choice.work = "cycle"
-    found.results.choice.rounds = 2
-    found.results.refresh()
+    found.show_named("visibility")
+    found.choice.work = "cycle"
+    found.choice.rounds = 2
+    found.refresh()
     return found
 
 
 def measured(page: ComparePage, qtbot: QtBot) -> Study:
     """Measure by the key and wait; then give each method twice the time of the one before, so that no marks meet."""
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    assert page.results.is_running
-    qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
-    result = page.results.result
+    assert page.is_running
+    qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
+    result = page.choice.result
     assert result is not None
     points = tuple(
         replace(point, seconds=0.001 * 2.0**number * np.ones_like(point.seconds))
-        for number, point in enumerate(result.study.points)
+        for number, point in enumerate(result.content.points)
     )
-    study = replace(result.study, points=points)
-    page.results.choice.result = replace(result, study=study)
-    page.results.refresh()
+    study = replace(result.content, points=points)
+    page.choice.result = replace(result, content=study)
+    page.refresh()
     return study
 
 

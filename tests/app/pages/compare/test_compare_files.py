@@ -66,7 +66,7 @@ def test_a_saved_study_is_dropped_and_shown_as_what_it_is(
     drop(window, path)
     page = window.pages.current
     assert isinstance(page, ComparePage)
-    assert page.results.choice.name == "line"
+    assert page.choice.name == "line"
     assert "2020-02-02" in page.shown_text.text()
     assert page.controls.seed_box.value() == 5
     assert len(page.scatter.places()) == 2
@@ -75,7 +75,7 @@ def test_a_saved_study_is_dropped_and_shown_as_what_it_is(
 def test_a_study_of_an_unknown_family_is_looked_at_but_not_measured(
     window: MainWindow, page: ComparePage
 ) -> None:
-    page.results.take_saved(hand_made("from-a-later-version"), "later.json")
+    page.take_saved(hand_made("from-a-later-version"), "later.json")
     assert len(page.scatter.places()) == 2
     assert not page.controls.start_button.isEnabled()
     QTest.keyClick(window, Qt.Key.Key_F5)
@@ -83,7 +83,7 @@ def test_a_study_of_an_unknown_family_is_looked_at_but_not_measured(
 
 
 def test_a_broken_study_leaves_what_is_shown(window: MainWindow, page: ComparePage, tmp_path: Path) -> None:
-    page.results.take_saved(hand_made(), "lines.json")
+    page.take_saved(hand_made(), "lines.json")
     path = tmp_path / "broken.json"
     path.write_text("{}")
     drop(window, path)
@@ -95,9 +95,9 @@ def test_a_broken_study_leaves_what_is_shown(window: MainWindow, page: ComparePa
 def test_a_study_is_exported(
     window: MainWindow, page: ComparePage, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, cost: str
 ) -> None:
-    page.results.take_saved(hand_made(), "lines.json")
-    page.results.choice.cost = cost
-    page.results.refresh()
+    page.take_saved(hand_made(), "lines.json")
+    page.choice.cost = cost
+    page.refresh()
     for ending in (".json", ".csv", ".svg", ".png", ".pdf"):
         path = str(tmp_path / f"study{ending}")
         monkeypatch.setattr(SaveDialog, "ask", lambda dialog, path=path: path)
@@ -114,7 +114,7 @@ def test_a_study_is_exported(
 def test_an_export_that_is_not_possible_is_told(
     window: MainWindow, page: ComparePage, tmp_path: Path
 ) -> None:
-    page.results.take_saved(hand_made(), "lines.json")
+    page.take_saved(hand_made(), "lines.json")
     page.export_to(str(tmp_path / "study.xls"))
     assert "must end with" in window.messages.text.text()
     page.export_to(str(tmp_path / "nowhere" / "study.csv"))
@@ -123,6 +123,6 @@ def test_an_export_that_is_not_possible_is_told(
 
 def test_a_saved_pipeline_study_has_no_pictures(page: ComparePage) -> None:
     study = measure("visibility", "cycle", rounds=1)
-    page.results.take_saved(replace(study, scene="teapot"), "old.json")
-    page.opened.choose("visibility=z-buffer")
+    page.take_saved(replace(study, scene="teapot"), "old.json")
+    page.choose("visibility=z-buffer")
     assert "without its scene, teapot" in page.pictures.heading.text()

@@ -80,7 +80,7 @@ def test_two_points_are_locked_and_stepped_to_where_they_part(
     measured(page, qtbot)
     click(page, "visibility=z-buffer")
     click(page, "visibility=last-drawn", Qt.KeyboardModifier.ControlModifier)
-    assert page.opened.chosen == ("visibility=z-buffer", "visibility=last-drawn")
+    assert page.chosen == ("visibility=z-buffer", "visibility=last-drawn")
     wait_for_pictures(page, qtbot)
     first, second, difference = (grid.buffer() for grid in page.pictures.linked.grids)
     assert np.array_equal((first.values != second.values).any(axis=2), difference.values != 0)
@@ -99,7 +99,7 @@ def test_two_points_are_locked_and_stepped_to_where_they_part(
 def test_two_points_that_never_part_say_so(window: MainWindow, page: ComparePage, qtbot: QtBot) -> None:
     measured(page, qtbot)
     click(page, "visibility=last-drawn")
-    page.opened.choose("visibility=painters", is_added=True)
+    page.choose("visibility=painters", is_added=True)
     wait_for_pictures(page, qtbot)
     page.opened.step_to_divergence()
     qtbot.waitUntil(

@@ -43,13 +43,13 @@ def looked_page(kept_window: MainWindow, qtbot: QtBot) -> Iterator[PlanPage]:
     before = kept_window.session.document
     kept_window.pages.show_page("plan")
     page = plan_page(kept_window)
-    if page.plans.shown is None:
+    if page.shown is None:
         looked(page, qtbot)
     yield page
     after = kept_window.session.document
     assert (after.scene, after.settings) == (before.scene, before.settings)
-    assert page.plans.shown is not None
-    assert not page.plans.is_stale
+    assert page.shown is not None
+    assert not page.is_stale
     kept_window.messages.clear()
 
 
@@ -61,7 +61,7 @@ def plan_page(window: MainWindow) -> PlanPage:
 
 
 def report_of(page: PlanPage) -> PlanReport:
-    shown = page.plans.shown
+    shown = page.shown
     assert shown is not None
     assert shown.report is not None
     return shown.report
@@ -70,8 +70,8 @@ def report_of(page: PlanPage) -> PlanReport:
 def looked(page: PlanPage, qtbot: QtBot) -> PlanReport:
     """Look by the key and wait."""
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    assert page.plans.is_running
-    qtbot.waitUntil(lambda: not page.plans.is_running, timeout=60000)
+    assert page.is_running
+    qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
     QApplication.processEvents()  # Rows that have just been made are shown a moment later.
     return report_of(page)
 
@@ -128,9 +128,9 @@ def test_the_tolerance_is_the_one_that_was_set(page: PlanPage, qtbot: QtBot) -> 
     QTest.keyClick(page.controls.kind_box, Qt.Key.Key_Down)
     assert not page.controls.color_box.isEnabled()
     page.controls.start_button.click()
-    qtbot.waitUntil(lambda: not page.plans.is_running, timeout=60000)
-    assert page.plans.shown is not None
-    assert page.plans.shown.plan.tolerance == Tolerance.exact()
+    qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
+    assert page.shown is not None
+    assert page.shown.plan.tolerance == Tolerance.exact()
     assert "exact" in page.summary.about.text()
 
 
@@ -155,7 +155,7 @@ def test_applying_is_one_step_that_undo_takes_back(
     assert window.session.document.settings == report.plan.settings
     hint = window.statusBar().currentMessage()
     assert window.statusBar().fontMetrics().horizontalAdvance(hint) < window.statusBar().width(), "whole"
-    assert not page.plans.is_stale
+    assert not page.is_stale
     window.pages.show_page("step")
     window.page.toggle_pane("methods")
     combo = window.page.settings_panel.combo("visibility")
@@ -207,9 +207,9 @@ def test_other_things_to_be_seen_make_the_results_old(
 ) -> None:
     looked(page, qtbot)
     window.session.set_setting("fill", "blocks")
-    assert not page.plans.is_stale
+    assert not page.is_stale
     window.session.set_setting("wrap", "mirror")
-    assert page.plans.is_stale
+    assert page.is_stale
 
 
 @pytest.mark.slow
@@ -217,12 +217,12 @@ def test_cancelling_leaves_what_was_found_before(page: PlanPage, qtbot: QtBot) -
     report = looked(page, qtbot)
     page.controls.rounds_box.setValue(99)
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    qtbot.waitUntil(lambda: page.plans.shown is not None and page.plans.shown.report is None, timeout=60000)
+    qtbot.waitUntil(lambda: page.shown is not None and page.shown.report is None, timeout=60000)
     assert "Measuring" in page.summary.headline.text()
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
-    assert not page.plans.is_running
-    assert page.plans.shown is not None
-    assert page.plans.shown.report is report
+    assert not page.is_running
+    assert page.shown is not None
+    assert page.shown.report is report
     assert page.controls.start_button.isVisible()
     assert page.controls.start_button.hasFocus()
 
@@ -239,8 +239,8 @@ def test_a_scene_that_is_too_large_is_told(
     QTest.keyClick(window, Qt.Key.Key_F5)
     qtbot.waitUntil(window.messages.isVisible, timeout=60000)
     assert "could not be analysed" in window.messages.text.text()
-    assert page.plans.shown is not None
-    assert page.plans.shown.report is report
+    assert page.shown is not None
+    assert page.shown.report is report
 
 
 def test_a_wrong_prediction_is_said_plainly() -> None:
@@ -297,13 +297,13 @@ def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: Pla
     report = looked(page, qtbot)
     compare = window.pages.page("compare")
     assert isinstance(compare, ComparePage)
-    compare.results.show_named("pipeline")
-    compare.results.choice.rounds = 1
-    compare.results.choice.dials["scene", "scale"] = 0.5
+    compare.show_named("pipeline")
+    compare.choice.rounds = 1
+    compare.choice.dials["scene", "scale"] = 0.5
     QTest.keyClick(window, Qt.Key.Key_M, CTRL)
     assert window.pages.current is compare
-    qtbot.waitUntil(lambda: not compare.results.is_running, timeout=120000)
-    study, picture = compare.results.study, compare.scatter.picture
+    qtbot.waitUntil(lambda: not compare.is_running, timeout=120000)
+    study, picture = compare.study, compare.scatter.picture
     assert study is not None
     assert picture is not None
     (ringed,) = picture.ringed
@@ -312,7 +312,7 @@ def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: Pla
     assert titles[ringed] == "What the scene needs"
     assert "Reference settings" in titles.values()
     another_scene(window)
-    compare.results.refresh()
+    compare.refresh()
     assert compare.scatter.picture is not None
     assert compare.scatter.picture.ringed == ()
 
@@ -325,10 +325,10 @@ def test_without_a_plan_the_chart_has_no_ring_and_says_so(window: MainWindow, pa
 
 def test_closing_while_looking_ends_the_thread(page: PlanPage, qtbot: QtBot) -> None:
     page.controls.rounds_box.setValue(99)
-    page.plans.analyse()
+    page.start()
     start = time.perf_counter()
     page.window().close()
-    assert not page.plans.is_running
+    assert not page.is_running
     assert time.perf_counter() - start < 20
 
 

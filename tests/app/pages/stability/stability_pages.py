@@ -7,6 +7,7 @@ from pytestqt.qtbot import QtBot
 from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
 from core.study.stability import Atlas
+from core.study.stability.shrink import Shrunk
 from widgets.atlas.records import CellPlace
 
 EXCLUSIVE = "fill_rule=exclusive"
@@ -20,24 +21,24 @@ def stability_page(window: MainWindow) -> StabilityPage:
     QTest.keyClick(window, Qt.Key.Key_3, Qt.KeyboardModifier.AltModifier)
     found = window.pages.current
     assert isinstance(found, StabilityPage)
-    found.results.show_named("shared-edges")
-    found.results.choice.resolution = "coarse"
-    found.results.refresh()
+    found.show_named("shared-edges")
+    found.choice.resolution = "coarse"
+    found.refresh()
     return found
 
 
 def run(page: StabilityPage, qtbot: QtBot) -> Atlas:
     """Run by the key and wait."""
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    assert page.results.is_running
-    qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
-    assert page.results.result is not None
-    return page.results.result.atlas
+    assert page.is_running
+    qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
+    assert page.choice.result is not None
+    return page.choice.result.content
 
 
 def ran(page: StabilityPage, qtbot: QtBot) -> Atlas:
     """Return what an earlier test of the same window has run, or run it."""
-    return run(page, qtbot) if page.results.result is None else page.results.result.atlas
+    return run(page, qtbot) if page.choice.result is None else page.choice.result.content
 
 
 def click(page: StabilityPage, place: CellPlace) -> None:
@@ -50,6 +51,16 @@ def point_at(page: StabilityPage, place: CellPlace) -> None:
 
 def wait_for_case(page: StabilityPage, qtbot: QtBot) -> None:
     qtbot.waitUntil(lambda: page.opened.found is not None, timeout=60000)
+
+
+def wait_for_shrunk(page: StabilityPage, qtbot: QtBot) -> Shrunk:
+    """Wait until the case that is opened has been made small; return what it was made to."""
+    qtbot.waitUntil(
+        lambda: page.opened.found is not None and page.opened.found.shrunk is not None, timeout=60000
+    )
+    assert page.opened.found is not None
+    assert page.opened.found.shrunk is not None
+    return page.opened.found.shrunk
 
 
 def status(page: StabilityPage) -> str:

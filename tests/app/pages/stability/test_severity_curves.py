@@ -33,6 +33,10 @@ def hand_made(axis: Axis = AXIS) -> Atlas:
     return Atlas(info, maps)
 
 
+def map_of(method: str, *severity: float) -> StabilityMap:
+    return StabilityMap(method, method, np.zeros((1, len(severity)), np.uint8), np.array([severity]))
+
+
 @pytest.fixture
 def page(window: MainWindow) -> StabilityPage:
     window.pages.show_page("stability")
@@ -42,7 +46,7 @@ def page(window: MainWindow) -> StabilityPage:
 
 
 def test_one_line_for_each_method_and_zero_has_a_place(page: StabilityPage) -> None:
-    page.results.take_saved(hand_made(), "gaps.json")
+    page.take_saved(hand_made(), "gaps.json")
     QApplication.processEvents()
     chart, legend = page.curves
     picture = chart.picture
@@ -57,7 +61,7 @@ def test_one_line_for_each_method_and_zero_has_a_place(page: StabilityPage) -> N
 
 
 def test_a_point_of_a_curve_is_the_cell_of_the_map(page: StabilityPage) -> None:
-    page.results.take_saved(hand_made(), "gaps.json")
+    page.take_saved(hand_made(), "gaps.json")
     QApplication.processEvents()
     chart, legend = page.curves
     place = chart.place_of(WEAK, 1)
@@ -66,49 +70,49 @@ def test_a_point_of_a_curve_is_the_cell_of_the_map(page: StabilityPage) -> None:
     assert "Severity: <b>3</b>" in page.readout.text()
     assert legend.currentRow() == 0
     QTest.mouseClick(chart.viewport(), Qt.MouseButton.LeftButton, pos=place.toPoint())
-    assert page.results.choice.chosen == CellPlace(WEAK, 1, 0)
+    assert page.choice.chosen == CellPlace(WEAK, 1, 0)
 
 
 def test_a_row_of_the_list_opens_the_first_failure(page: StabilityPage, window: MainWindow) -> None:
-    page.results.take_saved(hand_made(), "gaps.json")
+    page.take_saved(hand_made(), "gaps.json")
     QApplication.processEvents()
     legend = page.curves[1]
     for row, wanted in ((1, None), (0, CellPlace(WEAK, 0, 0))):
         place = legend.visualItemRect(legend.item(row)).center()
         QTest.mouseClick(legend.viewport(), Qt.MouseButton.LeftButton, pos=place)
-        assert page.results.choice.chosen == wanted
+        assert page.choice.chosen == wanted
         if wanted is None:
             assert f"No cell of {STRONG} fails" in window.statusBar().currentMessage()
 
 
 def test_curves_come_with_the_cells_and_go_with_a_second_axis(page: StabilityPage, qtbot: QtBot) -> None:
-    page.results.show_named("precision-dial")
-    page.results.choice.resolution = "coarse"
+    page.show_named("precision-dial")
+    page.choice.resolution = "coarse"
     counts: list[int] = []
 
     def count_lines() -> None:
         picture = page.curves[0].picture
         counts.append(0 if picture is None else len(picture.series))
 
-    page.jobs.running.part_done.connect(count_lines)
-    page.results.start()
-    qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
+    page.work.part_done.connect(count_lines)
+    page.start()
+    qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
     assert counts[0] == 1, (
         "the first line is there with its cells; the others come as they are run, a few at a time"
     )
     assert counts == sorted(counts)
     picture = page.curves[0].picture
     assert picture is not None
-    assert len(picture.series) == len(page.results.info.methods)
+    assert len(picture.series) == len(page.info.methods)
     assert page.curves[0].isVisible()
-    page.results.show_named("slivers")
+    page.show_named("slivers")
     assert not page.curves[0].isVisible()
     assert not page.curves[1].isVisible()
 
 
 def test_an_axis_below_zero_says_where_to_look(qapp: QApplication) -> None:
     axis = Axis("gap", "Gap", "", (-1.0, 1.0))
-    found = severity_chart(axis, {WEAK: np.array([1.0, 0.0])}, {WEAK: "float16"})
+    found = severity_chart(axis, (map_of(WEAK, 1.0, 0.0),))
     assert found == ChartEmpty(BELOW_ZERO)
     with paint_as(LIGHT):
         sheet = atlas_sheet(hand_made(Axis("gap", "Gap", "", (-1.0, 0.0, 1.0))))
@@ -116,10 +120,9 @@ def test_an_axis_below_zero_says_where_to_look(qapp: QApplication) -> None:
 
 
 def test_what_has_not_been_run_has_no_line() -> None:
-    titles = {WEAK: "float16", STRONG: "exact"}
-    unknown, partly = np.full(3, np.nan), np.array([1.0, np.nan, 0.0])
-    assert severity_chart(AXIS, {WEAK: unknown, STRONG: unknown}, titles) == ChartEmpty(NOTHING_RUN)
-    found = severity_chart(AXIS, {WEAK: unknown, STRONG: partly}, titles)
+    unknown = map_of(WEAK, *[np.nan] * 3)
+    assert severity_chart(AXIS, (unknown, map_of(STRONG, *[np.nan] * 3))) == ChartEmpty(NOTHING_RUN)
+    found = severity_chart(AXIS, (unknown, map_of(STRONG, 1.0, np.nan, 0.0)))
     assert isinstance(found, ChartPicture)
     assert [(series.key, series.number) for series in found.series] == [(STRONG, 1)]
 

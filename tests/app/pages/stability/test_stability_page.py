@@ -1,6 +1,7 @@
 """The Stability page: running, maps, cells, the case behind a cell, shrinking, and files; with real runs."""
 
 import re
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,7 +12,7 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.files.state_files import load_state
-from app.pages.stability.jobs import StressOrder
+from app.pages.stability.jobs import run_grid
 from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
 from core.study.stability import Axis, Outcome, experiments, stress
@@ -26,6 +27,7 @@ from tests.app.pages.stability.stability_pages import (
     stability_page,
     status,
     wait_for_case,
+    wait_for_shrunk,
 )
 from widgets.atlas.format_probe import HEAD
 from widgets.atlas.records import UNKNOWN, CellPlace
@@ -56,7 +58,7 @@ def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbo
         assert record is not None
         unknown.append(record.count(UNKNOWN))
 
-    page.jobs.running.part_done.connect(count_unknown)
+    page.work.part_done.connect(count_unknown)
     atlas = run(page, qtbot)
     info = experiments.get("shared-edges").info
     alone = stress("shared-edges", axes=axes_at(info.axes, "coarse"))
@@ -75,41 +77,41 @@ def test_a_run_shows_every_cell_as_it_is_run_elsewhere(page: StabilityPage, qtbo
 
 def test_cancelling_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot) -> None:
     before = run(page, qtbot)
-    page.results.choice.resolution = "fine"
+    page.choice.resolution = "fine"
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    qtbot.waitUntil(lambda: page.maps.canvas.record is not None and page.results.is_partial)
+    qtbot.waitUntil(lambda: page.maps.canvas.record is not None and page.is_partial)
     page.maps.canvas.cell_chosen.emit(CellPlace(EXCLUSIVE, 18, 0))
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
-    assert not page.results.is_running
+    assert not page.is_running
     record = page.maps.canvas.record
     assert record is not None
     assert [each.cells.tolist() for each in record.maps] == [each.outcome.tolist() for each in before.maps]
-    assert page.results.choice.chosen is None, "the fine grid's cell is not one of the coarse grid"
+    assert page.choice.chosen is None, "the fine grid's cell is not one of the coarse grid"
     qtbot.wait(100)
-    assert page.results.result is not None
-    assert page.results.result.atlas is before
+    assert page.choice.result is not None
+    assert page.choice.result.content is before
 
 
 def test_a_failed_run_leaves_the_maps_of_before(page: StabilityPage, qtbot: QtBot) -> None:
     before = run(page, qtbot)
     wrong = (Axis("height", "Height", "", (1.0,)),)
-    page.jobs.run(StressOrder(experiments.get("shared-edges"), wrong, 0))
+    page.begin(partial(run_grid, experiments.get("shared-edges"), wrong, 0), "")
     window = page.window()
     assert isinstance(window, MainWindow)
     qtbot.waitUntil(lambda: window.messages.isVisible(), timeout=60000)
     assert "axes of shared-edges must be steps, cells" in window.messages.text.text()
-    assert page.results.result is not None
-    assert page.results.result.atlas is before
+    assert page.choice.result is not None
+    assert page.choice.result.content is before
 
 
 def test_atlases_are_kept_for_every_experiment(page: StabilityPage, qtbot: QtBot) -> None:
     atlas = ran(page, qtbot)
     QTest.keyClick(page.window(), Qt.Key.Key_PageDown, Qt.KeyboardModifier.ControlModifier)
-    assert page.results.choice.name == "mesh-through-the-eye"
+    assert page.choice.name == "mesh-through-the-eye"
     assert page.maps.canvas.record is None
     page.entries.setCurrentRow(page.entries.currentRow() - 1)
-    assert page.results.result is not None
-    assert page.results.result.atlas is atlas
+    assert page.choice.result is not None
+    assert page.choice.result.content is atlas
     assert page.maps.canvas.record is not None
 
 
@@ -125,7 +127,7 @@ def test_hover_reads_the_cell_and_leaving_reads_the_experiment(page: StabilityPa
     text = page.readout.text()
     assert "Methods, most failures first" in text
     fails = [int(found) for found in re.findall(r": (\d+) of \d+ fail<", text)]
-    assert len(fails) == len(page.results.info.methods)
+    assert len(fails) == len(page.info.methods)
     assert fails == sorted(fails, reverse=True)
     assert fails[0] > fails[-1] == 0
 
@@ -142,7 +144,7 @@ def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbo
     assert canvas.chosen == CellPlace(EXCLUSIVE, 1, 1)
     QTest.keyClick(canvas, Qt.Key.Key_Backtab, Qt.KeyboardModifier.ShiftModifier)
     assert canvas.chosen == CellPlace("fill=scanline-lecture", 1, 1)
-    assert page.results.choice.chosen == canvas.chosen
+    assert page.choice.chosen == canvas.chosen
     assert canvas.accessibleDescription().startswith("Fill: scanline-lecture, grid steps of the corners")
     QTest.keyClick(canvas, Qt.Key.Key_Backtab, Qt.KeyboardModifier.ShiftModifier)
     assert not canvas.hasFocus(), "before the first map Shift+Tab leaves the maps"
@@ -191,8 +193,8 @@ def test_a_cell_is_opened_at_once(window: MainWindow, page: StabilityPage, qtbot
 def test_a_picture_that_is_too_large_is_only_opened(
     window: MainWindow, page: StabilityPage, qtbot: QtBot
 ) -> None:
-    page.results.show_named("line-drift")
-    page.results.choice.resolution = "coarse"
+    page.show_named("line-drift")
+    page.choice.resolution = "coarse"
     atlas = run(page, qtbot)
     worst = next(each for each in atlas.maps if each.method == "line=dda-float32")
     column = worst.outcome.shape[1] - 1
@@ -233,17 +235,15 @@ def test_escape_closes_the_case(page: StabilityPage, qtbot: QtBot) -> None:
 def test_every_kind_of_cell_is_shrunk_and_opens_in_the_stepper(
     window: MainWindow, page: StabilityPage, qtbot: QtBot, name: str, method: str, stage: str
 ) -> None:
-    page.results.show_named(name)
-    page.results.choice.resolution = "coarse"
+    page.show_named(name)
+    page.choice.resolution = "coarse"
     found = next(each for each in run(page, qtbot).maps if each.method == method)
     failing = np.argwhere((found.outcome != Outcome.RIGHT) & (found.outcome != Outcome.REFUSED))
     row, column = failing[0].tolist()
     click(page, CellPlace(method, column, row))
     wait_for_case(page, qtbot)
     QTest.keyClick(window, Qt.Key.Key_S)
-    qtbot.waitUntil(lambda: page.opened.shrunk is not None, timeout=60000)
-    assert page.opened.shrunk is not None
-    shrunk = page.opened.shrunk.shrunk
+    shrunk = wait_for_shrunk(page, qtbot)
     assert shrunk.sentence in page.case.verdict.text()
     assert page.case.step_button.isEnabled()
     with qtbot.waitSignal(window.opening.opened, timeout=60000):
@@ -261,22 +261,20 @@ def test_a_failing_cell_is_shrunk_saved_and_opened(
     click(page, CellPlace(EXCLUSIVE, 0, 0))
     wait_for_case(page, qtbot)
     QTest.keyClick(window, Qt.Key.Key_S)
-    qtbot.waitUntil(lambda: page.opened.shrunk is not None, timeout=60000)
-    found = page.opened.shrunk
-    assert found is not None
-    assert found.shrunk.sentence in page.case.verdict.text()
+    shrunk = wait_for_shrunk(page, qtbot)
+    assert shrunk.sentence in page.case.verdict.text()
     assert page.case.save_button.isEnabled()
     page.save_case_to(str(tmp_path / "small.rasterscope"))
     page.save_case_to(str(tmp_path / "test_small.py"))
-    assert (tmp_path / "test_small.py").read_text() == found.shrunk.test
+    assert (tmp_path / "test_small.py").read_text() == shrunk.test
     saved, _ = load_state(tmp_path / "small.rasterscope")
     assert saved.document.settings.fill_rule == "exclusive"
-    assert saved.document.scene.size == found.shrunk.scene.size
+    assert saved.document.scene.size == shrunk.scene.size
     page.save_case_to(str(tmp_path / "small.txt"))
     assert "must end in .rasterscope or .py" in window.messages.text.text()
     with qtbot.waitSignal(window.opening.opened, timeout=60000):
         QTest.keyClick(window, Qt.Key.Key_Return, Qt.KeyboardModifier.ControlModifier)
-    assert window.session.document.scene.size == found.shrunk.scene.size
+    assert window.session.document.scene.size == shrunk.scene.size
 
 
 def test_a_right_cell_cannot_be_shrunk(page: StabilityPage, qtbot: QtBot) -> None:
@@ -292,8 +290,8 @@ def test_a_right_cell_cannot_be_shrunk(page: StabilityPage, qtbot: QtBot) -> Non
 
 
 def test_the_precision_dial_of_a_cell_and_of_another_pixel(page: StabilityPage, qtbot: QtBot) -> None:
-    page.results.show_named("precision-dial")
-    page.results.choice.resolution = "coarse"
+    page.show_named("precision-dial")
+    page.choice.resolution = "coarse"
     run(page, qtbot)
     click(page, CellPlace("coverage=float16", 0, 0))
     wait_for_case(page, qtbot)
@@ -334,16 +332,16 @@ def test_the_dial_of_a_crack_reads_the_triangles_at_it(page: StabilityPage, qtbo
 
 
 def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:
-    page.results.show_named(OPEN_SCENE)
-    page.results.choice.resolution = "coarse"
+    page.show_named(OPEN_SCENE)
+    page.choice.resolution = "coarse"
     assert window.session.document.title in page.controls.question.text()
     atlas = run(page, qtbot)
     right = {each.method for each in atlas.maps if each.count(Outcome.RIGHT) == each.outcome.size}
     assert {"coverage=exact", "fill_rule=shared-edge", "fill=spans"} <= right
     assert "fill=scanline-lecture" not in right
     window.session.set_setting("fill", "blocks")
-    assert page.results.result is not None
-    assert page.results.result.atlas is atlas, "what has been run stays when the scene changes"
+    assert page.choice.result is not None
+    assert page.choice.result.content is atlas, "what has been run stays when the scene changes"
 
 
 def test_cells_grow_with_the_type(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:
