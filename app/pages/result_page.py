@@ -69,9 +69,12 @@ class Choice(Generic[Content]):
         self.result = result
 
 
+ChoiceType = TypeVar("ChoiceType", bound=Choice[Any])
+
+
 @dataclass(frozen=True)
-class ResultWords(WorkWords):
-    """What is said of results, and of their files."""
+class ResultKind(WorkWords, Generic[Content, ChoiceType]):
+    """What the results of a page are, and what is said of them and of their files."""
 
     running: str
     """After the title of what runs: ``is still being measured``."""
@@ -85,48 +88,55 @@ class ResultWords(WorkWords):
     """What is copied as a picture: ``charts``."""
     nothing: str
     """What to do while there is nothing to be written."""
-    kinds: str
+    endings: str
     """Kinds of files with their endings, as ``QFileDialog`` takes them."""
     export_tip: str
     copy_tip: str
-
-
-ChoiceType = TypeVar("ChoiceType", bound=Choice[Any])
+    load: Callable[[Path], Content]
+    """Opens a file, or raises ValueError."""
+    content: Callable[[Content, ChoiceType, str], bytes | None]
+    """The content of a file with an ending; ``None``: the file is a picture of the view."""
+    stem: Callable[[Content], str]
+    """What a file is called, without its ending."""
+    name_of: Callable[[Content], str]
+    """The name of the experiment that a result is of."""
+    saved_choice: Callable[[Content], ChoiceType]
+    """The choice of a saved result that this version cannot make."""
+    sentences: Callable[[Content], list[str]]
+    """What a result is of."""
+    done: Callable[[str, Content], str]
+    """The message that the work of a title is done."""
 
 
 class ResultPage(ExperimentPage, Generic[ChoiceType]):
     """Keeps the choices and results of all experiments and shows those of one."""
 
-    words: ResultWords
-
     def __init__(
         self,
-        words: ResultWords,
+        kind: ResultKind[Any, ChoiceType],
         choices: dict[str, ChoiceType],
-        load: Callable[[Path], Any],
-        first: str = "",
+        first: str,
         parent: QWidget | None = None,
     ) -> None:
-        """Make the widgets that all such pages have; ``load`` opens a file and raises ValueError."""
-        super().__init__(words, parent)
-        self._choices, self._load = choices, load
-        self._current = first or next(iter(choices))
+        """Make the widgets that all such pages have."""
+        super().__init__(kind, parent)
+        self._kind, self._choices, self._current = kind, choices, first
         self._running = ""
         """Name of what is being done; empty: nothing."""
         self._pointed: Any = None
         """The method or the cell that is pointed at; ``None``: none."""
         self._pace = PacedDrawing(self)
         self._pace.due.connect(self._show_parts)
-        self.kept = KeptResults(words.noun, load, self)
+        self.kept = KeptResults(kind.noun, kind.load, self)
         self.kept.failed.connect(self.edit_refused)
         self.kept.found.connect(self.take_kept)
         self.entries, self.readout = FamilyList(self), Readout("Figures", self)
         self.entries.family_chosen.connect(self.show_named)
         self.shown_text = ElidedLabel(self)
         self.shown_text.setProperty("role", "muted")
-        self.shown_text.setAccessibleDescription(f"What the {words.view} show")
-        self.export_button = self._button("Export…", words.export_tip, self.ask_export)
-        self.copy_button = self._button("Copy", words.copy_tip, self.copy)
+        self.shown_text.setAccessibleDescription(f"What the {kind.view} show")
+        self.export_button = self._button("Export…", kind.export_tip, self.ask_export)
+        self.copy_button = self._button("Copy", kind.copy_tip, self.copy)
         about = "What these methods are, and where each is exact and breaks"
         self.reference_button = flat_button("i", "About these methods", about, self)
         self.reference_button.setMinimumSize(24, 24)
@@ -214,14 +224,14 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
         result = choice.result
         if self.is_partial or result is None:
             return self._partial_text() if self.is_partial else ""
-        parts = self._result_texts(result)
+        parts = self._kind.sentences(result.content)
         if result.is_example:
             # First: the line is cut at its end where the page is narrow.
             parts.insert(0, "An example from another computer: F5 makes your own.")
         elif result.is_kept:
             parts.append("Kept from an earlier start.")
         if choice.can_run and choice.is_changed:
-            parts.append(f"The settings have changed since: {self.words.again}.")
+            parts.append(f"The settings have changed since: {self._kind.again}.")
         if result.content.machine:
             parts.append(f"{machine_words(result.content.machine)}.")
         return " ".join(parts)
@@ -237,10 +247,10 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
     def start(self) -> None:
         """Start the chosen work."""
         if not self.choice.can_run:
-            self.refuse(self.words.unknown)
+            self.refuse(self._kind.unknown)
         elif self._running:
             title = self._choices[self._running].title
-            self.tell(f"{title} {self.words.running}. Wait until it is done, or cancel it first (Shift+F5).")
+            self.tell(f"{title} {self._kind.running}. Wait until it is done, or cancel it first (Shift+F5).")
         else:
             self._running, self._pointed = self._current, None
             run = self._prepare()
@@ -264,11 +274,12 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
 
     @Slot(object)
     def _take_result(self, result: Result[Any]) -> None:
-        name = self.name_of(result.content)
-        self._choices[name].take(result)
+        name = self._kind.name_of(result.content)
+        choice = self._choices[name]
+        choice.take(result)
         self.refresh()
-        self.tell(self._done_text(self._choices[name]))
-        self.kept.keep(name, partial(self.content_of, result, ENDING))
+        self.tell(self._kind.done(choice.title, result.content))
+        self.kept.keep(name, partial(self._kind.content, result.content, choice, ENDING))
 
     def _put_back(self) -> None:
         """Show the result that there was before."""
@@ -284,7 +295,7 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
     @Slot(object, bool)
     def take_kept(self, content: Any, is_example: bool = False) -> None:
         """Show what was kept from an earlier start, or the program's example, unless there is a newer result."""
-        name = self.name_of(content)
+        name = self._kind.name_of(content)
         choice = self._choices.get(name)
         if choice is not None and choice.result is None and self._running != name:
             choice.take(Result(content, is_kept=True, is_example=is_example))
@@ -292,16 +303,16 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
 
     def take_saved(self, content: Any, path: str) -> None:
         """Show what was opened from a file."""
-        name = self.name_of(content)
+        name = self._kind.name_of(content)
         if name not in self._choices:
-            self._choices[name] = self._unknown_choice(content)
+            self._choices[name] = self._kind.saved_choice(content)
         self._choices[name].take(Result(content, path=path))
         self._turn_to(name)
 
     def open_path(self, path: str) -> None:
         """Open a saved result."""
         try:
-            self.take_saved(self._load(Path(path)), Path(path).name)
+            self.take_saved(self._kind.load(Path(path)), Path(path).name)
         except ValueError as error:
             self.refuse(f"{error}. The page is unchanged.")
         else:
@@ -326,13 +337,13 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
     def ask_export(self) -> None:
         """Ask for a file and write the result to it."""
         if self._is_finished() and self.finished is not None:
-            name = f"{self.stem_of(self.finished.content)}.png"
-            self.ask_path(f"Export {self.words.noun}", name, self.words.kinds, self.export_to)
+            name = f"{self._kind.stem(self.finished.content)}.png"
+            self.ask_path(f"Export {self._kind.noun}", name, self._kind.endings, self.export_to)
 
     def export_to(self, path: str) -> None:
         """Write the result by the ending of the file."""
         if self._is_finished():
-            self.tell_written(path, lambda: self._write(path), "exported", self.words.noun)
+            self.tell_written(path, lambda: self._write(path), "exported", self._kind.noun)
 
     def ask_path(self, title: str, name: str, kinds: str, write: Callable[[str], None]) -> None:
         """Ask for a file, and write to it unless there is none."""
@@ -351,11 +362,12 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
 
     def _is_finished(self) -> bool:
         if self.finished is None:
-            self.tell(f"There is nothing to export yet: {self.words.nothing}.")
+            self.tell(f"There is nothing to export yet: {self._kind.nothing}.")
         return self.finished is not None
 
     def _write(self, path: str) -> None:
-        content = None if self.finished is None else self.content_of(self.finished, Path(path).suffix.lower())
+        assert self.finished is not None
+        content = self._kind.content(self.finished.content, self.choice, Path(path).suffix.lower())
         if content is None:
             export_widget(self.main_view(), path)
         else:
@@ -365,7 +377,7 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
     def copy(self) -> None:
         """Put the view on the clipboard as a picture."""
         copy_widget(self.main_view())
-        self.tell(f"Copied the {self.words.view}.")
+        self.tell(f"Copied the {self._kind.view}.")
 
     def stop(self) -> None:
         """End all work, and finish what is being written."""
@@ -373,18 +385,6 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
         self.kept.shut_down()
 
     # What a page says.
-
-    def name_of(self, content: Any) -> str:
-        """Return the name of the experiment that a result is of."""
-        raise NotImplementedError
-
-    def stem_of(self, content: Any) -> str:
-        """Return what a file of a result is called, without its ending."""
-        raise NotImplementedError
-
-    def content_of(self, result: Result[Any], ending: str) -> bytes | None:
-        """Return the content of a file of a result; ``None``: the file is a picture of the view."""
-        raise NotImplementedError
 
     def _show_controls(self) -> None:
         """Show the choices."""
@@ -404,16 +404,4 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
 
     def _partial_text(self) -> str:
         """Return what is shown while it is being made."""
-        raise NotImplementedError
-
-    def _result_texts(self, result: Result[Any]) -> list[str]:
-        """Return what the result that is shown is of, in sentences."""
-        raise NotImplementedError
-
-    def _done_text(self, choice: ChoiceType) -> str:
-        """Return the message that work is done."""
-        raise NotImplementedError
-
-    def _unknown_choice(self, content: Any) -> ChoiceType:
-        """Return the choice of a result that this version cannot make."""
         raise NotImplementedError

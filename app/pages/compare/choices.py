@@ -98,6 +98,13 @@ def choices_of_all() -> dict[str, FamilyChoice]:
     }
 
 
+def choice_of_saved(study: Study) -> FamilyChoice:
+    """Return the choice of a family that this version does not have."""
+    return FamilyChoice(
+        name=study.family, title=study.title, can_run=False, works=(study.work,), work=study.work.name
+    )
+
+
 def controls_of(choice: FamilyChoice) -> StudyChoices:
     """Return what stands above the charts."""
     work = choice.work_kind

@@ -106,6 +106,13 @@ def study_text(study: Study, path: str = "") -> str:
     return _paragraphs(parts)
 
 
+def study_sentences(study: Study) -> list[str]:
+    """Return what was measured, and how many methods refused it."""
+    refused = sum(bool(point.refused) for point in study.points)
+    said = [f"{counted(refused, 'method')} refused this work."] if refused else []
+    return [f"{work_sentence(study)}; seed {study.seed}.", *said]
+
+
 def family_text(choice: FamilyChoice) -> str:
     """Return what can be compared of a family, as rich text."""
     works = "".join(f"<li>{work.title}</li>" for work in choice.works)

@@ -2,6 +2,7 @@
 
 from dataclasses import replace
 from functools import partial
+from operator import attrgetter
 from typing import Any
 
 from PySide6.QtCore import Qt, Slot
@@ -12,13 +13,12 @@ from app.background.workers import PartWork
 from app.export.study import study_content, study_stem
 from app.files.study_files import EXTENSION, load_study
 from app.pages.compare.charts import growth_of, numbers_of, scatter_of, title_of
-from app.pages.compare.choices import FamilyChoice, choices_of_all, controls_of
-from app.pages.compare.figures import family_text, point_text, study_text, table_of
+from app.pages.compare.choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of
+from app.pages.compare.figures import family_text, point_text, study_sentences, study_text, table_of
 from app.pages.compare.jobs import chosen_points, drawn_points, measured, plan_candidates
 from app.pages.experiment_page import splitter
 from app.pages.opened import OpenedPictures
-from app.pages.result_page import Result, ResultPage, ResultWords
-from app.pages.words import work_sentence
+from app.pages.result_page import ResultKind, ResultPage
 from app.session.moment import Change
 from app.session.session import Session
 from core.records.words import counted
@@ -34,7 +34,7 @@ from widgets.charts.study_controls import StudyControls
 from widgets.charts.study_pictures import StudyPictures
 from widgets.charts.study_table import StudyTable, TableRecord
 
-WORDS = ResultWords(
+KIND: ResultKind[Study, FamilyChoice] = ResultKind(
     page="Compare",
     cancelled="Measuring was cancelled",
     failed="It could not be measured",
@@ -45,10 +45,17 @@ WORDS = ResultWords(
     noun="study",
     view="charts",
     nothing="measure first (F5)",
-    kinds="Chart with its figures (*.png);;Drawing (*.svg);;Table of the numbers (*.csv);;"
+    endings="Chart with its figures (*.png);;Drawing (*.svg);;Table of the numbers (*.csv);;"
     f"Study, to be opened again (*{EXTENSION});;Current view (*.pdf)",
     export_tip="Write the charts, the numbers or the whole study to a file (Ctrl+E)",
     copy_tip="Put the charts, or the numbers with all their digits, on the clipboard",
+    load=load_study,
+    content=lambda study, choice, ending: study_content(study, choice.measure, ending, choice.cost),
+    stem=study_stem,
+    name_of=attrgetter("family"),
+    saved_choice=choice_of_saved,
+    sentences=study_sentences,
+    done=lambda title, _: f"Measured {title.lower()}.",
 )
 NOTHING = (
     "Error against cost, one mark for each method, appears here. Measure (F5) takes a few seconds to half a minute; "
@@ -66,7 +73,7 @@ class ComparePage(ResultPage[FamilyChoice]):
     """Measures the families of methods; shows each method as a point, and what one or two points drew."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
-        super().__init__(WORDS, choices_of_all(), load_study, FIRST, parent)
+        super().__init__(KIND, choices_of_all(), FIRST, parent)
         self._session = session
         self.controls: StudyControls = StudyControls(self)
         self.scatter, self.growth = Chart("Error against cost", self), Chart("Cost against size", self)
@@ -173,13 +180,7 @@ class ComparePage(ResultPage[FamilyChoice]):
         study = self.study
         if study is None:
             return ""
-        return f"{_work_text(study)} {counted(len(study.points), 'method')} measured so far."
-
-    def _result_texts(self, result: Result[Study]) -> list[str]:
-        refused = sum(bool(point.refused) for point in result.content.points)
-        return [_work_text(result.content)] + [f"{counted(refused, 'method')} refused this work."] * bool(
-            refused
-        )
+        return f"{study_sentences(study)[0]} {counted(len(study.points), 'method')} measured so far."
 
     @Slot(str)
     def _point_at(self, method: str) -> None:
@@ -290,9 +291,6 @@ class ComparePage(ResultPage[FamilyChoice]):
         in_order = sorted(points.values(), key=lambda each: self._numbers[each.method])
         self._measured = replace(self._measured, points=tuple(in_order))
 
-    def _done_text(self, choice: FamilyChoice) -> str:
-        return f"Measured {choice.title.lower()}."
-
     # The points that are opened.
 
     @Slot(str, bool)
@@ -360,24 +358,6 @@ class ComparePage(ResultPage[FamilyChoice]):
             "compare rows": self.panes,
         }
 
-    def name_of(self, content: Study) -> str:
-        """Return the name of the family of a study."""
-        return content.family
-
-    def stem_of(self, content: Study) -> str:
-        """Return the name of a file of a study."""
-        return study_stem(content)
-
-    def content_of(self, result: Result[Study], ending: str) -> bytes | None:
-        """Return a study as the content of a file; the charts have the chosen axes."""
-        return study_content(result.content, self.choice.measure, ending, self.choice.cost)
-
-    def _unknown_choice(self, content: Study) -> FamilyChoice:
-        work = content.work
-        return FamilyChoice(
-            name=content.family, title=content.title, can_run=False, works=(work,), work=work.name
-        )
-
     @Slot()
     def copy(self) -> None:
         """Put the charts on the clipboard as a picture, or the numbers as text."""
@@ -386,7 +366,3 @@ class ComparePage(ResultPage[FamilyChoice]):
             self.tell("Copied the numbers.")
         else:
             super().copy()
-
-
-def _work_text(study: Study) -> str:
-    return f"{work_sentence(study)}; seed {study.seed}."

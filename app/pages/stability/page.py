@@ -1,6 +1,7 @@
 """The page of the atlas: experiments, one map for each method, and the case behind a cell."""
 
 from functools import partial
+from operator import attrgetter
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Slot
@@ -12,7 +13,7 @@ from app.files.atlas_files import EXTENSION, load_atlas
 from app.files.shrunk_files import save_shrunk, shrunk_name
 from app.files.state_files import EXTENSION as STATE_EXTENSION
 from app.pages.experiment_page import splitter
-from app.pages.result_page import Result, ResultPage, ResultWords
+from app.pages.result_page import Result, ResultKind, ResultPage
 from app.pages.stability.case_presenter import CasePresenter
 from app.pages.stability.choices import ExperimentChoice, choice_of, choices_of_all
 from app.pages.stability.jobs import CaseOrder, RowRun, run_grid
@@ -47,7 +48,7 @@ from widgets.charts.chart import Chart
 from widgets.charts.legend import ChartLegend
 from widgets.charts.records import ChartPicture
 
-WORDS = ResultWords(
+KIND: ResultKind[Atlas, ExperimentChoice] = ResultKind(
     page="Stability",
     cancelled="Running was cancelled",
     failed="It could not be run",
@@ -58,10 +59,17 @@ WORDS = ResultWords(
     noun="atlas",
     view="maps",
     nothing="run the experiment first (F5)",
-    kinds="Maps with claim and machine (*.png);;Drawing (*.svg);;Table of all cells (*.csv);;"
+    endings="Maps with claim and machine (*.png);;Drawing (*.svg);;Table of all cells (*.csv);;"
     f"Atlas, to be opened again (*{EXTENSION});;Current view (*.pdf)",
     export_tip="Write the maps, all cells or the whole atlas to a file (Ctrl+E)",
     copy_tip="Put the maps on the clipboard",
+    load=load_atlas,
+    content=lambda atlas, _, ending: atlas_content(atlas, ending),
+    stem=atlas_stem,
+    name_of=attrgetter("experiment.name"),
+    saved_choice=lambda atlas: choice_of(atlas.experiment, None),
+    sentences=lambda atlas: [counts_sentence(atlas), f"Seed {atlas.seed}."],
+    done=lambda title, atlas: f"Ran {title.lower()}: {counts_sentence(atlas)}",
 )
 CASE_KINDS = f"Scene, to be opened again (*{STATE_EXTENSION});;Python test (*.py)"
 NOTHING = (
@@ -74,7 +82,7 @@ class StabilityPage(ResultPage[ExperimentChoice]):
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
         choices = choices_of_all() | {OPEN_SCENE: open_scene_choice(session)}
-        super().__init__(WORDS, choices, load_atlas, parent=parent)
+        super().__init__(KIND, choices, next(iter(choices)), parent)
         self._session = session
         self.entries.setAccessibleName("Experiments")
         self.controls: StabilityControls = StabilityControls(self)
@@ -166,9 +174,6 @@ class StabilityPage(ResultPage[ExperimentChoice]):
     def _partial_text(self) -> str:
         return "Running; cells appear row by row."
 
-    def _result_texts(self, result: Result[Atlas]) -> list[str]:
-        return [counts_sentence(result.content), f"Seed {result.content.seed}."]
-
     # The cell that is pointed at.
 
     @Slot(object)
@@ -230,10 +235,6 @@ class StabilityPage(ResultPage[ExperimentChoice]):
     def _take_result(self, result: Result[Atlas]) -> None:
         super()._take_result(result)
         self._show_opened()
-
-    def _done_text(self, choice: ExperimentChoice) -> str:
-        assert choice.result is not None
-        return f"Ran {choice.title.lower()}: {counts_sentence(choice.result.content)}"
 
     # The cell that is opened.
 
@@ -312,21 +313,6 @@ class StabilityPage(ResultPage[ExperimentChoice]):
             "stability rows": self.panes,
             "stability maps": self.seen,
         }
-
-    def name_of(self, content: Atlas) -> str:
-        """Return the name of the experiment of an atlas."""
-        return content.experiment.name
-
-    def stem_of(self, content: Atlas) -> str:
-        """Return the name of a file of an atlas."""
-        return atlas_stem(content)
-
-    def content_of(self, result: Result[Atlas], ending: str) -> bytes | None:
-        """Return an atlas as the content of a file."""
-        return atlas_content(result.content, ending)
-
-    def _unknown_choice(self, content: Atlas) -> ExperimentChoice:
-        return choice_of(content.experiment, None)
 
     @Slot()
     def ask_save_case(self) -> None:

@@ -247,46 +247,28 @@ def counts_sentence(atlas: Atlas) -> str:
     return f"{total:,} of {cells:,} runs fail; {title} most often, {fails[worst]:,} times."
 
 
-COLORS = {
-    Outcome.RIGHT: "#E8EEF2",
-    Outcome.HOLE: "#0072B2",
-    Outcome.DOUBLE_HIT: "#D55E00",
-    Outcome.WRONG_ORDER: "#CC79A7",
-    Outcome.NOT_A_NUMBER: "#000000",
-    Outcome.OVERFLOW: "#8A7A00",
-    Outcome.WRONG_PICTURE: "#882255",
-    Outcome.REFUSED: "#BBBBBB",
+WHITE, BLACK = "#ffffff", "#000000"
+LOOKS = {
+    Outcome.RIGHT: (("#E8EEF2", "#2f3940"), (BLACK, "#a5adb4")),
+    Outcome.HOLE: (("#0072B2", "#2f94d1"), (WHITE, BLACK)),
+    Outcome.DOUBLE_HIT: (("#D55E00", "#f07b23"), (BLACK, BLACK)),
+    Outcome.WRONG_ORDER: (("#CC79A7", "#d98cb8"), (BLACK, BLACK)),
+    Outcome.NOT_A_NUMBER: ((BLACK, WHITE), (WHITE, BLACK)),
+    Outcome.OVERFLOW: (("#8A7A00", "#d8c400"), (BLACK, BLACK)),
+    Outcome.WRONG_PICTURE: (("#882255", "#c4548c"), (WHITE, BLACK)),
+    Outcome.REFUSED: (("#BBBBBB", "#5a6066"), (BLACK, WHITE)),
 }
-"""Colours that colour-blind people tell apart (M. Okabe, K. Ito, 2008); wine (P. Tol, 2021) where they have green.
+"""Fills and inks of cells, each on a light and on a dark background: what is right keeps back, what is wrong is seen.
 
+Colours that colour-blind people tell apart (M. Okabe, K. Ito, 2008); wine (P. Tol, 2021) where they have green.
 Nothing that fails is green: a map of green cells would be read as one where all is well.
 """
-DARK = {Outcome.HOLE, Outcome.NOT_A_NUMBER, Outcome.WRONG_PICTURE}
-"""Outcomes whose character is white."""
-ON_DARK = {
-    Outcome.RIGHT: ("#2f3940", "#a5adb4"),
-    Outcome.HOLE: ("#2f94d1", "#000000"),
-    Outcome.DOUBLE_HIT: ("#f07b23", "#000000"),
-    Outcome.NOT_A_NUMBER: ("#ffffff", "#000000"),
-    Outcome.OVERFLOW: ("#d8c400", "#000000"),
-    Outcome.WRONG_PICTURE: ("#c4548c", "#000000"),
-    Outcome.WRONG_ORDER: ("#d98cb8", "#000000"),
-    Outcome.REFUSED: ("#5a6066", "#ffffff"),
-}
-"""Fill and ink on a dark background: what is right keeps back, what is wrong is seen."""
 
 
 def cell_kinds() -> tuple[CellKind, ...]:
     """Return the look of every outcome, in the order of `Outcome`."""
-    return tuple(
-        CellKind(
-            WORDS[outcome],
-            "·" if outcome is Outcome.RIGHT else MARKS[outcome],
-            (COLORS[outcome], ON_DARK[outcome][0]),
-            ("#ffffff" if outcome in DARK else "#000000", ON_DARK[outcome][1]),
-        )
-        for outcome in Outcome
-    )
+    marks = MARKS | {Outcome.RIGHT: "·"}
+    return tuple(CellKind(WORDS[outcome], marks[outcome], *LOOKS[outcome]) for outcome in Outcome)
 
 
 SEVERITY = "Severity, how wrong a run is"
