@@ -104,16 +104,18 @@ class ResultKind(WorkWords, Generic[Content, ChoiceType]):
     """The choice of a saved result that this version cannot make."""
     sentences: Callable[[Content], list[str]]
     """What a result is of."""
+    so_far: Callable[[Content], str]
+    """What is shown of it while it is being made."""
     done: Callable[[str, Content], str]
     """The message that the work of a title is done."""
 
 
-class ResultPage(ExperimentPage, Generic[ChoiceType]):
+class ResultPage(ExperimentPage, Generic[Content, ChoiceType]):
     """Keeps the choices and results of all experiments and shows those of one."""
 
     def __init__(
         self,
-        kind: ResultKind[Any, ChoiceType],
+        kind: ResultKind[Content, ChoiceType],
         choices: dict[str, ChoiceType],
         first: str,
         parent: QWidget | None = None,
@@ -123,6 +125,8 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
         self._kind, self._choices, self._current = kind, choices, first
         self._running = ""
         """Name of what is being done; empty: nothing."""
+        self._partial: Content | None = None
+        """What runs or ran last, with the parts so far, whatever is shown meanwhile; ``None``: there is none yet."""
         self._pointed: Any = None
         """The method or the cell that is pointed at; ``None``: none."""
         self._pace = PacedDrawing(self)
@@ -169,6 +173,13 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
     def choice(self) -> ChoiceType:
         """What is shown."""
         return self._choices[self._current]
+
+    @property
+    def content(self) -> Content | None:
+        """The result that is shown: a whole one, or the parts so far; ``None``: there is none."""
+        if self.is_partial:
+            return self._partial
+        return None if self.choice.result is None else self.choice.result.content
 
     @property
     def is_partial(self) -> bool:
@@ -222,8 +233,10 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
     def _text(self) -> str:
         choice = self.choice
         result = choice.result
-        if self.is_partial or result is None:
-            return self._partial_text() if self.is_partial else ""
+        if self.is_partial:
+            return "" if self._partial is None else self._kind.so_far(self._partial)
+        if result is None:
+            return ""
         parts = self._kind.sentences(result.content)
         if result.is_example:
             # First: the line is cut at its end where the page is narrow.
@@ -401,7 +414,3 @@ class ResultPage(ExperimentPage, Generic[ChoiceType]):
 
     def _keep_part(self, part: Any) -> None:
         """Keep a part of the result."""
-
-    def _partial_text(self) -> str:
-        """Return what is shown while it is being made."""
-        raise NotImplementedError

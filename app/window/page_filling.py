@@ -92,7 +92,7 @@ class _Refusals:
         self.texts.append(text)
 
 
-def _show_result(page: ResultPage[Any], content: PageContent) -> None:
+def _show_result(page: ResultPage[Any, Any], content: PageContent) -> None:
     """Run the requested work, and open the requested method."""
     if content.name:
         page.show_named(
@@ -111,8 +111,8 @@ def _show_result(page: ResultPage[Any], content: PageContent) -> None:
     if not content.method or page.choice.result is None:
         return
     what = f"method of {page.choice.name}"
-    if isinstance(page, ComparePage) and page.study is not None:
-        page.choose(_known(what, content.method, [point.method for point in page.study.points]))
+    if isinstance(page, ComparePage) and page.content is not None:
+        page.choose(_known(what, content.method, [point.method for point in page.content.points]))
     elif isinstance(page, StabilityPage):
         page.choose_failure(_known(what, content.method, list(page.info.methods)))
     _wait_until(lambda: not page.jobs.is_running)

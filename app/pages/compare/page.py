@@ -55,6 +55,9 @@ KIND: ResultKind[Study, FamilyChoice] = ResultKind(
     name_of=attrgetter("family"),
     saved_choice=choice_of_saved,
     sentences=study_sentences,
+    so_far=lambda study: (
+        f"{study_sentences(study)[0]} {counted(len(study.points), 'method')} measured so far."
+    ),
     done=lambda title, _: f"Measured {title.lower()}.",
 )
 NOTHING = (
@@ -69,7 +72,7 @@ FIRST = "line"
 LETTERS = ("A", "B")
 
 
-class ComparePage(ResultPage[FamilyChoice]):
+class ComparePage(ResultPage[Study, FamilyChoice]):
     """Measures the families of methods; shows each method as a point, and what one or two points drew."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -79,8 +82,8 @@ class ComparePage(ResultPage[FamilyChoice]):
         self.scatter, self.growth = Chart("Error against cost", self), Chart("Cost against size", self)
         self.legend, self.table, self.pictures = ChartLegend(self), StudyTable(self), StudyPictures(self)
         self.opened = OpenedPictures(self.pictures, self.jobs, self)
-        self._measured: Study | None = None
-        """What runs or ran last, with the points so far, whatever family is shown meanwhile."""
+        self._unmeasured: Study | None = None
+        """What runs or ran last, without its points."""
         self._numbers: dict[str, int] = {}
         """Number of each of its methods in the charts, in the order that they are listed in."""
         self.chosen: tuple[str, ...] = ()
@@ -126,23 +129,16 @@ class ComparePage(ResultPage[FamilyChoice]):
 
     # What is shown.
 
-    @property
-    def study(self) -> Study | None:
-        """The study that is shown: a finished one, or as much as has been measured so far."""
-        if self.is_partial:
-            return self._measured if self._measured is not None and self._measured.points else None
-        return None if self.choice.result is None else self.choice.result.content
-
     def point(self, method: str) -> Point | None:
         """Return a point of the study that is shown."""
-        points = () if self.study is None else self.study.points
+        points = () if self.content is None else self.content.points
         return next((point for point in points if point.method == method), None)
 
     def _show_controls(self) -> None:
         self.controls.show_choices(controls_of(self.choice))
 
     def _show_result(self) -> None:
-        study, choice = self.study, self.choice
+        study, choice = self.content, self.choice
         scatter: ChartPicture | ChartEmpty
         growth: ChartPicture | ChartEmpty
         if study is None:
@@ -176,12 +172,6 @@ class ComparePage(ResultPage[FamilyChoice]):
         )
         return chosen_points(study, plan.plan if plan is not None and is_of_plan else None)
 
-    def _partial_text(self) -> str:
-        study = self.study
-        if study is None:
-            return ""
-        return f"{study_sentences(study)[0]} {counted(len(study.points), 'method')} measured so far."
-
     @Slot(str)
     def _point_at(self, method: str) -> None:
         self._pointed = method
@@ -198,7 +188,7 @@ class ComparePage(ResultPage[FamilyChoice]):
 
     def _show_readout(self) -> None:
         """Show the figures of the method that is pointed at, or of the one that was chosen last."""
-        study, result = self.study, self.choice.result
+        study, result = self.content, self.choice.result
         if study is None:
             self.readout.show_text(family_text(self.choice))
             return
@@ -258,7 +248,8 @@ class ComparePage(ResultPage[FamilyChoice]):
         methods = [each.method for each in (*family.candidates(settings), *extra)]
         self._numbers = {method: number for number, method in enumerate(methods)}
         work, dials, seed = choice.work_kind, choice.dial_values, choice.seed
-        self._measured = Study(
+        self._partial = None
+        self._unmeasured = Study(
             choice.name, family.title, work, dials, seed, family.measures, (), settings=settings, scene=title
         )
         run = partial(
@@ -286,10 +277,11 @@ class ComparePage(ResultPage[FamilyChoice]):
 
     def _keep_part(self, part: Point) -> None:
         """Add a point to what has been measured so far, or replace it."""
-        assert self._measured is not None
-        points = {each.method: each for each in self._measured.points} | {part.method: part}
+        study = self._partial or self._unmeasured
+        assert study is not None
+        points = {each.method: each for each in study.points} | {part.method: part}
         in_order = sorted(points.values(), key=lambda each: self._numbers[each.method])
-        self._measured = replace(self._measured, points=tuple(in_order))
+        self._partial = replace(study, points=tuple(in_order))
 
     # The points that are opened.
 

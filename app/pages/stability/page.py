@@ -69,6 +69,7 @@ KIND: ResultKind[Atlas, ExperimentChoice] = ResultKind(
     name_of=attrgetter("experiment.name"),
     saved_choice=lambda atlas: choice_of(atlas.experiment, None),
     sentences=lambda atlas: [counts_sentence(atlas), f"Seed {atlas.seed}."],
+    so_far=lambda _: "Running; cells appear row by row.",
     done=lambda title, atlas: f"Ran {title.lower()}: {counts_sentence(atlas)}",
 )
 CASE_KINDS = f"Scene, to be opened again (*{STATE_EXTENSION});;Python test (*.py)"
@@ -77,7 +78,7 @@ NOTHING = (
 )
 
 
-class StabilityPage(ResultPage[ExperimentChoice]):
+class StabilityPage(ResultPage[Atlas, ExperimentChoice]):
     """Runs experiments; shows each as maps, and the case behind one of their cells."""
 
     def __init__(self, session: Session, parent: QWidget | None = None) -> None:
@@ -90,8 +91,6 @@ class StabilityPage(ResultPage[ExperimentChoice]):
         self.curves = Chart("Severity along the axis", self), ChartLegend(self)
         self._chart, self._legend = self.curves
         self.opened = CasePresenter(self.case, self.jobs, self)
-        self._partial: Atlas | None = None
-        """What runs or ran last, with the cells so far, whatever experiment is shown meanwhile."""
         self.refresh()
         curves = splitter(Qt.Orientation.Horizontal, ((self._chart, 1, 800), (self._legend, 0, 150)), self)
         self.seen = splitter(Qt.Orientation.Vertical, ((self.maps, 1, 200), (curves, 1, 200)), self)
@@ -134,16 +133,9 @@ class StabilityPage(ResultPage[ExperimentChoice]):
     # What is shown.
 
     @property
-    def atlas(self) -> Atlas | None:
-        """The atlas that is shown: a whole one, or the cells that have been run so far; ``None``: there are no maps."""
-        if self.is_partial:
-            return self._partial
-        return None if self.choice.result is None else self.choice.result.content
-
-    @property
     def info(self) -> ExperimentInfo:
         """The experiment with the axes of the maps that are shown."""
-        return self.choice.info if self.atlas is None else self.atlas.experiment
+        return self.choice.info if self.content is None else self.content.experiment
 
     def _show_controls(self) -> None:
         choice = self.choice
@@ -158,21 +150,18 @@ class StabilityPage(ResultPage[ExperimentChoice]):
     @Slot()
     def _show_parts(self) -> None:
         """Show the cells that have been run so far; the figures of the cell that is pointed at wait."""
-        if self.atlas is None:
+        if self.content is None:
             self.maps.show_empty(NOTHING)
         else:
-            self.maps.show_atlas(atlas_record(self.atlas))
+            self.maps.show_atlas(atlas_record(self.content))
         has = has_curves(self.info)
         self._chart.setVisible(has)
         self._legend.setVisible(has)
         if has:
-            picture = severity_chart(self.info.axes[0], () if self.atlas is None else self.atlas.maps)
+            picture = severity_chart(self.info.axes[0], () if self.content is None else self.content.maps)
             self._chart.show_picture(picture)
             self._legend.show_series(picture.series if isinstance(picture, ChartPicture) else ())
             self._legend.setVisible(isinstance(picture, ChartPicture))
-
-    def _partial_text(self) -> str:
-        return "Running; cells appear row by row."
 
     # The cell that is pointed at.
 
@@ -194,19 +183,21 @@ class StabilityPage(ResultPage[ExperimentChoice]):
         key, column = ("", -1) if place is None else (place.key, place.column)
         self._chart.show_pointed(key, column)
         self._legend.show_pointed(key)
-        if self.atlas is None or place is None or not self._is_shown(place):
+        if self.content is None or place is None or not self._is_shown(place):
             self.readout.show_text(experiment_text(self.choice))
             self.maps.canvas.setAccessibleDescription("")
             return
-        self.readout.show_text(cell_text(self.atlas, place))
-        spoken = spoken_cell(self.atlas, place)
+        self.readout.show_text(cell_text(self.content, place))
+        spoken = spoken_cell(self.content, place)
         self.maps.canvas.setAccessibleDescription(spoken)
         announce(self.maps.canvas, spoken)
 
     def _is_shown(self, place: CellPlace) -> bool:
         """Return whether the maps that are shown have such a cell."""
         shapes = (
-            [each.outcome.shape for each in self.atlas.maps if each.method == place.key] if self.atlas else []
+            [each.outcome.shape for each in self.content.maps if each.method == place.key]
+            if self.content
+            else []
         )
         return any(place.row < rows and place.column < columns for rows, columns in shapes)
 
@@ -241,7 +232,7 @@ class StabilityPage(ResultPage[ExperimentChoice]):
     def _order(self, place: CellPlace) -> CaseOrder | None:
         """Return a cell to be run once more; ``None``: this version has no such experiment."""
         experiment = self.choice.experiment
-        seed = self.choice.seed if self.atlas is None else self.atlas.seed
+        seed = self.choice.seed if self.content is None else self.content.seed
         return None if experiment is None else CaseOrder(experiment, place, values_at(self.info, place), seed)
 
     @Slot(object)
@@ -265,7 +256,7 @@ class StabilityPage(ResultPage[ExperimentChoice]):
     @Slot(str, bool)
     def choose_failure(self, method: str) -> None:
         """Show the first cell, row by row, at which a method fails."""
-        place = None if self.atlas is None else first_failure(self.atlas, method)
+        place = None if self.content is None else first_failure(self.content, method)
         if place is None:
             self.tell(f"No cell of {method} fails here.")
         else:

@@ -64,12 +64,12 @@ def test_a_study_is_there_again_at_the_next_start(
     first.start()
     qtbot.waitUntil(lambda: not first.is_running, timeout=60000)
     first.stop()
-    study = first.study
+    study = first.content
     assert study is not None
     assert os.listdir(results_folder()) == ["study-visibility.json"]
     second = compare_page(later)
-    qtbot.waitUntil(lambda: second.study is not None, timeout=20000)
-    again = second.study
+    qtbot.waitUntil(lambda: second.content is not None, timeout=20000)
+    again = second.content
     assert again is not None
     assert [point.seconds.tolist() for point in again.points] == [p.seconds.tolist() for p in study.points]
     assert len(second.scatter.places()) == len(study.points)
@@ -110,7 +110,7 @@ def test_a_file_that_is_broken_is_told_and_the_others_are_shown(keeping: MainWin
     (results_folder() / "study-line.json").write_text(study_json(hand_made()), encoding="utf-8")
     page = compare_page(keeping)
     page.show_named("line")
-    qtbot.waitUntil(lambda: page.study is not None, timeout=20000)
+    qtbot.waitUntil(lambda: page.content is not None, timeout=20000)
     qtbot.waitUntil(keeping.messages.isVisible, timeout=20000)
     assert "study-cull.json cannot be opened" in keeping.messages.text.text()
 
@@ -119,7 +119,7 @@ def test_what_is_measured_now_is_not_replaced_by_what_was_kept(window: MainWindo
     page = compare_page(window)
     study = measured(page, qtbot)
     page.take_kept(hand_made("visibility"))
-    assert page.study is study
+    assert page.content is study
 
 
 def test_a_cancelled_measurement_keeps_the_file_of_the_one_before(keeping: MainWindow, qtbot: QtBot) -> None:

@@ -68,7 +68,7 @@ def test_a_family_that_has_a_result_can_be_shown_while_another_is_measured(
     qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
     assert [key for key, _ in page.scatter.places()] == ["line=bresenham", "line=dda"]
     page.show_named("visibility")
-    study = page.study
+    study = page.content
     assert study is not None
     assert [key for key, _ in page.scatter.places()] == [point.method for point in study.points]
 
@@ -82,12 +82,12 @@ def test_cancelling_leaves_what_was_measured_before(page: ComparePage, qtbot: Qt
     assert page.scatter.places() == [], "what is being measured anew is not shown with old numbers"
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
     assert not page.is_running
-    assert page.study is before
+    assert page.content is before
     again = page.scatter.picture
     assert again is not None
     assert [series.x.tolist() for series in again.series] == [series.x.tolist() for series in picture.series]
     qtbot.wait(100)
-    assert page.study is before, "no late point of the cancelled measurement comes in"
+    assert page.content is before, "no late point of the cancelled measurement comes in"
 
 
 def test_cancelling_the_first_measurement_draws_nothing(page: ComparePage, qtbot: QtBot) -> None:
@@ -113,7 +113,7 @@ def test_a_failed_measurement_leaves_earlier_results(page: ComparePage, qtbot: Q
     assert isinstance(window, MainWindow)
     qtbot.waitUntil(lambda: window.messages.isVisible(), timeout=60000)
     assert "dial of cycle must be one of none" in window.messages.text.text()
-    assert page.study is before
+    assert page.content is before
     assert len(page.scatter.places()) == len(before.points)
 
 
@@ -123,7 +123,7 @@ def test_results_are_kept_for_every_family(page: ComparePage, qtbot: QtBot) -> N
     assert page.choice.name == "cull"
     assert page.scatter.places() == []
     page.entries.setCurrentRow(page.entries.currentRow() - 1)
-    assert page.study is study
+    assert page.content is study
     assert len(page.scatter.places()) == len(study.points)
 
 
@@ -193,7 +193,7 @@ def test_the_whole_pipeline_is_measured_on_the_open_scene(
     scene = window.session.document.scene
     page.start()
     qtbot.waitUntil(lambda: len(page.scatter.places()) > 2, timeout=60000)
-    study = page.study
+    study = page.content
     assert study is not None
     assert study.scene == "Two triangles sharing an edge"
     assert study.settings == window.session.document.settings

@@ -303,7 +303,7 @@ def test_the_choice_is_a_ringed_point_of_the_chart(window: MainWindow, page: Pla
     QTest.keyClick(window, Qt.Key.Key_M, CTRL)
     assert window.pages.current is compare
     qtbot.waitUntil(lambda: not compare.is_running, timeout=120000)
-    study, picture = compare.study, compare.scatter.picture
+    study, picture = compare.content, compare.scatter.picture
     assert study is not None
     assert picture is not None
     (ringed,) = picture.ringed
