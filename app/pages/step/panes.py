@@ -55,11 +55,19 @@ def _overlay_pane(page: "StepPage") -> QWidget:
     return pane
 
 
+def _methods_pane(page: "StepPage") -> QWidget:
+    return _scrolled(page.settings_panel)
+
+
+def _shader_pane(page: "StepPage") -> QWidget:
+    return page.shader_pane
+
+
 SIDE_PANES = (
     SidePane("scene", "Scene", "S", _scene_pane),
-    SidePane("methods", "Methods", "M", lambda page: _scrolled(page.settings_panel)),
+    SidePane("methods", "Methods", "M", _methods_pane),
     SidePane("overlays", "Overlays", "O", _overlay_pane),
-    SidePane("shaders", "Shaders", "L", lambda page: page.shader_pane),
+    SidePane("shaders", "Shaders", "L", _shader_pane),
 )
 PANES = (
     *SIDE_PANES,
