@@ -3,12 +3,19 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from time import perf_counter, thread_time
 from typing import Any
+
+import numpy as np
 
 from core.methods import table
 from core.scene import AnyScene
 from core.settings import Settings, settings_from_texts
 from core.study.accuracy.record import ErrorMeasure, Judgement, Opening, Pictures, WorkKind
+from core.study.accuracy.timing import Load, collector_off
+
+BLOCK = 0.003
+"""Seconds: a block goes on while it is shorter, so that the caches that another method has filled do not count."""
 
 
 @dataclass(frozen=True)
@@ -133,3 +140,18 @@ def chosen_dials(work: WorkKind, given: Mapping[str, float] | None) -> dict[str,
             raise ValueError(f"{name} must be from {low:g} to {high:g}, got {value:g}")
         values[name] = float(value)
     return values
+
+
+def timed_block(work: Work, settings: Settings, load: Load) -> tuple[float, float]:
+    """Run a method until a block is full; return the seconds of the block, and of its shortest run."""
+    spent, least = 0.0, np.inf
+    while least == np.inf or spent < BLOCK:
+        call = work.start(settings)
+        with collector_off():
+            own, start = thread_time(), perf_counter()
+            made = call()
+            elapsed = perf_counter() - start
+            load.add(elapsed, thread_time() - own)
+        spent += elapsed
+        least = min(least, work.seconds(made, elapsed))
+    return spent, least

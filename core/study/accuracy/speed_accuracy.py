@@ -9,7 +9,7 @@ below `BUDGET` seconds together.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
-from time import perf_counter, thread_time
+from time import perf_counter
 
 import numpy as np
 
@@ -21,12 +21,12 @@ from core.study.accuracy.family import (
     Candidate,
     StudyFamily,
     Task,
-    Work,
     chosen_dials,
     settings_of,
+    timed_block,
 )
 from core.study.accuracy.record import Axis, Opening, Pictures, Point, Study, WorkKind
-from core.study.accuracy.timing import SURE, Load, collector_off, is_settled, ranks
+from core.study.accuracy.timing import SURE, Load, is_settled, ranks
 
 ROUNDS = 9
 GROWTH_ROUNDS = 3
@@ -34,8 +34,6 @@ MOST_TIMES = 4
 """So many times the rounds asked for are measured at most, until the order is stable."""
 BUDGET = 2.0
 """Seconds of timed blocks of one method."""
-BLOCK = 0.003
-"""Seconds: a block goes on while it is shorter, so that the caches that another method has filled do not count."""
 
 Progress = Callable[[float, str], None]
 
@@ -271,21 +269,6 @@ def _sentence(problem: Exception) -> str:
     text = " ".join(str(problem).split()) or "there is not enough memory for this work"
     text = text[:1].upper() + text[1:]
     return text if text.endswith((".", "!", "?")) else f"{text}."
-
-
-def timed_block(work: Work, settings: Settings, load: Load) -> tuple[float, float]:
-    """Run a method until a block is full; return the seconds of the block, and of its shortest run."""
-    spent, least = 0.0, np.inf
-    while least == np.inf or spent < BLOCK:
-        call = work.start(settings)
-        with collector_off():
-            own, start = thread_time(), perf_counter()
-            made = call()
-            elapsed = perf_counter() - start
-            load.add(elapsed, thread_time() - own)
-        spent += elapsed
-        least = min(least, work.seconds(made, elapsed))
-    return spent, least
 
 
 def pictures(study: Study, point: Point, scene: AnyScene | None = None) -> Pictures:

@@ -13,10 +13,9 @@ import numpy as np
 from core.records.arrays import Flags
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
-from core.study.accuracy.family import Work, settings_of
+from core.study.accuracy.family import Work, settings_of, timed_block
 from core.study.accuracy.frame_task import SceneWork
 from core.study.accuracy.record import Opening, Outcome, Verdict
-from core.study.accuracy.speed_accuracy import timed_block
 from core.study.accuracy.timing import Load
 from core.study.stability.case_text import scene_text, settings_text
 from core.study.stability.kinds import TRIANGLES

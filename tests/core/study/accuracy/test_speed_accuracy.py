@@ -54,7 +54,7 @@ def by_method(study: Study) -> dict[str, Point]:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let one run be a block, and fill small pictures."""
-    monkeypatch.setattr(module, "BLOCK", 0.0)
+    monkeypatch.setattr("core.study.accuracy.family.BLOCK", 0.0)
     monkeypatch.setattr("core.study.accuracy.fill.SIZE", (64, 64))
 
 

@@ -60,7 +60,7 @@ def timed(monkeypatch: pytest.MonkeyPatch, seconds: Callable[[str, int], float],
         return FakeTask(seconds)
 
     monkeypatch.setattr(module, "study_family", lambda _: Four("four", "Four", (), (kind,), (WRONG,), make))
-    monkeypatch.setattr(module, "BLOCK", 0.0)  # One run is a block.
+    monkeypatch.setattr("core.study.accuracy.family.BLOCK", 0.0)  # One run is a block.
     return measure("four", **options)
 
 
