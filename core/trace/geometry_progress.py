@@ -5,7 +5,8 @@ import numpy as np
 from core.geometry.culling import KEPT
 from core.records.arrays import Flags, Integers
 from core.stages.declared import STAGES
-from core.trace import StageTrace, Trace
+from core.trace import Trace
+from core.trace.stage_trace import StageTrace
 
 SPACES = ("object", "world", "camera", "clip", "NDC", "window")
 """Spaces of a corner, in the order in which it goes through them."""

@@ -121,17 +121,17 @@ class Kind:
     def with_fewer_digits(self, parts: Parts) -> Iterator[Parts]:
         """Yield the case with one number, or those that go together, in fewer digits; the longest numbers first."""
         places = []
-        for field in self.fields:
-            values = parts.numbers.get(field.name, np.empty(0))
-            for place in field.places(values):
+        for owner in self.fields:
+            values = parts.numbers.get(owner.name, np.empty(0))
+            for place in owner.places(values):
                 value = float(values[place].flat[0]) if values[place].ndim else float(values[place])
-                places.append((-digit_count(value), field, place, value))
-        for negative, field, place, value in sorted(places, key=lambda each: each[0]):
-            simplest = field.simplest[place[-1] if len(field.simplest) > 1 else 0]
-            for simpler in simpler_numbers(value, simplest, -negative, field.offsets):
-                values = parts.numbers[field.name].copy()
+                places.append((-digit_count(value), owner, place, value))
+        for negative, owner, place, value in sorted(places, key=lambda each: each[0]):
+            simplest = owner.simplest[place[-1] if len(owner.simplest) > 1 else 0]
+            for simpler in simpler_numbers(value, simplest, -negative, owner.offsets):
+                values = parts.numbers[owner.name].copy()
                 values[place] = simpler
-                yield parts.changed(**{field.name: values})
+                yield parts.changed(**{owner.name: values})
 
 
 def simpler_numbers(
