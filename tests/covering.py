@@ -1,9 +1,9 @@
 """Combinations of choices to test: a few every day in which all choices meet, with --all every combination."""
 
 import inspect
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from functools import wraps
-from itertools import combinations, product
+from itertools import chain, combinations, product
 from typing import Any, TypeVar
 
 import pytest
@@ -49,6 +49,16 @@ def every_pair(**factors: Sequence[Any]) -> pytest.MarkDecorator:
     if is_everything():
         return pytest.mark.parametrize(tuple(factors), list(product(*factors.values())))
     return pytest.mark.parametrize(tuple(factors), [tuple(case.values()) for case in covering(factors)])
+
+
+def fewest(parts: Mapping[str, Iterable[Hashable]]) -> list[str]:
+    """Return names whose parts together are all parts: each time the name with the most new ones, the first by name."""
+    missing, found = set(chain(*parts.values())), []
+    every = {name: set(parts[name]) for name in sorted(parts)}
+    while missing:
+        found.append(max(every, key=lambda name: len(every[name] & missing)))
+        missing -= every[found[-1]]
+    return found
 
 
 def in_one(**factor: Sequence[Any]) -> Callable[[Law], Law]:

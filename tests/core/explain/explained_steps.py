@@ -2,7 +2,10 @@
 
 from collections.abc import Iterator
 from functools import cache
+from heapq import nsmallest
+from itertools import cycle
 from typing import NamedTuple
+from zlib import crc32
 
 import numpy as np
 
@@ -16,8 +19,8 @@ from core.trace import Explanation, StageTrace
 from lessons.scenes import make_scene, scene_names
 from tests.core.shaders.scenes import square_scene
 from tests.core.strategies import clip_of_window
-from tests.core.trace.trace_cases import LEFT_OUT
-from tests.covering import is_everything
+from tests.core.trace.trace_cases import LEFT_OUT, name_of
+from tests.covering import fewest, is_everything
 
 Step = tuple[Explanation, int, tuple[int, int]]
 """An explanation, its triangle and its pixel."""
@@ -26,8 +29,8 @@ WINDOW = (4, 3)
 """Columns and rows that are traced of a built-in scene."""
 ROWS = 2
 """Rows of a kind that are explained of a trace, spread over it; with --all twice as many."""
-ALIKE = 20
-"""Steps of one key that are explained of a group of traces, spread over their settings; with --all every one."""
+ALIKE = 8
+"""Steps of one key that are explained of a group of traces, any of them; with --all every one."""
 
 RARE_CLIP = {
     "all-behind": [[0, 0, 0, -1], [1, 0, 0, -2], [0, 1, 0, -1]],
@@ -107,9 +110,10 @@ Place = tuple[str, StageTrace, int, int]
 """The key of an operation, its stage, its row and its position."""
 
 
-def places_of(traced: Trace | StageTrace) -> Iterator[Place]:
+def places_of(
+    traced: Trace | StageTrace, count: int = 2 * ROWS if is_everything() else ROWS
+) -> Iterator[Place]:
     """Yield where all operations are of some rows of every kind, of one stage or of all."""
-    count = 2 * ROWS if is_everything() else ROWS
     stages = [traced.stage(name) for name in STAGES] if isinstance(traced, Trace) else [traced]
     for stage in stages:
         for number, kind in enumerate(stage.steps.kinds):
@@ -136,47 +140,60 @@ def steps_of(traced: Trace | StageTrace) -> Iterator[Step]:
     return map(step_at, places_of(traced))
 
 
+def draw(*names: object) -> int:
+    """Return a number that looks random, by names: what is added to a list changes no other choice."""
+    return crc32(" ".join(map(str, names)).encode())
+
+
 @cache
-def traces() -> dict[str, list[Trace]]:
+def traces() -> dict[str, dict[str, Trace]]:
     """Return the traces of built-in scenes, each method on one of them, and of the rare triangles together."""
     # The others have no step of another kind.
-    scenes = [scene_and_window(name) for name in scene_names() if name not in LEFT_OUT]
-    choices = every_choice()
-    windows = []
-    for number, settings in enumerate([Settings()] * len(scenes) + choices):
-        scene, triangle, window = scenes[number % len(scenes)]
-        windows.append(trace(scene, settings, triangle, window, before="cleared"))
+    scenes = {name: scene_and_window(name) for name in scene_names() if name not in LEFT_OUT}
+    choices = {name_of(Settings().differences(settings)): settings for settings in every_choice()}
+    cases = [(f"{name} first", Settings()) for name in scenes] + list(choices.items())
+    windows = {}
+    for (choice, settings), name in zip(cases, cycle(scenes)):
+        scene, triangle, window = scenes[name]
+        windows[f"{name} {choice}"] = trace(scene, settings, triangle, window, before="cleared")
     # Polygons are clipped in scenes of their own.
     comb = make_scene("connecting-edges")
-    clippers = table.names("polygon_clipping")[1:]
-    windows += [trace(comb, Settings(polygon_clipping=name), 0, (0, 8, 8, 4)) for name in clippers]
+    for name in table.names("polygon_clipping")[1:]:
+        windows[name] = trace(comb, Settings(polygon_clipping=name), 0, (0, 8, 8, 4))
     together = ClipScene(np.array([*RARE_CLIP.values(), RARE_CLIP["grid-ties"]], float), size=(8, 8))
+    rare = {choice: trace(together, settings) for choice, settings in choices.items()}
     # Covered by its snapped corners only: the exact determinant is 0.
     edge_on = [[-0.5, -0.5, 0, 1], [0.5, 0.5005, 0.5, 1], [1.5, 1.501, 1, 1]]
     with_edge_on = ClipScene(np.array([RARE_CLIP["grid-ties"], edge_on], float), size=(8, 8))
-    rare = [trace(together, settings) for settings in choices]
-    rare.append(trace(with_edge_on, Settings(visibility="ray-casting", cull="none")))
+    rare["edge-on"] = trace(with_edge_on, Settings(visibility="ray-casting", cull="none"))
     # A shader that discards half of a square, and calls a function.
-    rare.append(
-        trace(square_scene("if (vUv.x > 0.5) discard; c = vec4(length(vUv));", (4, 4)), Settings(), 0)
-    )
+    square = square_scene("if (vUv.x > 0.5) discard; c = vec4(length(vUv));", (4, 4))
+    rare["shader"] = trace(square, Settings(), 0)
     return {"scenes": windows, "rare": rare}
+
+
+@cache
+def fewest_traces() -> list[Trace]:
+    """Return few traces that do every operation."""
+    every = {name: traced for group in traces().values() for name, traced in group.items()}
+    return [
+        every[name]
+        for name in fewest({name: [key for key, *_ in places_of(traced)] for name, traced in every.items()})
+    ]
 
 
 @cache
 def explained(group: str) -> tuple[Step, ...]:
     """Return the steps of the built-in ``scenes`` or of the ``rare`` triangles."""
-    found = [place for traced in traces()[group] for place in places_of(traced)]
-    numbers: dict[str, list[int]] = {}
-    for number, (key, *_) in enumerate(found):
-        numbers.setdefault(key, []).append(number)
-    most = len(found) if is_everything() else ALIKE
-    chosen = {
-        alike[k]
-        for alike in numbers.values()
-        for k in np.linspace(0, len(alike) - 1, min(most, len(alike))).round().astype(int)
-    }
-    return tuple(step_at(found[number]) for number in sorted(chosen))
+    found: dict[str, list[Place]] = {}
+    numbers = {}
+    for name, traced in traces()[group].items():
+        for place in places_of(traced):
+            found.setdefault(place[0], []).append(place)
+            numbers[place] = draw(name, *place[::2])
+    most = len(numbers) if is_everything() else ALIKE
+    chosen = (nsmallest(most, places, key=numbers.__getitem__) for places in found.values())
+    return tuple(step_at(place) for places in chosen for place in places)
 
 
 def all_steps() -> tuple[Step, ...]:

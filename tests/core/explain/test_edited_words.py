@@ -8,12 +8,10 @@ import pytest
 from core import Settings, trace
 from core.edits import Edit, apply_edit, original
 from core.explain import formula, sentence, variables
-from core.explain.history.sentences import event_reason, verdict_sentence
-from core.explain.latex import plain_text, split_cells
+from core.explain.latex import split_cells
 from core.explain.steps import load_subjects
-from core.pixel_history import why
 from core.records.listing import EditedListing
-from core.trace import StageTrace, TraceSource
+from core.trace import StageTrace
 from lessons.scenes import make_scene
 
 SHARED = "shared-edge"
@@ -25,38 +23,6 @@ def edited(scene: str, part: str, of: str, old: str, new: str, stage: str, **cho
     assert old in text
     settings = apply_edit(Settings(**choices), Edit(part, of, text.replace(old, new)))
     return trace(make_scene(scene), settings).stage(stage)
-
-
-def said(found: StageTrace, operation: str, start: int = 0) -> tuple[str, list[str]]:
-    """Return sentence and formula, as readable text, of the first step of an operation."""
-    for position in range(start + 1, found.steps.count + 1):
-        made = found.explain(position)
-        if made is not None and made.key.endswith(f".{operation}") and made.line:
-            shown = formula(made)
-            lines = [] if shown is None else [plain_text(shown.symbolic), plain_text(shown.substituted)]
-            return sentence(made, -1, None), lines
-    raise AssertionError(f"no step {operation}")
-
-
-def test_a_division_by_another_number_is_told_as_it_was_typed():
-    found = edited(SHARED, "interpolation", "perspective", "n[k] / total", "n[k] / n[0]", "interpolate")
-    text, lines = said(found, "weights")
-    weights = found.columns["weights"][0]
-    assert text.startswith("Pixel (12, 7): Line 4: weights = (1, ")
-    assert "their parts of the sum" not in text
-    assert lines[0] == "weights = (n_0/n_0, n_1/n_0, n_2/n_0)"
-    assert np.isclose(weights[1] * found.columns["numerators"][0][0], found.columns["numerators"][0][1])
-
-
-def test_the_changed_line_stands_beside_the_value_that_it_decides_on():
-    found = edited(SHARED, "fill", "bounding-box", "value > 0", "value >= 0", "raster", fill="bounding-box")
-    text, lines = said(found, "edge-1", 4000)
-    assert (
-        text
-        == "Pixel (18, 28): Line 5: value = 208. Line 6 puts 208 into values. Line 7 puts true into inside."
-    )
-    assert "value ≥ 0 or (value = 0 and owns_tie_1) ⇒ true" in lines[0]
-    assert "208 ≥ 0 or (208 = 0 and false) ⇒ true" in lines[1]
 
 
 def test_the_numbers_of_a_step_are_those_of_the_trace():
@@ -139,21 +105,3 @@ def test_inputs_of_a_row_give_the_row():
         held = {variable.name: variable.now for variable in variables(made)}
         row = found.steps.row_at(start + 3)[0]
         assert [held[f"weights[{k}]"] for k in range(3)] == found.columns["weights"][row].tolist()
-
-
-def test_the_pixel_history_gives_no_reason_of_the_right_test():
-    def source(limit: str) -> TraceSource:
-        text = original("fill", "bounding-box").source.replace("value > 0", f"value {limit}")
-        settings = apply_edit(Settings(fill="bounding-box"), Edit("fill", "bounding-box", text))
-        return trace(make_scene(SHARED), settings).source
-
-    more, fewer = why(source(">= 0"), 12, 6), why(source("> 300"), 18, 28)
-    assert "the edited inside test returns true" in event_reason(more.events[-1])
-    assert "the edited inside test returns false" in verdict_sentence(fewer)
-
-
-def test_a_changed_fill_rule_is_given_as_the_reason():
-    found = edited(SHARED, "fill_rule", "shared-edge", "a > 0", "a < 0", "raster", fill="bounding-box")
-    tied = int(np.flatnonzero(found.marks["tie"] & (found.columns["values"] >= 0).all(axis=1))[0])
-    text = sentence(found.explain(int(found.steps.starts[tied + 1])), 0, None)
-    assert "because the changed fill rule decides so" in text

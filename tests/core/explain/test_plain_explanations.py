@@ -6,7 +6,7 @@ from core import STAGES
 from core.explain import initial_sentence, question, stage_card
 from core.methods import table
 from core.settings import families
-from tests.core.explain.explained_steps import all_said, traces
+from tests.core.explain.explained_steps import all_said, fewest_traces
 from tests.test_plain_words import BANNED, faults
 
 
@@ -15,7 +15,7 @@ def explanations() -> Iterator[str]:
     for _, text, _, _, found in all_said():
         yield text
         yield from (variable.meaning for variable in found)
-    for traced in (*traces()["scenes"][::5], *traces()["rare"][::5]):
+    for traced in fewest_traces():
         for name in STAGES:
             stage = traced.stage(name)
             asked = question(stage, stage.steps.row_count // 2) if stage.steps.row_count else None

@@ -5,10 +5,10 @@ import re
 import pytest
 
 from core import STAGES, Settings, trace
-from core.explain import formula, row_sentence, sentence, variables
+from core.explain import formula, sentence, variables
 from core.explain.latex import plain_text
 from core.raster.lines.points import point_listing
-from lessons.scenes import built_in_scene, make_scene
+from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import steps_of
 
 
@@ -54,11 +54,3 @@ def test_a_point_has_its_pixel_and_no_decision_of_a_line(line: str, pixel_center
             assert f"oint {stage.triangle[row]} " in text or f"point {stage.triangle[row]}." in text
             assert not {"D", "dx", "m", "y", "first end"} & {variable.name for variable in variables(made)}
     assert stage.kind_of(0) == "point"
-
-
-def test_the_sides_of_a_clip_window_are_not_called_segments() -> None:
-    scene = built_in_scene("polygon-window")
-    stage = trace(scene.make(), Settings(**scene.settings)).stage("raster")
-    said = [row_sentence(stage, int(stage.steps.starts[row + 1])) for row in range(stage.steps.row_count)]
-    for side in range(5):
-        assert any(text.startswith(f"Side {side} border, segment 0: ") for text in said)

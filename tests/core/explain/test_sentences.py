@@ -4,13 +4,12 @@ import re
 
 import numpy as np
 
-from core import STAGES, Settings, trace
-from core.explain import initial_sentence, sentence, summary_sentence
+from core import STAGES, Settings
+from core.explain import sentence, summary_sentence
 from core.explain.number_text import exact_text, pair_text, position_text
 from core.records.steps import Level
 from core.records.words import counted, joined
 from core.trace import Explanation
-from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import all_said, explained, rare_trace, said, steps_of
 
 NUMBERS = {
@@ -91,65 +90,10 @@ def test_sentences_give_the_numbers_of_the_step() -> None:
     assert found == set(NUMBERS)
 
 
-def test_a_triangle_behind_the_eye_is_not_binned() -> None:
-    made = Explanation("bin.behind.drop", {}, (), (), None, 0)
-    assert sentence(made, 4, None) == (
-        "Triangle 4 is behind the eye, as no corner has w above 0, and no pixel is tested."
-    )
-
-
 def test_an_operation_without_a_row_lists_what_it_sets() -> None:
     values = {"slope": 0.5, "pixels": np.array([1.0, 2.0])}
     made = Explanation("lines.walk.next-pixel", values, ("slope", "pixels"), ("slope", "pixels"), None, 0)
     assert sentence(made, 0, None) == "Walk, next pixel: slope is 0.5 and pixels is (1, 2)."
-
-
-def test_every_stage_has_a_sentence_before_its_first_step() -> None:
-    for stage in STAGES:
-        assert re.fullmatch(r"No.*\.", initial_sentence(stage))
-
-
-def test_summaries() -> None:
-    counts = {"rows": 140, "tested": 134, "covered": 57, "rejected": 77, "tie": 2, "nan": 0}
-    assert summary_sentence("raster", Level.TRIANGLE, counts, 3) == (
-        "Triangle 3: 134 pixels tested, 57 covered, 2 on an edge."
-    )
-    assert summary_sentence("raster", Level.STAGE, {**counts, "nan": 1}, None) == (
-        "Whole stage: 134 pixels tested, 57 covered, 2 on an edge, 1 undefined (NaN)."
-    )
-    counts = {"rows": 17, "covered": 12, "tie": 1}
-    assert summary_sentence("raster", Level.GROUP, counts, 0, 3, "line=bresenham") == (
-        "Triangle 0, one line: 12 pixels drawn, 1 at a tie."
-    )
-    assert summary_sentence("depth", Level.GROUP, {"rows": 3, "covered": 2, "depth-failed": 1}, 0) == (
-        "Triangle 0, one row of pixels: 3 fragments tested, 2 kept, 1 hidden or out of range."
-    )
-    for method, group in (
-        ("fill=blocks", "one block"),
-        ("fill=scanline", "one span"),
-        ("line=dda", "one line"),
-    ):
-        said = summary_sentence("raster", Level.GROUP, counts, 3, method=method)
-        assert said.startswith(f"Triangle 3, {group}: ")
-    lane = summary_sentence("raster", Level.GROUP, {"rows": 1}, 3, method="fill=spans")
-    assert lane.startswith("Triangle 3, one lane: ")
-    assert summary_sentence("resolve", Level.GROUP, {"rows": 1}, -1) == (
-        "One row of pixels: 1 pixel encoded for the display."
-    )
-
-
-def test_a_summary_counts_as_tested_what_is_tested() -> None:
-    """The fill by blocks accepts the pixels of blocks that lie inside; a span and a line test none."""
-    scene, said = make_scene("single-triangle"), {}
-    for choice in ({"fill": "blocks"}, {"fill": "spans"}, {"polygon_mode": "wireframe"}):
-        traced = trace(scene, Settings(**choice)).stage("raster")
-        counts = traced.summary(0, traced.steps.row_count)
-        said[traced.method] = summary_sentence("raster", Level.TRIANGLE, counts, 0, 3, traced.method)
-    assert said == {
-        "fill=blocks": "Triangle 0: 1,064 pixels tested, 256 accepted without a test, 816 covered.",
-        "fill=spans": "Triangle 0: 816 pixels covered.",
-        "line=bresenham": "Triangle 0: 120 pixels drawn, 2 at a tie.",
-    }
 
 
 def test_every_stage_can_be_summed_up() -> None:

@@ -107,7 +107,7 @@ def all_marks() -> tuple[Mark, ...]:
     """Return what any row of any trace marks, but in the source of a shader: there a step names what it sets itself."""
     load_subjects()
     found = {}
-    usual = (each for group in traces().values() for each in group)
+    usual = (each for group in traces().values() for each in group.values())
     for traced in chain(usual, rare_traces()):
         for stage in map(traced.stage, STAGES):
             for number, kind in enumerate(stage.steps.kinds):

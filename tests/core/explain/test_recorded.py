@@ -1,0 +1,296 @@
+"""What is said of steps, tables and pixels is what was recorded: other words are a difference that someone reads.
+
+From the top of the project, ``python -m tests.core.explain.test_recorded`` records all of it afresh.
+"""
+
+import re
+from collections.abc import Iterable, Iterator
+from difflib import unified_diff
+from itertools import product
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from core import STAGES, ClipScene, Settings, Trace, trace
+from core.edits import Edit, apply_edit, original
+from core.explain import account, initial_sentence, summary_sentence
+from core.explain.history.sentences import (
+    count_sentences,
+    event_reason,
+    event_title,
+    link_sentence,
+    verdict_sentence,
+)
+from core.explain.latex import plain_text
+from core.explain.step_tables import step_table
+from core.explain.step_values import StepValues
+from core.explain.subjects.depth import passes
+from core.methods import table
+from core.pixel_history import Link, PixelHistory, why
+from core.records.steps import Level
+from core.trace import Explanation, StageTrace
+from core.trace.source import TraceSource
+from lessons.scenes import built_in_scene, make_scene, window_triangle
+from lessons.slides.scenes import ALL_SCENES, clipped, degenerate, frustum_segments
+from tests.core.explain.explained_steps import (
+    ROWS,
+    Step,
+    fewest_traces,
+    line_trace,
+    places_of,
+    rare_trace,
+    step_at,
+)
+from tests.core.strategies import clip_of_window
+
+RECORDED = Path(__file__).with_name("recorded.txt")
+NUMBER = re.compile(r"[−+]?[\d∞][\d.,/]*(?:e−?\d+)?|[⁰¹²³⁴-⁹⁻]+|NaN")
+REMAINDER = re.compile(r"e−1\d")
+"""What rounding leaves of a 0, which another machine may round otherwise."""
+LOWER_LEFT = [(2, 2), (10, 2), (2, 10)]
+SIZE = (16, 12)
+MOST_ROWS = 64
+"""Rows of a stage that are said."""
+
+
+def said_of(steps: Iterable[Step], said: set[tuple[str, str]]) -> Iterator[str]:
+    """Yield sentences and formulas of kinds not yet ``said``: of steps that differ in numbers only, the shortest."""
+    found: dict[tuple[str, str], tuple[int, str]] = {}
+    for explanation, triangle, pixel in steps:
+        text, made = account(explanation, triangle, pixel)
+        kind = explanation.key, NUMBER.sub("#", text)
+        if kind not in said and not REMAINDER.search(text):
+            lines = [] if made is None else [plain_text(made.symbolic), plain_text(made.substituted)]
+            whole = "\n    ".join([f"{explanation.key}: {text}", *lines])
+            found[kind] = min(found.get(kind, (len(whole), whole)), (len(whole), whole))
+    said |= set(found)
+    return (whole for _, (_, whole) in sorted(found.items()))
+
+
+def steps_of_rows(stage: StageTrace) -> Iterator[Step]:
+    """Yield the steps of the first rows of a stage."""
+    for row in range(min(MOST_ROWS, stage.steps.row_count)):
+        column, line = stage.pixel[row].tolist()
+        for position in range(stage.steps.starts[row] + 1, stage.steps.starts[row + 1] + 1):
+            explanation = stage.explain(int(position))
+            assert explanation is not None
+            yield explanation, int(stage.triangle[row]), (column, line)
+
+
+def edited(part: str, of: str, old: str, new: str, scene: str = "shared-edge", **choices: Any) -> Trace:
+    """Trace a few pixels with one place of a listing changed."""
+    text = original(part, of).source
+    assert old in text
+    settings = apply_edit(Settings(**choices), Edit(part, of, text.replace(old, new)))
+    return trace(make_scene(scene), settings, region=(12, 5, 4, 3) if scene == "shared-edge" else None)
+
+
+def of_window(corners: list[Any], size: tuple[int, int], z: Any = 0.0, **choices: Any) -> Trace:
+    """Trace triangles with these corners in the window."""
+    return trace(ClipScene(clip_of_window(corners, size, 1.0, z), None, size), Settings(**choices))
+
+
+def stages() -> Iterator[tuple[str, StageTrace]]:
+    """Yield stages of which many rows are said: numbers that can be worked out by hand, and rare sentences."""
+    by_hand = {"fill": "brute-force"}
+    at_corners = by_hand | {"pixel_center": "integer"}
+    ties: dict[str, list[dict[str, Any]]] = {
+        "raster": [
+            *({}, by_hand, at_corners, {"fill": "scanline"}, by_hand | {"fill_rule": "inclusive"}),
+            at_corners | {"fill_rule": "exclusive"},
+        ],
+        "bin": [{}, {"fill": "blocks", "block_size": 2}],
+        "edges": [{}],
+        "depth": [{"depth": "fixed-38"}],
+    }
+    for stage, choices in ties.items():
+        for choice in choices:
+            yield f"grid-ties {choice}", rare_trace("grid-ties", Settings(**choice)).stage(stage)
+    for name in ("all-behind", "outside-left", "degenerate", "clockwise"):
+        yield name, rare_trace(name, Settings(cull="back")).stage("cull")
+    yield "clockwise", rare_trace("clockwise", Settings()).stage("cull")
+    yield "through-eye", rare_trace("through-eye", Settings(clipping="sutherland-hodgman")).stage("clip")
+    for line in table.names("line"):
+        yield line, line_trace(Settings(polygon_mode="wireframe", line=line)).stage("raster")
+    # The left edge stands at x = 1.501 and is snapped to 1.5, where the centre of pixel (1, 3) lies.
+    snapped = of_window([[(1.501, 1), (7, 1), (1.501, 7)]], (8, 8), **by_hand)
+    yield "snapped", snapped.stage("raster")
+    for depth in ("z-float32", "fixed-38", "z-24", "inverse-w"):
+        z = np.array([[0.0] * 3, [0.5] * 3, [0.0] * 3, [-0.5] * 3])
+        yield f"depth {depth}", of_window([LOWER_LEFT] * 4, SIZE, z, depth=depth).stage("depth")
+    pale = [[(-9.0, 5.7), (40.0, 5.7), (15.0, 40.0)], [(-9.0, 6.2), (40.0, 6.2), (15.0, -40.0)]]
+    for way in ("ray-casting", "z-buffer", "last-drawn"):
+        wu = {"polygon_mode": "wireframe", "line": "wu", "visibility": way}
+        yield f"pale {way}", of_window(pale, (9, 12), np.array([[0.5], [-0.5]]), **wu).stage("depth")
+    beyond = of_window(
+        [[(5.5, 3.5), (4.5, 5.75), (5, 4.5)]],
+        (6, 6),
+        [0.6, 0.6, -0.5],
+        fill="scanline-lecture",
+        depth="fixed-38",
+    )
+    yield "a depth outside of the triangle", beyond.stage("depth")
+    corners = np.array([(-2, -0.5), (2, -0.5), (3, 0), (2, 0.5), (-2, 0.5), (-3, 0)])
+    polygon = np.concatenate([corners, np.tile([0.0, 1.0], (6, 1))], axis=1)[None]
+    yield "polygon", trace(ClipScene(polygon, size=(8, 8), kind="polygons", rings=[0])).stage("cull")
+    for name, interpolation in product(("segment", "points"), ("perspective", "affine", "flat")):
+        traced = trace(make_scene(name), Settings(interpolation=interpolation))
+        yield f"{name} {interpolation}", traced.stage("interpolate")
+        yield f"{name} {interpolation}", traced.stage("raster")
+    window = built_in_scene("polygon-window")
+    yield "polygon-window", trace(window.make(), Settings(**window.settings)).stage("raster")
+    wireframe = trace(make_scene("single-triangle"), Settings(polygon_mode="wireframe"))
+    yield "along an edge", wireframe.stage("interpolate")
+    yield "a vertex that faces share", trace(make_scene("textured-floor")).stage("transform")
+    shaded = trace(ALL_SCENES["zwicker-perspective"].make(), Settings(fill="bounding-box"), 0, (4, 4, 6, 4))
+    yield "textured", shaded.stage("interpolate")
+    yield "textured", shaded.stage("shade")
+    yield "an inverse", trace(ALL_SCENES["zwicker-4x3"].make(), Settings(coverage="inverse")).stage("edges")
+    yield "n[0]", edited("interpolation", "perspective", "n[k] / total", "n[k] / n[0]").stage("interpolate")
+    affine = edited("interpolation", "affine", "n[k] / total", "n[k] / n[1]", interpolation="affine")
+    yield "n[1]", affine.stage("interpolate")
+    box = {"fill": "bounding-box"}
+    yield "value >= 0", edited("fill", "bounding-box", "value > 0", "value >= 0", **box).stage("raster")
+    yield "a < 0", edited("fill_rule", "shared-edge", "a > 0", "a < 0", **box).stage("raster")
+    yield "a >= 0", edited("fill_rule", "shared-edge", "a > 0", "a >= 0", **box).stage("edges")
+    yield (
+        "new <= old",
+        edited("depth_test", "z-float32", "new < old", "new <= old", "intersecting").stage("depth"),
+    )
+    yield "1 for 1 - alpha", edited("blend", "over", "1 - alpha", "1", blend="over").stage("blend")
+    for line, old, new in (("bresenham", "D >= 0", "D > 0"), ("dda", "0.5", "0.25")):
+        yield f"{line} {new}", edited("line", line, old, new, "segment", line=line).stage("raster")
+
+
+def depths() -> Iterator[str]:
+    """Yield what is said of depths that are close, far, or no numbers."""
+    near = float(np.float32(0.88571429))
+    far = float(np.nextafter(np.float32(near), np.float32(1)))
+    numbers = {
+        "depth": 0.25,
+        "inverse_w": 0.5,
+        "stored": 0.25,
+        "before": 0.125,
+        "after": 0.25,
+        "column": 5,
+        "row": 6,
+    }
+    numbers |= {"passes": False, "writes": False, "larger_is_nearer": False, "quantity": "z"}
+    for operation, changes in (
+        *[("test.compare", {"before": before}) for before in (0.125, 0.25, float("nan"))],
+        ("test.compare", {"stored": 14860001.0, "before": 14860000.0, "scale": 16777215.0}),
+        ("test.compare", {"stored": far, "before": near}),
+        ("test.compare", {"larger_is_nearer": True, "quantity": "inverse-w", "passes": True}),
+        *[("out-of-range.range", {"depth": depth}) for depth in (1.5, -0.5, float("nan"))],
+        *[(f"{kind}.write", {"after": 1.0, "before": 1.0}) for kind in ("test", "store")],
+    ):
+        made = Explanation(f"depth.{operation}", {**numbers, **changes}, (), (), None, 0)
+        yield f"{account(made, 3, (5, 6))[0]} {asked.text if (asked := passes(StepValues(made, 3))) else ''}"
+    values = {"stored": far, "before": near, "against": 2, "scale": 1.0}
+    yield link_sentence(Link("depth", "failed", values))
+
+
+def histories() -> Iterator[PixelHistory]:
+    """Yield what became of pixels, and of triangles at them."""
+
+    def asked(scene: Any, column: int, row: int, triangle: int | None = None, **choice: Any) -> PixelHistory:
+        return why(TraceSource(scene, Settings(**choice)), column, row, triangle)
+
+    def window(*triangles: Any, z: Any = 0.0) -> ClipScene:
+        return ClipScene(clip_of_window(triangles, SIZE, 1.0, z), None, SIZE)
+
+    alone, box = window(LOWER_LEFT), {"fill": "bounding-box"}
+    yield asked(alone, 3, 3)
+    yield asked(alone, 7, 6, **box)
+    yield asked(alone, 5, 6, 0, **box)
+    yield asked(alone, 9, 9, 0, fill="blocks", block_size=4)
+    yield asked(alone, 14, 10, 0)
+    yield asked(alone, 14, 10)
+    yield asked(alone, 3, 3, cull="front")
+    yield asked(window([(2, 2), (10, 2), (2, 9.875)]), 5, 6, 0, **box)
+    four = window(*[LOWER_LEFT] * 4, z=np.array([[0.0] * 3, [0.5] * 3, [0.0] * 3, [-0.5] * 3]))
+    yield asked(four, 3, 3)
+    yield asked(four, 3, 3, 0)
+    behind = ClipScene([[[-0.9, -0.9, 0, 1], [0.9, -0.9, 0, 1], [0, 0.5, -2, 1]]], size=SIZE)
+    yield asked(behind, 8, 8, 0, clipping="sutherland-hodgman", **box)
+    yield asked(window(LOWER_LEFT, LOWER_LEFT[::-1], LOWER_LEFT), 15, 11, cull="back")
+    left = window([(3.5, 0.5), (7.5, 0.5), (3.5, 6.5)])
+    for fill, rule in product(
+        ("spans", "scanline", "hierarchy", "brute-force"), ("shared-edge", "inclusive")
+    ):
+        yield asked(left, 3, 1, fill=fill, fill_rule=rule)
+    for line in table.names("line"):
+        yield asked(make_scene("segment"), 3, 2, line=line)
+    # In the window the centre of pixel (1, 3) has weights 3/8, 3/16 and 7/16.
+    thirds = np.array([window_triangle([0, 8, 0], [0, 0, 8], [0.5] * 3, [1, 1, 2], (8, 8))])
+    yield asked(ClipScene(thirds, np.zeros((1, 3, 4)), (8, 8)), 1, 3)
+    for limit, column, row in ((">= 0", 12, 6), ("> 300", 18, 28)):
+        settings = edited("fill", "bounding-box", "value > 0", f"value {limit}", **box).source.settings
+        yield why(TraceSource(make_scene("shared-edge"), settings), column, row)
+
+
+def tables() -> Iterator[str]:
+    """Yield tables of clippers, after each of their groups of rows, and of polygons."""
+    ends = [(-2, 1, 6, 5), (3, 3, 3, 3), (-2, -1, 10, 8)]
+    found: list[tuple[StageTrace, list[int]]] = []
+    for clipper in ("cohen-sutherland", "liang-barsky", "cyrus-beck"):
+        scenes = [clipped(*each)() for each in ends] + [degenerate()]
+        for scene in scenes:
+            stage = trace(scene, Settings(line_clipping=clipper)).stage("raster")
+            found.append((stage, stage.steps.starts[stage.steps.group_ends].tolist()))
+    sutherland_hodgman = Settings(clipping="sutherland-hodgman")
+    cull = trace(frustum_segments(), sutherland_hodgman).stage("cull")
+    found.append((cull, cull.steps.starts[cull.steps.triangle_ends].tolist()))
+    for corner, z in ((-3.0, 0.0), (-0.5, -1.0)):
+        corners = np.array([[[corner, 0, z, 1], [0.5, 0, z, 1], [0.5, 0.5, z, 1]]])
+        for name in ("cull", "clip"):
+            stage = trace(ClipScene(corners, size=(8, 8)), sutherland_hodgman).stage(name)
+            found.append((stage, stage.steps.starts[stage.steps.group_ends].tolist()))
+    holes = trace(make_scene("polygon-holes"), triangle=0).stage("raster")
+    found.append((holes, [22, 220]))
+    for stage, positions in found:
+        for position in positions:
+            shown = step_table(stage, int(position))
+            if shown is not None:
+                yield f"{shown.text()}\n{shown.note}"
+
+
+def summaries() -> Iterator[str]:
+    """Yield what is said before a stage begins, and of its rows together."""
+    for choice in ({}, {"fill": "blocks"}, {"fill": "scanline"}, {"polygon_mode": "wireframe"}):
+        traced = rare_trace("unsnapped", Settings(**choice))
+        for name, level in product(STAGES, (Level.STAGE, Level.TRIANGLE, Level.GROUP, Level.PIXEL)):
+            stage = traced.stage(name)
+            counts = stage.summary(0, stage.steps.row_count)
+            yield summary_sentence(name, level, counts, 0, 3, stage.method)
+    yield from map(initial_sentence, STAGES)
+
+
+def recorded() -> Iterator[str]:
+    """Yield all of it."""
+    said: set[tuple[str, str]] = set()
+    for name, stage in stages():
+        yield f"\n{stage.stage.upper()}: {name}"
+        yield from said_of(steps_of_rows(stage), said)
+    yield "\nEVERY OTHER OPERATION"
+    yield from said_of(
+        (step_at(place) for traced in fewest_traces() for place in places_of(traced, ROWS)), said
+    )
+    for history in histories():
+        yield f"\nPIXEL ({history.column}, {history.row})"
+        yield verdict_sentence(history)
+        yield from (f"{event_title(event)}: {event_reason(event)}" for event in history.events)
+        yield from count_sentences(history)
+    yield from ("\nDEPTHS", *depths())
+    yield from (f"\nTABLE {each}" for each in tables())
+    yield from ("\nSUMMARIES", *dict.fromkeys(summaries()))
+
+
+def test_all_is_said_as_it_was_recorded() -> None:
+    old, new = RECORDED.read_text(encoding="utf-8").splitlines(), "\n".join(recorded()).splitlines()
+    assert not "\n".join(unified_diff(old, new, "recorded", "said", n=0, lineterm=""))
+
+
+if __name__ == "__main__":
+    RECORDED.write_text("\n".join(recorded()) + "\n", encoding="utf-8")
