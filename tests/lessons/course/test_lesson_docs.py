@@ -27,6 +27,7 @@ PAGE = Path(__file__).parents[3] / "docs" / "lessons.md"
 TEXT = PAGE.read_text(encoding="utf-8")
 
 
+@pytest.mark.slow
 def test_the_first_lesson_of_the_page_works(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path))
     text = TEXT.split("## How the course does it")[0]
