@@ -17,6 +17,7 @@ from core.study.stability.coverage.dial_pixel import (
 )
 from core.study.stability.coverage.number_formats import FORMATS, sliver
 from core.study.stability.coverage.precision_dial import FILL_RULE
+from tests.covering import is_everything
 from tests.stability.failing_cells import FAILING_CELLS
 
 
@@ -37,7 +38,10 @@ def of(found: PixelInFormats, coverage: str) -> FormatAtPixel:
 COVERAGE_CELLS = [cell for cell in FAILING_CELLS if isinstance(experiments.get(cell[0]), CoverageExperiment)]
 
 
-@pytest.mark.parametrize(("name", "method", "place"), COVERAGE_CELLS)
+@pytest.mark.parametrize(
+    ("name", "method", "place"),
+    COVERAGE_CELLS if is_everything() else list({cell[0]: cell for cell in COVERAGE_CELLS}.values()),
+)
 def test_the_table_agrees_with_the_map(name: str, method: str, place: tuple[float, ...]) -> None:
     experiment = experiments.get(name)
     found = looked_at(name, method, place)
@@ -103,7 +107,7 @@ def test_a_pixel_that_nothing_covers_names_the_nearest_triangle() -> None:
 
 def test_pieces_that_clipping_made_are_told_from_the_triangle() -> None:
     differ = set()
-    for seed in range(140, 160):
+    for seed in range(140, 160 if is_everything() else 146):
         source = np.random.default_rng(seed)
         clip = source.uniform(-2, 2, (3, 3, 4)) * [1, 1, 0, 1]
         pixel = (int(source.integers(8)), int(source.integers(8)))

@@ -10,6 +10,7 @@ from core.study.exact.lines import clipped_ends
 from core.study.stability import Outcome, Verdict, experiments, stress
 from core.study.stability.coverage.line_clippers import PROMISED, SIDE, judge_clip, stretch_text
 from core.trace import trace
+from tests.covering import is_everything
 from tests.stability.maps import is_right_everywhere, outcomes
 
 NAMES = ("parallel-segments", "zero-length-segments", "segments-past-a-corner")
@@ -26,7 +27,7 @@ def test_exact_signs_hold_everywhere(name: str) -> None:
 
 def test_exact_signs_hold_on_random_segments_at_the_border() -> None:
     source = np.random.default_rng(3)
-    for _ in range(150):
+    for _ in range(150 if is_everything() else 40):
         ends = (
             source.choice([-9.3, 0.0, 17.7, 64.0, 80.1], (2, 2)) + source.integers(-3, 4, (2, 2)) * 2.0**-46
         )
@@ -64,6 +65,7 @@ def test_rounded_crossings_err_at_a_corner_and_only_there(method: str) -> None:
     assert {outcome for (offset, _), outcome in found.items() if abs(offset) > PROMISED} == {Outcome.RIGHT}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_remarks_are_sentences_with_short_numbers(name: str) -> None:
     said = {remark for each in stress(name).maps for row in each.remarks for remark in row}

@@ -11,45 +11,6 @@ from core.study.stability.fragments.blending_order import LayersCase, layered_gl
 from core.study.stability.fragments.cases import NearestCase
 from core.study.stability.fragments.thin_triangles import ThinCase, needle
 from core.study.stability.kinds import in_clip_space
-from tests.stability.shrunk_tests import run_test, shrunk_of
-
-CASES = [
-    ("affine-w-ratio", "interpolation=affine", (4.0, 32.0), 1, "interpolation", "perspective"),
-    ("z-fighting-distance", "depth=z-16", (100.0, 0.01), 2, "visibility", "ray-casting"),
-    ("z-fighting-distance", "depth=inverse-w", (31.6, 1e-6), 2, "visibility", "ray-casting"),
-    ("z-fighting-range", "depth=z-24", (1000.0, 1e-6), 2, "visibility", "ray-casting"),
-    ("orthographic-depth", "depth=z-16", (0.01, 2.0**-30), 2, "visibility", "ray-casting"),
-    ("painters-cycle", "visibility=painters", (0.3, 0.0), 2, "visibility", "z-buffer"),
-    ("drawing-order", "visibility=last-drawn", (4.0, 2.0), 2, "visibility", "painters"),
-    ("blending-order", "visibility=last-drawn blend=over", (4.0, 0.5), 2, "visibility", "painters"),
-    ("blending-order", "visibility=last-drawn blend=opaque", (0.0, 0.5), 1, "blend", "over"),
-    ("thin-triangles", "antialiasing=none", (0.25, 0.0), 1, "antialiasing", "area"),
-    ("thin-triangles", "antialiasing=msaa-4", (2.0**-6, 0.0), 1, "antialiasing", "area"),
-]
-"""Experiment, method, place, the most triangles that are left, and what makes it right: a family and its method."""
-
-
-@pytest.mark.parametrize(("name", "method", "place", "most", "family", "right"), CASES)
-def test_a_few_triangles_on_a_pixel_or_two_are_left_and_their_test_fails_until_the_method_is_right(
-    name: str, method: str, place: tuple, most: int, family: str, right: str
-) -> None:
-    experiment = experiments.get(name)
-    shrunk = shrunk_of(name, method, place)
-    assert shrunk.verdict.outcome == experiment.run(method, place, 0).outcome
-    assert experiment.judge(shrunk.scene, shrunk.settings) == shrunk.verdict
-    assert len(shrunk.scene.clip) <= most
-    assert np.prod(shrunk.scene.size) <= 2
-    column, row = shrunk.pixel
-    assert 0 <= column < shrunk.scene.size[0]
-    assert 0 <= row < shrunk.scene.size[1]
-    with pytest.raises(AssertionError):
-        run_test(shrunk.test)
-    given = f'{family}="{getattr(shrunk.settings, family)}"'
-    chosen = f'{family}="{right}"'
-    text = shrunk.test
-    run_test(
-        text.replace(given, chosen) if given in text else text.replace("Settings(", f"Settings({chosen}, ")
-    )
 
 
 @pytest.mark.parametrize("experiment", FRAGMENT_EXPERIMENTS, ids=lambda each: each.name)

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Material, Settings, Texture, render
-from core.study.stability import Outcome, experiments
+from core.study.stability import Outcome
 from core.study.stability.case_text import scene_text
 from core.study.stability.fragments.highlights import HighlightCase, highlight_case, shining_sphere
 from core.study.stability.fragments.opposite_normals import NormalsCase, flattened_tube
@@ -18,39 +18,8 @@ from core.study.stability.kinds import (
     nearer_looks,
     with_smaller_texture,
 )
-from tests.stability.shrunk_tests import run_test, shrunk_of
+from tests.stability.shrunk_tests import shrunk_of
 from tests.stability.tube import evenly_lit
-
-CASES = [
-    ("lost-highlight", "shading=gouraud", (8.0, 128.0), "phong"),
-    ("lost-highlight", "shading=flat", (8.0, 300.0), "phong"),
-    ("opposite-normals", "shading=gouraud", (120.0, 2.0), ""),
-    ("opposite-normals", "shading=phong", (180.0, 1.0), ""),
-    ("minification", "texture_filter=nearest", (4.0, 0.0), ""),
-    ("minification", "texture_filter=trilinear", (1.0, 75.0), ""),
-    ("shading-aliasing", "antialiasing=area", (8.0, 30.0), ""),
-]
-"""Experiment, method, place, and the method that is right for what is left, if there is one."""
-
-
-@pytest.mark.parametrize(("name", "method", "place", "right"), CASES)
-def test_a_triangle_on_one_pixel_is_left_and_its_test_fails(
-    name: str, method: str, place: tuple[float, float], right: str
-) -> None:
-    experiment = experiments.get(name)
-    shrunk = shrunk_of(name, method, place)
-    assert experiment.judge(shrunk.scene, shrunk.settings) == shrunk.verdict
-    assert shrunk.verdict.outcome == experiment.run(method, place, 0).outcome
-    assert (shrunk.scene.size, shrunk.pixel) == ((1, 1), (0, 0))
-    assert "1 triangle in 1x1 pixels" in shrunk.sentence
-    # The scene is all there: made again from the text it is judged alike.
-    names: dict = {"np": np}
-    exec(f"from core import *\n{scene_text(shrunk.scene)}", names)
-    assert experiment.judge(names["scene"], shrunk.settings) == shrunk.verdict
-    with pytest.raises(AssertionError):
-        run_test(shrunk.test)
-    if right:
-        run_test(shrunk.test.replace(f'shading="{shrunk.settings.shading}"', f'shading="{right}"'))
 
 
 def test_numbers_of_what_is_left_are_short() -> None:
