@@ -23,7 +23,7 @@ from tests.core.trace.trace_cases import (
     small_region,
     small_scene,
 )
-from tests.covering import in_turn, is_everything
+from tests.covering import in_turn
 
 FOLDED = {"depth": ("depth", "depth"), "primitive": ("depth", "primitive"), "color": ("blend", "color")}
 """Buffer of the frame to stage and name of its track."""
@@ -68,23 +68,20 @@ def crop_of(region: tuple[int, int, int, int]) -> tuple[slice, slice]:
     return slice(row, row + rows), slice(column, column + columns)
 
 
-@pytest.mark.parametrize(
-    ("name", "choice", "part"),
-    [(*case, part) for case, part in in_turn(CASES[:: 1 if is_everything() else 2], ["picture", "crop"])],
-    ids=name_of,
-)
-def test_all_rows_give_the_picture_and_its_crop(name, choice, part):
+@pytest.mark.parametrize(("name", "choice"), CASES, ids=name_of)
+def test_all_rows_give_the_picture_and_its_crop(name, choice):
     scene = SCENES[name]
     settings = settings_of(choice, scene)
     frame = render(scene, settings)
-    region = (0, 0, *scene.size) if part == "picture" else small_region(scene)
-    traced, crop = trace(scene, settings, region=region), crop_of(region)
-    check_frame(traced, frame, crop)
-    if scene.corner_count:  # Fragments of a table are there before the stage Raster.
-        overdraw = folded(traced, "raster", "overdraw")
-        assert same_bits(overdraw, np.ascontiguousarray(frame.cover_count[crop]))
+    for region in ((0, 0, *scene.size), small_region(scene)):
+        traced, crop = trace(scene, settings, region=region), crop_of(region)
+        check_frame(traced, frame, crop)
+        if scene.corner_count:  # Fragments of a table are there before the stage Raster.
+            overdraw = folded(traced, "raster", "overdraw")
+            assert same_bits(overdraw, np.ascontiguousarray(frame.cover_count[crop]))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["sphere", "torus", "knot"])
 def test_meshes(name):
     scene = small_scene(name)
@@ -156,7 +153,9 @@ def any_clip_scene(draw) -> ClipScene:
 
 @given(any_clip_scene(), ANY_SETTINGS)
 def test_any_triangles_under_any_settings(scene, settings):
-    check_frame(trace(scene, settings), render(scene, settings))
+    traced, frame = trace(scene, settings), render(scene, settings)
+    check_frame(traced, frame)
+    assert same_bits(folded(traced, "raster", "overdraw"), frame.cover_count)
 
 
 @given(any_clip_scene(), ANY_SETTINGS, st.data())
@@ -192,12 +191,6 @@ def test_a_state_is_the_rows_written_one_by_one(scene, settings, data):
                 if row < done:
                     flat[place] = value
             assert same_bits(track.at(done), buffer), (stage, track.name)
-
-
-@given(any_clip_scene(), ANY_SETTINGS)
-def test_overdraw_of_any_triangles(scene, settings):
-    traced = trace(scene, settings)
-    assert same_bits(folded(traced, "raster", "overdraw"), render(scene, settings).cover_count)
 
 
 def test_fragments_out_of_depth_range_count_alike_in_picture_and_trace():

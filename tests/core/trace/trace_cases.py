@@ -10,7 +10,7 @@ from core.methods import table
 from core.settings import FAMILIES, families
 from core.stages.needs import refusal
 from lessons.scenes import make_scene, scene_names
-from tests.covering import covering, in_turn, is_everything
+from tests.covering import covering, fewest, in_turn, is_everything
 
 Region = tuple[int, int, int, int]
 
@@ -220,9 +220,6 @@ POLYGONS = _met(
 )
 """Polygons, likewise."""
 
-CASES = [*FILLED, *OUTLINED, *POLYGONS, *(in_turn(SCENES, [*CHOICES, *MIXES]) if is_everything() else ())]
-"""Scenes and choices for a law that holds of every picture."""
-
 
 def settings_of(choice: dict[str, str | int], scene: ClipScene | Scene) -> Settings:
     """Return the settings of a choice, but for methods that refuse the scene."""
@@ -239,3 +236,20 @@ def name_of(choice: object) -> str:
     if isinstance(choice, dict):
         return ",".join(f"{family}={name}" for family, name in choice.items()) or "defaults"
     return str(choice)
+
+
+def _cases() -> list[tuple[str, Choice]]:
+    """Return scenes and choices; every day the fewest in which each scene and each method occurs."""
+    every = [*FILLED, *OUTLINED, *POLYGONS]
+    if is_everything():
+        return [*every, *in_turn(SCENES, [*CHOICES, *MIXES])]
+    named = {f"{name} {name_of(choice)}": (name, choice) for name, choice in every}
+    taken = {
+        case: {name, *Settings().differences(settings_of(choice, SCENES[name])).items()}
+        for case, (name, choice) in named.items()
+    }
+    return [named[case] for case in fewest(taken)]
+
+
+CASES = _cases()
+"""Scenes and choices for a law that holds of every picture."""
