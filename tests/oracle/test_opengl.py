@@ -15,11 +15,12 @@ from app.opengl_check.compare import compare
 from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer
 from app.opengl_check.families import FAMILIES, make_case
 from app.opengl_check.shader_check import SHADERS
+from tests.covering import is_everything
 from tests.oracle.record_cases import read_case, write_case
 
 ROOT = Path(__file__).resolve().parents[2]
 SEED = 20
-COUNT = 12
+COUNT = 12 if is_everything() else 6
 
 
 @pytest.fixture(scope="module")
@@ -116,6 +117,7 @@ def test_command_writes_a_line_for_every_family(renderer):
 
 
 @pytest.mark.usefixtures("renderer")
+@pytest.mark.slow
 def test_process_that_used_opengl_ends_well():
     code = "from app.opengl_check.command import run_opengl_check as run; raise SystemExit(run(['mesh'], count=2))"
     result = run_python(code)
@@ -152,6 +154,7 @@ def test_missing_moderngl_is_one_line(capsys, monkeypatch):
 @pytest.mark.skipif(
     sys.platform != "linux", reason="only on Linux the library's name can be set from outside"
 )
+@pytest.mark.slow
 def test_missing_opengl_is_one_line():
     pytest.importorskip("moderngl")
     code = "from app.opengl_check.command import run_opengl_check as run; raise SystemExit(run())"

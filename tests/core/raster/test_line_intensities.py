@@ -16,7 +16,7 @@ from core.resolved import resolve
 from core.trace.source import TraceSource
 from lessons.scenes import assembled, make_scene
 from tests.core.strategies import clip_of_window
-from tests.covering import every_pair
+from tests.covering import every_pair, is_everything
 
 SMOOTH = [line for line in table.names("line") if has_intensities(line)]
 SIZE = (16, 12)
@@ -44,10 +44,6 @@ def edges_of(corners) -> np.ndarray:
 
 def blend_of(settings: Settings) -> tuple[str, str]:
     return resolve(settings).blend_name, resolve(settings).blend_inserted_for
-
-
-def test_the_methods_with_intensities():
-    assert SMOOTH == ["wu", "gupta-sproull"]
 
 
 @pytest.mark.parametrize("line", SMOOTH)
@@ -202,7 +198,8 @@ def test_the_history_of_a_pixel_ends_with_its_colour(line):
     settings = wireframe(line)
     frame = render(scene, settings)
     keys = set()
-    for row, column in np.argwhere(frame.cover_count > 0).tolist():
+    step = 1 if is_everything() else 3
+    for row, column in np.argwhere(frame.cover_count > 0)[::step].tolist():
         history = why(TraceSource(scene, settings), column, row)
         last = [event.after for event in history.events if event.after is not None][-1]
         assert np.array_equal(last.color, frame.color[row, column])

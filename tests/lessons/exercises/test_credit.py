@@ -36,8 +36,9 @@ def test_a_known_mistake_earns_at_most_half_of_a_pixel_question() -> None:
 def test_what_credit_says_never_depends_on_the_answer() -> None:
     for name, template in TEMPLATES.items():
         if first_question(name).draft.answer.kind in ("pixels", "choice", "spot"):
-            assert len({ask(template, seed).draft.answer.credit for seed in range(3)}) == 1, name
-            assert not any(letter.isdigit() for letter in first_question(name).draft.answer.credit), name
+            credit = first_question(name).draft.answer.credit
+            assert ask(template, 2).draft.answer.credit == credit, name
+            assert not any(letter.isdigit() for letter in credit), name
 
 
 def test_a_wrong_choice_of_one_is_given_a_reason_and_the_right_one_is_not_marked() -> None:
@@ -135,7 +136,7 @@ def test_no_question_gives_the_count_of_what_must_be_marked_or_chosen() -> None:
         answer = first_question(name).draft.answer
         if answer.kind != "pixels" and not (answer.kind == "choice" and answer.is_several):
             continue
-        drafts = [ask(template, seed).draft for seed in range(6)]
+        drafts = (ask(template, seed).draft for seed in range(6))
         assert any(
             str(len(draft.answer.reference)) not in numbers_in(draft.text, draft.answer.credit) - RULE_NUMBERS
             for draft in drafts

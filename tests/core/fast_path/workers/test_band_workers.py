@@ -148,6 +148,7 @@ def test_depth_outside_of_the_picture_is_refused_as_by_one_process(workers: Band
             workers.draw(scene, SPANS, depth_at=np.array(places))
 
 
+@pytest.mark.slow
 def test_three_processes_draw_the_bytes_of_one() -> None:
     scene = ball(size=(70, 50))
     with BandWorkers(3, always=True) as workers:
@@ -200,6 +201,7 @@ def test_small_pictures_stay_in_one_process() -> None:
         assert "not worth it" in workers.sharing.reason
 
 
+@pytest.mark.slow
 def test_large_pictures_start_the_workers_and_do_not_wait_for_them() -> None:
     scene = ball(size=(700, 700))
     with BandWorkers(2) as workers:

@@ -55,7 +55,7 @@ def test_a_worker_that_is_killed_is_told_and_started_once_more() -> None:
 
 
 @pytest.mark.skipif(not hasattr(signal, "SIGSTOP"), reason="no process can be stopped here")
-@pytest.mark.parametrize("subdivisions", [2, 6])
+@pytest.mark.parametrize("subdivisions", [6, pytest.param(2, marks=pytest.mark.slow)])
 def test_a_worker_that_is_stopped_is_ended_and_the_picture_drawn(
     monkeypatch: pytest.MonkeyPatch, subdivisions: int
 ) -> None:
@@ -110,6 +110,7 @@ def test_a_worker_that_raises_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
         assert "UnknownMesh" in workers.failure
 
 
+@pytest.mark.slow
 def test_a_scene_that_cannot_be_sent_is_told() -> None:
     class LocalMesh(Mesh):
         """A class that has no name outside this function."""
@@ -241,7 +242,7 @@ def test_a_script_runs_its_main_part_once_and_ends_quietly(tmp_path: Path) -> No
 
 
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such signal")
-@pytest.mark.parametrize("is_drawing", [False, True])
+@pytest.mark.parametrize("is_drawing", [True, pytest.param(False, marks=pytest.mark.slow)])
 def test_nothing_is_left_of_a_program_that_is_killed(tmp_path: Path, is_drawing: bool) -> None:
     pause = "\n    import time\n    time.sleep(60)\n"
     with start(PROGRAM + (GO_ON if is_drawing else pause), tmp_path) as process:
@@ -255,6 +256,7 @@ def test_nothing_is_left_of_a_program_that_is_killed(tmp_path: Path, is_drawing:
     assert problems == ""
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(sys.platform == "win32", reason="there is no such signal")
 def test_an_interrupt_reaches_the_program_and_ends_the_workers(tmp_path: Path) -> None:
     """Ctrl+C goes to every process of the terminal."""

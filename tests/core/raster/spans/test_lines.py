@@ -66,7 +66,13 @@ def test_pixels_are_those_of_the_method_up_to_the_limits(segments, size, last_pi
     assert_found(segments, size, last_pixel)
 
 
-@pytest.mark.parametrize("size", [(16384, 16384), (16384, 7), (7, 16384), (1024, 1024), (1, 16384)])
+@pytest.mark.parametrize(
+    "size",
+    [
+        (1024, 1024),
+        *(pytest.param(size, marks=pytest.mark.slow) for size in [(16384, 16384), (16384, 7), (1, 16384)]),
+    ],
+)
 def test_many_long_lines(size):
     # One end in the raster, the other anywhere; pairs of numbers close together make the closest decisions.
     rng = np.random.default_rng(7)
