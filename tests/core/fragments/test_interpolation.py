@@ -10,11 +10,8 @@ from hypothesis import strategies as st
 from core import Settings, draw_triangles
 from core.fragments.interpolation import (
     interpolate,
-    interpolate_affine_at,
-    interpolate_at,
     plane_value,
     set_up_planes,
-    take_provoking_value,
     value_plane,
 )
 from core.raster.edges.snapping import place_corners
@@ -126,46 +123,6 @@ def test_flat_takes_the_provoking_corner(provoking: str, corner: int) -> None:
     settings = Settings(interpolation="flat", provoking=provoking)
     frame = draw_triangles(clip, 8, 8, attributes=[[[1.0], [2.0], [3.0]]], settings=settings)
     assert (frame.attributes[frame.primitive == 0] == [1.0, 2.0, 3.0][corner]).all()
-
-
-@given(
-    st.one_of(perspective_triangles(1), homogeneous_triangles(1)),
-    PIXELS,
-    st.lists(st.floats(-9, 9), min_size=3, max_size=3),
-)
-def test_listing_of_perspective_interpolation(case, pixel, values: list[float]) -> None:
-    clip, size = case
-    planes = set_up_planes(place_corners(clip, size, "snapped").homogeneous)
-    x, y = pixel[0] + 0.5, pixel[1] + 0.5
-    n = [planes.a[0, k] * x + (planes.b[0, k] * y + planes.c[0, k]) for k in range(3)]
-    assume(np.isfinite(n).all() and n[0] + n[1] + n[2] != 0)
-    varyings = np.reshape(values, (1, 3, 1))
-    weights, value = interpolate(planes, varyings, FIRST, np.array([x]), np.array([y]), "perspective", "last")
-    told = interpolate_at(planes.a[0], planes.b[0], planes.c[0], x, y, np.array(values))
-    assert weights[0].tolist() == told[0]
-    assert value[0, 0] == told[2]
-
-
-@given(perspective_triangles(1), PIXELS, st.lists(st.floats(-9, 9), min_size=3, max_size=3))
-def test_listing_of_affine_interpolation(case, pixel, values: list[float]) -> None:
-    clip, size = case
-    planes = set_up_planes(place_corners(clip, size, "snapped").homogeneous)
-    x, y = pixel[0] + 0.5, pixel[1] + 0.5
-    n = [(planes.a[0, k] * x + (planes.b[0, k] * y + planes.c[0, k])) * planes.w[0, k] for k in range(3)]
-    assume(n[0] + n[1] + n[2] != 0)
-    varyings = np.reshape(values, (1, 3, 1))
-    weights, value = interpolate(planes, varyings, FIRST, np.array([x]), np.array([y]), "affine", "last")
-    told = interpolate_affine_at(planes.a[0], planes.b[0], planes.c[0], planes.w[0], x, y, np.array(values))
-    assert weights[0].tolist() == told[0]
-    assert value[0, 0] == told[2]
-
-
-@given(st.integers(0, 2), st.lists(st.floats(-9, 9), min_size=3, max_size=3))
-def test_listing_of_flat_interpolation(provoking: int, values: list[float]) -> None:
-    assert take_provoking_value(provoking, np.array(values)) == (
-        np.eye(3)[provoking].tolist(),
-        values[provoking],
-    )
 
 
 HORIZON = np.array(

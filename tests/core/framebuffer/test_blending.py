@@ -3,10 +3,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
-from core.framebuffer.blending import additive, additive_pixel, opaque, over, over_pixel
+from core.framebuffer.blending import additive, opaque, over
 from core.framebuffer.display import to_display
-from core.methods import table
-from core.records.listing import listing
 
 channel = st.floats(0, 4, width=32)
 share = st.floats(0, 1)
@@ -16,11 +14,6 @@ pixel = st.tuples(channel, channel, channel, st.floats(0, 1, width=32))
 
 def blend(rule, source, destination):
     return rule(np.array(source, np.float64), np.array(destination, np.float32))
-
-
-def test_family_in_order():
-    assert table.names("blend")[:3] == ("opaque", "over", "additive")
-    assert table.get("blend", "over").function is over
 
 
 def test_half_red_over_backgrounds():
@@ -57,14 +50,6 @@ def test_colour_stays_between_and_alpha_never_falls(source, destination):
     assert destination[3] * (1 - 1e-6) <= result[3] <= 1 + 1e-6
 
 
-@given(rows=st.lists(st.tuples(fragment, pixel), min_size=1, max_size=20))
-def test_listing_gives_the_same_bits(rows):
-    source, destination = ([row[k] for row in rows] for k in range(2))
-    expected = [[float(value) for value in over_pixel(s, d)] for s, d in rows]
-    assert blend(over, source, destination).tolist() == expected
-    assert set(listing(over_pixel).lines) == {"color", "store"}
-
-
 def test_additive_keeps_what_is_there_and_cuts_nothing_off():
     light = [[1.0, 0.25, 0.0, 0.5], [3.0, 0.0, 0.0, 1.0]]
     there = [[0.25, 0.5, 0.75, 1.0], [0.5, 0.5, 0.0, 1.0]]
@@ -84,14 +69,6 @@ def test_the_order_of_additive_fragments_does_not_matter(first, second, destinat
     )
     # Two roundings to float32 on either way.
     assert np.allclose(one, other, rtol=4 * 2.0**-24, atol=1e-44)
-
-
-@given(rows=st.lists(st.tuples(fragment, pixel), min_size=1, max_size=20))
-def test_listing_of_additive_gives_the_same_bits(rows):
-    source, destination = ([row[k] for row in rows] for k in range(2))
-    expected = [[float(value) for value in additive_pixel(s, d)] for s, d in rows]
-    assert blend(additive, source, destination).tolist() == expected
-    assert set(listing(additive_pixel).lines) == {"color", "store"}
 
 
 def test_only_the_display_cuts_light_off():

@@ -108,14 +108,6 @@ def test_layers_name_each_pixel_once_and_keep_the_order(pixel: list[int]) -> Non
     assert all(number[f] == pixel[:f].count(pixel[f]) for f in range(len(pixel)))
 
 
-@given(st.sampled_from(STORED_VALUES := [0.0, 0.25, 0.5, 1.0]), st.sampled_from(STORED_VALUES), st.booleans())
-def test_listing_of_the_depth_test(new: float, old: float, larger_is_nearer: bool) -> None:
-    after, passes = depth_test(np.float32(new), np.float32(old), larger_is_nearer)
-    kept = depth_format("inverse-w" if larger_is_nearer else "z-float32")
-    assert passes == bool(kept.is_nearer(np.float32(new), np.float32(old)))
-    assert after == (new if passes else old)
-
-
 def test_depth_is_clamped_where_every_corner_is_in_range_and_tested_elsewhere() -> None:
     depth = np.array([-0.1, 0.0, 0.5, 1.0, 1.1])
     clamped, keeps = clamp_depth(depth, np.ones(5, bool))

@@ -6,13 +6,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
-from core.geometry.culling import PLANES, REASONS, CullVerdicts, cull, cull_verdict, plane_distances
+from core.geometry.culling import PLANES, REASONS, CullVerdicts, cull, plane_distances
 from core.geometry.outcodes import outcodes
 from core.methods import table
 from core.raster.edges.edge_functions import orient
 from core.raster.edges.snapping import place_corners
 from core.records.primitives import Primitives, index_corners
-from tests.core.strategies import ANY_TRIANGLES, clip_of_window, homogeneous_triangles
+from tests.core.strategies import clip_of_window, homogeneous_triangles
 
 FRONT = [[-0.5, -0.5, 0, 1], [0.5, -0.5, 0, 1], [0, 0.5, 0, 1]]
 SIZE = (8, 8)
@@ -91,19 +91,6 @@ def test_facing_does_not_care_which_corners_are_behind_the_eye(flips) -> None:
         turned = camera if (eye_side < 0) == (expected == "kept") else camera[[0, 2, 1]]
         clip = np.stack([turned[:, 0], turned[:, 1], np.zeros(3), -turned[:, 2]], axis=1)
         assert verdict_of(clip, "back")[0] == expected, normal
-
-
-@given(ANY_TRIANGLES, st.sampled_from(["none", "back", "front"]))
-def test_listing_of_the_verdict(case, faces: str) -> None:
-    clip, size = case
-    facing = orient(place_corners(clip, size, "snapped"))
-    verdicts = cull_corners(clip, facing, faces)
-    drops = table.get("cull", faces).function(facing)
-    for t in range(len(clip)):
-        assert cull_verdict(clip[t], facing[t], bool(drops[t])) == REASONS[verdicts.verdict[t]]
-        assert (verdicts.plane[t] >= 0) == (REASONS[verdicts.verdict[t]] == "outside-plane")
-    assert np.array_equal(verdicts.kept, verdicts.verdict == 0)
-    assert np.array_equal(verdicts.distances, plane_distances(clip))
 
 
 @given(homogeneous_triangles())

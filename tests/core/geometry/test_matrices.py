@@ -12,7 +12,6 @@ from core.geometry.matrices import (
     rotation,
     scaling,
     transform,
-    transform_component,
     translation,
     viewport,
     world_to_camera,
@@ -28,12 +27,6 @@ def camera(**changes) -> Camera:
 def project(matrix, point) -> np.ndarray:
     clip = transform(matrix, np.array([[*point, 1.0]]))[0]
     return clip[:3] / clip[3]
-
-
-@given(st.lists(NUMBERS, min_size=16, max_size=16), st.lists(NUMBERS, min_size=4, max_size=4))
-def test_listing_of_one_component(matrix: list[float], point: list[float]) -> None:
-    M, p = np.reshape(matrix, (4, 4)), np.array(point)
-    assert transform(M, p[None])[0].tolist() == [transform_component(M[k], p) for k in range(4)]
 
 
 @given(st.lists(NUMBERS, min_size=16, max_size=16), st.integers(1, 50))

@@ -15,7 +15,6 @@ from core.geometry.polygon_clipping.sutherland_hodgman import (
     CASES,
     DEPTH_PLANES,
     Clipped,
-    clip_edge,
     clip_polygons,
     clip_primitives,
     distance_from,
@@ -188,33 +187,6 @@ def test_an_edge_gets_the_same_new_corner_from_both_sides(numbers: list[float], 
     assert rows_there.t[0] == rows_back.t[0]
     assert (there == rows_there.corner[0]).all(axis=2).any()
     assert (back == rows_back.corner[0]).all(axis=2).any()
-
-
-@given(ANY_TRIANGLES, PLANE_SETS)
-def test_listing_of_one_edge_gives_the_rows_and_the_polygons(case, planes) -> None:
-    clip, _ = case
-    result = clipped(clip, planes, varyings=clip[..., :1].copy())
-    rows = result.rows
-    for q in range(len(result.clipped)):
-        for n, plane in enumerate(planes):
-            at = np.flatnonzero((rows.polygon == q) & (rows.plane == plane))
-            assert len(at) == result.counts[n][q]
-            assert rows.edge[at].tolist() == list(range(len(at)))
-            handed_on = []
-            for r in at:
-                told = clip_edge(rows.start[r], rows.end[r], rows.start_distance[r], rows.end_distance[r])
-                handed_on += told
-                crosses = CASES[rows.case[r]] in ("in-out", "out-in")
-                assert len(told) == {"out-out": 0, "in-out": 1, "in-in": 1, "out-in": 2}[CASES[rows.case[r]]]
-                if crosses:
-                    assert np.array_equal(told[0], rows.corner[r])
-                else:
-                    assert np.isnan(rows.corner[r]).all()
-            count = result.counts[n + 1][q]
-            assert count == len(handed_on)
-            if count:
-                assert np.array_equal(result.polygons[n + 1][q, :count], np.array(handed_on))
-    assert (np.diff(rows.polygon) >= 0).all()
 
 
 @given(ANY_TRIANGLES)

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.binning import block_verdict, bound, classify, one_level, two_levels
+from core.raster.binning import bound, one_level, two_levels
 from core.raster.pixel_runs import BEHIND, INSIDE, LEAF, MIXED, OUTSIDE, PROJECTED, SPLIT, make_raster
 from tests.core.drawing import cover_each, edges_of
-from tests.core.strategies import ANY_TRIANGLES, BLOCK_SIZES, REGIONS, clip_of_window
+from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
 
 SIZE = (16, 12)
 
@@ -79,23 +79,6 @@ def test_the_box_holds_every_covered_pixel_of_the_region(case, region) -> None:
         outside = covered[t].copy()
         outside[boxes.row[t] : boxes.row_end[t], boxes.column[t] : boxes.column_end[t]] = 0
         assert not outside.any()
-
-
-@given(ANY_TRIANGLES, BLOCK_SIZES, st.integers(0, 20), st.integers(0, 20))
-def test_listing_of_the_block_test(case, block_size: int, column: int, row: int) -> None:
-    clip, size = case
-    edges, raster = edges_of(clip, size), make_raster(size, "half")
-    count = len(edges)
-    at = np.arange(count)
-    _, _, verdict, rejected_by = classify(
-        edges, raster, at, np.full(count, column), np.full(count, row), block_size
-    )
-    for t in range(count):
-        coefficients = list(zip(edges.a[t], edges.b[t], edges.c[t], edges.owns_tie[t], strict=True))
-        left, bottom = column + 0.5, row + 0.5
-        told = block_verdict(coefficients, left, bottom, left + (block_size - 1), bottom + (block_size - 1))
-        assert told == {OUTSIDE: "outside", INSIDE: "inside", SPLIT: "split"}[verdict[t]]
-        assert (rejected_by[t] >= 0) == (told == "outside")
 
 
 @given(ANY_TRIANGLES, st.sampled_from([1, 2, 3, 5, 8]), st.sampled_from([2, 3, 4]))

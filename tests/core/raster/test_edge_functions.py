@@ -4,17 +4,14 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import assume, example, given
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from core.methods import table
-from core.raster.coverage import examine_pixels
-from core.raster.edges.edge_functions import covers, cross, edge_coefficients, edge_value, is_inside, orient
-from core.raster.edges.fill_rule import exclusive, inclusive, owns, shared_edge
-from core.raster.edges.one_ended import edge_left_out
+from core.raster.edges.edge_functions import cross, edge_value, is_inside, orient
+from core.raster.edges.fill_rule import exclusive, inclusive
 from core.raster.edges.snapping import place_corners
-from core.raster.pixel_runs import make_raster
-from tests.core.drawing import edges_of, facing_of, runs_of
+from tests.core.drawing import edges_of, facing_of
 from tests.core.exact_reference import determinant, facing, homogeneous_window
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window, grid_triangles, homogeneous_triangles
 
@@ -134,59 +131,11 @@ def test_other_rules_own_every_edge_or_none() -> None:
     assert table.names("fill_rule")[0] == "shared-edge"
 
 
-@given(st.floats(-10, 10), st.floats(-10, 10))
-def test_listing_of_the_tie_rule(a: float, b: float) -> None:
-    assert shared_edge(np.array([[a]]), np.array([[b]]))[0, 0] == owns(a, b)
-    if a or b:
-        assert owns(a, b) != owns(-a, -b)
-
-
-@given(ANY_TRIANGLES)
-@example(([[[0, 0, 0, -3], [0, 0, 0, 0.25], [0, 0, 0, 0.25]]], (1, 1)))  # No area: corners on one point.
-@example(([[[-3, 0, 0, -1], [0, 0, 0, 1], [0.0005, 0, 0, 1]]], (8, 8)))
-def test_listing_of_one_edge_function(case) -> None:
-    clip, size = case
-    edges = edges_of(clip, size)
-    corners = edges.corners
-    for t in range(len(edges)):
-        sign = float(np.sign(edges.doubled_area[t]))
-        for k in range(3):
-            ends = [(k + 1) % 3, (k + 2) % 3]
-            if corners.is_projected[t, ends].all():
-                (x1, y1), (x2, y2) = corners.decided[t, ends].tolist()
-                expected = edge_coefficients(x1, y1, 1.0, x2, y2, 1.0, sign)
-                if sign and not corners.is_projected[t, k]:
-                    opposite = [
-                        float(edge_value(edges.a[t, j], edges.b[t, j], edges.c[t, j], *corners.decided[t, j]))
-                        for j in ends
-                    ]
-                    w = float(corners.homogeneous[t, k, 2])
-                    expected = edge_left_out(*opposite, w) or expected
-                assert (edges.a[t, k], edges.b[t, k], edges.c[t, k]) == expected
-            elif not corners.is_projected[t, ends].any():
-                expected = edge_coefficients(*corners.homogeneous[t, ends].ravel().tolist(), sign)
-                assert (edges.a[t, k], edges.b[t, k], edges.c[t, k]) == expected
-
-
 @given(st.lists(st.floats(-1e6, 1e6), min_size=6, max_size=6))
 def test_the_ends_of_an_edge_may_change_places(numbers: list[float]) -> None:
     x1, y1, w1, x2, y2, w2 = numbers
     there, back = cross(x1, y1, w1, x2, y2, w2), cross(x2, y2, w2, x1, y1, w1)
     assert there == tuple(-value for value in back)
-
-
-@given(ANY_TRIANGLES, st.sampled_from(["shared-edge", "inclusive", "exclusive"]))
-def test_listing_of_the_inside_test(case, fill_rule: str) -> None:
-    clip, size = case
-    edges, raster = edges_of(clip, size, fill_rule=fill_rule), make_raster(size, "half")
-    tests = examine_pixels(edges, runs_of(edges, raster, "bounding-box"), raster)
-    for q in range(0, len(tests.column), 7):
-        t = tests.primitive[q]
-        x, y = tests.column[q] + 0.5, tests.row[q] + 0.5
-        values, inside = covers(edges.a[t], edges.b[t], edges.c[t], edges.owns_tie[t], x, y)
-        assert tests.values[q].tolist() == values
-        assert tests.covered[q] == inside
-        assert tests.tie[q].tolist() == [value == 0 for value in values]
 
 
 @given(ANY_TRIANGLES)

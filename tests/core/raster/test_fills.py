@@ -27,11 +27,6 @@ def exact_each(clip, size, rule: str = "shared-edge", doubled_center: int = 1) -
     return np.stack([exact_coverage(triangle, size, rule, doubled_center) for triangle in clip])
 
 
-def test_the_fills_that_draw_any_triangle() -> None:
-    assert TESTING_FILLS[:5] == ["bounding-box", "hierarchy", "blocks", "brute-force", "incremental"]
-    assert set(table.names("fill")) - set(TESTING_FILLS) == {"scanline-lecture"}
-
-
 @pytest.mark.parametrize("fill", TESTING_FILLS)
 def test_triangle_on_pixel_centres(fill: str) -> None:
     size = (8, 6)

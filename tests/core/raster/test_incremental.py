@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.raster.coverage import cover, examine_pixels
-from core.raster.fills.incremental import add_up, step_covers, stepped_values
+from core.raster.fills.incremental import add_up, stepped_values
 from core.raster.pixel_runs import ADDED_A, ADDED_B, EVALUATED, make_raster
 from tests.core.drawing import cover_each, edges_of, runs_of
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
@@ -93,20 +93,6 @@ def test_every_pixel_says_what_was_added_to_what(case, coverage: str) -> None:
     assert (tests.added[first] == EVALUATED).all()
     assert np.count_nonzero(tests.added == EVALUATED) == len(first)
     assert np.count_nonzero(tests.added == ADDED_B) == len(runs) - len(first)
-
-
-@given(ANY_TRIANGLES, st.sampled_from(["snapped", "float64", "float32"]))
-def test_listing_of_a_step(case, coverage: str) -> None:
-    clip, size = case
-    edges, raster = edges_of(clip, size, coverage), make_raster(size, "half")
-    tests = examine_pixels(edges, runs_of(edges, raster, "incremental"), raster)
-    for q in np.flatnonzero(tests.added != EVALUATED)[::5].tolist():
-        slope = edges.a if tests.added[q] == ADDED_A else edges.b
-        t = tests.primitive[q]
-        before = tests.before[q].astype(edges.numbers.held_as)
-        values, inside = step_covers(list(before), list(slope[t]), list(edges.owns_tie[t]))
-        assert [float(value) for value in values] == tests.values[q].tolist()
-        assert inside == tests.covered[q]
 
 
 @given(

@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.methods import table
 from core.raster.lines.drawing import draw_lines, interpolate_line, segment_parameter
 from core.raster.lines.records import COORDINATE_LIMIT, round_half_up
 
@@ -33,13 +32,6 @@ def picture(segments, width, height, **options) -> list[str]:
     for (column, row), segment in zip(pixels.tolist(), owner.tolist(), strict=True):
         rows[row, column] = str(segment % 10) if rows[row, column] == "." else "!"
     return ["".join(row) for row in rows[::-1]]
-
-
-def test_the_family_has_its_methods_in_order():
-    names = list(table.names("line"))
-    first = [*METHODS, "rectangle", "wu", "gupta-sproull"]
-    assert names[: len(first)] == first
-    assert all(table.get("line", name).listing for name in names)
 
 
 SLOPE_2_OF_5 = {

@@ -12,8 +12,7 @@ from core.raster.binning import bound
 from core.raster.coverage import cover, examine_pixels
 from core.raster.fills.tested import effective_fill
 from core.raster.number_formats.exact import nearest_float, unit_shift, whole_numbers
-from core.raster.number_formats.inverse import inverse_coefficients, invert
-from core.raster.number_formats.number_format import number_format
+from core.raster.number_formats.inverse import invert
 from core.raster.pixel_runs import make_raster
 from tests.core.drawing import cover_each, edges_of, runs_of, text
 from tests.core.exact_reference import determinant, exact_coverage, homogeneous_window
@@ -41,12 +40,6 @@ def exact_each(
 def fan(hub: tuple[float, float], rim: list[tuple[float, float]]) -> list[list[tuple[float, float]]]:
     """Return the triangles around a point, whose edges all but the outer ones are shared."""
     return [[hub, start, end] for start, end in zip(rim, [*rim[1:], rim[0]], strict=True)]
-
-
-def test_the_formats_there_are() -> None:
-    assert FORMATS == ["snapped", "float64", "float32", "float16", "inverse", "fixed-24.8", "int64", "exact"]
-    for name in FORMATS:
-        assert number_format(name).name == name
 
 
 # The referee.
@@ -290,18 +283,6 @@ def test_boxes_of_corners_that_are_not_snapped_hold_the_triangle(case, name: str
 
 
 # The inverse.
-
-
-@given(st.lists(st.floats(-100, 100), min_size=9, max_size=9))
-@example([0.0, 1, 2, 3, 4, 5, 6, 7, 8])
-@example([0.0] * 9)
-def test_listing_of_the_inverse(numbers: list[float]) -> None:
-    matrix = np.reshape(numbers, (1, 3, 3))
-    inverse, area = invert(matrix)
-    with np.errstate(all="ignore"):
-        listed, determinant_listed = inverse_coefficients([[np.float64(n) for n in row] for row in matrix[0]])
-    assert np.array_equal(inverse[0], listed, equal_nan=True)
-    assert np.array_equal(area[0], determinant_listed, equal_nan=True)
 
 
 def test_the_inverse_of_a_matrix_without_one_draws_nothing() -> None:

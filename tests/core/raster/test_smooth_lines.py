@@ -197,10 +197,3 @@ def test_a_dot_within_a_pixel_has_the_intensity_of_its_length(line):
     at = dict(zip(map(tuple, drawn.pixels.tolist()), drawn.intensities.tolist(), strict=True))
     assert at[2, 1] == (0.25 if line == "wu" else 0.25 * FILTER_TABLE[0])
     assert drawn.steps.share.tolist() == [0.25] * len(drawn.pixels)
-
-
-@pytest.mark.parametrize("line", SMOOTH)
-def test_results_cannot_be_written(line):
-    drawn = draw_lines(centers([0, 0, 5, 2]), 6, 3, line=line)
-    for array in (*drawn, *vars(drawn.steps).values()):
-        assert not array.flags.writeable

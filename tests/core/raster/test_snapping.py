@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.edges.snapping import SNAP_LIMIT, SUBPIXELS, place_corners, snap, snap_one
+from core.raster.edges.snapping import SUBPIXELS, place_corners, snap_one
 from core.raster.number_formats.number_format import number_format
 from tests.core.exact_reference import snapped_window
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
@@ -74,16 +74,6 @@ def test_positions_are_those_of_exact_arithmetic(case) -> None:
             assert corners.is_projected[t, k] == (place is not None)
             if place is not None:
                 assert corners.decided[t, k].tolist() == [float(p) for p in place]
-
-
-@given(st.lists(st.floats(-1e5, 1e5), min_size=6, max_size=6))
-def test_listing_of_one_coordinate(values: list[float]) -> None:
-    window = np.reshape(values, (1, 3, 2))
-    positions, is_projected = snap(window)
-    for k in range(3):
-        assert is_projected[0, k] == (np.abs(window[0, k]).max() <= SNAP_LIMIT)
-        if is_projected[0, k]:
-            assert positions[0, k].tolist() == [snap_one(value) for value in window[0, k]]
 
 
 @given(st.floats(-65536, 65536))
