@@ -29,6 +29,7 @@ from core.explain.subjects.depth import passes
 from core.methods import table
 from core.pixel_history import Link, PixelHistory, why
 from core.records.steps import Level
+from core.scene import AnyScene
 from core.trace import Explanation, StageTrace
 from core.trace.source import TraceSource
 from lessons.scenes import built_in_scene, make_scene, window_triangle
@@ -50,6 +51,8 @@ REMAINDER = re.compile(r"e−1\d")
 """What rounding leaves of a 0, which another machine may round otherwise."""
 LOWER_LEFT = [(2, 2), (10, 2), (2, 10)]
 SIZE = (16, 12)
+FOUR_DEPTHS = np.array([[0.0] * 3, [0.5] * 3, [0.0] * 3, [-0.5] * 3])
+DIVIDING = ("after-divide", "project-first")
 MOST_ROWS = 64
 """Rows of a stage that are said."""
 
@@ -117,8 +120,8 @@ def stages() -> Iterator[tuple[str, StageTrace]]:
     snapped = of_window([[(1.501, 1), (7, 1), (1.501, 7)]], (8, 8), **by_hand)
     yield "snapped", snapped.stage("raster")
     for depth in ("z-float32", "fixed-38", "z-24", "inverse-w"):
-        z = np.array([[0.0] * 3, [0.5] * 3, [0.0] * 3, [-0.5] * 3])
-        yield f"depth {depth}", of_window([LOWER_LEFT] * 4, SIZE, z, depth=depth).stage("depth")
+        four = of_window([LOWER_LEFT] * 4, SIZE, FOUR_DEPTHS, depth=depth)
+        yield f"depth {depth}", four.stage("depth")
     pale = [[(-9.0, 5.7), (40.0, 5.7), (15.0, 40.0)], [(-9.0, 6.2), (40.0, 6.2), (15.0, -40.0)]]
     for way in ("ray-casting", "z-buffer", "last-drawn"):
         wu = {"polygon_mode": "wireframe", "line": "wu", "visibility": way}
@@ -191,43 +194,95 @@ def depths() -> Iterator[str]:
     yield link_sentence(Link("depth", "failed", values))
 
 
-def histories() -> Iterator[PixelHistory]:
-    """Yield what became of pixels, and of triangles at them."""
+def window(*triangles: Any, z: Any = 0.0, w: Any = 1.0, colors: Any = None) -> ClipScene:
+    """Return triangles with these corners in the window."""
+    return ClipScene(clip_of_window(triangles, SIZE, w, z), colors, SIZE)
 
-    def asked(scene: Any, column: int, row: int, triangle: int | None = None, **choice: Any) -> PixelHistory:
-        return why(TraceSource(scene, Settings(**choice)), column, row, triangle)
 
-    def window(*triangles: Any, z: Any = 0.0) -> ClipScene:
-        return ClipScene(clip_of_window(triangles, SIZE, 1.0, z), None, SIZE)
-
-    alone, box = window(LOWER_LEFT), {"fill": "bounding-box"}
-    yield asked(alone, 3, 3)
-    yield asked(alone, 7, 6, **box)
-    yield asked(alone, 5, 6, 0, **box)
-    yield asked(alone, 9, 9, 0, fill="blocks", block_size=4)
-    yield asked(alone, 14, 10, 0)
-    yield asked(alone, 14, 10)
-    yield asked(alone, 3, 3, cull="front")
-    yield asked(window([(2, 2), (10, 2), (2, 9.875)]), 5, 6, 0, **box)
-    four = window(*[LOWER_LEFT] * 4, z=np.array([[0.0] * 3, [0.5] * 3, [0.0] * 3, [-0.5] * 3]))
-    yield asked(four, 3, 3)
-    yield asked(four, 3, 3, 0)
-    behind = ClipScene([[[-0.9, -0.9, 0, 1], [0.9, -0.9, 0, 1], [0, 0.5, -2, 1]]], size=SIZE)
-    yield asked(behind, 8, 8, 0, clipping="sutherland-hodgman", **box)
-    yield asked(window(LOWER_LEFT, LOWER_LEFT[::-1], LOWER_LEFT), 15, 11, cull="back")
-    left = window([(3.5, 0.5), (7.5, 0.5), (3.5, 6.5)])
-    for fill, rule in product(
-        ("spans", "scanline", "hierarchy", "brute-force"), ("shared-edge", "inclusive")
-    ):
-        yield asked(left, 3, 1, fill=fill, fill_rule=rule)
-    for line in table.names("line"):
-        yield asked(make_scene("segment"), 3, 2, line=line)
+THIRDS = window_triangle([0, 8, 0], [0, 0, 8], [0.5] * 3, [1, 1, 2], (8, 8))
+BEHIND = [[-0.9, -0.9, 0, 1], [0.9, -0.9, 0, 1], [0, 0.5, -2, 1]]
+THROUGH_EYE = [[-0.5, -0.5, 0, 1], [0.5, -0.5, 0, 1], [0, 0.9, 0, -1]]
+IN_FRONT = [[-0.5, -0.5, -2, 1], [0.5, -0.5, 0, 1], [0, 0.9, 0, 1]]
+PIXELS: list[tuple[AnyScene, list[tuple[int, ...]], dict[str, Any]]] = [
+    (window(LOWER_LEFT), [(3, 3), (7, 6), (14, 10), (14, 10, 0)], {}),
+    (window(LOWER_LEFT), [(7, 6), (5, 6, 0)], {"fill": "bounding-box"}),
+    (window(LOWER_LEFT), [(7, 6)], {"fill": "scanline"}),
+    (window(LOWER_LEFT), [(9, 9, 0)], {"fill": "blocks", "block_size": 4}),
+    (window(LOWER_LEFT), [(3, 3)], {"cull": "front"}),
+    (window(LOWER_LEFT), [(8, 8, 0), (2, 10)], {"fill": "scanline-lecture"}),
+    (window(LOWER_LEFT), [(6, 6), (4, 4, 0), (14, 2, 0)], {"polygon_mode": "wireframe"}),
+    (window([(2, 2), (6, 8), (10, 2)]), [(6, 3, 0)], {"fill": "scanline-lecture"}),
+    (window([(2, 2), (10, 2), (2, 9.875)]), [(5, 6, 0)], {"fill": "bounding-box"}),
+    (window([(11, 2), (11, 11), (2, 11)]), [(7, 5)], {"fill": "bounding-box"}),
+    (window([(0, 0), (15, 0), (0, 11)]), [(13, 10)], {"fill": "blocks", "block_size": 4}),
+    (window([(-40, -40), (60, -40), (0, 60)]), [(5, 5)], {"fill": "hierarchy", "block_size": 2}),
+    (window(LOWER_LEFT, LOWER_LEFT[::-1]), [(3, 3), (8, 8), (15, 11)], {"cull": "back"}),
+    (window(LOWER_LEFT, LOWER_LEFT[::-1]), [(3, 3), (8, 8)], {"cull": "front"}),
+    (window(LOWER_LEFT[::-1]), [(3, 3)], {"cull": "back"}),
+    (window(LOWER_LEFT, LOWER_LEFT[::-1], LOWER_LEFT), [(15, 11)], {"cull": "back"}),
+    # A triangle 1/2000 pixel high faces the eye, but its snapped corners are in a line.
+    (window([(2, 5.5), (10, 5.5), (6, 5.5005)]), [(6, 5, 0)], {}),
+    (window([(1, 1), (5, 5), (9, 9)], [(20, 2), (30, 2), (20, 9)]), [(4, 4)], {}),
+    (window(LOWER_LEFT, z=np.full((1, 3), 3.0)), [(4, 4), (4, 4, 0)], {}),
+    (window(LOWER_LEFT, w=-1.0), [(4, 4), (4, 4, 0)], {}),
+    # One corner in range, so that the triangle is not culled as a whole.
+    *[(window([(0, 0), (16, 0), (8, 12)], z=[[z, z, 0.0]]), [(8, 0)], {}) for z in (-1.5, 1.5)],
+    (window(*[LOWER_LEFT] * 4, z=FOUR_DEPTHS), [(3, 3), *((3, 3, k) for k in range(4))], {}),
+    (window(*[LOWER_LEFT] * 4, z=FOUR_DEPTHS), [(3, 3)], {"visibility": "last-drawn"}),
+    (window(*[LOWER_LEFT] * 3, z=[[-0.5] * 3, [0.0] * 3, [0.5] * 3]), [(3, 3)], {"visibility": "painters"}),
+    (
+        window(*[LOWER_LEFT] * 3, colors=np.ones((3, 3, 4)) * np.array([0.5, 1, 0.25])[:, None, None]),
+        [(3, 3), (3, 3, 1)],
+        {"visibility": "last-drawn", "blend": "over"},
+    ),
+    (ClipScene([BEHIND], size=SIZE), [(8, 1), (8, 8, 0)], {"clipping": "sutherland-hodgman"}),
+    (ClipScene([THROUGH_EYE], size=SIZE), [(8, 1, 0)], {"interpolation": "affine"}),
+    (ClipScene([THROUGH_EYE], size=SIZE), [(8, 8)], {"fill": "bounding-box"}),
+    (ClipScene([THROUGH_EYE, IN_FRONT], size=SIZE), [(9, 4, 1)], {"interpolation": "affine"}),
+    *[(ClipScene([THROUGH_EYE], size=SIZE), [(8, 1, 0)], {"clipping": way}) for way in DIVIDING],
+    # Outside of two planes, each corner inside of one of them.
+    (
+        ClipScene([[[-3, 0.5, 0, 1], [-0.5, 3, 0, 1], [-3, 3, 0, 1]]], size=SIZE),
+        [(1, 10, 0), (9, 3)],
+        {"clipping": "sutherland-hodgman"},
+    ),
+    *[
+        (window([(3.5, 0.5), (7.5, 0.5), (3.5, 6.5)]), [(3, 1)], {"fill": fill, "fill_rule": rule})
+        for fill, rule in product(("spans", "scanline", "brute-force"), ("shared-edge", "inclusive"))
+    ],
+    *[(make_scene("segment"), [(3, 2)], {"line": line}) for line in table.names("line")],
     # In the window the centre of pixel (1, 3) has weights 3/8, 3/16 and 7/16.
-    thirds = np.array([window_triangle([0, 8, 0], [0, 0, 8], [0.5] * 3, [1, 1, 2], (8, 8))])
-    yield asked(ClipScene(thirds, np.zeros((1, 3, 4)), (8, 8)), 1, 3)
+    (
+        ClipScene(
+            np.array([window_triangle([0, 8, 0], [0, 0, 8], [0.5] * 3, [1, 1, 2], (8, 8))]), size=(8, 8)
+        ),
+        [(1, 3)],
+        {},
+    ),
+    (ClipScene(np.empty((0, 3, 4)), size=SIZE), [(0, 0)], {}),
+]
+"""Scenes, pixels or pixels and a triangle, and settings: every reason for which a triangle is seen there or not."""
+
+
+def told_of(history: PixelHistory) -> Iterator[str]:
+    """Yield what became of a pixel, or of a triangle there."""
+    yield f"\nPIXEL ({history.column}, {history.row}): {history.verdict.key}: {verdict_sentence(history)}"
+    for event in history.events[2:]:
+        chain = ", ".join(f"{link.stage} {link.key}" for link in event.chain)
+        yield f"{event_title(event)}, {event.kind}: {event_reason(event)} ({chain})"
+    yield from count_sentences(history)
+
+
+def histories() -> Iterator[str]:
+    """Yield what became of pixels, and of triangles at them."""
+    for scene, pixels, choice in PIXELS:
+        for pixel in pixels:
+            yield from told_of(why(TraceSource(scene, Settings(**choice)), *pixel))
     for limit, column, row in ((">= 0", 12, 6), ("> 300", 18, 28)):
-        settings = edited("fill", "bounding-box", "value > 0", f"value {limit}", **box).source.settings
-        yield why(TraceSource(make_scene("shared-edge"), settings), column, row)
+        settings = edited(
+            "fill", "bounding-box", "value > 0", f"value {limit}", fill="bounding-box"
+        ).source.settings
+        yield from told_of(why(TraceSource(make_scene("shared-edge"), settings), column, row))
 
 
 def tables() -> Iterator[str]:
@@ -277,11 +332,7 @@ def recorded() -> Iterator[str]:
     yield from said_of(
         (step_at(place) for traced in fewest_traces() for place in places_of(traced, ROWS)), said
     )
-    for history in histories():
-        yield f"\nPIXEL ({history.column}, {history.row})"
-        yield verdict_sentence(history)
-        yield from (f"{event_title(event)}: {event_reason(event)}" for event in history.events)
-        yield from count_sentences(history)
+    yield from histories()
     yield from ("\nDEPTHS", *depths())
     yield from (f"\nTABLE {each}" for each in tables())
     yield from ("\nSUMMARIES", *dict.fromkeys(summaries()))
