@@ -63,23 +63,6 @@ def test_lines_show_where_the_printed_listing_leaves_the_right_one():
     assert (5, 2) not in pixels("lmu-falling-line", falling)
 
 
-@pytest.mark.parametrize(
-    ("name", "method", "column", "values"),
-    [
-        ("jubair-cyrus-beck", "cyrus-beck", "t_enter", 1 / 6),
-        ("jubair-cyrus-beck", "cyrus-beck", "t_leave", 7 / 9),
-        ("jubair-rejected", "cyrus-beck", "t_enter", 1 / 2),
-        ("jubair-rejected", "cyrus-beck", "t_leave", 1 / 4),
-        ("lmu-clipped", "liang-barsky", "t_enter", 1 / 4),
-        ("lmu-clipped", "liang-barsky", "t_leave", 1.0),
-    ],
-)
-def test_clipped_segments_have_the_numbers_of_their_slide(name, method, column, values):
-    rows = trace(make(name), Settings(line_clipping=method)).stage("raster")
-    found = rows.columns[column][np.isfinite(rows.columns[column])]
-    assert found[-1] == pytest.approx(values, abs=1e-12)
-
-
 def test_a_buffer_of_inverse_w_is_cleared_to_0_and_says_so():
     """1/w is 0 at infinity; every formula and every variable of it is named 1/w, as on the slide."""
     opened = open_any("zwicker-z-buffer").document
@@ -93,19 +76,6 @@ def test_a_buffer_of_inverse_w_is_cleared_to_0_and_says_so():
     text, _ = account(depth.explain(2), 0, tuple(depth.pixel[0].tolist()))
     assert "8 is larger than the buffer's 0" in text
     assert opened.scene.table.cleared == 0
-
-
-def test_the_printed_clipper_keeps_a_parallel_segment_outside():
-    assert pixels("jubair-parallel", Settings(line_clipping="cyrus-beck")) == []
-    printed = Settings(line_clipping="cyrus-beck-lecture")
-    assert pixels("jubair-parallel", printed) == [(column, 11) for column in range(6, 11)]
-
-
-def test_a_segment_is_cut_at_the_near_plane_and_another_rejected_early():
-    traced = trace(make("pellacini-frustum"), Settings(clipping="sutherland-hodgman"))
-    rows = traced.stage("clip").columns
-    assert traced.source.geometry.culled.kept.tolist() == [True, False]
-    assert rows["t"][np.isfinite(rows["t"])] == pytest.approx([0.75])  # from the inside end
 
 
 def test_triangles_have_the_pixels_of_their_slide():

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core import Settings, render, trace
+from core import Settings, render
 from core.geometry.vertex_stage import transform_vertices
 from core.raster.edges.snapping import SUBPIXELS, snap
 from core.scene import ClipScene, Scene
@@ -112,30 +112,6 @@ def test_typed_triangles_face_the_viewer_on_the_grid(name):
         assert (w > 0).all()
 
 
-@pytest.mark.parametrize(
-    ("line", "decisions"),
-    [("bresenham-lecture", [-2, 4, -6, 0, 6, -4, 2, -8]), ("bresenham", [-2, 4, -6, 0, -10, -4, 2, -8])],
-)
-def test_the_segment_has_the_decisions_of_the_lecture(line, decisions):
-    raster = trace(make_scene("segment"), Settings(line=line)).stage("raster")
-    assert raster.columns["decision"][1:].tolist() == decisions
-    assert raster.pixel[[0, -1]].tolist() == [[1, 1], [9, 4]]
-
-
-@pytest.mark.parametrize("name", ["line-strip", "triangle-strip", "polygon"])
-def test_shared_vertices_draw_each_pixel_once(name):
-    assert render(make_scene(name)).cover_count.max() == 1
-
-
-def test_a_point_outside_of_the_raster_is_dropped():
-    assert sorted(np.unique(render(make_scene("points")).primitive)) == [-1, 0, 1, 2, 3]
-
-
-def test_the_single_triangle_has_red_green_and_blue_corners():
-    scene = make_scene("single-triangle")
-    assert scene.attributes[0].tolist() == [[1, 0, 0, 1], [0, 1, 0, 1], [0, 0, 1, 1]]
-
-
 def test_the_shared_edge_is_shared_and_runs_through_pixel_centres():
     scene = make_scene("shared-edge")
     common = set(scene.shared[0].tolist()) & set(scene.shared[1].tolist())
@@ -152,37 +128,6 @@ def test_the_shared_edge_is_shared_and_runs_through_pixel_centres():
     rows = y0 + (columns - x0) * (y1 - y0) / (x1 - x0)
     on_edge = (columns >= min(x0, x1)) & (columns <= max(x0, x1))
     assert (np.abs(rows[on_edge] - np.floor(rows[on_edge]) - 0.5) < 1e-9).sum() >= 4
-
-
-def test_the_crosser_has_a_vertex_behind_the_eye_and_others_in_the_view_volume():
-    scene = make_scene("near-plane")
-    clip = transform_vertices(scene).clip
-    assert (clip[:, 3] < 0).sum() == 1
-    in_front = clip[clip[:, 3] > 0]
-    assert (np.abs(in_front[:, :3]) <= in_front[:, 3:]).all()
-
-
-def test_the_intersecting_triangles_swap_places():
-    scene = make_scene("intersecting")
-    # Depth is linear in the window: compare both at two pixels that both cover.
-    nearer = []
-    for place in ([20, 20], [46, 20]):
-        depths = []
-        for clip in scene.clip:
-            x, y, depth, _ = window_corners(clip, scene.size)
-            weights = np.linalg.solve(np.array([x, y, np.ones(3)]), np.array([*place, 1.0]))
-            assert (weights > 0).all()
-            depths.append(float(weights @ depth))
-        nearer.append(int(np.argmin(depths)))
-    assert nearer == [0, 1]
-
-
-def test_every_pixel_of_the_fan_belongs_to_one_triangle_whatever_the_order():
-    scene = make_scene("fan")
-    frame = render(scene)
-    assert frame.cover_count.max() == 1
-    # Without a rule for ties the pixels on edges are drawn twice, or by nobody.
-    assert render(scene, Settings(fill_rule="inclusive")).cover_count.max() == 16
 
 
 def test_the_plates_fight_in_16_bits_only():

@@ -26,78 +26,15 @@ def outlined(clip, size=SIZE, attributes=None, **choices) -> Frame:
     )
 
 
-PICTURES = {
-    "bresenham": [
-        "................",
-        ".....1..........",
-        "....1.11........",
-        "....1...1.......",
-        "...1.....1......",
-        "...1......11....",
-        "..1.........1...",
-        "..1.......1111..",
-        ".1..111111......",
-        ".111............",
-        "................",
-    ],
-    # The last pixel of every edge is drawn, so corners are drawn twice.
-    "bresenham-lecture": [
-        "................",
-        ".....2..........",
-        "....1.11........",
-        "....1...1.......",
-        "...1.....1......",
-        "...1......11....",
-        "..1.........1...",
-        "..1........112..",
-        ".1...111111.....",
-        ".2111...........",
-        "................",
-    ],
-    "bresenham-float": [
-        "................",
-        ".....1..........",
-        ".....11.........",
-        "....1..11.......",
-        "....1....1......",
-        "...1......1.....",
-        "...1.......11...",
-        "..1........111..",
-        "..1..111111.....",
-        ".1111...........",
-        "................",
-    ],
-    "midpoint": [
-        "................",
-        ".....1..........",
-        ".....111........",
-        "....1...1.......",
-        "....1....1......",
-        "...1......1.....",
-        "..1........11...",
-        "..1........111..",
-        ".1.11111111.....",
-        ".11.............",
-        "................",
-    ],
-}
-PICTURES["dda"] = PICTURES["diamond-exit"] = PICTURES["midpoint"]
-
-
-@pytest.mark.parametrize("line", list(PICTURES))
-def test_an_outline(line):
-    frame = outlined(clip_of_window([CORNERS], SIZE), line=line)
-    assert text(frame.cover_count) == PICTURES[line]
-    assert np.array_equal(frame.primitive == 0, frame.cover_count > 0)
-
-
 @pytest.mark.parametrize("line", LINES)
 def test_an_outline_is_its_three_edges_in_order(line):
     ends = np.array([CORNERS, np.roll(CORNERS, -1, axis=0)]).swapaxes(0, 1)
     count = np.zeros(SIZE[::-1], int)
     pixels, _, _ = draw_lines(ends, *SIZE, line=line)
     np.add.at(count, (pixels[:, 1], pixels[:, 0]), 1)
-    assert np.array_equal(outlined(clip_of_window([CORNERS], SIZE), line=line).cover_count, count)
+    frame = outlined(clip_of_window([CORNERS], SIZE), line=line)
+    assert np.array_equal(frame.cover_count, count)
+    assert np.array_equal(frame.primitive == 0, count > 0)
 
 
 def test_two_triangles_draw_the_edge_that_they_share_twice():
