@@ -1,7 +1,6 @@
 """Edited lines draw what they say: a mistake of the shelf that replaces a function is also an edit of a line."""
 
 import pickle
-import re
 from copy import deepcopy
 from dataclasses import replace
 
@@ -35,7 +34,6 @@ from core.settings import families
 from core.shaders.presets import preset_program
 from lessons.mistakes import clipping, coverage, depths, fragments, lighting, textures
 from lessons.scenes import make_scene
-from tests.core.trace.trace_cases import lit_scene
 
 TWINS = {
     twin.name: twin for module in (clipping, coverage, depths, fragments, textures) for twin in module.TWINS
@@ -281,15 +279,6 @@ def test_the_listing_that_is_shown_is_the_text_and_labels_follow_their_lines():
     assert "twice" in lines[shown.lines["first-sum"] - 1]
 
 
-def test_no_step_of_an_edited_listing_is_explained_as_the_right_one():
-    stage = trace(
-        make_scene("segment"), apply_edit(Settings(), edit("line", "if D > 0:", "if D >= 0:"))
-    ).stage("raster")
-    said = {sentence(stage.explain(k), -1, None) for k in range(1, stage.steps.count + 1)}
-    assert all(re.match(r"Pixel \(\d, \d\): Line \d+", text) for text in said)
-    assert any(text.endswith("D >= 0 is true.") for text in said)
-
-
 def test_every_method_of_an_editable_family_is_editable_or_says_why_not():
     for part in EDITABLE.values():
         for of in table.names(part.family):
@@ -379,16 +368,6 @@ def test_a_mistake_in_the_light_that_is_an_edit_of_a_line_is_its_formula(name):
 
 def _listed(value):
     return [_listed(part) for part in value] if isinstance(value, tuple | list) else value
-
-
-def test_steps_of_an_edited_light_tell_its_own_lines():
-    ours = apply_edit(Settings(), edit("shading", *LIGHTS["highlight-at-light"]))
-    stage = trace(lit_scene(), ours).stage("shade")
-    row = int(np.flatnonzero(np.isfinite(stage.columns["lit_normal"]).all(axis=1))[0])
-    first, end = stage.steps.starts[row : row + 2].tolist()
-    said = [sentence(stage.explain(k), -1, None) for k in range(first + 1, end + 1)]
-    assert any("n_dot_l = " in text for text in said)
-    assert not any("N·L" in text for text in said)
 
 
 def test_a_texel_is_a_colour():

@@ -43,6 +43,7 @@ from tests.core.explain.explained_steps import (
     rare_trace,
     step_at,
 )
+from tests.core.shaders.scenes import BRANCHES, square_scene, tutorial_scene
 from tests.core.strategies import clip_of_window
 
 RECORDED = Path(__file__).with_name("recorded.txt")
@@ -53,6 +54,8 @@ LOWER_LEFT = [(2, 2), (10, 2), (2, 10)]
 SIZE = (16, 12)
 FOUR_DEPTHS = np.array([[0.0] * 3, [0.5] * 3, [0.0] * 3, [-0.5] * 3])
 DIVIDING = ("after-divide", "project-first")
+REGIONS = {"shared-edge": (12, 5, 4, 3), "cube": (240, 240, 2, 2)}
+"""Which part of the picture of a scene is traced, where that is not all of it."""
 MOST_ROWS = 64
 """Rows of a stage that are said."""
 
@@ -86,7 +89,7 @@ def edited(part: str, of: str, old: str, new: str, scene: str = "shared-edge", *
     text = original(part, of).source
     assert old in text
     settings = apply_edit(Settings(**choices), Edit(part, of, text.replace(old, new)))
-    return trace(make_scene(scene), settings, region=(12, 5, 4, 3) if scene == "shared-edge" else None)
+    return trace(make_scene(scene), settings, region=REGIONS.get(scene))
 
 
 def of_window(corners: list[Any], size: tuple[int, int], z: Any = 0.0, **choices: Any) -> Trace:
@@ -164,6 +167,13 @@ def stages() -> Iterator[tuple[str, StageTrace]]:
     yield "1 for 1 - alpha", edited("blend", "over", "1 - alpha", "1", blend="over").stage("blend")
     for line, old, new in (("bresenham", "D >= 0", "D > 0"), ("dda", "0.5", "0.25")):
         yield f"{line} {new}", edited("line", line, old, new, "segment", line=line).stage("raster")
+
+    unset = "float k;\nif (vUv.x > 0.5) k += 1.0;\nc = vec4((vUv.xyxy * (k + 2.0)).xyz, 1.0);"
+    for name, body in (("branches", BRANCHES), ("read before it has a value", unset)):
+        yield name, trace(square_scene(body), Settings(), 0).stage("shade")
+    yield "vertex shader", trace(tutorial_scene(), Settings(), 0).stage("transform")
+    light = edited("shading", "phong", "max(n_dot_h, 0.0)", "max(n_dot_l, 0.0)", "cube")
+    yield "n_dot_l", light.stage("shade")
 
 
 def depths() -> Iterator[str]:

@@ -17,6 +17,20 @@ void main() { gl_Position = vec4(position.xy, depth, 1.0); vUv = uv; }
 """
 """A square that fills the window."""
 
+BRANCHES = """
+vec2 p = vUv - 0.5;
+float r = length(p) * 2.0;
+if (r > 0.9) discard;
+vec3 k = vec3(0.0);
+for (int i = 0; i < 2; i++) {
+   if (p.x > 0.2) continue;
+   k[i] += p.x > 0.0 ? r : 1.0 - r;
+}
+c = vec4(k, 1.0);
+c.r *= dFdx(r) + 0.5;
+"""
+"""A body of main with branches, a loop, a discarded fragment and a derivative."""
+
 
 def tutorial_scene(
     vertex: str = TASK_VERTEX, fragment: str = TASK_FRAGMENT, size: tuple[int, int] = (512, 384)

@@ -7,26 +7,13 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from core.explain.steps import formula, sentence, variables
+from core.explain.steps import sentence, variables
 from core.explain.subjects.shaders import statements_summary
 from core.records.listing import ShaderListing
 from core.records.steps import Level
 from core.shaders.presets import TASK_FRAGMENT, TASK_VERTEX
 from core.trace.geometry_progress import spaces_reached
-from tests.core.shaders.scenes import square_scene, tutorial_scene
-
-BRANCHES = """
-vec2 p = vUv - 0.5;
-float r = length(p) * 2.0;
-if (r > 0.9) discard;
-vec3 k = vec3(0.0);
-for (int i = 0; i < 2; i++) {
-   if (p.x > 0.2) continue;
-   k[i] += p.x > 0.0 ? r : 1.0 - r;
-}
-c = vec4(k, 1.0);
-c.r *= dFdx(r) + 0.5;
-"""
+from tests.core.shaders.scenes import BRANCHES, square_scene, tutorial_scene
 
 
 def _sentences(stage, rows, column=0, line=0):
@@ -69,51 +56,6 @@ def test_a_statement_and_a_fragment_are_levels():
     ends = stage.steps.starts[np.flatnonzero(np.append(lane[1:] != lane[:-1], True)) + 1]
     np.testing.assert_array_equal(stage.steps.boundaries(Level.GROUP), [0, *ends])
     assert len(stage.steps.boundaries(Level.PIXEL)) == stage.steps.row_count + 1
-
-
-def test_a_step_says_its_line_its_numbers_and_what_came_out():
-    stage = trace(square_scene(BRANCHES), Settings(), 0).stage("shade")
-    rows = stage.rows_at_pixel(3, 0)
-    said = _sentences(stage, rows)
-    assert said[:3] == [
-        "Line 8: p = vUv − 0.5 = (−0.0625, −0.4375).",
-        "Line 9: r = length(p) · 2 = 0.8839.",
-        "Line 10: r > 0.9: 0.8839 > 0.9 is false.",
-    ]
-    assert said[5].startswith("Line 12: i < 2: 0 < 2 is true: one more round; ")
-    assert said[6].startswith("Line 13: p.x > 0.2: −0.0625 > 0.2 is false; ")
-    assert "k[i] = k[i] + (p.x > 0 ? r : 1 − r) = 0 + (−0.0625 > 0 ? 0.8839 : 1 − 0.8839) = 0.1161" in said[7]
-    assert "25 of 36 fragments run this line." in said[5]
-    corner = _sentences(stage, stage.rows_at_pixel(0, 0))
-    assert corner[-1].startswith("Line 10: discard: the fragment ends here, and nothing of it is written; ")
-
-
-def test_a_statement_has_a_formula_with_its_numbers_under_its_symbols():
-    stage = trace(square_scene(BRANCHES), Settings(), 0).stage("shade")
-    made = {}
-    for row in stage.rows_at_pixel(3, 0):
-        explanation = stage.explain(stage.steps.position_after(int(row)))
-        made.setdefault(int(stage.columns["line"][row]), formula(explanation))
-    assert (made[8].symbolic, made[8].substituted) == (
-        r"p & = & \mathrm{vUv} & - & 0.5",
-        r"(-0.0625, -0.4375) & = & (0.4375, 0.0625) & - & 0.5",
-    )
-    assert made[10].symbolic == r"r > 0.9 & \Rightarrow & \text{false}"
-    # An index of a shader is that of no vertex: no colour.
-    assert made[14].symbolic.startswith(r"\mathrm{k[i]} & = & \mathrm{k[i]} & + & (r \text{ if }")
-    # A matrix keeps its symbol.
-    first = trace(tutorial_scene(), Settings(), 0).stage("transform").explain(1)
-    assert formula(first).substituted.startswith("(-13.58, -3.621, ")
-    assert (
-        r"\mathrm{projectionMatrix} & \cdot & \mathrm{modelViewMatrix} & \cdot & "
-        in formula(first).substituted
-    )
-
-
-def test_components_of_a_product_keep_its_brackets():
-    body = "c = vec4((vUv.xyxy * 2.0).xyz, 1.0);"
-    stage = trace(square_scene(body), Settings(), 0).stage("shade")
-    assert "vec4((vUv.xyxy · 2).xyz, 1)" in _sentences(stage, [0])[0]
 
 
 def test_the_variables_are_those_of_the_shader():
