@@ -10,12 +10,11 @@ from hypothesis import strategies as st
 from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture, draw_picture
 from core.fast_path.lit.by_mesh import MOST
 from lessons.shapes import cube, sphere, torus
-from tests.core.fast_path.references import exact_bytes
+from tests.core.fast_path.references import PHONG, assert_deferred, assert_lit
 from tests.covering import every_pair
 
 LIGHTS = (DirectionalLight(np.array([0.4, -0.8, -0.7])), DirectionalLight(np.array([-0.9, -0.1, -0.3])))
 CAMERA = Camera(np.array([1.0, 1.2, 3.4]), np.zeros(3))
-PHONG = Settings(depth="fixed-38")
 TEXTURE = Texture(np.random.default_rng(3).random((32, 16, 3)).astype(np.float32))
 
 
@@ -109,11 +108,7 @@ def scene_of(meshes: tuple[Mesh, ...], lights=LIGHTS, camera: Camera = CAMERA, s
 
 
 def assert_close(scene: Scene, encoding: str, chosen: Settings = PHONG) -> None:
-    picture = draw_picture(scene, chosen, encoding=encoding)
-    assert picture.route.color == "lit"
-    away = np.abs(picture.pixels.astype(int) - exact_bytes(scene, chosen, encoding)).max(axis=2)
-    assert away.max() <= 1
-    assert (away > 0).mean() < 0.05
+    picture = assert_lit(scene, encoding, chosen)
     background = draw_picture(
         replace(scene, meshes=(at(sphere(), 60, 0, 0),)), chosen, encoding=encoding
     ).pixels
@@ -153,9 +148,7 @@ def test_a_region_is_that_part_of_the_picture(name: str) -> None:
     ids=["see-through", "point light", "nearest texel", "many meshes", "cut by the near plane"],
 )
 def test_otherwise_attributes_and_light_come_from_every_pixel(scene: Scene, chosen: Settings) -> None:
-    picture = draw_picture(scene, chosen)
-    assert picture.route.color == "deferred"
-    assert np.array_equal(picture.pixels, exact_bytes(scene, chosen, "srgb"))
+    assert_deferred(scene, chosen)
 
 
 def test_facts_of_one_mesh_are_not_those_of_another() -> None:
