@@ -37,7 +37,7 @@ def random_places(name: str, count: int, seed: int) -> list[tuple[float, ...]]:
 def wrong_at_random(name: str, method: str, count: int = 40) -> list[tuple[float, ...]]:
     """Return the random places at which a method is not right."""
     experiment = experiments.get(name)
-    places = random_places(name, count if is_everything() else -(-count // 3), 7)
+    places = random_places(name, count, 7)[:: 1 if is_everything() else 3]
     return [
         place
         for number, place in enumerate(places)
