@@ -4,10 +4,26 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.fills.scanline import turning_column
+from core.raster.binning import bound
+from core.raster.fills.scanline import span, turning_column
 from core.raster.pixel_runs import make_raster
 from tests.core.drawing import edges_of, runs_of
-from tests.core.strategies import clip_of_window
+from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
+
+
+@given(ANY_TRIANGLES, REGIONS, st.sampled_from(["half", "integer"]))
+def test_listing_of_one_row(case, region, center: str) -> None:
+    clip, size = case
+    edges, raster = edges_of(clip, size), make_raster(size, center, region)
+    boxes = bound(edges, raster)
+    runs = runs_of(edges, raster, "scanline")
+    for r in range(len(runs)):
+        t = runs.triangle[r]
+        coefficients = list(zip(edges.a[t], edges.b[t], edges.c[t], edges.owns_tie[t], strict=True))
+        first, end = int(boxes.column[t]), int(boxes.column_end[t])
+        with np.errstate(all="ignore"):
+            columns = span(coefficients, runs.row[r] + raster.center, first, end, raster.center)
+        assert columns == list(range(runs.start[r], runs.stop[r]))
 
 
 @given(
