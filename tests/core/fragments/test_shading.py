@@ -3,7 +3,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from core.fragments.lighting import plain_lights, plain_material
 from core.fragments.shading import (
+    blinn_phong,
     face_normals,
     light_surface,
     reflectance,
@@ -82,6 +84,27 @@ def test_undefined_input_stays_visible():
     diffuse, _ = light_surface(position, np.repeat(UP, 3, axis=0), EYE, [LAMP], MATERIAL)
     assert np.isnan(diffuse[0]).all()
     assert np.isfinite(diffuse[2]).all()
+
+
+@given(
+    points=st.lists(st.tuples(vector, vector), min_size=1, max_size=12),
+    lamp=vector,
+    direction=vector.filter(any),
+    shininess=st.sampled_from([0.5, 1.0, 2.0, 3.7, 32.0, 1000.0]),
+    two_sided=st.booleans(),
+)
+def test_listing_gives_the_same_bits(points, lamp, direction, shininess, two_sided):
+    position, normal = (np.array([point[k] for point in points]) for k in range(2))
+    lights = [PointLight(lamp, [0.3, 0.7, 1.1]), DirectionalLight(direction)]
+    material = Material(0.1, 0.7, 0.3, shininess)
+    batch = light_surface(position, normal, EYE, lights, material, two_sided)
+    traced = trace_lighting(position, normal, EYE, lights, material, two_sided)
+    for row, (place, direction_out) in enumerate(points):
+        known = plain_lights(lights), plain_material(material)
+        scalar = blinn_phong(place, direction_out, tuple(EYE.tolist()), *known, two_sided)
+        assert [sums[row].tolist() for sums in batch] == [list(sums) for sums in scalar]
+    assert np.array_equal(traced.diffuse_light[-1], batch[0])
+    assert np.array_equal(traced.specular_light[-1], batch[1])
 
 
 @pytest.mark.parametrize("shininess", [0.5, 1.0, 2.0, 17.3])

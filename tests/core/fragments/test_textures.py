@@ -7,6 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core.fragments.textures import (
+    bilinear_color,
+    nearest_color,
     sample_texture,
     texture_colors,
     wrapped_index,
@@ -108,6 +110,19 @@ def test_colour_is_the_weighted_mean_of_its_texels(u, v, wrap, texture_filter):
     assert (samples.shares >= 0).all()
     mean = (samples.shares[0, :, None] * samples.texel_colors[0]).sum(axis=0)
     assert samples.color[0] == pytest.approx(mean, abs=1e-15)
+
+
+@given(
+    uv=st.lists(st.tuples(coordinates, coordinates), min_size=1, max_size=20),
+    wrap=st.sampled_from(WRAPS),
+    channels=st.sampled_from([1, 3, 4]),
+)
+def test_listings_give_the_same_bits(uv, wrap, channels):
+    texture = random_texture(7, 3, channels)
+    pixels = texture.pixels.astype(np.float64).tolist()
+    for name, scalar in (("nearest", nearest_color), ("bilinear", bilinear_color)):
+        color = sample_texture(texture, np.array(uv), name, wrap).color
+        assert color[:, :channels].tolist() == [list(scalar(pixels, u, v, wrap)) for u, v in uv]
 
 
 @pytest.mark.parametrize("wrap", WRAPS)

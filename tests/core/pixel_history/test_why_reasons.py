@@ -23,6 +23,22 @@ def ask(scene: ClipScene, column: int, row: int, triangle: int | None = None, **
 LOWER_LEFT = [(2, 2), (10, 2), (2, 10)]
 
 
+@pytest.mark.parametrize("fill", ["bounding-box", "brute-force", "scanline"])
+def test_missed_by_a_distance(fill):
+    history = ask(window_scene(LOWER_LEFT), 7, 6, fill=fill)
+    assert history.verdict.key == "all-missed"
+    link = history.verdict.values["reason"]
+    assert (link.stage, link.key) == ("raster", "missed-edge")
+    # The side x + y = 12 lies opposite corner 0; the centre is (7.5, 6.5).
+    assert link.values["edge"] == 0
+    assert link.values["distance"] == pytest.approx(-2 / np.sqrt(2), rel=1e-15)
+    assert link.values["subpixels"] == 256 * link.values["distance"]
+    assert link.values["is_exact"]
+    assert link.values["value"] == -16
+    if fill == "scanline":
+        assert (link.values["start"], link.values["stop"]) == (2, 5)
+
+
 def test_an_unsnapped_edge_has_ulps():
     scene = window_scene([(0.1, 0.1), (12.3, 0.7), (3.3, 9.9)], w=[[1.0, 1.7, 2.9]])
     reason = ask(scene, 11, 8, 0, coverage="float64", fill="bounding-box").verdict.values["reason"]
