@@ -9,6 +9,7 @@ from core import ClipScene, Frame, Settings, draw_triangles, render
 from core.methods import table
 from core.raster.lines import wireframe
 from core.raster.lines.drawing import draw_lines
+from core.raster.lines.traits import has_intensities
 from core.raster.lines.wireframe import MARGIN, cut_to_window, trace_sides
 from lessons.scenes import make_scene
 from tests.core.drawing import text
@@ -34,7 +35,8 @@ def test_an_outline_is_its_three_edges_in_order(line):
     np.add.at(count, (pixels[:, 1], pixels[:, 0]), 1)
     frame = outlined(clip_of_window([CORNERS], SIZE), line=line)
     assert np.array_equal(frame.cover_count, count)
-    assert np.array_equal(frame.primitive == 0, count > 0)
+    if not has_intensities(line):  # Pale pixels leave the triangle as it is.
+        assert np.array_equal(frame.primitive == 0, count > 0)
 
 
 def test_two_triangles_draw_the_edge_that_they_share_twice():
