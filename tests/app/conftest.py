@@ -32,9 +32,7 @@ def shown_window(application: QApplication) -> Iterator[MainWindow]:
     made = MainWindow(open_document(scene.make(), scene.title))
     made.resize(1280, 800)
     made.session.set_stage("raster", 4000)  # before it is painted
-    made.show()
-    made.activateWindow()
-    assert QTest.qWaitForWindowActive(made, PATIENCE)
+    bring_forward(made)
     yield made
     with pytest.MonkeyPatch.context() as patch:
         # Who closes while presenting comes back to the desk first, and a window that goes need not be styled for it.
@@ -84,12 +82,44 @@ def kept_window(window_of_module: tuple[MainWindow, State, Trace], qtbot: QtBot)
     It is shown while a test runs only: it would be styled and painted with the windows of other tests.
     """
     made, before, trace = window_of_module
-    made.show()
-    made.activateWindow()
-    assert QTest.qWaitForWindowActive(made, PATIENCE)
+    to_the_desk(made)
+    bring_forward(made)
+    yield made
+    made.hide()
+    to_the_desk(made)
+    put_back(made, before, trace)
+
+
+@pytest.fixture
+def presented(window_of_module: tuple[MainWindow, State, Trace], qtbot: QtBot) -> Iterator[MainWindow]:
+    """Return the module's window, arranged for presenting on a small screen; the next test finds it so."""
+    made, before, trace = window_of_module
+    bring_forward(made)
+    made.resize(1280, 720)
+    if not made.presenter.is_presenting:
+        made.appearance.set_theme("light")
+        made.presenter.arrange()
+    made.page.main_view().setFocus()
+    made.page.settle()
     yield made
     made.hide()
     put_back(made, before, trace)
+
+
+def to_the_desk(window: MainWindow) -> None:
+    """Bring a window back to the look in which it was opened."""
+    window.presenter.leave()
+    if current_theme() != LIGHT:
+        window.appearance.set_text_size(100)
+        window.appearance.set_theme("light")
+    window.resize(1280, 800)
+
+
+def bring_forward(window: MainWindow) -> None:
+    """Show a window, which has the keyboard then."""
+    window.show()
+    window.activateWindow()
+    assert QTest.qWaitForWindowActive(window, PATIENCE)
 
 
 def put_back(window: MainWindow, before: State, trace: Trace) -> None:
@@ -97,17 +127,12 @@ def put_back(window: MainWindow, before: State, trace: Trace) -> None:
     while window.overlays.close_top():
         pass
     window.help.close()
-    window.presenter.leave()
     if window.session.is_predicting:
         window.run_action("predict")
-    if current_theme() != LIGHT:
-        window.appearance.set_text_size(100)
-        window.appearance.set_theme("light")
     window.pages.show_page("step")
     window.files.show_opened(Opened(before.document, state=before), trace)
     window.messages.clear()
     window.statusBar().clearMessage()
-    window.resize(1280, 800)
     after = window.files.state()
     assert after.document is before.document
     for name in {field.name for field in fields(State)} - {"document"}:

@@ -1,41 +1,34 @@
 """A job releases what it worked on, reports an expected error, and raises any other."""
 
+from threading import Event
 from weakref import ref
 
 import pytest
 from PySide6.QtCore import QThread
 from pytestqt.qtbot import QtBot
 
-from app.background.workers import Job
+from app.background import workers
+from app.background.workers import Job, ending_within, is_work_left
 
 
 class Large:
     """Something that should not stay in memory."""
 
 
-def test_what_was_worked_on_goes_when_the_work_is_done(qtbot: QtBot) -> None:
+@pytest.mark.parametrize("is_cancelled", [False, True])
+def test_what_was_worked_on_goes_when_the_work_is_done_or_nobody_waits_for_it(
+    qtbot: QtBot, is_cancelled: bool
+) -> None:
     job, large = Job(), Large()
     seen = ref(large)
 
     def work(progress: object, is_cancelled: object, given: Large = large) -> int:
         return 1 if given else 0
 
-    with qtbot.waitSignal(job.succeeded):
+    with qtbot.waitSignal(job.ended):
         job.start(work)
-    del work, large
-    qtbot.waitUntil(lambda: seen() is None)
-    job.shut_down()
-
-
-def test_it_goes_too_when_nobody_waits_for_it_any_more(qtbot: QtBot) -> None:
-    job, large = Job(), Large()
-    seen = ref(large)
-
-    def work(progress: object, is_cancelled: object, given: Large = large) -> int:
-        return 1 if given else 0
-
-    job.start(work)
-    job.cancel()
+        if is_cancelled:
+            job.cancel()
     del work, large
     qtbot.waitUntil(lambda: seen() is None)
     job.shut_down()
@@ -67,3 +60,15 @@ def test_ended_threads_are_held_no_longer(qtbot: QtBot) -> None:
     # The last one is told to go once it has ended altogether.
     qtbot.waitUntil(lambda: len(job.findChildren(QThread)) <= 2)
     job.shut_down()
+
+
+def test_work_without_end_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(workers, "_left", [])
+    job, is_over = Job(), Event()
+    job.call(is_over.wait)
+    with ending_within(0.05):
+        job.shut_down()
+    assert is_work_left()
+    is_over.set()
+    (left,) = workers._left
+    assert left.wait()

@@ -13,6 +13,7 @@ from app.window.main_window import MainWindow
 from widgets.basics.focus_order import ArrowGroup, tab_stops
 from widgets.space.scene_view import SceneView
 
+pytestmark = pytest.mark.shared_window
 PAGES = ("start", "step", "compare", "stability", "plan", "exercises")
 
 

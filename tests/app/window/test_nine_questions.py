@@ -10,6 +10,7 @@ from app.window.main_window import MainWindow
 from tests.app.window.new_user import NewUser
 from widgets.inspector.pixel_story import ENTRY_ROLE
 
+pytestmark = pytest.mark.shared_window
 MOST_ACTIONS = 6
 """Keys, clicks and numbers that an answer may take; turning the wheel to a scene counts as one."""
 Script = list[tuple[str | int, ...]]

@@ -1,27 +1,35 @@
-"""Presenting: other scenes and states are opened without leaving it, and charts get at least half of the screen."""
+"""While presenting: type and picture that can be seen across a room, and other scenes without leaving."""
 
-from pathlib import Path
-
+import numpy as np
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QFontMetricsF, QImage
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QLabel
+from PySide6.QtWidgets import QApplication, QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from app.pages.compare.page import ComparePage
-from app.pages.experiment_page import ExperimentPage
 from app.window.main_window import MainWindow
 from core import STAGES
+from core.explain.records import Formula
 
 SIZES = [(1280, 720), (1920, 1080)]
 CTRL_SHIFT = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier
 
 
-def present(window: MainWindow, size: tuple[int, int]) -> None:
-    """Arrange a window of a size for presenting."""
+def resize(window: MainWindow, size: tuple[int, int]) -> None:
+    """Give a window another size; a presenter's type follows."""
     window.resize(*size)
-    window.presenter.arrange()
     window.page.settle()
+
+
+def ink_height(widget: QWidget) -> int:
+    """Return the height in pixels of what is drawn on the plain ground of a widget."""
+    image = widget.grab().toImage().convertToFormat(QImage.Format.Format_RGB32)
+    rows = np.frombuffer(image.constBits(), np.uint32).reshape(image.height(), image.width())
+    inside = rows[2:-2, 2:-2]
+    drawn = np.flatnonzero((inside != inside[0, 0]).any(axis=1))
+    return int(drawn[-1] - drawn[0] + 1) if len(drawn) else 0
 
 
 def press(
@@ -31,151 +39,203 @@ def press(
     QTest.keyClick(window.focusWidget() or window, key, modifiers)
 
 
-def test_a_clicker_opens_another_scene(window: MainWindow, qtbot: QtBot) -> None:
-    present(window, (1280, 720))
-    chooser = window.overlays.scenes
-    press(window, Qt.Key.Key_F5)
-    assert window.session.cursor.stage == STAGES[0]
+def test_type_and_picture_are_as_large_as_a_lecture_hall_needs(presented: MainWindow) -> None:
+    page, session = presented.page, presented.session
+    for size in SIZES:
+        resize(presented, size)
+        assert (presented.width(), presented.height()) == size
+        picture = page.main_view()
+        assert presented.pages.minimumSizeHint().width() <= 0.6 * size[0], "Help needs a third of the width"
+        assert picture.width() * picture.height() >= 0.55 * size[0] * size[1]
+        steps = f"step {session.cursor.position:,} of "
+        assert steps + f"{session.stage_trace.steps.count:,}" in page.place.text()
+        assert page.place.fontMetrics().horizontalAdvance(page.place.text()) <= page.place.width()
+        page.sentence.setText("H")
+        page.formula.show_formula(Formula("E", ""))
+        page.settle()
+        assert ink_height(page.sentence) >= 0.022 * size[1]
+        assert ink_height(page.formula) >= 0.022 * size[1]
+        assert QFontMetricsF(page.listing.font()).tightBoundingRect("H").height() >= 0.018 * size[1]
+    session.set_predicting(True)
+    assert steps + "?" in page.place.text()
+    page.show_view("compare")
+    assert page.place.isVisible()
+
+
+def test_a_settled_page_has_room_for_a_new_formula(presented: MainWindow) -> None:
+    page = presented.page
+    presented.session.set_stage("edges", 6)
+    page.settle()
+    assert page.formula.heightForWidth(page.formula.width()) <= page.formula.height()
+
+
+@pytest.mark.slow
+def test_the_formulas_of_a_run_are_not_shrunk(presented: MainWindow) -> None:
+    page, session, formula = presented.page, presented.session, presented.page.formula
+    for stage in STAGES:
+        session.set_stage(stage)
+        for position in np.linspace(1, session.cursor.position, 3).astype(int).tolist():
+            session.go_to(position)
+            page.settle()
+            assert formula.heightForWidth(formula.width()) <= formula.height()
+
+
+def test_only_what_the_step_needs_is_shown_and_the_rest_comes_by_key(presented: MainWindow) -> None:
+    page = presented.page
+    rest = {
+        Qt.Key.Key_R: page.timeline,
+        Qt.Key.Key_T: page.strip,
+        Qt.Key.Key_H: page.column.variables,
+        Qt.Key.Key_S: page.outline,
+    }
+    bars = presented.menuBar(), presented.pages.bar, page.side_tabs, page.card
+    assert page.sentence.isVisible()
+    assert not any(widget.isVisible() for widget in (*rest.values(), *bars))
+    picture = page.main_view().geometry()
+    presented.session.set_stage("edges")
+    page.show_view("pixels")
+    page.settle()
+    assert not page.main_area.range_button.isVisible()
+    assert page.main_view().geometry() == picture
+    for key, widget in rest.items():
+        for is_shown in (True, False):
+            QTest.keyClick(presented, key)
+            assert widget.isVisible() == is_shown
+
+
+def test_hints_are_seen_although_their_bar_is_not(presented: MainWindow) -> None:
+    hint, picture = presented.presenter.hint, presented.page.main_view()
+    place = picture.geometry()
+    presented.run_action("next_at_pin")
+    assert hint.isVisible()
+    assert hint.text() == presented.statusBar().currentMessage() != ""
+    assert picture.geometry() == place
+    assert hint.x() >= presented.page.side.mapTo(presented, QPoint(0, 0)).x(), "beside the picture"
+
+
+def test_a_b_has_the_whole_width(presented: MainWindow) -> None:
+    page = presented.page
+    assert "inspector" in page.shown_panes()
+    page.show_view("compare")
+    page.settle()
+    assert page.compare_view.grids[0].placement().seen_raster.width() >= 0.25 * presented.width()
+    page.show_view("pixels")
+    assert "inspector" in page.shown_panes()
+
+
+def test_pages_scroll_where_large_type_has_no_room(presented: MainWindow) -> None:
+    for name in ("compare", "stability"):
+        presented.pages.show_page(name)
+        panes = presented.pages.current.panes
+        panes.widget(1).show()
+        QApplication.processEvents()
+        assert panes.height() >= panes.minimumSizeHint().height(), name
+        assert presented.pages.minimumSizeHint().height() <= 720, name
+
+
+def test_text_grows_while_presenting_and_is_the_desks_own_after_it(presented: MainWindow) -> None:
+    sentence, at_desk = presented.page.sentence, presented.appearance.text_size
+    usual = sentence.font().pixelSize()
+    for key, size in ((Qt.Key.Key_Plus, round(1.1 * usual)), (Qt.Key.Key_Minus, usual)):
+        QTest.keyClick(presented, key, Qt.KeyboardModifier.ControlModifier)
+        assert sentence.font().pixelSize() == size
+    assert presented.appearance.text_size == at_desk
+
+
+def test_the_start_page_keeps_the_presenter(presented: MainWindow) -> None:
+    presented.run_action("page_start")
+    presented.run_action("unpin")
+    assert presented.pages.current_name == "step"
+    assert presented.presenter.is_presenting
+
+
+def test_a_step_stops_at_the_end_of_a_stage_and_says_so(presented: MainWindow) -> None:
+    session, hint = presented.session, presented.presenter.hint
+    session.set_stage("cull")
+    for _ in range(2):
+        end = session.cursor
+        QTest.keyClick(presented, Qt.Key.Key_PageDown)
+        assert session.cursor == end
+        assert hint.isVisible()
+        QTest.keyClick(presented, Qt.Key.Key_Left)
+        assert session.cursor != end
+        QTest.keyClick(presented, Qt.Key.Key_Right)
+        assert session.cursor == end
+    for _ in range(2):
+        QTest.keyClick(presented, Qt.Key.Key_Right)
+    assert (session.cursor.stage, session.cursor.position) == ("clip", 0)
+    assert not hint.isVisible()
+
+
+def test_a_clicker_opens_another_scene(presented: MainWindow, qtbot: QtBot) -> None:
+    chooser = presented.overlays.scenes
+    press(presented, Qt.Key.Key_F5)
+    assert presented.session.cursor.stage == STAGES[0]
     assert not chooser.isVisible()
-    press(window, Qt.Key.Key_F5)
+    press(presented, Qt.Key.Key_F5)
     assert chooser.isVisible()
     first = chooser.current()
-    press(window, Qt.Key.Key_PageDown)
+    press(presented, Qt.Key.Key_PageDown)
     second = chooser.current()
     assert second not in ("", first)
-    press(window, Qt.Key.Key_PageUp)
+    press(presented, Qt.Key.Key_PageUp)
     assert chooser.current() == first
-    press(window, Qt.Key.Key_PageDown)
-    press(window, Qt.Key.Key_F5)
+    press(presented, Qt.Key.Key_PageDown)
+    press(presented, Qt.Key.Key_F5)
     assert not chooser.isVisible()
-    qtbot.waitUntil(lambda: second in (window.files.shown, window.page.lessons.path))
-    assert window.presenter.is_presenting
-    assert window.pages.current_name == "step"
+    qtbot.waitUntil(lambda: second in (presented.files.shown, presented.page.lessons.path))
+    assert presented.presenter.is_presenting
+    assert presented.pages.current_name == "step"
 
 
-def test_typed_words_find_a_scene_from_any_page(window: MainWindow, qtbot: QtBot) -> None:
-    present(window, (1280, 720))
-    window.pages.show_page("compare")
-    press(window, Qt.Key.Key_O, CTRL_SHIFT)
-    field = window.overlays.scenes.field
+def test_typed_words_find_a_scene_from_any_page(presented: MainWindow, qtbot: QtBot) -> None:
+    presented.pages.show_page("compare")
+    press(presented, Qt.Key.Key_O, CTRL_SHIFT)
+    field = presented.overlays.scenes.field
     QTest.keyClicks(field, "bresenham jubair zzz")
     QTest.keyClick(field, Qt.Key.Key_Return)
-    assert window.overlays.scenes.isVisible(), "nothing has these words, so nothing is chosen"
+    assert presented.overlays.scenes.isVisible(), "nothing has these words, so nothing is chosen"
     field.clear()
     QTest.keyClicks(field, "polygon b. weiler")
-    assert window.overlays.scenes.current() == ""
+    assert presented.overlays.scenes.current() == ""
     field.clear()
     QTest.keyClicks(field, "weiler-ath")
     QTest.keyClick(field, Qt.Key.Key_Return)
-    qtbot.waitUntil(lambda: window.files.shown == "weiler-atherton")
-    assert window.pages.current_name == "step"
-    assert window.presenter.is_presenting
-    press(window, Qt.Key.Key_O, CTRL_SHIFT)
-    press(window, Qt.Key.Key_Escape)
-    assert not window.overlays.scenes.isVisible()
-    assert window.presenter.is_presenting
+    qtbot.waitUntil(lambda: presented.files.shown == "weiler-atherton")
+    assert presented.pages.current_name == "step"
+    assert presented.presenter.is_presenting
+    press(presented, Qt.Key.Key_O, CTRL_SHIFT)
+    press(presented, Qt.Key.Key_Escape)
+    assert not presented.overlays.scenes.isVisible()
+    assert presented.presenter.is_presenting
 
 
-def test_states_of_a_folder_follow_each_other(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
-    session, files = window.session, window.files
-    press(window, Qt.Key.Key_PageDown, CTRL_SHIFT)
-    assert "Open or save a state first" in window.statusBar().currentMessage()
-    positions = {"lecture 2": 20, "lecture 10": 100, "Lecture 1": 10}
-    for name, position in positions.items():
-        session.go_to(position)
-        files.save_to(str(tmp_path / f"{name}.rasterscope"))
-    present(window, (1280, 720))
-    window.open_path(str(tmp_path / "Lecture 1.rasterscope"))
-    qtbot.waitUntil(lambda: session.cursor.position == 10)
-    for key, position in (
-        (Qt.Key.Key_PageDown, 20),
-        (Qt.Key.Key_PageDown, 100),
-        (Qt.Key.Key_PageUp, 20),
-    ):
-        press(window, key, CTRL_SHIFT)
-        qtbot.waitUntil(lambda position=position: session.cursor.position == position)
-    assert window.presenter.hint.text() == "State 2 of 3: lecture 2"
-    assert window.presenter.is_presenting
-    window.run_action("choose_scene")
-    assert Path(window.overlays.scenes.current()).stem == "lecture 10"
-    window.overlays.close_top()
-    (tmp_path / "lecture 2.rasterscope").unlink()
-    press(window, Qt.Key.Key_PageDown, CTRL_SHIFT)
-    qtbot.waitUntil(lambda: session.cursor.position == 100)
-    press(window, Qt.Key.Key_PageDown, CTRL_SHIFT)
-    assert window.presenter.hint.text() == f"There is no next state in {tmp_path.name}."
-
-
-def test_what_an_entry_is_about_finds_it_and_nothing_is_said(window: MainWindow) -> None:
-    window.run_action("choose_scene")
-    chooser = window.overlays.scenes
-    QTest.keyClicks(chooser.field, "affine")
-    assert chooser.current()
-    QTest.keyClicks(chooser.field, "zzz")
-    assert (chooser.current(), chooser.list.item(0).text()) == ("", "Nothing here is about “affinezzz”.")
-    window.overlays.close_top()
-
-
-def test_a_printed_listing_is_shown_without_the_menu(window: MainWindow, qtbot: QtBot) -> None:
-    window.open_path("pellacini-line")
-    qtbot.waitUntil(lambda: window.session.document.scene.corner_count == 2)
-    present(window, (1280, 720))
-    window.run_action("choose_scene")
-    chooser = window.overlays.scenes
+def test_a_printed_listing_is_shown_without_the_menu(presented: MainWindow, qtbot: QtBot) -> None:
+    presented.open_path("pellacini-line")
+    qtbot.waitUntil(lambda: presented.session.document.scene.corner_count == 2)
+    presented.run_action("choose_scene")
+    chooser = presented.overlays.scenes
     QTest.keyClicks(chooser.field, "printed bresenham")
     QTest.keyClick(chooser.field, Qt.Key.Key_Return)
-    assert window.page.current_view() == "compare"
-    assert window.page.comparing.printed
+    assert presented.page.current_view() == "compare"
+    assert presented.page.comparing.printed
 
 
-def test_f5_measures_on_compare(window: MainWindow) -> None:
-    window.pages.show_page("compare")
-    present(window, (1280, 720))
-    page = window.pages.current
+def test_f5_measures_on_compare(presented: MainWindow) -> None:
+    presented.pages.show_page("compare")
+    page = presented.pages.current
     assert isinstance(page, ComparePage)
-    press(window, Qt.Key.Key_F5)
-    assert page.is_running
-    page.cancel()
-    assert window.pages.current is page
+    press(presented, Qt.Key.Key_F5)
+    assert page.results.is_running
+    page.results.cancel()
+    assert presented.pages.current is page
 
 
 @pytest.mark.parametrize("size", SIZES, ids=str)
-def test_charts_have_half_of_the_screen_and_the_desk_comes_back(
-    window: MainWindow, size: tuple[int, int]
-) -> None:
-    window.resize(*size)
-    window.pages.show_page("compare")
-    page = window.pages.current
-    assert isinstance(page, ComparePage)
-    panes = (page.columns.left, page.controls, page.charts, page.pictures)
-    present(window, size)  # once: a style that is new changes a width by a pixel or two
-    window.presenter.leave()
-    window.page.settle()
-    before = [(pane.isVisible(), pane.width()) for pane in panes]
-    present(window, size)
-    window.pages.show_page("stability")  # made while presenting
-    for name in ("stability", "compare"):
-        window.pages.show_page(name)
-        shown = window.pages.current
-        assert isinstance(shown, ExperimentPage)
-        window.page.settle()
-        view = shown.main_view()
-        assert view.width() * view.height() >= 0.5 * size[0] * size[1], name
-        assert shown.place.isVisible()
-        assert shown.place.text()
-    page.pictures.show()
-    page.dismiss()
-    assert not page.pictures.isVisible()
-    window.presenter.leave()
-    window.page.settle()
-    assert [(pane.isVisible(), pane.width()) for pane in panes] == before
-
-
-@pytest.mark.parametrize("size", SIZES, ids=str)
-def test_flow_grows_and_is_seen_whole(window: MainWindow, size: tuple[int, int]) -> None:
-    window.page.show_view("flow")
-    present(window, size)
-    view = window.page.main_view()
+def test_flow_grows_and_is_seen_whole(presented: MainWindow, size: tuple[int, int]) -> None:
+    presented.page.show_view("flow")
+    resize(presented, size)
+    view = presented.page.main_view()
     assert view.width() * view.height() >= 0.5 * size[0] * size[1]
     sizes = {label.font().pixelSize() for label in view.findChildren(QLabel) if not label.property("role")}
     assert len(sizes) == 1

@@ -8,6 +8,8 @@ from app.window.main_window import MainWindow
 from app.window.start import first_size
 from widgets.basics.theme import LIGHT, current_theme
 
+pytestmark = pytest.mark.shared_window
+
 
 def test_the_text_grows_and_shrinks_and_is_remembered(window: MainWindow) -> None:
     window.run_action("text_larger")

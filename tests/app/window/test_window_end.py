@@ -39,24 +39,25 @@ ALONE = [
     ("sphere", "window.session.set_setting('fill', 'brute-force')"),
     ("single-triangle", "window.pages.show_page('compare'); window.pages.current.start()"),
 ]
-AT_ONCE = ("/nowhere/gone.obj", f"{MAPPED[1]}; {OPENED[1]}")
 WITHOUT_END = "window.files.job.start(lambda progress, is_cancelled: __import__('time').sleep(1000))"
 
 
-@pytest.mark.parametrize(
-    ("target", "act"), [AT_ONCE, *(pytest.param(*case, marks=pytest.mark.slow) for case in ALONE)]
-)
+@pytest.mark.slow
+@pytest.mark.parametrize(("target", "act"), ALONE)
 def test_closing_ends_every_thread(tmp_path: Path, target: str, act: str) -> None:
     assert printed(tmp_path, target, act) == ""
     assert (tmp_path / "preferences.json").is_file()
 
 
-def test_a_scene_given_at_the_start_is_shown_whatever_page_was_shown_last_and_closing_does_not_wait_without_end(
-    tmp_path: Path,
+@pytest.mark.parametrize(
+    "act", [f"{MAPPED[1]}; {OPENED[1]}", pytest.param(WITHOUT_END, marks=pytest.mark.slow)]
+)
+def test_a_scene_given_at_the_start_is_shown_whatever_page_was_shown_last_and_closing_ends_all(
+    tmp_path: Path, act: str
 ) -> None:
     (tmp_path / "preferences.json").write_text(json.dumps({"page": "plan"}))
     collects = "__import__('gc').get_threshold()[0]"  # 0: no thread collects by itself, see `Collecting`
-    act = f"print(window.pages.current_name, {collects}); {WITHOUT_END}"
+    act = f"print(window.pages.current_name, {collects}); {act}"
     assert printed(tmp_path, "torus", act) == "step 0\n"
     assert '"page": "step"' in (tmp_path / "preferences.json").read_text()
 
