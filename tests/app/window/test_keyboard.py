@@ -150,6 +150,7 @@ def test_borders_move_by_keyboard(window: MainWindow, qtbot: QtBot) -> None:
     assert border.x() > before
 
 
+@pytest.mark.own_window
 def test_view_and_timeline_zoom_and_move_by_keys(window: MainWindow) -> None:
     """Alt and plus magnifies the view, or the timeline while that has the keyboard; Ctrl and arrows move it."""
     grid, bar = window.page.grid, window.page.timeline.bar
@@ -193,18 +194,21 @@ def test_triangles_and_vertices_by_keys(window: MainWindow, qtbot: QtBot) -> Non
     assert session.document.scene is before
 
 
+@pytest.mark.own_window
 def test_tab_reaches_every_stop_and_shift_tab_is_its_mirror(window: MainWindow) -> None:
     """Forward and backward the same stops in opposite order, all that take the keyboard, all in sight."""
     for page in PAGES:
         check_tab(window, page)
 
 
+@pytest.mark.own_window
 def test_f6_walks_the_panes_and_escape_comes_back(window: MainWindow) -> None:
     """F6 and Shift+F6 are mirror images; Escape gives the keyboard to the main view and only then does more."""
     for page in PAGES:
         check_f6(window, page)
 
 
+@pytest.mark.own_window
 def test_what_hides_gives_the_keyboard_to_the_first_stop_without_looking_further(
     window: MainWindow, monkeypatch: pytest.MonkeyPatch
 ) -> None:

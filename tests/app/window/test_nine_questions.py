@@ -82,6 +82,8 @@ QUESTIONS: dict[str, tuple[Script, list[str]]] = {
 def user(window: MainWindow, qtbot: QtBot, capfd: pytest.CaptureFixture[str]) -> NewUser:
     """Return somebody in front of the start page."""
     window.run_action("page_start")
+    for area in window.pages.current.findChildren(QScrollArea):
+        area.verticalScrollBar().setValue(0)
     QApplication.processEvents()
     capfd.readouterr()
     return NewUser(window, qtbot, capfd)

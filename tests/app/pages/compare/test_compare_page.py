@@ -19,6 +19,8 @@ from core.study.accuracy.families import study_families
 from tests.app.pages.compare.compare_pages import WRONG, compare_page, hand_made, measured
 from widgets.basics.theme import LIGHT, current_theme
 
+pytestmark = pytest.mark.shared_window
+
 
 @pytest.fixture
 def page(window: MainWindow) -> ComparePage:
@@ -31,6 +33,7 @@ def test_every_family_of_the_core_is_offered(page: ComparePage) -> None:
     assert titles[0] == "Whole pipeline on the open scene"
 
 
+@pytest.mark.own_window
 def test_an_empty_page_says_what_to_do(page: ComparePage) -> None:
     assert page.scatter.places() == []
     assert "All methods of this family do the same work" in page.readout.text()
@@ -90,6 +93,7 @@ def test_cancelling_leaves_what_was_measured_before(page: ComparePage, qtbot: Qt
     assert page.content is before, "no late point of the cancelled measurement comes in"
 
 
+@pytest.mark.own_window
 def test_cancelling_the_first_measurement_draws_nothing(page: ComparePage, qtbot: QtBot) -> None:
     drawn: list[int] = []
 
@@ -157,6 +161,8 @@ def test_a_refusal_and_a_reason_are_listed_and_never_drawn(page: ComparePage) ->
     QTest.keyClick(page.window(), Qt.Key.Key_E)
     assert page.choice.measure == "area"
     assert {key for key, _ in page.scatter.places()} == {"line=bresenham", "line=dda", "line=midpoint"}
+    QTest.keyClick(page.window(), Qt.Key.Key_E)
+    assert page.results.choice.measure == "far", "the first comes after the last"
 
 
 def test_the_same_marks_in_both_charts(page: ComparePage) -> None:
@@ -216,6 +222,7 @@ def test_panes_come_back_as_they_were(page: ComparePage) -> None:
     assert page.columns.sizes()[0] == pytest.approx(300, abs=8)
 
 
+@pytest.mark.own_window
 def test_closing_while_measuring_ends_the_thread(page: ComparePage) -> None:
     page.choice.rounds = 99
     page.start()
@@ -264,6 +271,7 @@ def test_a_hidden_page_draws_no_points_until_it_is_seen(
     page.cancel()
 
 
+@pytest.mark.own_window
 def test_the_left_column_grows_with_the_type_and_comes_back(window: MainWindow, page: ComparePage) -> None:
     window.resize(1800, 700)
     QApplication.processEvents()

@@ -60,8 +60,13 @@ def test_a_failing_cell_is_made_small_and_written(tmp_path: Path) -> None:
     ("name", "method", "words", "stage"),
     [
         ("line-drift", "line=dda-float32", "1 segment in", "raster"),
-        ("minification", "texture_filter=nearest", "1 triangle in 1x1 pixels", "shade"),
-        ("lost-highlight", "shading=flat", "1 triangle in 1x1 pixels", "shade"),
+        pytest.param(
+            *("minification", "texture_filter=nearest", "1 triangle in 1x1 pixels", "shade"),
+            marks=pytest.mark.slow,
+        ),
+        pytest.param(
+            *("lost-highlight", "shading=flat", "1 triangle in 1x1 pixels", "shade"), marks=pytest.mark.slow
+        ),
     ],
 )
 def test_segments_textures_and_lit_meshes_are_made_small_and_open_again(

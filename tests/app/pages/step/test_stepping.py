@@ -12,7 +12,7 @@ from app.pages.step.grid_records import buffers_of
 from app.pages.step.stepping_presenter import EVENT_TITLES
 from app.session.document import open_document
 from app.window.main_window import MainWindow
-from core import STAGES
+from core import STAGES, ClipScene
 from core.records.steps import Level
 from core.stages.declared import stage_of
 from lessons.scenes import make_scene
@@ -143,7 +143,7 @@ def test_dragging_over_the_chapters_goes_through_the_whole_run(window: MainWindo
     start = QPoint(2, 10)
     qtbot.mousePress(first, Qt.MouseButton.LeftButton, pos=start)
     visited = []
-    for x in range(20, row.width(), 15):
+    for x in range(20, row.width(), 40):
         qtbot.mouseMove(first, QPoint(x, 10))
         visited.append((STAGES.index(session.cursor.stage), session.cursor.position))
     qtbot.mouseMove(first, QPoint(row.width() + 50, 10))
@@ -156,6 +156,7 @@ def test_dragging_over_the_chapters_goes_through_the_whole_run(window: MainWindo
 
 def test_page_down_leaps_through_the_whole_run(window: MainWindow, qtbot: QtBot) -> None:
     session, timeline = window.session, window.page.timeline
+    session.open(open_document(ClipScene([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], size=(6, 4)), ""))
     session.set_stage(STAGES[0], 0)
     visited = []
     while session.cursor.stage != "interpolate":
