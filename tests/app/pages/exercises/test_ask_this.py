@@ -1,6 +1,7 @@
 """Ask this: a step or a value of the Step page becomes a question; while it is asked, the Step page hides it."""
 
 from collections.abc import Callable
+from itertools import count
 
 import pytest
 from PySide6.QtWidgets import QApplication
@@ -18,12 +19,23 @@ from lessons.scenes import make_scene
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
 
+pytestmark = pytest.mark.shared_window
+COLUMNS = count(24)
+
 
 def exercises(window: MainWindow) -> ExercisesPage:
     page = window.pages.current
     assert isinstance(page, ExercisesPage)
     page.settle()
     return page
+
+
+def asked_value(window: MainWindow) -> ExercisesPage:
+    """Ask about a pixel that no other test has asked about: what was given up earns nothing any more."""
+    window.session.set_stage("raster", 4000)
+    window.session.set_pin((next(COLUMNS), 20))
+    window.run_action("ask_value")
+    return exercises(window)
 
 
 def test_a_step_is_asked_hidden_and_shown_after_the_check(window: MainWindow, qtbot: QtBot) -> None:
@@ -53,10 +65,7 @@ def test_a_step_is_asked_hidden_and_shown_after_the_check(window: MainWindow, qt
 
 
 def test_ending_prediction_gives_the_question_up(window: MainWindow) -> None:
-    window.session.set_stage("raster", 4000)
-    window.session.set_pin((30, 20))
-    window.run_action("ask_value")
-    page = exercises(window)
+    page = asked_value(window)
     assert page.questions.is_asked
     window.run_action("page_step")
     window.run_action("predict")
@@ -68,7 +77,7 @@ def end_by_reveal(window: MainWindow) -> None:
 
 
 def end_by_clicks(window: MainWindow) -> None:
-    window.page.grid.pixel_clicked.emit(30, 20)
+    window.page.grid.pixel_clicked.emit(24, 20)
 
 
 def end_by_steps(window: MainWindow) -> None:
@@ -80,11 +89,8 @@ def test_what_is_seen_while_predicting_earns_nothing(
     window: MainWindow, look: Callable[[MainWindow], None]
 ) -> None:
     """The step goes back to before what is asked; whoever goes on from there, or reveals it, has seen it."""
-    session = window.session
-    session.set_stage("raster", 4000)
-    session.set_pin((30, 20))
-    window.run_action("ask_value")
-    page = exercises(window)
+    session, before = window.session, attempt_file().attempts()
+    page = asked_value(window)
     assert (session.cursor.stage, session.cursor.position) == ("raster", 0)
     assert page.questions.is_asked
     assert session.is_predicting
@@ -96,14 +102,11 @@ def test_what_is_seen_while_predicting_earns_nothing(
     page.questions.answer(page.question.draft.answer.reference)  # type: ignore[union-attr]
     page.questions.check()
     page.settle()
-    assert not attempt_file().attempts()
+    assert attempt_file().attempts() == before
 
 
 def test_earlier_stages_may_be_predicted(window: MainWindow) -> None:
-    window.session.set_stage("raster", 4000)
-    window.session.set_pin((30, 20))
-    window.run_action("ask_value")
-    page = exercises(window)
+    page = asked_value(window)
     window.run_action("page_step")
     window.session.set_stage("edges", 0)
     end_by_reveal(window)
@@ -113,13 +116,10 @@ def test_earlier_stages_may_be_predicted(window: MainWindow) -> None:
 
 def test_no_other_page_shows_what_is_asked(window: MainWindow) -> None:
     """Pages that would show the open scene are covered, and hand out nothing, until the question has ended."""
-    window.session.set_stage("raster", 4000)
-    window.session.set_pin((30, 20))
     window.run_action("page_compare")
     compare = window.pages.current
     window.run_action("page_step")
-    window.run_action("ask_value")
-    page = exercises(window)
+    page = asked_value(window)
     window.run_action("page_compare")
     assert compare.isHidden()
     QApplication.clipboard().setText("nothing")
