@@ -465,7 +465,9 @@ def test_no_step_stands_beside_a_whole_picture_and_a_listing_that_is_typed(
 
 
 @pytest.mark.own_window
-@pytest.mark.parametrize(("name", "step"), [("one-row", 3), ("spaces", 4)])
+@pytest.mark.parametrize(
+    ("name", "step"), [("one-row", 3), pytest.param("spaces", 4, marks=pytest.mark.slow)]
+)
 def test_a_formula_beside_a_lesson_is_whole_before_a_class(
     window: MainWindow, qtbot: QtBot, name: str, step: int
 ) -> None:

@@ -1,6 +1,8 @@
 """What decides is said at every level: of a row before what it does, of a larger step behind its counts."""
 
 import re
+from collections.abc import Iterator
+from itertools import islice
 
 import pytest
 
@@ -16,11 +18,12 @@ from lessons.scenes import make_scene, scene_names
 from lessons.slides.scenes import ALL_SCENES, clipped
 
 
-def said(scene: AnyScene, stage: str, level: Level, settings: Settings | None = None) -> list[str]:
-    """Return the sentences of all steps of a level."""
+def said(scene: AnyScene, stage: str, level: Level, settings: Settings | None = None) -> Iterator[str]:
+    """Say all steps of a level, one after the other."""
     traced = trace(scene, settings or Settings())
     positions = traced.stage(stage).steps.boundaries(level).tolist()[1:]
-    return [sentence_at(Step(traced, Cursor(stage, position, level))) for position in positions]
+    for position in positions:
+        yield sentence_at(Step(traced, Cursor(stage, position, level)))
 
 
 @pytest.mark.parametrize("level", Level)
@@ -41,17 +44,16 @@ def test_a_vertex_behind_the_eye_is_mirrored(level: Level) -> None:
 
 
 def test_a_row_says_what_decided_and_what_it_did() -> None:
-    pixels = said(make_scene("segment"), "raster", Level.PIXEL)
-    assert pixels[2].startswith("D is 4, above 0, so y steps. Pixel (3, 2) is drawn: ")
-    (first, *_) = said(make_scene("intersecting"), "depth", Level.PIXEL)
+    *_, third = islice(said(make_scene("segment"), "raster", Level.PIXEL), 3)
+    assert third.startswith("D is 4, above 0, so y steps. Pixel (3, 2) is drawn: ")
+    first = next(said(make_scene("intersecting"), "depth", Level.PIXEL))
     assert " so it is nearer. The depth buffer now holds " in first
     assert first.count("Pixel (") == 1
-    pixels = said(make_scene("single-triangle"), "interpolate", Level.PIXEL)
     assert re.fullmatch(
         r"Pixel \(8, 6\) of triangle 0: corners 0, 1 and 2 have weights .*, their parts of the sum "
         r"\(divided by w; in the window .*\)\. "
         r"Its colour is \(.*\), the weighted sum of the corners' values\.",
-        pixels[0],
+        next(said(make_scene("single-triangle"), "interpolate", Level.PIXEL)),
     )
 
 

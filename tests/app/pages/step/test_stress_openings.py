@@ -8,9 +8,9 @@ from core.study.stability import Outcome, experiments
 from core.study.stability.coverage import COVERAGE_EXPERIMENTS
 
 CASES = [
-    (experiment.info.name, method)
+    pytest.param(experiment.info.name, method, marks=marks)
     for experiment in COVERAGE_EXPERIMENTS
-    for method in (experiment.info.methods[0], experiment.info.methods[1])
+    for method, marks in zip(experiment.info.methods, ((), pytest.mark.slow), strict=False)
 ]
 
 
