@@ -1,5 +1,6 @@
 """Every type of answer, given by mouse and by keyboard alone."""
 
+import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel, QLineEdit
@@ -25,6 +26,8 @@ from widgets.exercises.pixel_answer import PixelAnswerView
 from widgets.exercises.place_answer import PlaceAnswerView
 from widgets.exercises.spot_answer import SpotAnswerView
 from widgets.exercises.steps_answer import StepsAnswerView
+
+pytestmark = pytest.mark.shared_window
 
 
 def check_that_pixels_are_marked_by_keyboard_alone(page: Page) -> None:

@@ -31,7 +31,10 @@ from widgets.exercises.pixel_answer import LEGEND, PixelAnswerView
 from widgets.exercises.records import ExerciseEntry, ExerciseGroup
 from widgets.grid.overlay import Mark, MaskOverlay
 
+pytestmark = pytest.mark.shared_window
 
+
+@pytest.mark.own_window
 def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
     page: Page, window: MainWindow, qtbot: QtBot
 ) -> None:
@@ -67,6 +70,7 @@ def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
     assert window.session.cursor.position > 0 or comparing.second.cursor.position > 0
 
 
+@pytest.mark.own_window
 def test_work_survives_leaving_and_the_program(page: Page, qtbot: QtBot) -> None:
     """Another page of the program finds question, marks and hints again."""
     shown = page("shared-edge", 11)
@@ -184,6 +188,7 @@ def test_a_belief_is_refuted_by_a_step_and_a_mistake_by_its_picture(
     assert (window.session.cursor.stage, window.session.cursor.position) == ("transform", 12)
 
 
+@pytest.mark.own_window
 def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path) -> None:
     """What was missed is counted; somebody else begins anew; answers are exchanged; a file is asked."""
     shown = page("triangle-coverage")
@@ -227,6 +232,7 @@ def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path
     assert shown.grid.isHidden()
 
 
+@pytest.mark.own_window
 def test_the_third_miss_in_a_row_offers_the_step_that_decides(page: Page, qtbot: QtBot) -> None:
     for seed in range(3):
         shown = page("triangle-coverage", seed)
@@ -245,6 +251,7 @@ def test_the_third_miss_in_a_row_offers_the_step_that_decides(page: Page, qtbot:
     assert window.session.pin == min(wrong, key=lambda pixel: pixel[::-1])
 
 
+@pytest.mark.own_window
 def test_where_nothing_can_be_kept_the_verdict_says_so(page: Page, monkeypatch: pytest.MonkeyPatch) -> None:
     def refuse(*_: object, **__: object) -> NoReturn:
         raise OSError(errno.EROFS, os.strerror(errno.EROFS))
