@@ -27,20 +27,20 @@ def png(path: Path) -> None:
     Image.fromarray(np.ascontiguousarray(COLORS[::-1])).save(path)
 
 
-@pytest.mark.parametrize("ending", ["ppm", "bmp", "tga", "jpg"])
-def test_other_images_are_read_and_a_lossy_one_is_compared_as_it_was_saved(
-    ending: str, tmp_path: Path
-) -> None:
-    path, scene = tmp_path / f"homework.{ending}", make_scene(SCENE)
+@pytest.mark.parametrize("ending", ["ppm", "bmp", "tga"])
+def test_other_images_are_read(ending: str, tmp_path: Path) -> None:
+    path = tmp_path / f"homework.{ending}"
+    png(path)
+    np.testing.assert_array_equal(read_drawn(path, (64, 48)).colors, COLORS)
+
+
+def test_a_lossy_image_is_compared_as_it_was_saved(tmp_path: Path) -> None:
+    path, scene = tmp_path / "homework.jpg", make_scene(SCENE)
     png(path)
     diagnosis = diagnose(scene, Settings(), read_drawn(path, (64, 48)))
     assert diagnosis.found[0].name == "all-edges-inclusive"
     assert diagnose(scene, Settings(fill_rule="inclusive"), read_drawn(path, (64, 48))).is_right
-    said = compared_text(diagnosis.drawn)
-    assert ("lossy" in said) is (ending == "jpg")
-    if ending != "jpg":
-        np.testing.assert_array_equal(read_drawn(path, (64, 48)).colors, COLORS)
-        return
+    assert "lossy" in compared_text(diagnosis.drawn)
     ink = np.where(INCLUSIVE.primitive[::-1] >= 0, 255, 0).astype(np.uint8)
     Image.fromarray(ink).save(path)
     covered = diagnose(scene, Settings(), read_drawn(path, (64, 48)))
