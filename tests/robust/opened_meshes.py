@@ -49,7 +49,7 @@ for number in range(int(sys.argv[1])):
     positions, triangles = torus(400, 200)
     Path(path).write_bytes(ply_binary(positions * (1 + number / 100), triangles.tolist()))
     window.open_path(path)
-    wait_until(lambda path=path: window.session.document.path == path)  # type: ignore[misc]
+    wait_until(lambda path=path: window.session.document.path == path)
     window.session.set_setting("fill", ("blocks", "scanline")[number % 2])
     wait_until(lambda: not window.files.progress.is_busy and not window.page.views.is_drawing)
     wait_until(lambda: not window.files.freeing.is_waiting)

@@ -197,7 +197,7 @@ def test_a_state_never_opens_a_mesh_from_a_network(folders):
         load_state(path, allows_outside=True)
 
 
-def test_what_was_open_last_opens_again_also_without_a_mark(folders, monkeypatch, tmp_path):
+def test_what_was_open_last_opens_again_also_without_a_mark(folders, monkeypatch):
     path = saved_state(folders)
     change_source(path, mark="")
     monkeypatch.setenv("RASTERSCOPE_CONFIG", str(path.parent))

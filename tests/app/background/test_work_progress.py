@@ -8,7 +8,7 @@ from widgets.basics.message_bar import Progress
 from widgets.basics.run_panel import RunPanel
 
 
-def test_the_progress_of_opening_names_the_file(window: MainWindow, qtbot: QtBot) -> None:
+def test_the_progress_of_opening_names_the_file(window: MainWindow) -> None:
     progress = window.files.progress
     progress.begin("Opening teapot.obj")
     progress._slow.stop()

@@ -31,8 +31,8 @@ SMALL = Workload("B", "a few triangles", lambda: random_triangles(1, 40, (40, 30
 def toy(name: str, prepare, less: str = "") -> ModuleType:
     """Return a library that draws whatever ``prepare`` says."""
     module = ModuleType(name)
-    module.LIBRARY, module.DISTRIBUTION = name, "toy-that-is-not-installed"  # type: ignore[attr-defined]
-    module.contender = lambda work: Contender(name, "compiled", prepare, less)  # type: ignore[attr-defined]
+    module.LIBRARY, module.DISTRIBUTION = name, "toy-that-is-not-installed"
+    module.contender = lambda work: Contender(name, "compiled", prepare, less)
     return module
 
 
@@ -130,7 +130,7 @@ def test_benchmark_writes_table_and_chart(qtbot: QtBot, tmp_path, monkeypatch, c
 
 def test_a_wrong_picture_of_ours_is_an_error(capsys) -> None:
     wrong = toy("wrong", black)
-    wrong.contender = lambda work: Contender("wrong", "ours", black)  # type: ignore[attr-defined]
+    wrong.contender = lambda work: Contender("wrong", "ours", black)
     result = run_workload(SMALL, [wrong, pillow_peer], 1, ignore)
     assert run.verdict([result]) == 1
     drawing = chart_svg([result], this_machine())

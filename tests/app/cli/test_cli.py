@@ -73,7 +73,7 @@ def test_every_built_in_scene_renders(tmp_path, name):
         assert image.size == (24, 16)
 
 
-def test_a_picture_that_was_blended_gets_straight_alpha(tmp_path):
+def test_a_picture_that_was_blended_gets_straight_alpha():
     frame = render(HALF_COVERED, Settings(blend="over", visibility="last-drawn"))
     pixels = picture_bytes(frame.color, "over")
     # One layer and two layers of the same half-transparent colour: the colour stays, alpha does not.

@@ -47,7 +47,7 @@ def test_a_preset_has_the_light_of_the_scene(tmp_path):
     )
 
 
-def test_a_trace_has_the_lines_of_the_shader(tmp_path):
+def test_a_trace_has_the_lines_of_the_shader():
     run = run_program("trace", "lmu-shaders", "--stage", "shade", "--size", "8x6", "--format", "text")
     assert run.returncode == 0, run.stderr
     assert "Line 9: outColor = vec4(vColor, 1) = (" in run.stdout

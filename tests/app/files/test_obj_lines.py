@@ -55,7 +55,7 @@ def test_lines_read_together_say_what_each_says(tmp_path, monkeypatch):
     assert 30 < refused < 270
 
 
-def test_lines_of_one_keyword_are_found(tmp_path):
+def test_lines_of_one_keyword_are_found():
     text = b"v 1\nv 2\nv 3\nf 1\nvt 1\nf 2\nf 3\nf 4\n"
     assert list(runs_of_lines(text, 3, 100)) == [
         (b"v 1\nv 2\nv 3\n", 3),

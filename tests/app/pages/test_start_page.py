@@ -148,7 +148,7 @@ def test_a_file_that_cannot_be_opened_leaves_the_start_page_or_leads_to_it(
 
 
 def test_keys_scroll_the_scenes_wherever_the_keyboard_is(window: MainWindow, page: StartPage) -> None:
-    bar = page.cards.parentWidget().parentWidget().parentWidget().verticalScrollBar()  # type: ignore[attr-defined]
+    bar = page.cards.parentWidget().parentWidget().parentWidget().verticalScrollBar()
     for start in (page.begin_button, page.cards.cards[0]):
         start.setFocus(Qt.FocusReason.TabFocusReason)
         for key, wanted in (("PageDown", bar.pageStep()), ("End", bar.maximum()), ("Home", 0)):

@@ -50,7 +50,7 @@ def examined(monkeypatch: pytest.MonkeyPatch) -> list[set[int]]:
     found: list[set[int]] = []
     examine = source.examine_pixels
 
-    def note_and_examine(edges, runs, raster):  # type: ignore[no-untyped-def]
+    def note_and_examine(edges, runs, raster):
         found.append(set(runs.triangle.tolist()))
         return examine(edges, runs, raster)
 

@@ -48,7 +48,7 @@ def test_both_depths_are_alike_and_lie_where_they_are_largest(window: MainWindow
     area, page = window.page.main_area, window.page
     window.session.open(open_document(make_scene("cube"), "cube"))
     window.session.set_stage("depth", 40)
-    new_depths = area.companions["depth"].grid  # type: ignore[attr-defined]
+    new_depths = area.companions["depth"].grid
     for panes in (["run"], ["run", "scene"], ["run", "thumbnails"]):
         page.show_panes(["inspector", *panes])
         page.settle()

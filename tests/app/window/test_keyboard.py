@@ -6,7 +6,6 @@ import pytest
 from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QAbstractButton, QApplication, QSplitterHandle, QTabBar, QWidget
-from pytestqt.qtbot import QtBot
 
 from app.window import focus_walk
 from app.window.main_window import MainWindow
@@ -136,7 +135,7 @@ def test_arrows_go_through_a_row_of_buttons(window: MainWindow) -> None:
     assert window.session.cursor.position == position
 
 
-def test_borders_move_by_keyboard(window: MainWindow, qtbot: QtBot) -> None:
+def test_borders_move_by_keyboard(window: MainWindow) -> None:
     """A border has the focus and arrows move it."""
     window.run_action("page_compare")
     border = next(
@@ -174,7 +173,7 @@ def test_view_and_timeline_zoom_and_move_by_keys(window: MainWindow) -> None:
     assert space.orbit() != orbit
 
 
-def test_triangles_and_vertices_by_keys(window: MainWindow, qtbot: QtBot) -> None:
+def test_triangles_and_vertices_by_keys(window: MainWindow) -> None:
     """A triangle is chosen and its vertex moved by half a pixel a press; each press can be undone."""
     session = window.session
     window.run_action("next_triangle")

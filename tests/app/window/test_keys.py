@@ -80,7 +80,7 @@ def test_menus_that_are_not_of_the_table(window: MainWindow) -> None:
     assert [action.text() for action in window.menus.theme_group.actions() if action.isChecked()] == ["Dark"]
 
 
-def test_the_page_of_keys_shows_the_table(window: MainWindow, qtbot: QtBot) -> None:
+def test_the_page_of_keys_shows_the_table(window: MainWindow) -> None:
     QTest.keyClicks(window, "?")
     assert window.overlays.key_help.isVisible()
     shown = " ".join(label.text() for label in window.overlays.key_help.findChildren(QLabel))

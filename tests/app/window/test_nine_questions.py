@@ -126,7 +126,7 @@ def follow(user: NewUser, script: Script) -> int:
                 turn_wheel(user, card)
                 count += 1
             name = "click"
-        user.does(str(name), lambda name=name, what=what: getattr(user, str(name))(*what), lambda: True)  # type: ignore[misc]
+        user.does(str(name), lambda name=name, what=what: getattr(user, str(name))(*what), lambda: True)
     return count
 
 

@@ -32,7 +32,7 @@ def place_of(window: MainWindow, column: int, row: int) -> QPoint:
     return window.page.grid.placement().cells_rect(column, row).center().toPoint()
 
 
-def test_a_vertex_is_dragged_with_depth_and_w_kept(window: MainWindow, qtbot: QtBot) -> None:
+def test_a_vertex_is_dragged_with_depth_and_w_kept(window: MainWindow) -> None:
     grid, session = window.page.grid, window.session
     scene = session.document.scene
     assert isinstance(scene, ClipScene)
@@ -55,19 +55,19 @@ def test_a_vertex_is_dragged_with_depth_and_w_kept(window: MainWindow, qtbot: Qt
     assert isinstance(undone, ClipScene)
     assert np.array_equal(undone.clip, before)
     window.menus.actions_by_name["redo"].trigger()
-    assert np.array_equal(session.document.scene.clip, after.clip)  # type: ignore[union-attr]
+    assert np.array_equal(session.document.scene.clip, after.clip)
 
 
 def test_shared_corners_split_and_join(window: MainWindow) -> None:
     session = window.session
     window.menus.actions_by_name["toggle_shared"].trigger()
-    assert session.document.scene.shared is None  # type: ignore[union-attr]
+    assert session.document.scene.shared is None
     assert not window.menus.actions_by_name["toggle_shared"].isChecked()
     window.menus.actions_by_name["toggle_shared"].trigger()
-    assert session.document.scene.shared is not None  # type: ignore[union-attr]
+    assert session.document.scene.shared is not None
 
 
-def test_a_click_pins_and_shows_the_history(window: MainWindow, qtbot: QtBot) -> None:
+def test_a_click_pins_and_shows_the_history(window: MainWindow) -> None:
     QTest.mouseClick(window.page.grid, Qt.MouseButton.LeftButton, pos=place_of(window, 20, 20))
     assert window.session.pin == (20, 20)
     assert window.page.column.currentWidget() is window.page.history
@@ -91,7 +91,7 @@ def test_values_are_typed(window: MainWindow, qtbot: QtBot) -> None:
     type_value(window, qtbot, "corner/0/0/x", "20.5")
     assert not np.array_equal(window.session.trace.source.picture.primitive, picture)
     type_value(window, qtbot, "corner/0/0/w", "-1")
-    assert window.session.document.scene.clip[0, 0, 3] == -1  # type: ignore[union-attr]
+    assert window.session.document.scene.clip[0, 0, 3] == -1
 
 
 def test_nonsense_changes_nothing(window: MainWindow, qtbot: QtBot) -> None:
@@ -149,7 +149,7 @@ def test_a_method_that_the_scene_cannot_serve(window: MainWindow) -> None:
 
 
 @pytest.mark.own_window
-def test_space_presses_the_button_that_tab_has_reached(window: MainWindow, qtbot: QtBot) -> None:
+def test_space_presses_the_button_that_tab_has_reached(window: MainWindow) -> None:
     button = window.page.timeline.first_button
     button.setFocus(Qt.FocusReason.TabFocusReason)
     QTest.keyClick(button, Qt.Key.Key_Space)
@@ -172,7 +172,7 @@ def test_no_button_lacks_a_name_or_a_tooltip(window: MainWindow) -> None:
     assert nameless == []
 
 
-def test_going_to_a_pixel(window: MainWindow, qtbot: QtBot) -> None:
+def test_going_to_a_pixel(window: MainWindow) -> None:
     window.run_action("go_to_pixel")
     field = window.overlays.ask_bar.field
     for text, told in (("abc", "Enter column and row"), ("1000, 3", "is not in the raster")):
@@ -187,7 +187,7 @@ def test_going_to_a_pixel(window: MainWindow, qtbot: QtBot) -> None:
     assert not window.overlays.ask_bar.isVisible()
 
 
-def test_a_condition_is_a_breakpoint(window: MainWindow, qtbot: QtBot) -> None:
+def test_a_condition_is_a_breakpoint(window: MainWindow) -> None:
     window.session.go_to(0)
     window.run_action("edit_condition")
     QTest.keyClicks(window.overlays.ask_bar.field, "covered and row == 20")
@@ -206,7 +206,7 @@ def test_a_condition_is_a_breakpoint(window: MainWindow, qtbot: QtBot) -> None:
 
 
 @pytest.mark.own_window
-def test_escape_closes_one_thing_at_a_time(window: MainWindow, qtbot: QtBot) -> None:
+def test_escape_closes_one_thing_at_a_time(window: MainWindow) -> None:
     window.session.set_pin((3, 3))
     window.run_action("go_to_pixel")
     window.overlays.toggle_keys()

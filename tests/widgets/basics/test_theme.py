@@ -72,7 +72,7 @@ def test_black_on_white_has_the_highest_contrast() -> None:
 
 def test_a_theme_cannot_be_changed() -> None:
     with pytest.raises(FrozenInstanceError):
-        LIGHT.text = "#ff0000"  # type: ignore[misc]
+        LIGHT.text = "#ff0000"
 
 
 def test_applying_sets_palette_and_tells_once(styled: QApplication) -> None:

@@ -162,7 +162,7 @@ def test_typing_is_not_overwritten_by_the_program(qtbot, field) -> None:
     assert field.edit.text() == "0.5"
 
 
-def test_full_precision_while_editing_and_four_digits_otherwise(qtbot, field) -> None:
+def test_full_precision_while_editing_and_four_digits_otherwise(field) -> None:
     field.show_value(1 / 3)
     assert field.edit.text() == "0.3333"
     field.edit.setFocus()
@@ -171,7 +171,7 @@ def test_full_precision_while_editing_and_four_digits_otherwise(qtbot, field) ->
     assert field.edit.text() == "0.3333"
 
 
-def test_showing_the_same_value_again_leaves_the_field_alone(qtbot, field) -> None:
+def test_showing_the_same_value_again_leaves_the_field_alone(field) -> None:
     field.show_value(1 / 3)
     field.edit.setFocus()
     field.show_value(1 / 3)

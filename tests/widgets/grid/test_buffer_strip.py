@@ -101,7 +101,7 @@ def test_new_tiles_know_what_the_others_show(strip: BufferStrip) -> None:
     assert strip.tile("extra").value.text() == "0"
 
 
-def test_hidden_buffers_are_remembered(strip: BufferStrip, qtbot) -> None:
+def test_hidden_buffers_are_remembered(strip: BufferStrip) -> None:
     strip.set_hidden_names(frozenset({"c"}))
     assert not strip.tile("c").isVisible()
     strip.show_buffers(three()[:1])
@@ -151,7 +151,7 @@ def test_the_chosen_buffer_comes_into_sight_where_the_buffers_have_changed(strip
     qtbot.waitUntil(lambda: is_in_sight("first") and not is_in_sight("buffer 7"))
 
 
-def test_a_value_that_is_too_long_ends_in_an_ellipsis(strip: BufferStrip, qtbot) -> None:
+def test_a_value_that_is_too_long_ends_in_an_ellipsis(strip: BufferStrip) -> None:
     strip.show_buffers([GridBuffer("picture", np.full((2, 2, 4), 255, np.uint8), "color")])
     tile = strip.tile("picture")
     tile.resize(60, 120)

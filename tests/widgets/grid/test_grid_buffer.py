@@ -76,7 +76,7 @@ def test_row_0_is_the_first_row_of_the_array() -> None:
 )
 def test_bad_input_is_named(values: np.ndarray, kind: str, message: str) -> None:
     with pytest.raises(ValueError, match=message):
-        GridBuffer("b", values, kind)  # type: ignore[arg-type]
+        GridBuffer("b", values, kind)
 
 
 def test_equal_values_are_the_same_picture() -> None:

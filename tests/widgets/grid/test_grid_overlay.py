@@ -118,8 +118,8 @@ def test_spans_and_lines_are_drawn(qapp) -> None:
     ("make", "message"),
     [
         (lambda: MaskOverlay("m", Mark.TIE, np.zeros(3, np.bool_)), "mask must be"),
-        (lambda: MaskOverlay("m", Mark.TIE, np.zeros((3, 3), np.int32)), "int32"),  # type: ignore[arg-type]
-        (lambda: CountOverlay("c", np.zeros((2, 2))), "float64"),  # type: ignore[arg-type]
+        (lambda: MaskOverlay("m", Mark.TIE, np.zeros((3, 3), np.int32)), "int32"),
+        (lambda: CountOverlay("c", np.zeros((2, 2))), "float64"),
         (lambda: BlockOverlay("b", np.zeros((2, 4), int), (BlockState.LEAF,)), "one entry per block"),
         (lambda: SpanOverlay("s", np.zeros((2, 2), int)), "spans must be"),
         (lambda: SegmentOverlay("l", np.zeros((1, 2, 2)), (0, 1)), "one entry per segment"),

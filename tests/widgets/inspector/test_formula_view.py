@@ -146,7 +146,7 @@ def test_the_colours_follow_the_theme(qtbot, view) -> None:
     apply_theme(QApplication.instance(), LIGHT)
 
 
-def test_the_hint_of_an_empty_view_has_room(qtbot, view) -> None:
+def test_the_hint_of_an_empty_view_has_room(view) -> None:
     view.show_formula(None)
     view.show_hint("This step has no formula.")
     assert view.heightForWidth(1000) >= view.fontMetrics().height()
@@ -213,7 +213,7 @@ def test_it_copies_as_latex_by_key_and_as_a_picture(qtbot, view) -> None:
     assert QGuiApplication.clipboard().image().width() > 300
 
 
-def test_an_empty_view_says_what_it_is_for_and_the_formula_is_spoken(qtbot, view) -> None:
+def test_an_empty_view_says_what_it_is_for_and_the_formula_is_spoken(view) -> None:
     assert "formula" in view.spoken_description()
     view.show_formula(EDGE)
     assert "a 0 times x" in view.spoken_description()

@@ -27,7 +27,7 @@ def test_what_is_typed_is_told_once_after_a_pause(qtbot, editor) -> None:
     assert told == [SOURCE.replace("0:", "0:  # and more")]
 
 
-def test_a_text_that_the_program_sets_is_not_told(qtbot, editor) -> None:
+def test_a_text_that_the_program_sets_is_not_told(editor) -> None:
     editor.show_text(SOURCE.replace("a > 0", "a >= 0"))
     assert not editor.is_pausing
     editor.undo()

@@ -119,7 +119,7 @@ def test_keys_choose_a_line_run_to_it_and_break_on_it(qtbot, view) -> None:
     assert (runs, breaks) == ([2], [2])
 
 
-def test_the_present_line_is_marked_by_bar_and_arrow_and_nothing_is_emitted(qtbot, view) -> None:
+def test_the_present_line_is_marked_by_bar_and_arrow_and_nothing_is_emitted(view) -> None:
     seen = []
     view.line_clicked.connect(seen.append)
     view.breakpoint_toggled.connect(seen.append)
@@ -144,7 +144,7 @@ def test_the_present_line_is_marked_by_bar_and_arrow_and_nothing_is_emitted(qtbo
     assert seen == []
 
 
-def test_a_line_far_down_is_brought_into_view(qtbot, view) -> None:
+def test_a_line_far_down_is_brought_into_view(view) -> None:
     view.show_listing(ListingText("long", "\n".join(f"x = {k}" for k in range(200))))
     view.show_line(180)
     top = view.firstVisibleBlock().blockNumber() + 1

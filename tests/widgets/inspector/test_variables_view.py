@@ -149,7 +149,7 @@ def test_variables_have_the_digits_of_formulas(value: float) -> None:
     assert ("cdot" in written) == ("e" in text)
 
 
-def test_only_cells_that_differ_are_set_and_laid_out_again(qtbot, view) -> None:
+def test_only_cells_that_differ_are_set_and_laid_out_again(view) -> None:
     still = tuple(Variable(v.name, v.now, v.now, v.meaning, v.vertex) for v in STEP)
     view.show_variables(still)
     changed = []

@@ -144,7 +144,7 @@ def test_a_picture_larger_than_the_view_is_averaged(view):
     assert {QColor(image.pixel(x, y)).red() for x in (5, 100, 390) for y in (5, 6, 7, 290)} == {100}
 
 
-def test_only_new_pixels_are_told_as_painted(view, qtbot):
+def test_only_new_pixels_are_told_as_painted(view):
     told: list[float] = []
     view.picture_painted.connect(told.append)
     picture = picture_of(4, 3)

@@ -56,7 +56,7 @@ def test_a_click_enters_a_chapter_and_leaves_the_arrow_keys_to_stepping(qtbot, r
 
 
 @pytest.mark.parametrize("width", [2500, 1264, 600])
-def test_what_is_painted_of_a_step_is_what_a_whole_chapter_would_be(qtbot, row, width) -> None:
+def test_what_is_painted_of_a_step_is_what_a_whole_chapter_would_be(row, width) -> None:
     row.resize(width, row.height())
     button = row.buttons()[5]
     row.show_share_done(0.3)

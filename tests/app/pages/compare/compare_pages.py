@@ -62,7 +62,7 @@ def hand_made(family: str = "line") -> Study:
 
     def point(name: str, seconds: float, **others: object) -> Point:
         times = np.array([seconds, 1.1 * seconds, 1.3 * seconds])
-        return Point(f"line={name}", name.title(), times, 10, **others)  # type: ignore[arg-type]
+        return Point(f"line={name}", name.title(), times, 10, **others)
 
     points = (
         point("bresenham", 1e-4, counts={"pixels drawn": 40}, errors={"far": 0.0, "area": 0.5}),

@@ -58,9 +58,7 @@ def test_numbers_shown_are_the_numbers_exported(page: ComparePage, qtbot: QtBot,
         assert shown["Depth tests"] == written["depth tests"]
 
 
-def test_a_saved_study_is_dropped_and_shown_as_what_it_is(
-    window: MainWindow, qtbot: QtBot, tmp_path: Path
-) -> None:
+def test_a_saved_study_is_dropped_and_shown_as_what_it_is(window: MainWindow, tmp_path: Path) -> None:
     path = tmp_path / "old.json"
     path.write_text(study_json(hand_made()), encoding="utf-8")
     drop(window, path)

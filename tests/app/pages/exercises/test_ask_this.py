@@ -38,7 +38,7 @@ def asked_value(window: MainWindow) -> ExercisesPage:
     return exercises(window)
 
 
-def test_a_step_is_asked_hidden_and_shown_after_the_check(window: MainWindow, qtbot: QtBot) -> None:
+def test_a_step_is_asked_hidden_and_shown_after_the_check(window: MainWindow) -> None:
     session = window.session
     session.set_stage("raster", 0)
     position = session.stage_trace.steps.position_after(5)
@@ -99,7 +99,7 @@ def test_what_is_seen_while_predicting_earns_nothing(
     assert not page.questions.is_asked
     assert window.statusBar().currentMessage().startswith("The Step page shows what was asked for.")
     window.run_action("page_exercises")
-    page.questions.answer(page.question.draft.answer.reference)  # type: ignore[union-attr]
+    page.questions.answer(page.question.draft.answer.reference)
     page.questions.check()
     page.settle()
     assert attempt_file().attempts() == before
@@ -133,7 +133,7 @@ def test_no_other_page_shows_what_is_asked(window: MainWindow) -> None:
     assert not compare.isHidden()
 
 
-def test_what_has_no_line_is_refused(window: MainWindow, qtbot: QtBot) -> None:
+def test_what_has_no_line_is_refused(window: MainWindow) -> None:
     window.session.set_stage("raster", 0)
     window.run_action("ask_step")
     assert window.statusBar().currentMessage() == "Take a step first: the step just done is asked about."
@@ -180,7 +180,7 @@ def test_a_scene_from_a_file_has_no_name() -> None:
 def test_a_value_is_asked_with_its_channels() -> None:
     screen = Screen("shared-edge", (64, 48), {}, "blend", buffer="color", pixel=(30, 20), rows_done=10**6)
     draft = ask(screen_template(screen.name), 0).draft
-    assert draft.answer.names[:3] == ("red", "green", "blue")  # type: ignore[attr-defined]
+    assert draft.answer.names[:3] == ("red", "green", "blue")
     assert Settings() == draft.settings
     assert screen_of(Screen("cube", (8, 6), {}, "interpolate", buffer="1/w").name).buffer == "1/w"
 

@@ -27,7 +27,7 @@ from lessons.exercises.question import Question, ask, judge
 from tests.app.pages.exercises.acting import LEFT, Page, check, paint
 from widgets.basics.message_bar import Progress
 from widgets.exercises.catalogue import Catalogue
-from widgets.exercises.pixel_answer import LEGEND, PixelAnswerView
+from widgets.exercises.pixel_answer import LEGEND
 from widgets.exercises.records import ExerciseEntry, ExerciseGroup
 from widgets.grid.overlay import Mark, MaskOverlay
 
@@ -40,7 +40,6 @@ def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
 ) -> None:
     """The answer of a twin is named; both runs open at their first divergence; the attempt is on the disk."""
     shown = page("triangle-coverage")
-    assert shown.question is not None
     draft = shown.question.draft
     wrong = draft.mistakes["corner-for-center"]
     paint(shown, wrong)
@@ -56,7 +55,6 @@ def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
     assert marks[Mark.MISSING].sum() == len(draft.answer.reference - wrong)
     assert marks[Mark.EXTRA].sum() == len(wrong - draft.answer.reference)
     answer = shown.question_view.answer
-    assert isinstance(answer, PixelAnswerView)
     assert answer.how.text() == LEGEND
     assert {attempt.mistakes for attempt in attempt_file().attempts()} == {("corner-for-center",)}
     with qtbot.waitSignal(window.opening.opened):
@@ -66,7 +64,6 @@ def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
     assert window.pages.current_name == "step"
     assert window.page.current_view() == "compare"
     assert comparing.other.pixel_center == "integer"
-    assert comparing.second is not None
     assert window.session.cursor.position > 0 or comparing.second.cursor.position > 0
 
 
@@ -80,7 +77,6 @@ def test_work_survives_leaving_and_the_program(page: Page, qtbot: QtBot) -> None
     other = ExercisesPage(shown.session)
     qtbot.addWidget(other)
     other.settle()
-    assert other.question is not None
     assert other.question.mark == "shared-edge 2, seed 11"
     assert other.grid.marked() == {(2, 2), (3, 2)}
     assert other.question_view.hints.text().startswith("Hint 1")
@@ -103,12 +99,10 @@ def test_a_variant_after_a_miss_tells_two_mistakes_apart(page: Page, monkeypatch
     monkeypatch.setattr("app.pages.exercises.question_presenter.new_seed", lambda: next(seeds))
     shown.questions.ask_variant()
     shown.settle()
-    assert shown.question is not None
     assert shown.question.seed == alike
     paint(shown, frozenset({(0, 0)}))
     check(shown)
     checked = shown.questions._checked
-    assert checked is not None
     shown.questions._checked = replace(checked, judgement=replace(checked.judgement, mistakes=pair))
     seeds = cycle((alike, apart))
     shown.questions.ask_variant()
@@ -119,7 +113,6 @@ def test_a_variant_after_a_miss_tells_two_mistakes_apart(page: Page, monkeypatch
 def test_outlines_have_the_names_of_the_question(page: Page) -> None:
     shown = page("facing")
     geometry = shown.grid._geometry
-    assert geometry is not None
     assert geometry.names == ("A", "B", "C", "D")
     before = shown.grid.grab().toImage()
     shown.grid.show_geometry(replace(geometry, names=()))
@@ -145,7 +138,6 @@ def test_the_list_of_a_stage_is_divided_by_subject(page: Page) -> None:
     heading = stage.child(titles.index("Lines"))
     tree.itemClicked.emit(heading, 0)
     assert stage.isExpanded()
-    assert shown.question is not None
     assert shown.question.template.name == "line-octants"
     tree.setCurrentItem(stage.child(titles.index("Lines") - 1))
     QTest.keyClick(tree, Qt.Key.Key_Down)
@@ -156,16 +148,14 @@ def test_a_belief_is_refuted_by_a_step_and_a_mistake_by_its_picture(
     page: Page, window: MainWindow, qtbot: QtBot
 ) -> None:
     shown = page("blend-over")
-    assert shown.question is not None
     shown.questions.answer(shown.question.draft.mistakes["order-reversed"])
     check(shown)
     button = shown.question_view.twin_button
     assert button.text() == "Show that picture"
     QTest.mouseClick(button, LEFT)
-    assert shown.grid.buffer() is not None
-    assert shown.grid.buffer().label == "the picture"  # type: ignore[union-attr]
+    assert shown.grid.buffer().label == "the picture"
     QTest.mouseClick(button, LEFT)
-    assert shown.grid.buffer().label == "your marks"  # type: ignore[union-attr]
+    assert shown.grid.buffer().label == "your marks"
     page("belief-w-is-one")
     shown.questions.answer(frozenset({2}))
     check(shown)
@@ -192,12 +182,11 @@ def test_a_belief_is_refuted_by_a_step_and_a_mistake_by_its_picture(
 def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path) -> None:
     """What was missed is counted; somebody else begins anew; answers are exchanged; a file is asked."""
     shown = page("triangle-coverage")
-    assert shown.question is not None
     shown.questions.answer(shown.question.draft.mistakes["y-down"])
     check(shown)
     QTest.mouseClick(shown.catalogue.progress_button, LEFT)
     tree = shown.progress_view.tree
-    rows = {tree.topLevelItem(0).child(k).text(0): tree.topLevelItem(0).child(k).text(1) for k in range(5)}  # type: ignore[union-attr]
+    rows = {tree.topLevelItem(0).child(k).text(0): tree.topLevelItem(0).child(k).text(1) for k in range(5)}
     assert rows["y down"] == "1 of 1"
     assert rows["corner for center"] == "0 of 1"
     shown.progress.export_to(str(tmp_path / "answers.json"))
@@ -226,7 +215,7 @@ def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path
         'version = 1\ntitle = "Mine"\nstage = "raster"\nquestion = "Which?"\n'
         '[answer]\ntype = "choice"\noptions = ["a", "b"]\nright = ["a"]\n'
     )
-    shown.window().open_path(str(path))  # type: ignore[attr-defined]
+    shown.window().open_path(str(path))
     shown.settle()
     assert shown.question.template.title == "Mine"
     assert shown.grid.isHidden()
@@ -236,15 +225,13 @@ def test_progress_users_files_and_a_teachers_exercise(page: Page, tmp_path: Path
 def test_the_third_miss_in_a_row_offers_the_step_that_decides(page: Page, qtbot: QtBot) -> None:
     for seed in range(3):
         shown = page("triangle-coverage", seed)
-        shown.questions.answer(shown.question.draft.mistakes["y-down"])  # type: ignore[union-attr]
+        shown.questions.answer(shown.question.draft.mistakes["y-down"])
         verdict = check(shown)
         assert ("Missed 3 times in a row." in verdict) is (seed == 2)
         assert shown.question_view.step_button.isHidden() is (seed < 2)
     question = shown.question
-    assert question is not None
     wrong = question.draft.mistakes["y-down"] ^ question.draft.answer.reference
     window = shown.window()
-    assert isinstance(window, MainWindow)
     with qtbot.waitSignal(window.opening.opened):
         QTest.mouseClick(shown.question_view.step_button, LEFT)
     assert window.session.cursor.stage == "raster"
@@ -260,7 +247,6 @@ def test_where_nothing_can_be_kept_the_verdict_says_so(page: Page, monkeypatch: 
     monkeypatch.setattr(Path, "touch", refuse)
     said: list[str] = []
     shown.edit_refused.connect(said.append)
-    assert shown.question is not None
     shown.questions.answer(shown.question.draft.answer.reference)
     assert check(shown).startswith("4 of 4 points")
     shown.exercises.begin()
@@ -305,7 +291,6 @@ def test_only_a_pixel_that_another_triangle_covers_is_double(tmp_path: Path) -> 
 
 def test_the_triangle_across_a_shared_edge_is_drawn_too() -> None:
     outline = outline_of(ask(TEMPLATES["shared-edge"], 0).draft, "raster")
-    assert outline is not None
     assert (outline.names, len(outline.triangles)) == (("A", "B"), 2)
 
 
@@ -319,6 +304,5 @@ def test_a_long_title_of_the_catalogue_is_read_whole(qtbot: QtBot) -> None:
     entries = tuple(ExerciseEntry(title, title, "1 point") for title in titles)
     view.show_exercises([ExerciseGroup("raster", "Raster", entries)], titles[0], "")
     stage = view.tree.topLevelItem(0)
-    assert stage is not None
     short, long = (view.tree.visualItemRect(stage.child(number)).height() for number in range(2))
     assert long >= short + view.tree.fontMetrics().lineSpacing()

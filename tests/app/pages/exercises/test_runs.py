@@ -44,7 +44,7 @@ def test_every_mistake_can_be_shown(name: str) -> None:
         elif is_pictured(question, mistake):
             assert faulty_picture(question, mistake).picture is not None
     if question.draft.answer.kind == "choice":
-        for place in range(len(question.draft.answer.options)):  # type: ignore[attr-defined]
+        for place in range(len(question.draft.answer.options)):
             refutation = judge(question, frozenset({place})).refutation
             if refutation is not None:
                 assert refuting_step(refutation, "").position

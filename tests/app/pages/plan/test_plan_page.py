@@ -325,7 +325,7 @@ def test_without_a_plan_the_chart_has_no_ring_and_says_so(window: MainWindow, pa
     assert "Run the analysis first" in window.statusBar().currentMessage()
 
 
-def test_closing_while_looking_ends_the_thread(page: PlanPage, qtbot: QtBot) -> None:
+def test_closing_while_looking_ends_the_thread(page: PlanPage) -> None:
     page.controls.rounds_box.setValue(99)
     page.start()
     start = time.perf_counter()

@@ -139,7 +139,7 @@ def test_a_buffer_that_is_alone_is_shown_once(window: MainWindow) -> None:
     window.session.set_stage("cull")
     assert not page.strip.isVisible()
     assert not page.main_area.buffer_choice.isEnabled()
-    assert page.main_area.buffer_choice.currentText() == page.grid.buffer().label  # type: ignore[union-attr]
+    assert page.main_area.buffer_choice.currentText() == page.grid.buffer().label
     window.session.set_stage("raster")
     assert page.strip.isVisible()
 

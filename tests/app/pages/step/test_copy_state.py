@@ -1,7 +1,6 @@
 """The state on the Step page, copied for a lesson, opens the same: A | B, pin, buffer and step."""
 
 import tomllib
-from pathlib import Path
 
 import pytest
 from PySide6.QtGui import QGuiApplication
@@ -18,7 +17,7 @@ def copied(window: MainWindow) -> dict[str, object]:
     return state
 
 
-def test_what_is_open_is_copied_for_a_lesson(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+def test_what_is_open_is_copied_for_a_lesson(window: MainWindow, qtbot: QtBot) -> None:
     window.open_path("fan")
     qtbot.waitUntil(lambda: window.session.document.title == "Fan of shared edges")
     session, page = window.session, window.page

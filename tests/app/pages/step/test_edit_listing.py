@@ -265,7 +265,7 @@ def test_a_click_on_a_line_goes_to_a_step_that_runs_it(window: MainWindow) -> No
     line = next(k for k, text in enumerate(source, 1) if text.strip().startswith("for "))
     second = window.page.comparing.second
     assert second is not None
-    labelled = set(window.page.inspector.shown_listing.lines.values())  # type: ignore[union-attr]
+    labelled = set(window.page.inspector.shown_listing.lines.values())
     assert line not in labelled
     listing.line_clicked.emit(line)
     assert said[-1] == f"Line {line} runs in this step."

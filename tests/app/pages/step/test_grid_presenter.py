@@ -26,7 +26,7 @@ def test_tiles_show_the_arrays_of_the_trace(window: MainWindow) -> None:
         state = session.stage_trace.state(session.cursor.position)
         if window.page.strip.isHidden():
             shown = {"": window.page.grid.buffer()}
-            assert list(state) in ([], [shown[""].name])  # type: ignore[union-attr]
+            assert list(state) in ([], [shown[""].name])
             continue
         shown = {name: window.page.strip.tile(name).grid.buffer() for name in window.page.strip.names()}
         assert set(state) <= set(shown)
@@ -47,7 +47,7 @@ def test_a_title_brings_its_buffer_into_the_main_view(window: MainWindow) -> Non
     assert buffer.name == "edge 1"
     window.session.set_stage("depth")
     window.session.set_stage("raster")
-    assert window.page.grid.buffer().name == "edge 1"  # type: ignore[union-attr]
+    assert window.page.grid.buffer().name == "edge 1"
 
 
 def test_overlays_stack(window: MainWindow) -> None:
@@ -89,11 +89,11 @@ def test_masks_are_the_marks_of_the_rows_done(window: MainWindow) -> None:
 def test_a_range_is_kept_until_it_is_reset(window: MainWindow) -> None:
     window.page.main_area.buffer_choice.buffer_chosen.emit("edge 0")
     window.page.ranges.range_changed.emit(-10.0, 10.0)
-    assert window.page.grid.buffer().range == (-10.0, 10.0)  # type: ignore[union-attr]
+    assert window.page.grid.buffer().range == (-10.0, 10.0)
     window.session.step(1)
-    assert window.page.grid.buffer().range == (-10.0, 10.0)  # type: ignore[union-attr]
+    assert window.page.grid.buffer().range == (-10.0, 10.0)
     window.page.ranges.range_reset.emit()
-    assert window.page.grid.buffer().range != (-10.0, 10.0)  # type: ignore[union-attr]
+    assert window.page.grid.buffer().range != (-10.0, 10.0)
 
 
 def test_handles_are_on_the_triangle_that_is_stepped(window: MainWindow) -> None:

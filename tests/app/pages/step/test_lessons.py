@@ -86,7 +86,7 @@ def test_a_step_is_one_entry_of_undo_and_closing_brings_back_what_was_open(
     before, cursor, panes = session.document, session.cursor, window.page.shown_panes()
     walk = opened(window, qtbot, tmp_path)
     assert (session.document.title, session.pin) == ("Fan of shared edges", (32, 24))
-    assert window.page.grid.buffer().name == "overdraw"  # type: ignore[union-attr]
+    assert window.page.grid.buffer().name == "overdraw"
     assert window.page.shown_panes() == ["inspector", "run"]
     assert window.page.card.isHidden()
     session.undo()
@@ -203,7 +203,7 @@ def test_a_question_hides_its_scene_until_it_is_answered(
     assert window.pages.current is window.page
     window.pages.show_page("start")
     assert not window.pages.is_covered
-    assert "a question about" in window.pages.current.now_label.text()  # type: ignore[attr-defined]
+    assert "a question about" in window.pages.current.now_label.text()
     QTest.keyClick(window, Qt.Key.Key_Right)
     assert (window.pages.current, session.cursor.position) == (window.page, 0)
     assert answered(walk, qtbot, 16).startswith("Right.")
@@ -265,7 +265,7 @@ def test_revealing_counts_as_seen(window: MainWindow, qtbot: QtBot, walk: Lesson
     QTest.keyClick(window, Qt.Key.Key_M, Qt.KeyboardModifier.ControlModifier)
     settled(window, qtbot)
     assert walk.view.feedback.text().startswith("This is the answer.\nSixteen, and none")
-    assert walk.view.answer.given() == [["16"]]  # type: ignore[union-attr]
+    assert walk.view.answer.given() == [["16"]]
     assert walk.view.check_button.isHidden()
     assert walk.standings[1] is SEEN
     assert kept(walk, window, qtbot)[-1].score == 0
@@ -339,13 +339,13 @@ check_after = ["drawn == {answer}"]
 def test_a_task_is_noticed_when_it_is_done(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
     task = opened(window, qtbot, tmp_path, 3)
     session, document = window.session, window.session.document
-    corners = np.array(document.scene.clip)  # type: ignore[union-attr]
+    corners = np.array(document.scene.clip)
     session.go_to(3)
     settled(window, qtbot)
     assert task.standings[3] is OPEN
     for triangle, corner in ((0, 2), (1, 1)):
         corners[triangle, corner, :2] = 2 * 4.25 / 6 - 1
-    scene = replace(document.scene, clip=corners)  # type: ignore[type-var]
+    scene = replace(document.scene, clip=corners)
     session.edit(replace(document, scene=scene))
     qtbot.waitUntil(lambda: task.standings[3] is DONE)
     assert task.view.feedback.text() == "Done."
@@ -572,7 +572,7 @@ def test_a_clicker_shows_how_a_task_is_done(window: MainWindow, qtbot: QtBot, tm
     assert walk.view.reveal_button.isVisible()
     QTest.keyClick(window, Qt.Key.Key_PageDown)
     settled(window, qtbot)
-    shown = window.session.document.scene.clip[0][2]  # type: ignore[union-attr]
+    shown = window.session.document.scene.clip[0][2]
     assert (shown[:2] == 2 * 4.25 / 6 - 1).all()
     assert (walk.number, walk.standings[3]) == (3, SEEN)
     assert walk.view.feedback.text() == "This is one way to do it."

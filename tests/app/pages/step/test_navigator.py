@@ -38,9 +38,9 @@ def test_a_model_fills_the_view_that_it_opens_in(model: MainWindow) -> None:
     space = presenter.space
     assert space is not None
     view = model.page.main_view()
-    camera = viewing_camera(space, view.orbit())  # type: ignore[attr-defined]
-    matrix = viewing_matrix(camera, view.picture_size())  # type: ignore[attr-defined]
-    places = fractions(matrix, space.vertices.world[:, :3])  # type: ignore[index]
+    camera = viewing_camera(space, view.orbit())
+    matrix = viewing_matrix(camera, view.picture_size())
+    places = fractions(matrix, space.vertices.world[:, :3])
     size = np.ptp(places, axis=0)
     assert size.max() >= 0.5
     assert places.min() >= 0
@@ -49,9 +49,9 @@ def test_a_model_fills_the_view_that_it_opens_in(model: MainWindow) -> None:
 
 def test_one_key_goes_into_the_triangle_and_one_back(model: MainWindow) -> None:
     view = model.page.main_view()
-    home = view.orbit()  # type: ignore[attr-defined]
+    home = view.orbit()
     model.run_action("fit_region")
-    assert view.orbit().extent < home.extent / 4  # type: ignore[attr-defined]
+    assert view.orbit().extent < home.extent / 4
     model.page.show_view("pixels")
     document = model.session.document
     assert document.raster.origin is not None
@@ -59,7 +59,7 @@ def test_one_key_goes_into_the_triangle_and_one_back(model: MainWindow) -> None:
     model.session.set_stage("raster", 0)
     model.run_action("whole_picture")
     assert model.page.current_view() == "scene"
-    assert view.chosen_orbit() is None  # type: ignore[attr-defined]
+    assert view.chosen_orbit() is None
     assert model.session.document.triangle == document.triangle
     model.run_action("fit_region")
     assert model.page.current_view() == "pixels"
@@ -68,10 +68,10 @@ def test_one_key_goes_into_the_triangle_and_one_back(model: MainWindow) -> None:
 
 def test_a_click_on_a_model_goes_into_the_triangle(model: MainWindow) -> None:
     view, presenter = model.page.main_view(), model.page.views.scene_presenter
-    home = view.orbit()  # type: ignore[attr-defined]
+    home = view.orbit()
     presenter._take_picked(700)
     assert model.session.document.triangle == 700
-    assert view.orbit().extent < home.extent / 4  # type: ignore[attr-defined]
+    assert view.orbit().extent < home.extent / 4
 
 
 @pytest.mark.own_window
@@ -192,13 +192,13 @@ def test_a_mesh_opens_large_from_its_front_also_when_it_opens_again(window: Main
     window.files.show_opened(opened)
     page.settle()
     view = page.main_view()
-    first = view.orbit()  # type: ignore[attr-defined]
+    first = view.orbit()
     assert np.abs(first.azimuth) < np.pi / 3, "a face that looks along +z is seen"
-    view.zoom_by(8.0)  # type: ignore[attr-defined]
+    view.zoom_by(8.0)
     page.grid.zoom_by(4.0)
     window.files.show_opened(opened)
     page.settle()
-    assert view.orbit() == first  # type: ignore[attr-defined]
+    assert view.orbit() == first
     assert page.grid.view().zoom == 1
 
 

@@ -90,7 +90,7 @@ def test_a_table_that_fills_is_laid_out_by_itself_and_painted_once(window: MainW
     session.set_stage("cull", 0)
     session.set_level(Level.TRIANGLE)
     page.settle()
-    cells = page.main_area.companions["cull"].widget.cells  # type: ignore[attr-defined]
+    cells = page.main_area.companions["cull"].widget.cells
     widths = {cells.columnWidth(0)}
     for _ in range(3):
         count = events_of_a_step(window, qtbot)

@@ -45,7 +45,7 @@ def test_a_pixel_found_outside_differs_from_none_not_reached() -> None:
     assert compare(*sides)[2].sentence == "0 of 3 pixels differ."
 
 
-def test_one_key_shows_both_and_the_pixels_again(window: MainWindow, qtbot: QtBot) -> None:
+def test_one_key_shows_both_and_the_pixels_again(window: MainWindow) -> None:
     QTest.keyClick(window, Qt.Key.Key_D, Qt.KeyboardModifier.ControlModifier)
     view = window.page.compare_view
     assert view.isVisible()

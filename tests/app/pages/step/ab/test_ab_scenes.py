@@ -175,7 +175,7 @@ def test_a_b_of_too_many_steps_is_refused(window: MainWindow, qtbot: QtBot) -> N
     qtbot.waitUntil(lambda: said.text().startswith("B cannot be drawn: Testing every pixel for all 2,208"))
 
 
-def test_leaving_ends_the_search_and_the_run_of_b(window: MainWindow, qtbot: QtBot) -> None:
+def test_leaving_ends_the_search_and_the_run_of_b(window: MainWindow) -> None:
     comparing = compared(window, "shared-edge", interpolation="affine").page.comparing
     before = window.session.cursor
     comparing.go_to_divergence()
