@@ -122,6 +122,7 @@ def test_all_readers_give_the_mesh_of_the_file(extension: str) -> None:
     assert ours_shared.contender(work) is pillow_peer.contender(work) is None
 
 
+@pytest.mark.slow
 def test_a_fresh_process_draws_the_same_picture() -> None:
     work = random_triangles(1, 50, (64, 48), 40.0)
     contender = cold_start.contender(ours, ColdStart(work))

@@ -18,7 +18,7 @@ from lessons.course.catalogue import Course, Exploration
 from lessons.course.lesson_file import Lesson, read_lesson
 from tests.lessons.course.lesson_texts import GOOD
 
-pytestmark = pytest.mark.own_window
+pytestmark = pytest.mark.shared_window
 NOW = datetime(2026, 11, 23, 12, tzinfo=UTC)
 
 

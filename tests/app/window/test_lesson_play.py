@@ -14,8 +14,8 @@ from lessons.course.catalogue import shipped
 from tests.app.cli.cli_runs import run_program
 from tests.lessons.course.lesson_texts import GOOD
 
-EVERYDAY = ("pixel-centres", "two-walls")
-"""Marked pixels, dragged corners and A | B; an atlas, a camera and depths."""
+EVERYDAY = ("pixel-centres",)
+"""Marked pixels, dragged corners and A | B."""
 
 
 @pytest.fixture(scope="module")

@@ -137,9 +137,10 @@ def test_the_folder_does_not_depend_on_the_running_program(monkeypatch):
         {
             "recent_files": ["", "\0", "a" * 5000, "//server/share/a.obj"],
             "theme": "presenter",
-            "geometry": "=",
+            "geometry": "AdnQywADAAA" + "/" * 400,
+            "page": "\0",
         },
-        {"geometry": "AdnQywADAAA" + "/" * 400, "page": "\0"},
+        pytest.param({"geometry": "="}, marks=pytest.mark.slow),
     ],
 )
 def test_preferences_that_say_nothing_sensible_open_a_window_too(folder, qtbot, content):

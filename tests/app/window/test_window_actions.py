@@ -120,6 +120,7 @@ def test_every_key_does_something(
     document, files, comparing = window.session.document, window.files, window.page.comparing
     idle = []
     # A new theme takes the longer the more pages there are, and without a window there is nothing more to try.
+    window.resize(853, 533)  # Small is painted sooner.
     early = ["presenter", "toggle_theme", "text_larger", "text_smaller"]
     order = dict.fromkeys(early, -1) | {"quit": 1}
     for action in sorted(STEPPED, key=lambda action: order.get(action.name, 0)):

@@ -134,7 +134,7 @@ def test_hover_reads_the_cell_and_leaving_reads_the_experiment(page: StabilityPa
 
 @pytest.mark.own_window
 def test_keys_go_from_cell_to_cell_and_from_map_to_map(page: StabilityPage, qtbot: QtBot) -> None:
-    run(page, qtbot)
+    ran(page, qtbot)
     canvas = page.maps.canvas
     canvas.setFocus()
     for key in (Qt.Key.Key_Right, Qt.Key.Key_Right, Qt.Key.Key_Up, Qt.Key.Key_Up, Qt.Key.Key_Down):
@@ -223,7 +223,7 @@ def test_escape_closes_the_case(page: StabilityPage, qtbot: QtBot) -> None:
 @pytest.mark.parametrize(
     ("name", "method", "stage"),
     [
-        ("painters-cycle", "visibility=painters", "depth"),
+        pytest.param("painters-cycle", "visibility=painters", "depth", marks=pytest.mark.slow),
         pytest.param("opposite-normals", "shading=flat", "shade", marks=pytest.mark.slow),
         pytest.param("minification", "texture_filter=nearest", "shade", marks=pytest.mark.slow),
         pytest.param("line-drift", "line=dda-float32", "raster", marks=pytest.mark.slow),
