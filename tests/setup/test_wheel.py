@@ -53,6 +53,7 @@ def test_wheel_holds_every_file_of_the_packages(wheel: Path) -> None:
     assert "core/py.typed" in names
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "words"), [(["--version"], [app.__version__]), (["--help"], ["render"])]
 )

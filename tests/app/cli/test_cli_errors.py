@@ -224,6 +224,7 @@ class TestWriting:
         assert run.returncode == 1
         assert run.stderr == "rasterscope methods: the output cannot be written: no space left on device\n"
 
+    @pytest.mark.slow
     def test_an_unbuffered_standard_output_that_is_cut_off(self, tmp_path):
         # A limit on the size of files: one write is done in part, as on a disk that fills up.
         code = (

@@ -199,6 +199,7 @@ def test_b_goes_to_a_pixel_that_only_it_looks_at(window: MainWindow, qtbot: QtBo
     assert shown.row == other.rows_at_pixel(27, 20)[0]
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWindow, qtbot: QtBot) -> None:
     window.page.toggle_pane("scene")

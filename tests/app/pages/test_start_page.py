@@ -182,6 +182,7 @@ def test_the_left_column_is_not_cut_while_presenting(window: MainWindow, page: S
         assert column.width() <= column.parentWidget().width()
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_reading_and_drawing_wait_until_the_page_is_painted(window: MainWindow, qtbot: QtBot) -> None:
     window.pages.show_page("start")

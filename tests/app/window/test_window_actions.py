@@ -16,6 +16,8 @@ from app.window.main_window import MainWindow
 from core.records.steps import Level
 from widgets.basics.theme import current_theme
 
+pytestmark = pytest.mark.shared_window
+
 
 def seen(window: MainWindow) -> tuple[object, ...]:
     """Return everything that an action may change, as a user could see it."""
@@ -109,6 +111,7 @@ def put_back(window: MainWindow, document: Document) -> None:
 STEPPED = [action for action in ACTIONS if action.keys and action.page in ("", "step")]
 
 
+@pytest.mark.own_window
 def test_every_key_does_something(
     window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

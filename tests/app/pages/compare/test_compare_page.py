@@ -270,6 +270,7 @@ def test_a_hidden_page_draws_no_points_until_it_is_seen(
     page.results.cancel()
 
 
+@pytest.mark.slow
 @pytest.mark.own_window
 def test_the_left_column_grows_with_the_type_and_comes_back(window: MainWindow, page: ComparePage) -> None:
     window.resize(1800, 700)

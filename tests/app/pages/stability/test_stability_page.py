@@ -344,6 +344,7 @@ def test_the_open_scene_is_counted(window: MainWindow, page: StabilityPage, qtbo
     assert page.choice.result.content is atlas, "what has been run stays when the scene changes"
 
 
+@pytest.mark.slow
 def test_cells_grow_with_the_type(window: MainWindow, page: StabilityPage, qtbot: QtBot) -> None:
     ran(page, qtbot)
     window.appearance.set_theme("presenter")
