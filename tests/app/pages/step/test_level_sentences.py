@@ -1,7 +1,8 @@
 """What decides is said at every level: of a row before what it does, of a larger step behind its counts."""
 
 import re
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from functools import partial
 from itertools import islice
 
 import pytest
@@ -26,21 +27,52 @@ def said(scene: AnyScene, stage: str, level: Level, settings: Settings | None = 
         yield sentence_at(Step(traced, Cursor(stage, position, level)))
 
 
-@pytest.mark.parametrize("level", Level)
-def test_what_the_printed_algorithm_gets_wrong(level: Level) -> None:
-    found = said(clipped(2, 8, 6, 8)(), "raster", level, Settings(line_clipping="cyrus-beck-lecture"))
-    wrong = "the top border is ignored, because it is parallel to the segment, and the segment is kept; "
-    assert any(
-        f"{wrong}it lies outside this border, so the right algorithm drops it." in text for text in found
-    )
+WRONG: dict[str, tuple[Callable[[], AnyScene], str, Settings, str]] = {
+    "a printed clipper": (
+        clipped(2, 8, 6, 8),
+        "raster",
+        Settings(line_clipping="cyrus-beck-lecture"),
+        "the top border is ignored, because it is parallel to the segment, and the segment is kept; "
+        "it lies outside this border, so the right algorithm drops it.",
+    ),
+    "a vertex behind the eye": (
+        partial(make_scene, "near-plane"),
+        "transform",
+        Settings(),
+        "as w is below 0 it lies behind the eye, and the division mirrors it",
+    ),
+    "a printed scanline": (
+        ALL_SCENES["lmu-scanline-triangle"].make,
+        "raster",
+        Settings(fill="scanline-lecture"),
+        "the sides are rounded and both ends drawn, column 2: 1 pixel; the right algorithm draws nothing",
+    ),
+    "a printed line": (
+        ALL_SCENES["pellacini-line"].make,
+        "raster",
+        printed_listing("pellacini-bresenham").settings(Settings()),
+        "; the right method (Midpoint) draws (1, 0) instead.",
+    ),
+    "the camera's axis": (
+        ALL_SCENES["jubair-backfaces"].make,
+        "cull",
+        Settings(cull="back-axis"),
+        "so it counts as a back; twice its signed area, 20.65, says the other side.",
+    ),
+}
+"""Scene, stage and settings to what is said there."""
 
 
 @pytest.mark.parametrize("level", Level)
-def test_a_vertex_behind_the_eye_is_mirrored(level: Level) -> None:
-    found = said(make_scene("near-plane"), "transform", level)
-    assert any(
-        "as w is below 0 it lies behind the eye, and the division mirrors it" in text for text in found
-    )
+@pytest.mark.parametrize("what", WRONG)
+def test_what_goes_wrong_is_said_at_every_level(what: str, level: Level) -> None:
+    make, stage, settings, wanted = WRONG[what]
+    assert any(wanted in text for text in said(make(), stage, level, settings))
+
+
+def test_where_the_right_side_is_seen_no_other_is_named() -> None:
+    right = said(ALL_SCENES["jubair-backfaces"].make(), "cull", Level.PIXEL, Settings(cull="back-normal"))
+    assert not any("says the other side" in text for text in right)
 
 
 def test_a_row_says_what_decided_and_what_it_did() -> None:
@@ -60,32 +92,6 @@ def test_a_row_says_what_decided_and_what_it_did() -> None:
 def test_a_pixel_of_a_span_names_its_columns() -> None:
     found = said(make_scene("single-triangle"), "raster", Level.PIXEL, Settings(fill="scanline"))
     assert any("a test of its own: it is in the span of row 6, columns 8 to 10." in text for text in found)
-
-
-@pytest.mark.parametrize("level", Level)
-def test_what_the_printed_scanline_gets_wrong(level: Level) -> None:
-    found = said(
-        ALL_SCENES["lmu-scanline-triangle"].make(), "raster", level, Settings(fill="scanline-lecture")
-    )
-    wanted = "Row 11: the sides are rounded and both ends drawn, columns 2 to 3: 2 pixels; the right algorithm draws "
-    first = "Row 12: the sides are rounded and both ends drawn, column 2: 1 pixel; the right algorithm draws nothing"
-    assert any(wanted in text or first in text for text in found)
-
-
-@pytest.mark.parametrize("level", Level)
-def test_what_a_printed_line_gets_wrong(level: Level) -> None:
-    settings = printed_listing("pellacini-bresenham").settings(Settings())
-    found = said(ALL_SCENES["pellacini-line"].make(), "raster", level, settings)
-    assert any("; the right method (Midpoint) draws (1, 0) instead." in text for text in found)
-
-
-@pytest.mark.parametrize("level", Level)
-def test_where_culling_by_the_camera_axis_sees_the_other_side(level: Level) -> None:
-    found = said(ALL_SCENES["jubair-backfaces"].make(), "cull", level, Settings(cull="back-axis"))
-    wanted = "so it counts as a back; twice its signed area, 20.65, says the other side."
-    assert any(wanted in text for text in found)
-    right = said(ALL_SCENES["jubair-backfaces"].make(), "cull", level, Settings(cull="back-normal"))
-    assert not any("says the other side" in text for text in right)
 
 
 def test_a_listing_as_printed_is_told_wrong_just_where_its_picture_is() -> None:
