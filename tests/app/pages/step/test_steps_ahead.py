@@ -34,6 +34,7 @@ def test_a_step_finds_its_formula_typeset(qtbot: QtBot) -> None:
         assert explanation is not None
         view.show_formula(formula(explanation))
         assert view.is_complete()
+    ahead.stop()
 
 
 def test_it_begins_only_when_the_window_has_come_to_rest(qtbot: QtBot) -> None:
