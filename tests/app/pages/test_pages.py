@@ -116,6 +116,7 @@ def test_the_page_comes_back(window: MainWindow, qtbot: QtBot) -> None:
     qtbot.addWidget(again)
     again.memory.restore(again)
     assert again.pages.current_name == "compare"
+    again.close()
 
 
 def test_a_page_that_is_gone_is_the_step_page(qtbot: QtBot) -> None:
@@ -124,6 +125,7 @@ def test_a_page_that_is_gone_is_the_step_page(qtbot: QtBot) -> None:
     qtbot.addWidget(made)
     made.memory.restore(made)
     assert made.pages.current_name == "step"
+    made.close()
 
 
 def test_a_page_opens_a_run_on_the_step_page(window: MainWindow, qtbot: QtBot) -> None:

@@ -203,6 +203,7 @@ def test_a_state_keeps_everything_that_was_chosen(window: MainWindow, qtbot: QtB
     found = again.files.state()
     assert (found.look, found.breakpoints, found.bookmarks) == (kept.look, kept.breakpoints, kept.bookmarks)
     assert again.page.stepping.bookmarks.text(0).endswith(": the first tie")
+    again.close()
 
 
 def test_a_bookmark_takes_a_note_by_key(window: MainWindow) -> None:
@@ -248,6 +249,7 @@ def test_the_window_comes_back_as_it_was_left(window: MainWindow, qtbot: QtBot) 
     assert not again.page.card.is_folded()
     assert again.page.timeline.speed_box.currentData() == speed
     assert preferences.theme == "dark"
+    again.close()
 
 
 def test_the_view_is_exported(window: MainWindow, tmp_path: Path) -> None:

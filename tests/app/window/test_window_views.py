@@ -208,3 +208,4 @@ def test_the_first_picture_in_space_fits_its_view(qtbot: QtBot) -> None:
         presenter.drawn.shot.orbit.extent
         == fitted(presenter.space.home, presenter.space.center, presenter.space.radius, width / height).extent
     )
+    cube.close()
