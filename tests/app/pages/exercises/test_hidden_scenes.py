@@ -151,6 +151,9 @@ def test_a_teachers_exercise_is_found_again(window: MainWindow, qtbot: QtBot, tm
     assert again.grid.marked() == {(4, 3)}
     page.unfinished.finish()
     path.write_text(EXERCISE.replace("[4, 5]", "[5, 5]"))
-    third = exercises(restarted(second, qtbot, "single-triangle"))
+    later = restarted(second, qtbot, "single-triangle")
+    third = exercises(later)
     assert third.question.template.version != again.question.template.version
     assert third.grid.marked() == frozenset(), "the answer was to another question"
+    for each in (second, later):
+        each.close()
