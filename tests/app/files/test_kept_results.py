@@ -44,34 +44,34 @@ def test_the_first_visit_shows_an_example_that_says_so(keeping: MainWindow, qtbo
     for name in ("compare", "stability"):
         keeping.pages.show_page(name)
         page = keeping.pages.current
-        qtbot.waitUntil(lambda page=page: page.results.choice.result is not None, timeout=20000)
-        assert page.results.choice.result.is_example
+        qtbot.waitUntil(lambda page=page: page.choice.result is not None, timeout=20000)
+        assert page.choice.result.is_example
         assert page.shown_text.text().startswith(said)
-        assert page.results.choice.result.machine["date"] in page.shown_text.text()
+        assert page.choice.result.content.machine["date"] in page.shown_text.text()
     compare = compare_page(keeping)
-    compare.results.start()
-    qtbot.waitUntil(lambda: not compare.results.is_running, timeout=60000)
+    compare.start()
+    qtbot.waitUntil(lambda: not compare.is_running, timeout=60000)
     assert said not in compare.shown_text.text()
-    assert not compare.results.choice.result.is_example
+    assert not compare.choice.result.is_example
 
 
 def test_a_study_is_there_again_at_the_next_start(
     keeping: MainWindow, later: MainWindow, qtbot: QtBot
 ) -> None:
     first = compare_page(keeping)
-    first.results.start()
-    qtbot.waitUntil(lambda: not first.results.is_running, timeout=60000)
+    first.start()
+    qtbot.waitUntil(lambda: not first.is_running, timeout=60000)
     first.stop()
-    study = first.results.study
+    study = first.content
     assert os.listdir(results_folder()) == ["study-visibility.json"]
     second = compare_page(later)
-    qtbot.waitUntil(lambda: second.results.study is not None, timeout=20000)
-    again = second.results.study
+    qtbot.waitUntil(lambda: second.content is not None, timeout=20000)
+    again = second.content
     assert [point.seconds.tolist() for point in again.points] == [p.seconds.tolist() for p in study.points]
     assert len(second.scatter.places()) == len(study.points)
     assert "Kept from an earlier start." in second.shown_text.text()
-    assert second.results.choice.dial_values == dict(study.dials)
-    second.opened.choose("visibility=painters")
+    assert second.choice.dial_values == dict(study.dials)
+    second.choose("visibility=painters")
     qtbot.waitUntil(lambda: second.pictures.linked.grids[0].buffer() is not None, timeout=60000)
 
 
@@ -80,22 +80,22 @@ def test_an_atlas_is_there_again_and_one_of_a_scene_says_that_it_has_none(
 ) -> None:
     keeping.pages.show_page("stability")
     first = keeping.pages.current
-    first.results.show_named(OPEN_SCENE)
-    first.results.choice.resolution = "coarse"
-    first.results.start()
-    qtbot.waitUntil(lambda: not first.results.is_running, timeout=60000)
+    first.show_named(OPEN_SCENE)
+    first.choice.resolution = "coarse"
+    first.start()
+    qtbot.waitUntil(lambda: not first.is_running, timeout=60000)
     first.stop()
     later.pages.show_page("stability")
     second = later.pages.current
-    second.results.show_named(OPEN_SCENE)
-    qtbot.waitUntil(lambda: second.results.result is not None, timeout=20000)
-    assert second.results.cells.keys() == first.results.cells.keys()
-    second.opened.choose_failure(next(iter(second.results.cells)))
-    assert not second.jobs.looking.is_running, "another scene is open: its cells are not those of the atlas"
+    second.show_named(OPEN_SCENE)
+    qtbot.waitUntil(lambda: second.choice.result is not None, timeout=20000)
+    assert second.info.methods == first.info.methods
+    second.choose_failure(second.info.methods[0])
+    assert not second.jobs.is_running, "another scene is open: its cells are not those of the atlas"
     assert second.controls.start_button.isEnabled()
-    second.results.start()
-    assert second.results.is_running, "it is run on the scene that is open now"
-    second.results.cancel()
+    second.start()
+    assert second.is_running, "it is run on the scene that is open now"
+    second.cancel()
 
 
 def test_a_file_that_is_broken_is_told_and_the_others_are_shown(keeping: MainWindow, qtbot: QtBot) -> None:
@@ -103,8 +103,8 @@ def test_a_file_that_is_broken_is_told_and_the_others_are_shown(keeping: MainWin
     (results_folder() / "study-cull.json").write_text("{")
     (results_folder() / "study-line.json").write_text(study_json(hand_made()), encoding="utf-8")
     page = compare_page(keeping)
-    page.results.show_named("line")
-    qtbot.waitUntil(lambda: page.results.study is not None, timeout=20000)
+    page.show_named("line")
+    qtbot.waitUntil(lambda: page.content is not None, timeout=20000)
     qtbot.waitUntil(keeping.messages.isVisible, timeout=20000)
     assert "study-cull.json cannot be opened" in keeping.messages.text.text()
 
@@ -112,8 +112,8 @@ def test_a_file_that_is_broken_is_told_and_the_others_are_shown(keeping: MainWin
 def test_what_is_measured_now_is_not_replaced_by_what_was_kept(window: MainWindow, qtbot: QtBot) -> None:
     page = compare_page(window)
     study = measured(page, qtbot)
-    page.results.take_kept(hand_made("visibility"))
-    assert page.results.study is study
+    page.take_kept(hand_made("visibility"))
+    assert page.content is study
 
 
 def test_a_cancelled_measurement_keeps_the_file_of_the_one_before(keeping: MainWindow, qtbot: QtBot) -> None:
@@ -122,9 +122,9 @@ def test_a_cancelled_measurement_keeps_the_file_of_the_one_before(keeping: MainW
     path = results_folder() / "study-visibility.json"
     qtbot.waitUntil(path.exists, timeout=20000)
     before = path.read_bytes()
-    page.results.choice.rounds = 90
+    page.choice.rounds = 90
     QTest.keyClick(keeping, Qt.Key.Key_F5)
-    page.results.cancel()
+    page.cancel()
     page.stop()
     assert path.read_bytes() == before
 
@@ -170,17 +170,17 @@ def test_a_folder_that_cannot_be_made_is_told(
 
 def test_a_running_measurement_is_not_dropped_for_another(window: MainWindow, qtbot: QtBot) -> None:
     page = compare_page(window)
-    page.results.choice.rounds = 90
+    page.choice.rounds = 90
     QTest.keyClick(window, Qt.Key.Key_F5)
-    page.results.show_named("line")
+    page.show_named("line")
     QTest.keyClick(window, Qt.Key.Key_F5)
     assert "Hidden surfaces is still being measured" in window.statusBar().currentMessage()
-    assert page.results.is_running
+    assert page.is_running
     qtbot.waitUntil(lambda: page.controls.doing.text().startswith("Hidden surfaces: "), timeout=20000)
     assert page.controls.cancel_button.isVisible()
     window.pages.show_page("step")
     qtbot.waitUntil(lambda: "%" in bar_text(window), timeout=20000)
-    page.results.cancel()
+    page.cancel()
     assert bar_text(window) == "Compare"
 
 
@@ -191,8 +191,8 @@ def bar_text(window: MainWindow) -> str:
 def test_a_study_that_is_done_is_shown_on_its_family(window: MainWindow, qtbot: QtBot) -> None:
     page: ComparePage = compare_page(window)
     QTest.keyClick(window, Qt.Key.Key_F5)
-    page.results.show_named("cull")
-    qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
-    assert page.results.result is None
-    page.results.show_named("visibility")
-    assert page.results.result is not None
+    page.show_named("cull")
+    qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
+    assert page.choice.result is None
+    page.show_named("visibility")
+    assert page.choice.result is not None

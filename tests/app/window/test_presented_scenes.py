@@ -226,8 +226,8 @@ def test_f5_measures_on_compare(presented: MainWindow) -> None:
     page = presented.pages.current
     assert isinstance(page, ComparePage)
     press(presented, Qt.Key.Key_F5)
-    assert page.results.is_running
-    page.results.cancel()
+    assert page.is_running
+    page.cancel()
     assert presented.pages.current is page
 
 

@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 
 from app.files.open_any import Opened, open_any
 from app.pages.compare.page import ComparePage
-from app.pages.result_page import WorkPage
+from app.pages.experiment_page import ExperimentPage
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES
@@ -233,7 +233,7 @@ def test_charts_have_half_of_the_screen_and_the_desk_comes_back(
     for name in ("stability", "compare"):
         window.pages.show_page(name)
         shown = window.pages.current
-        assert isinstance(shown, WorkPage)
+        assert isinstance(shown, ExperimentPage)
         window.page.settle()
         view = shown.main_view()
         assert view.width() * view.height() >= 0.5 * size[0] * size[1], name

@@ -2,6 +2,7 @@
 
 import time
 from dataclasses import replace
+from functools import partial
 
 import pytest
 from PySide6.QtCore import QPoint, Qt
@@ -10,9 +11,10 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.pages.compare.charts import TIME
-from app.pages.compare.jobs import StudyOrder
+from app.pages.compare.jobs import measured as measured_on
 from app.pages.compare.page import ComparePage
 from app.window.main_window import MainWindow
+from core.study import measure
 from core.study.accuracy.families import study_families
 from tests.app.pages.compare.compare_pages import WRONG, compare_page, hand_made, measured
 from widgets.basics.theme import LIGHT, current_theme
@@ -43,7 +45,7 @@ def test_an_empty_page_says_what_to_do(page: ComparePage) -> None:
 
 def test_measuring_shows_every_method_and_the_front(page: ComparePage, qtbot: QtBot) -> None:
     drawn: list[int] = []
-    page.jobs.measuring.part_done.connect(lambda _: drawn.append(len(page.scatter.places())))
+    page.work.part_done.connect(lambda _: drawn.append(len(page.scatter.places())))
     study = measured(page, qtbot)
     assert [point.method for point in study.points] == [key for key, _ in page.scatter.places()]
     assert drawn[0] == 1, "points appear as they are measured"
@@ -62,15 +64,15 @@ def test_measuring_shows_every_method_and_the_front(page: ComparePage, qtbot: Qt
 def test_a_family_that_has_a_result_can_be_shown_while_another_is_measured(
     page: ComparePage, qtbot: QtBot
 ) -> None:
-    page.results.take_saved(hand_made(), "lines.json")
-    page.results.show_named("visibility")
-    showing = page.jobs.measuring.part_done.connect(lambda _: page.results.show_named("line"))
+    page.take_saved(hand_made(), "lines.json")
+    page.show_named("visibility")
+    showing = page.work.part_done.connect(lambda _: page.show_named("line"))
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
-    qtbot.waitUntil(lambda: not page.results.is_running, timeout=60000)
-    page.jobs.measuring.part_done.disconnect(showing)
+    qtbot.waitUntil(lambda: not page.is_running, timeout=60000)
+    page.work.part_done.disconnect(showing)
     assert [key for key, _ in page.scatter.places()] == ["line=bresenham", "line=dda"]
-    page.results.show_named("visibility")
-    study = page.results.study
+    page.show_named("visibility")
+    study = page.content
     assert study is not None
     assert [key for key, _ in page.scatter.places()] == [point.method for point in study.points]
 
@@ -79,17 +81,17 @@ def test_cancelling_leaves_what_was_measured_before(page: ComparePage, qtbot: Qt
     before = measured(page, qtbot)
     picture = page.scatter.picture
     assert picture is not None
-    page.results.choice.rounds = 90
+    page.choice.rounds = 90
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     assert page.scatter.places() == [], "what is being measured anew is not shown with old numbers"
     QTest.keyClick(page.window(), Qt.Key.Key_Escape)
-    assert not page.results.is_running
-    assert page.results.study is before
+    assert not page.is_running
+    assert page.content is before
     again = page.scatter.picture
     assert again is not None
     assert [series.x.tolist() for series in again.series] == [series.x.tolist() for series in picture.series]
     qtbot.wait(100)
-    assert page.results.study is before, "no late point of the cancelled measurement comes in"
+    assert page.content is before, "no late point of the cancelled measurement comes in"
 
 
 @pytest.mark.own_window
@@ -99,39 +101,39 @@ def test_cancelling_the_first_measurement_draws_nothing(page: ComparePage, qtbot
     def cancel_at_the_first_point(_: object) -> None:
         if not drawn:
             drawn.append(len(page.scatter.places()))
-            page.results.cancel()
+            page.cancel()
 
-    page.jobs.measuring.part_done.connect(cancel_at_the_first_point)
+    page.work.part_done.connect(cancel_at_the_first_point)
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     qtbot.waitUntil(lambda: bool(drawn), timeout=60000)
     assert drawn == [1]
     assert page.scatter.places() == []
-    assert page.results.result is None
+    assert page.choice.result is None
 
 
 def test_a_failed_measurement_leaves_earlier_results(page: ComparePage, qtbot: QtBot) -> None:
     before = measured(page, qtbot)
-    page.jobs.measure(StudyOrder("visibility", "cycle", {"length": 3.0}, 1, 0))
+    page.begin(partial(measured_on, partial(measure, "visibility", "cycle", {"length": 3.0}), None), "")
     window = page.window()
     assert isinstance(window, MainWindow)
     qtbot.waitUntil(lambda: window.messages.isVisible(), timeout=60000)
     assert "dial of cycle must be one of none" in window.messages.text.text()
-    assert page.results.study is before
+    assert page.content is before
     assert len(page.scatter.places()) == len(before.points)
 
 
 def test_results_are_kept_for_every_family(page: ComparePage, qtbot: QtBot) -> None:
     study = measured(page, qtbot)
     QTest.keyClick(page.window(), Qt.Key.Key_PageDown, Qt.KeyboardModifier.ControlModifier)
-    assert page.results.choice.name == "cull"
+    assert page.choice.name == "cull"
     assert page.scatter.places() == []
     page.entries.setCurrentRow(page.entries.currentRow() - 1)
-    assert page.results.study is study
+    assert page.content is study
     assert len(page.scatter.places()) == len(study.points)
 
 
 def test_hover_reads_the_figures_and_is_linked(page: ComparePage) -> None:
-    page.results.take_saved(hand_made(), "lines.json")
+    page.take_saved(hand_made(), "lines.json")
     QApplication.processEvents()
     place = page.scatter.place_of("line=dda")
     assert place is not None
@@ -146,7 +148,7 @@ def test_hover_reads_the_figures_and_is_linked(page: ComparePage) -> None:
 
 
 def test_a_refusal_and_a_reason_are_listed_and_never_drawn(page: ComparePage) -> None:
-    page.results.take_saved(hand_made(), "lines.json")
+    page.take_saved(hand_made(), "lines.json")
     assert {key for key, _ in page.scatter.places()} == {"line=bresenham", "line=dda"}
     text = page.readout.text()
     for wanted in (
@@ -158,14 +160,14 @@ def test_a_refusal_and_a_reason_are_listed_and_never_drawn(page: ComparePage) ->
     ):
         assert wanted in text
     QTest.keyClick(page.window(), Qt.Key.Key_E)
-    assert page.results.choice.measure == "area"
+    assert page.choice.measure == "area"
     assert {key for key, _ in page.scatter.places()} == {"line=bresenham", "line=dda", "line=midpoint"}
     QTest.keyClick(page.window(), Qt.Key.Key_E)
-    assert page.results.choice.measure == "far", "the first comes after the last"
+    assert page.choice.measure == "far", "the first comes after the last"
 
 
 def test_the_same_marks_in_both_charts(page: ComparePage) -> None:
-    page.results.take_saved(hand_made(), "lines.json")
+    page.take_saved(hand_made(), "lines.json")
     pictures = page.scatter.picture, page.growth.picture
     assert pictures[0] is not None
     assert pictures[1] is not None
@@ -176,7 +178,7 @@ def test_the_same_marks_in_both_charts(page: ComparePage) -> None:
 
 
 def test_a_count_takes_the_place_of_time_in_both_charts(page: ComparePage) -> None:
-    page.results.take_saved(hand_made(), "lines.json")
+    page.take_saved(hand_made(), "lines.json")
     QTest.keyClick(page.window(), Qt.Key.Key_X)
     assert page.controls.cost_box.currentText() == "Pixels drawn"
     scatter, growth = page.scatter.picture, page.growth.picture
@@ -187,22 +189,22 @@ def test_a_count_takes_the_place_of_time_in_both_charts(page: ComparePage) -> No
     assert scatter.front == ("line=bresenham",)
     assert growth.y_axis.title == "Pixels drawn"
     QTest.keyClick(page.window(), Qt.Key.Key_X)
-    assert page.results.choice.cost == TIME
+    assert page.choice.cost == TIME
 
 
 def test_the_whole_pipeline_is_measured_on_the_open_scene(
     window: MainWindow, page: ComparePage, qtbot: QtBot
 ) -> None:
-    page.results.show_named("pipeline")
-    page.results.choice.rounds = 1
+    page.show_named("pipeline")
+    page.choice.rounds = 1
     scene = window.session.document.scene
-    page.results.start()
+    page.start()
     qtbot.waitUntil(lambda: len(page.scatter.places()) > 2, timeout=60000)
-    study = page.results.study
+    study = page.content
     assert study is not None
     assert study.scene == "Two triangles sharing an edge"
     assert study.settings == window.session.document.settings
-    page.results.cancel()
+    page.cancel()
     assert window.session.document.scene is scene
 
 
@@ -223,21 +225,21 @@ def test_panes_come_back_as_they_were(page: ComparePage) -> None:
 
 @pytest.mark.own_window
 def test_closing_while_measuring_ends_the_thread(page: ComparePage) -> None:
-    page.results.choice.rounds = 99
-    page.results.start()
+    page.choice.rounds = 99
+    page.start()
     start = time.perf_counter()
     page.window().close()
-    assert not page.results.is_running
+    assert not page.is_running
     assert time.perf_counter() - start < 20
 
 
 def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
     study = hand_made()
-    page.results.take_saved(study, "few.json")
+    page.take_saved(study, "few.json")
     assert not page.legend.isVisible()
     many = tuple(replace(study.points[n % 2], method=f"line=m{n}", title=f"Method {n}") for n in range(20))
     growth = dict.fromkeys(study.growth, many)
-    page.results.take_saved(replace(study, points=many, growth=growth), "many.json")
+    page.take_saved(replace(study, points=many, growth=growth), "many.json")
     QApplication.processEvents()
     assert page.legend.isVisible()
     assert page.legend.count() == 20
@@ -246,7 +248,7 @@ def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
     assert page.scatter.pointed == page.growth.pointed == "line=m3"
     assert "line=m3" in page.readout.text()
     QTest.mouseClick(page.legend.viewport(), Qt.MouseButton.LeftButton, pos=row)
-    assert page.opened.chosen == ("line=m3",)
+    assert page.chosen == ("line=m3",)
     assert page.legend.item(3).text() == "A: Method 3"
     QApplication.processEvents()
     place = page.scatter.place_of("line=m1")
@@ -258,16 +260,16 @@ def test_a_crowded_chart_has_a_list_of_its_marks(page: ComparePage) -> None:
 def test_a_hidden_page_draws_no_points_until_it_is_seen(
     window: MainWindow, page: ComparePage, qtbot: QtBot
 ) -> None:
-    page.results.choice.rounds = 90
+    page.choice.rounds = 90
     QTest.keyClick(page.window(), Qt.Key.Key_F5)
     window.pages.show_page("step")
     measured_first: list[object] = []
-    page.jobs.measuring.part_done.connect(measured_first.append)
+    page.work.part_done.connect(measured_first.append)
     qtbot.waitUntil(lambda: len(measured_first) > 20, timeout=60000)
     assert page.scatter.places() == []
     window.pages.show_page("compare")
     assert len(page.scatter.places()) > 1, "what came meanwhile is there at once"
-    page.results.cancel()
+    page.cancel()
 
 
 @pytest.mark.slow

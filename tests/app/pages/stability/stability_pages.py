@@ -58,8 +58,6 @@ def wait_for_shrunk(page: StabilityPage, qtbot: QtBot) -> Shrunk:
     qtbot.waitUntil(
         lambda: page.opened.found is not None and page.opened.found.shrunk is not None, timeout=60000
     )
-    assert page.opened.found is not None
-    assert page.opened.found.shrunk is not None
     return page.opened.found.shrunk
 
 
