@@ -27,20 +27,19 @@ from core.stages.declared import STAGES
 from core.trace import Trace, trace
 
 if TYPE_CHECKING:
-    from core.assembly.primitives import assemble
     from core.fast_path import Picture, draw_picture
-    from core.geometry.line_clipping.clipping import clip_lines
-    from core.geometry.line_clipping.records import ClippedLines
+    from core.lines.drawing import draw_lines
+    from core.lines.line_clipping import ClippedLines, clip_lines
     from core.pipeline import draw_triangles, render
-    from core.raster.lines.drawing import draw_lines
+    from core.transform.assembly import assemble
 else:
     __getattr__ = import_on_demand(
         globals(),
-        ClippedLines="core.geometry.line_clipping.records",
+        ClippedLines="core.lines.line_clipping",
         Picture="core.fast_path",
-        assemble="core.assembly.primitives",
-        clip_lines="core.geometry.line_clipping.clipping",
-        draw_lines="core.raster.lines.drawing",
+        assemble="core.transform.assembly",
+        clip_lines="core.lines.line_clipping",
+        draw_lines="core.lines.drawing",
         draw_picture="core.fast_path",
         draw_triangles="core.pipeline",
         render="core.pipeline",

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 from typing import Any
 
 from core.methods import is_registered, table
-from core.records.nouns import nouns
+from core.records.words import nouns
 from core.scene import AnyScene, ClipScene
 
 
@@ -124,7 +124,7 @@ def suited(settings: Any, scene: AnyScene) -> Any:
     if corner_count == 3:
         return settings
     if isinstance(scene, ClipScene) and scene.table is not None:
-        from core.framebuffer.whole_depths import TABLE_DEPTHS  # Only such scenes wait for it.
+        from core.depth.whole_depths import TABLE_DEPTHS  # Only such scenes wait for it.
 
         casts_rays = is_registered(settings.visibility, "ray-casting")
         seen = "z-buffer" if casts_rays else settings.visibility

@@ -19,7 +19,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
-    from core.records.operation import Operation
+    from core.records.listing import Operation
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -50,7 +50,7 @@ class Method:
     operations: "Mapping[str, tuple[Operation, ...]]" = field(default_factory=dict)
     """What the rows of its own in a trace do, by their kind."""
     traits: Any = None
-    """What only methods of its family have: a record of the family's own, as `core.raster.lines.traits.LineTraits`."""
+    """What only methods of its family have: a record of the family's own, as `core.lines.line_method.LineTraits`."""
     edits: tuple[Any, ...] = ()
     """The `core.edits.edit.Edit` that it runs, in the place of listings of the method that has its name."""
 
@@ -186,15 +186,21 @@ class MethodTable:
 
 
 def package_of(module: str) -> str:
-    """Return the folder that a module stands in, as ``core.raster.lines``."""
+    """Return the folder that a module stands in, as ``core.lines``."""
     return module.rpartition(".")[0]
+
+
+NO_RULES = ("told", "traced", "measured")
+"""How the files of a topic begin that tell, trace or measure what its rules do."""
 
 
 @cache
 def modules_in(package: str) -> tuple[str, ...]:
-    """Return the modules that stand in a folder itself, by name."""
-    found = pkgutil.iter_modules(import_module(package).__path__, f"{package}.")
-    return tuple(sorted(module.name for module in found if not module.ispkg))
+    """Return the modules of rules that stand in a folder itself, by name: not those that tell, trace or measure."""
+    found = [
+        module.name for module in pkgutil.iter_modules(import_module(package).__path__) if not module.ispkg
+    ]
+    return tuple(sorted(f"{package}.{name}" for name in found if not name.startswith(NO_RULES)))
 
 
 table = MethodTable({})

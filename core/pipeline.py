@@ -19,25 +19,25 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.antialiasing.sample_rasters import (
+from core.antialiasing.resolve import (
     at_sample,
     bands_of,
+    filter_weights,
     finer_raster,
     finer_scene,
     finer_settings,
     grown,
     in_squares,
     join_bands,
+    reach_of,
     resolve_frame,
 )
 from core.antialiasing.sampling import ROTATED_GRID, grid_positions
+from core.coverage.fills import Fragments
+from core.coverage.pixel_runs import Raster
+from core.depth.depth import NearestFragments, Stored
 from core.families import suited
-from core.framebuffer.depth import Stored
-from core.framebuffer.nearest import NearestFragments
-from core.framebuffer.resolve import filter_weights, reach_of
-from core.raster.coverage import Fragments
-from core.raster.lines.intensities import weigh_alpha, writes_depth
-from core.raster.pixel_runs import Raster
+from core.lines.wireframe_fragments import weigh_alpha, writes_depth
 from core.records.arrays import Integers, Singles
 from core.records.frame import Frame, Samples, StageCount
 from core.resolved import resolve
@@ -45,8 +45,15 @@ from core.scene import AnyScene, ClipScene, Texture
 from core.settings import DEFAULTS, Settings
 from core.stages.bin_and_raster import Counts, fragments_of
 from core.stages.declared import STAGES
-from core.stages.fragment_depth import fragment_depth
-from core.stages.fragments import fragments_at, interpolate, not_discarded, owner_of, shade, shade_once
+from core.stages.fragments import (
+    fragment_depth,
+    fragments_at,
+    interpolate,
+    not_discarded,
+    owner_of,
+    shade,
+    shade_once,
+)
 from core.stages.hidden_surfaces import Visible, decide_fragments
 from core.stages.needs import check_edits
 from core.stages.vertices import Geometry, process_geometry

@@ -8,16 +8,16 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any
 
 from core.methods import Method, ReplacedName, is_registered, table
-from core.records.cached import cached_property
+from core.records.arrays import cached_property
 from core.settings import FAMILIES, Settings, import_methods
 
 if TYPE_CHECKING:
     from core.antialiasing.sampling import Sampling
-    from core.framebuffer.depth import DepthFormat
-    from core.geometry.normal_view import EyeTriangles, NormalView
-    from core.geometry.polygon_clipping.methods import PolygonClipping
-    from core.raster.edges.edge_functions import PixelRule
-    from core.raster.number_formats.number_format import NumberFormat
+    from core.clipping.planes import PolygonClipping
+    from core.coverage.edges import PixelRule
+    from core.coverage.number_formats import NumberFormat
+    from core.culling.normal_view import EyeTriangles, NormalView
+    from core.depth.depth import DepthFormat
     from core.records.primitives import DrawingOrder
 
 MIXING = "over"
@@ -92,8 +92,8 @@ class ResolvedSettings:
 
     @cached_property
     def fill_name(self) -> str:
-        """The fill that runs; see `core.raster.fills.tested.effective_fill`."""
-        from core.raster.fills.tested import effective_fill
+        """The fill that runs; see `core.coverage.fills.effective_fill`."""
+        from core.coverage.fills import effective_fill
 
         return effective_fill(self.settings.fill, self.settings.coverage)
 
@@ -105,14 +105,14 @@ class ResolvedSettings:
     @cached_property
     def pixel_rule(self) -> "PixelRule | None":
         """What decides on a pixel of a triangle, where it is not the inside test."""
-        from core.raster.fills.traits import fill_traits
+        from core.coverage.pixel_runs import fill_traits
 
         return fill_traits(self.fill_name).rule
 
     @cached_property
     def looks_everywhere(self) -> bool:
         """Whether the fill looks at every pixel of the raster for every triangle."""
-        from core.raster.fills.traits import fill_traits
+        from core.coverage.pixel_runs import fill_traits
 
         return fill_traits(self.fill_name).looks_everywhere
 
@@ -134,7 +134,7 @@ class ResolvedSettings:
 
     @cached_property
     def polygon_fill(self) -> Callable[..., Any]:
-        """What of a row that crosses a polygon is inside, see `core.raster.polygon_fills.active_edges.Rule`."""
+        """What of a row that crosses a polygon is inside, see `core.coverage.active_edges.Rule`."""
         return self.method("polygon_fill").function
 
     @cached_property
@@ -158,10 +158,10 @@ class ResolvedSettings:
     def blend_inserted_for(self) -> str:
         """The line method that needs blending although the settings have none, else empty.
 
-        The pixels of a line with intensities are mixed with what is there (`core.raster.lines.intensities`).
+        The pixels of a line with intensities are mixed with what is there (`core.lines.wireframe_fragments`).
         """
         from core.framebuffer.blending import blend_traits
-        from core.raster.lines.traits import has_intensities
+        from core.lines.line_method import has_intensities
 
         needs_mixing = self.is_outlined and has_intensities(self.settings.line)
         return self.settings.line if needs_mixing and not blend_traits(self.settings.blend).mixes else ""

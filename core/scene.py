@@ -7,15 +7,14 @@ from typing import ClassVar
 
 import numpy as np
 
-from core.records.arrays import Floats, Integers, Singles, checked, checked_size, read_only
-from core.records.cached import cached_property
+from core.records.arrays import Floats, Integers, Singles, cached_property, checked, checked_size, read_only
 from core.records.clip_region import checked_polygon_region, checked_region
 from core.records.depth_table import DepthTable
-from core.records.rings import checked_rings
+from core.records.primitives import checked_rings
 from core.shaders.record import ShaderProgram
 
 SIZE_LIMIT = 16384
-"""Largest raster, in pixels each way: edge functions stay exact in float64 (see core.raster.edges.edge_functions)."""
+"""Largest raster, in pixels each way: edge functions stay exact in float64 (see core.coverage.edges)."""
 
 POLYGON_REACH = 8
 """How far from the middle corners of polygons may lie, in halves of the raster: crossings stay exact in int64."""
@@ -238,10 +237,10 @@ class Scene:
 
 
 CORNER_COUNTS = {"points": 1, "segments": 2, "triangles": 3, "fragments": 0}
-"""Kinds of primitives and how many corners each has; `core.assembly.primitives` makes them from strips, fans and quads.
+"""Kinds of primitives and how many corners each has; `core.transform.assembly` makes them from strips, fans and quads.
 
 ``polygons`` have any number of corners from `POLYGON_CORNERS` on, in rings. Fragments have a place and a depth, but no
-corner: they enter the pipeline at the depth test (`core.assembly.depth_tables`).
+corner: they enter the pipeline at the depth test (`core.depth.whole_depths`).
 """
 KINDS = (*CORNER_COUNTS, "polygons")
 POLYGON_CORNERS = (4, 1000)
@@ -285,7 +284,7 @@ class ClipScene:
     region_rings: Integers | None = None
     """(R,) int64, the same of ``clip_region``."""
     table: DepthTable | None = None
-    """What fragments are made from (`core.assembly.depth_tables.table_scene`); ``None`` of all other kinds."""
+    """What fragments are made from (`core.depth.whole_depths.table_scene`); ``None`` of all other kinds."""
     corner_count: int = field(init=False)
     """How many corners a primitive has."""
 

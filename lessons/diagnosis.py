@@ -1,4 +1,4 @@
-"""Which mistake, or which other method, makes a picture that somebody drew with a program of their own."""
+"""Which mistake, or which other method, makes a picture that somebody drew with a program; and what to say of it."""
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
@@ -8,15 +8,18 @@ import numpy as np
 
 from core import Settings, render
 from core.framebuffer.display import Bytes, picture_bytes, to_display
-from core.geometry.vertex_stage import transform_vertices
 from core.methods import table
 from core.records.arrays import Flags, Integers
 from core.records.frame import Frame
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.settings import FAMILIES, no_effect, settings_from_texts
+from core.transform.vertex_stage import transform_vertices
 from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.twin import Twin, same_scene
+
+# Which mistake, or which other method, makes a picture that somebody drew with a program of their own.
+
 
 PIXEL_LIMIT = 1 << 18
 """Most pixels of a picture: it is compared with one of each mistake and method."""
@@ -370,3 +373,32 @@ def _as_coverage(drawn: Drawn) -> list[Drawn]:
     elif (drawn.colors[~first] != drawn.colors[~first][0]).any():
         return []
     return [Drawn(covered=~first), Drawn(covered=first)]
+
+
+# What a comparison of pictures found, in the words of command line and window.
+
+
+PIXELS_SHOWN = 20
+
+
+def scene_text(title: str, scene: AnyScene) -> str:
+    """Return which scene a picture is compared with."""
+    return f"{title or 'the open scene'}, {scene.size[0]} x {scene.size[1]} pixels"
+
+
+def right_text(drawn: Drawn) -> str:
+    """Return what is right of a picture in which nothing differs: no more than was compared."""
+    if drawn.covered is not None:
+        return "exactly the pixels that this scene and its settings cover"
+    if drawn.primitive is not None:
+        return "every pixel shows the triangle that this scene and its settings draw there"
+    return "every pixel has the colour that this scene and its settings draw there"
+
+
+def pixels_text(differing: Flags, name: str) -> str:
+    """Return how many pixels differ from the picture of a ``name``, and the first of them as (column, row)."""
+    places = [f"({column}, {row})" for row, column in np.argwhere(differing)[:PIXELS_SHOWN].tolist()]
+    count = int(differing.sum())
+    more = f" and {count - PIXELS_SHOWN} more" if count > PIXELS_SHOWN else ""
+    verb = "pixel differs" if count == 1 else "pixels differ"
+    return f"{count} of {differing.size} {verb} from {name}: {' '.join(places)}{more}"

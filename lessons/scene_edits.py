@@ -1,15 +1,19 @@
-"""Edits of a scene: each takes a frozen scene and returns the edited one, or says what was wrong."""
+"""Edits of a scene, each to a new one or with what is wrong; and a digest by which its shapes are known again."""
 
 from collections.abc import Mapping
 from dataclasses import replace
+from hashlib import sha256
 from math import radians
 
 import numpy as np
 
-from core.geometry.vertex_stage import transform_vertices
 from core.records.arrays import Floats
 from core.records.clip_region import region_in_window, region_of_window
 from core.scene import AnyScene, Camera, ClipScene, Mesh, Scene
+from core.transform.vertex_stage import transform_vertices
+
+# Edits of a scene: each takes a frozen scene and returns the edited one, or says what was wrong.
+
 
 WINDOW_NAMES = ("x", "y", "depth", "w")
 BORDERS = ("left", "bottom", "right", "top")
@@ -178,3 +182,22 @@ def _with_mesh(scene: Scene, index: int, mesh: Mesh) -> Scene:
     meshes = list(scene.meshes)
     meshes[index] = mesh
     return replace(scene, meshes=tuple(meshes))
+
+
+# A short text for the shapes of a scene: by it the open scene is known as the one that is asked about.
+
+
+def scene_digest(scene: AnyScene) -> str:
+    """Return a text that two scenes have in common which show the same shapes, whatever their rasters and colours."""
+    if isinstance(scene, ClipScene):
+        parts = [scene.kind, scene.clip, scene.rings, scene.clip_region]
+        if scene.table is not None:
+            # A table's fragments have a place; their depths are in the table.
+            parts += [scene.table.depths, scene.table.test]
+    else:
+        parts = [*vars(scene.camera).values(), *(mesh.positions for mesh in scene.meshes)]
+    digest = sha256()
+    for part in parts:
+        digest.update(part.encode() if isinstance(part, str) else np.asarray(part, float).tobytes())
+        digest.update(b";")
+    return digest.hexdigest()[:16]

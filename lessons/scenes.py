@@ -6,14 +6,18 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from core.assembly.primitives import assemble
 from core.records.arrays import Floats, checked
 from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene
-from lessons.depth_tables import two_triangles
-from lessons.polygons import connecting_edges, pentagram, polygon_with_holes, weiler_atherton
+from core.transform.assembly import assemble
 from lessons.run_place import FIRST_STEP, RunPlace
-from lessons.shapes import FACE_COLORS, cube, floor, knot, linear_color, plates, sphere, torus
-from lessons.teapot import teapot
+from lessons.shapes import FACE_COLORS, cube, floor, knot, linear_color, plates, sphere, teapot, torus
+from lessons.window_scenes import (
+    connecting_edges,
+    pentagram,
+    polygon_with_holes,
+    two_triangles,
+    weiler_atherton,
+)
 
 TEACHING_SIZE = (64, 48)
 """Raster of the small cases in pixels: every pixel can be pointed at."""

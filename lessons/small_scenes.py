@@ -1,4 +1,4 @@
-"""Small scenes given in the window: triangles of exercises, segments between pixels."""
+"""Small scenes given in the window: triangles and segments that exercises and the numbers of lectures are about."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -6,8 +6,14 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
+from core import Settings, render
+from core.clipping.sutherland_hodgman import clip_polygons, distance_from
+from core.records.arrays import Floats
 from core.scene import ClipScene
 from lessons.scenes import assembled, window_triangle
+
+# Small scenes given in the window: triangles of exercises, segments between pixels.
+
 
 Point = tuple[float, float]
 Numbers = ArrayLike | Sequence[Any]
@@ -59,3 +65,55 @@ def segment_scene(ends: Sequence[tuple[Point, Point]], size: tuple[int, int]) ->
 def pixel_segments(ends: Sequence[tuple[Point, Point]], size: tuple[int, int]) -> ClipScene:
     """Return segments between the centres of pixels."""
     return segment_scene([((x0 + 0.5, y0 + 0.5), (x1 + 0.5, y1 + 0.5)) for (x0, y0), (x1, y1) in ends], size)
+
+
+# Triangles that the numbers of slides are computed on.
+
+
+Corners = tuple[tuple[float, float], ...]
+SPLIT_SQUARE = (((1.5, 1.5), (5.5, 1.5), (5.5, 4.5)), ((1.5, 1.5), (5.5, 4.5), (1.5, 4.5)))
+"""Two triangles whose outer edges and diagonal meet pixel centres."""
+
+
+def triangles(
+    *corners: Corners, size: tuple[int, int] = (8, 6), colors: ArrayLike | None = None
+) -> ClipScene:
+    """Return triangles with w = 1 given by x and y in the window, ``colors`` (T, 3, 4) at their corners."""
+    return triangle_scene(corners, size, attributes=colors)
+
+
+def pixel_count(scene: ClipScene, settings: Settings | None = None) -> int:
+    """Return how many pixels are covered."""
+    return int(np.count_nonzero(render(scene, settings or Settings()).cover_count))
+
+
+def is_covered(scene: ClipScene, column: int, row: int, settings: Settings | None = None) -> bool:
+    """Return whether a pixel is covered."""
+    return bool(render(scene, settings or Settings()).cover_count[row, column])
+
+
+def rounded(values: Floats) -> tuple[float, ...]:
+    """Return numbers with 12 decimals, so that what was rounded on the way reads as it is meant."""
+    return tuple(float(value) + 0.0 for value in np.round(np.asarray(values, float).ravel(), 12))
+
+
+def clipped_corner_count(clip: ArrayLike, plane: int) -> int:
+    """Return how many corners a triangle (3, 4) has that is clipped to one plane of the view volume."""
+    _, count, _ = clip_polygons(np.asarray(clip, float)[None], np.array([3]), plane)
+    return int(count[0])
+
+
+def distance(point: ArrayLike, plane: int) -> float:
+    """Return the signed distance of a clip position (4,) from one plane of the view volume."""
+    return float(distance_from(np.asarray(point, float), plane))
+
+
+def cells_unlike(scene: ClipScene, closest: np.ufunc) -> int:
+    """Return how many cells of the final buffer differ from the ``closest`` depth of all patches there.
+
+    The closest is ``np.fmin`` where smaller is nearer, ``np.fmax`` where larger is; an empty cell is as cleared.
+    """
+    assert scene.table is not None
+    wanted = closest.reduce(scene.table.depths, axis=0)
+    buffer = render(scene).depth
+    return int(np.count_nonzero(buffer != np.where(np.isnan(wanted), scene.table.cleared, wanted)))

@@ -10,8 +10,8 @@ from core.methods import table
 from core.settings import families, no_effect, settings_from_texts
 from core.stages.declared import STAGES
 from lessons.course.catalogue import shipped
-from lessons.printed.catalogue import PRINTED
-from lessons.slides.scenes import ALL_SCENES
+from lessons.lectures.catalogue import PRINTED
+from lessons.lectures.scenes import ALL_SCENES
 
 ROOT = Path(__file__).parents[1]
 TEXT = (ROOT / "docs" / "lectures.md").read_text(encoding="utf-8")

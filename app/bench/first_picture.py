@@ -11,8 +11,7 @@ from importlib import import_module
 
 import numpy as np
 
-from app.bench.contender import Contender
-from app.bench.records import WindowTriangles
+from app.bench.records import Contender, WindowTriangles
 
 ARRAYS = ("corners", "depth", "colors")
 """The arrays of `WindowTriangles`, each in a file of its name; an archive of them would cost its own imports."""

@@ -1,16 +1,179 @@
-"""Run workloads: every contender is prepared, checked, and then timed in turn with the others."""
+"""Run workloads: every contender of every library is prepared, checked, and then timed in turn with the others.
 
+What the process does stands in `app.bench.first_picture`.
+"""
+
+import gc
+import os
+import subprocess
+import sys
 from collections.abc import Callable, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from time import perf_counter
 from types import ModuleType
 
-from app.bench.contender import Contender, Prepared
-from app.bench.libraries import contender_of, version_of
-from app.bench.records import MeshFile, Work
+import numpy as np
+
+from app.bench import (
+    matplotlib_peer,
+    numba_peer,
+    opencv_peer,
+    opengl_peer,
+    ours,
+    ours_child,
+    ours_shared,
+    pillow_peer,
+    skimage_peer,
+    trimesh_peer,
+    typed_text,
+    vtk_peer,
+)
+from app.bench.first_picture import ARRAYS, PIXELS
+from app.bench.records import (
+    Bytes,
+    ColdStart,
+    Contender,
+    MeshFile,
+    Prepared,
+    TypedPicture,
+    UnavailableError,
+    WindowTriangles,
+    Work,
+)
 from app.bench.reference import Difference, Reference, compare, make_reference
-from app.bench.scenes import Workload
-from app.bench.timing import Times, time_in_turn
+from app.bench.workloads import Workload
+from core.study.record import collector_off
+
+# The first picture of a fresh process: the interpreter's start, the imports, and what a library does only
+# once.
+
+
+CHILD = "app.bench.first_picture"
+"""The module that runs in the process."""
+ROOT = Path(__file__).resolve().parents[2]
+
+
+def cold_contender(module: ModuleType, work: ColdStart) -> Contender | None:
+    """Return a library drawing in processes of their own, or ``None`` if it does not draw triangles."""
+    warm: Contender | None = module.contender(work.triangles)
+    if warm is None:
+        return None
+    return replace(warm, prepare=lambda stack: prepare(module.__name__, work.triangles, stack))
+
+
+def prepare(module: str, work: WindowTriangles, stack: ExitStack) -> Prepared:
+    """Write the triangles where the processes will find them."""
+    folder = Path(stack.enter_context(TemporaryDirectory(prefix="rasterscope-bench-")))
+    for name in ARRAYS:
+        np.save(folder / f"{name}.npy", getattr(work, name))
+    pixels = folder / PIXELS
+    width, height = work.size
+    command = [sys.executable, "-P", "-m", CHILD, module, str(folder), str(width), str(height)]
+    environment = dict(os.environ, PYTHONPATH=str(ROOT))
+    # The run that checks the picture leaves compiled files behind, as installing does for the other libraries.
+    environment.pop("PYTHONDONTWRITEBYTECODE", None)
+
+    def run() -> Bytes:
+        done = subprocess.run(command, env=environment, capture_output=True, text=True)
+        if done.returncode != 0:
+            lines = done.stderr.strip().splitlines()
+            raise UnavailableError(lines[-1] if lines else f"exit code {done.returncode}")
+        drawn: Bytes = np.load(pixels)
+        return drawn
+
+    return Prepared(run)
+
+
+# The libraries that take part, each a module with ``LIBRARY``, ``DISTRIBUTION`` and ``contender(work)``.
+
+
+LIBRARIES: tuple[ModuleType, ...] = (
+    *(ours, ours_shared, ours_child, vtk_peer, opengl_peer, numba_peer, opencv_peer),
+    *(pillow_peer, skimage_peer, matplotlib_peer, trimesh_peer, typed_text),
+)
+"""All of them, ours first. VTK ends every EGL context that was opened before its own: it must begin before OpenGL."""
+
+
+def contender_of(library: ModuleType, work: Work) -> Contender | None:
+    """Return a library drawing a workload, or ``None`` where it has no way to."""
+    if isinstance(work, ColdStart):
+        return cold_contender(library, work)
+    if isinstance(work, TypedPicture) and library not in (ours, typed_text):
+        return None
+    found: Contender | None = library.contender(work)
+    return found
+
+
+def version_of(library: ModuleType) -> str:
+    """Return name and version of the distribution that a library comes from; for ours, of what it is built on."""
+    try:
+        return f"{library.DISTRIBUTION} {version(library.DISTRIBUTION)}"
+    except PackageNotFoundError:
+        return f"{library.DISTRIBUTION} (not installed)"
+
+
+# Time several calls fairly: in turn, in one process, warm, with the garbage collector off.
+
+
+SHORT = 0.030
+"""Seconds: a shorter call is warmed up in every round by one untimed call, and then timed more than once."""
+SHORT_CALLS = 4
+
+
+@dataclass(frozen=True)
+class Times:
+    """What was measured of one contender, in milliseconds."""
+
+    median: float
+    least: float
+    lower_quartile: float
+    upper_quartile: float
+    count: int
+    """Timed calls."""
+
+
+def time_in_turn(calls: dict[str, Callable[[], object]], rounds: int) -> dict[str, Times]:
+    """Call everything ``rounds`` times in turn and return the times by name.
+
+    Every round begins with another contender, so that none always finds the caches as the same one left them.
+    """
+    seconds: dict[str, list[float]] = {name: [] for name in calls}
+    names = list(calls)
+    for turn in range(rounds):
+        first = turn % max(len(names), 1)
+        for name in names[first:] + names[:first]:
+            gc.collect()
+            with collector_off():
+                seconds[name] += _time_round(calls[name])
+    return {name: summary(values) for name, values in seconds.items()}
+
+
+def _time_round(call: Callable[[], object]) -> list[float]:
+    """Return the seconds of a long call, or of several short ones after an untimed one."""
+    first = _seconds(call)
+    if first >= SHORT:
+        return [first]
+    return [_seconds(call) for _ in range(SHORT_CALLS)]
+
+
+def _seconds(call: Callable[[], object]) -> float:
+    start = perf_counter()
+    call()
+    return perf_counter() - start
+
+
+def summary(seconds: list[float]) -> Times:
+    """Return the median and the spread of times in seconds."""
+    least, lower, median, upper = np.percentile(np.array(seconds) * 1000, [0, 25, 50, 75]).tolist()
+    return Times(median, least, lower, upper, len(seconds))
+
+
+# Run workloads: every contender is prepared, checked, and then timed in turn with the others.
+
 
 Note = Callable[[str], None]
 

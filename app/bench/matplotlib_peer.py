@@ -4,10 +4,17 @@ from typing import Any
 
 import numpy as np
 
-from app.bench.contender import Contender, Prepared
-from app.bench.painting import back_to_front, not_sorted
-from app.bench.projection import lit_colors
-from app.bench.records import Bytes, ViewedMesh, WindowTriangles, Work
+from app.bench.records import (
+    Bytes,
+    Contender,
+    Prepared,
+    ViewedMesh,
+    WindowTriangles,
+    Work,
+    back_to_front,
+    lit_colors,
+    not_sorted,
+)
 
 LIBRARY = "matplotlib"
 DISTRIBUTION = "matplotlib"

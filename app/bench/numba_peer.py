@@ -4,9 +4,15 @@ from typing import Any
 
 import numpy as np
 
-from app.bench.contender import Contender, Prepared
-from app.bench.projection import as_window_triangles
-from app.bench.records import Bytes, ViewedMesh, WindowTriangles, Work
+from app.bench.records import (
+    Bytes,
+    Contender,
+    Prepared,
+    ViewedMesh,
+    WindowTriangles,
+    Work,
+    as_window_triangles,
+)
 
 LIBRARY = "numba"
 DISTRIBUTION = "numba"

@@ -8,8 +8,16 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.bench.contender import Contender, Prepared, UnavailableError
-from app.bench.records import Bytes, Lines, ViewedMesh, WindowTriangles, Work
+from app.bench.records import (
+    Bytes,
+    Contender,
+    Lines,
+    Prepared,
+    UnavailableError,
+    ViewedMesh,
+    WindowTriangles,
+    Work,
+)
 
 Singles = NDArray[np.float32]
 

@@ -4,21 +4,21 @@ from collections.abc import Callable
 
 import numpy as np
 
-from app.bench.contender import Contender, Prepared
-from app.bench.mesh_files import prepare_reading
 from app.bench.records import (
     Bytes,
+    Contender,
     Floats,
     Integers,
     Lines,
     MeshFile,
+    Prepared,
     TypedPicture,
     ViewedMesh,
     WindowTriangles,
     Work,
 )
-from app.bench.scenes import clip_scene, lights_of, mesh_of, method_names, view_of
 from app.bench.typed_text import by_rule, prepare
+from app.bench.workloads import clip_scene, lights_of, mesh_of, method_names, prepare_reading, view_of
 from app.files.mesh_files import LoadedMeshes, load_meshes
 from core import Picture, Settings, draw_picture
 
@@ -91,7 +91,7 @@ def account(picture: Picture) -> str:
 
 def prepare_lines(work: Lines) -> Prepared:
     """Hold the colours packed as the picture has them."""
-    from core.raster.spans.lines import paint_lines
+    from core.lines.many_lines import paint_lines
 
     (width, height), columns = work.size, work.size[0] + ROW_FILLING
     opaque = np.full((len(work.colors), 4), 255, np.uint8)

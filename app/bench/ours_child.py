@@ -1,9 +1,8 @@
 """The program's reader in a process of its own, as the window opens a file: the start of the process is part of it."""
 
-from app.bench.contender import Contender
-from app.bench.mesh_files import prepare_reading
 from app.bench.ours import DISTRIBUTION, arrays_of
-from app.bench.records import MeshFile, Work
+from app.bench.records import Contender, MeshFile, Work
+from app.bench.workloads import prepare_reading
 from app.files.mesh_files import load_meshes
 
 __all__ = ["DISTRIBUTION", "LIBRARY", "contender"]

@@ -2,9 +2,8 @@
 
 from contextlib import ExitStack
 
-from app.bench.contender import Contender, Prepared, UnavailableError
 from app.bench.ours import DISTRIBUTION, prepare_mesh
-from app.bench.records import ViewedMesh, Work
+from app.bench.records import Contender, Prepared, UnavailableError, ViewedMesh, Work
 from core.fast_path.workers import BandWorkers, Sharing
 
 __all__ = ["DISTRIBUTION", "LIBRARY", "contender"]

@@ -10,8 +10,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from app.bench.mesh_files import corner_picture
-from app.bench.projection import project
 from app.bench.records import (
     SUBPIXELS,
     Bytes,
@@ -24,9 +22,10 @@ from app.bench.records import (
     ViewedMesh,
     WindowTriangles,
     Work,
+    project,
 )
-from app.bench.scenes import lights_of, mesh_of, method_names, view_of
 from app.bench.typed_text import by_rule, pixels_of
+from app.bench.workloads import corner_picture, lights_of, mesh_of, method_names, view_of
 from core import Frame, Settings, render
 from core.records.arrays import Flags
 

@@ -2,9 +2,18 @@
 
 import numpy as np
 
-from app.bench.contender import Contender, Prepared
-from app.bench.painting import back_to_front, floor_homography, painter
-from app.bench.records import Bytes, Lines, ViewedMesh, WindowTriangles, Work
+from app.bench.records import (
+    Bytes,
+    Contender,
+    Lines,
+    Prepared,
+    ViewedMesh,
+    WindowTriangles,
+    Work,
+    back_to_front,
+    floor_homography,
+    painter,
+)
 
 LIBRARY = "scikit-image"
 DISTRIBUTION = "scikit-image"

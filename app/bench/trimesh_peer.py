@@ -4,9 +4,8 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
 
-from app.bench.contender import Contender, Prepared
-from app.bench.mesh_files import prepare_reading
-from app.bench.records import Floats, Integers, MeshFile, Work
+from app.bench.records import Contender, Floats, Integers, MeshFile, Prepared, Work
+from app.bench.workloads import prepare_reading
 
 LIBRARY = "trimesh"
 DISTRIBUTION = "trimesh"

@@ -2,10 +2,8 @@
 
 import numpy as np
 
-from app.bench.contender import Contender, Prepared
-from app.bench.random_triangles import random_triangles
-from app.bench.records import Bytes, TypedPicture, Work
-from app.bench.scenes import clip_scene
+from app.bench.records import Bytes, Contender, Prepared, TypedPicture, Work, random_triangles
+from app.bench.workloads import clip_scene
 from core import Frame, Settings, render
 from core.edits import Edit, apply_edit, original
 from core.scene import AnyScene, Scene

@@ -6,8 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from app.bench.contender import Contender, Prepared
-from app.bench.records import Bytes, Lighting, ViewedMesh, Work
+from app.bench.records import Bytes, Contender, Lighting, Prepared, ViewedMesh, Work
 
 LIBRARY = "VTK"
 DISTRIBUTION = "vtk"

@@ -1,4 +1,4 @@
-"""What several commands take: FILE, sizes and settings."""
+"""What several commands take: FILE, sizes and settings, and folders that users add."""
 
 import argparse
 import re
@@ -6,21 +6,30 @@ import sys
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from app.cli.commands import add_allow_outside
-from app.files.input_files import read_input
+from app.files.file_access import read_input
 from app.files.mesh_formats import OutsideMeshError, Report
 from app.files.open_any import Opened, open_any
 from app.files.state_files import OutsideSourceError
 from app.usage import PROGRAM, UsageError
 from core import Settings
 from core.edits import EDITABLE, Edit, apply_edit
-from core.lanes.limits import LISTING
-from core.lanes.problem import Problem
+from core.lanes.problem import LISTING, Problem
 from core.scene import SIZE_LIMIT, AnyScene
 from core.settings import settings_from_texts
+
+if TYPE_CHECKING:
+    from app.files.user_folders import FolderList
+    from lessons.exercises.question import Template
+
+
+# What several commands take: FILE, sizes and settings.
+
 
 FILE_HELP = "a mesh file, a state file, or the name of a built-in scene"
 OUTSIDE_HINT = "--allow-outside reads it"
@@ -188,3 +197,43 @@ def show_progress(fraction: float | None, doing: str) -> None:
     """Write how far the work is over the line before."""
     done = "" if fraction is None else f" {100 * fraction:.0f} %"
     print(f"\r\x1b[K{doing}{done}", end="", file=sys.stderr, flush=True)
+
+
+# ``rasterscope exercise folders``: where exercises of teachers are found beside those of the program.
+
+
+def add_folders_parser(
+    parsers: "argparse._SubParsersAction[argparse.ArgumentParser]", what: str = "exercises"
+) -> None:
+    """Add the action for folders of own exercises, or of ``what`` else."""
+    folders = parsers.add_parser("folders", help=f"list the folders of own {what}", allow_abbrev=False)
+    change = folders.add_mutually_exclusive_group()
+    change.add_argument("--add", metavar="FOLDER", help=f"look for {what} in this folder, too")
+    change.add_argument("--remove", metavar="FOLDER", help="look no more in this folder; its files stay")
+
+
+def change_folders(options: argparse.Namespace, folders: "FolderList", own: Path) -> int:
+    """Add or remove a folder, and list all."""
+    if options.add is not None:
+        folders.add(options.add)
+    if options.remove is not None:
+        folders.remove(options.remove)
+    print("\n".join(map(str, (own, *folders.added()))))
+    return 0
+
+
+def run_exercise_folders(options: argparse.Namespace) -> int:
+    """Add or remove a folder, and list all."""
+    from app.files.user_folders import EXERCISE_FOLDERS, own_exercise_folder
+
+    return change_folders(options, EXERCISE_FOLDERS, own_exercise_folder())
+
+
+def known_templates() -> dict[str, "Template"]:
+    """Return all exercises, of the program and of folders; what is skipped is said on stderr."""
+    from app.files.user_folders import all_templates  # All exercises come along.
+
+    templates, skipped = all_templates()
+    for sentence in skipped:
+        print(f"{PROGRAM}: warning: skipped: {sentence}", file=sys.stderr)
+    return templates

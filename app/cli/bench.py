@@ -92,8 +92,8 @@ def measure_window(options: argparse.Namespace, folder: Path | None) -> int:
     """Measure the window."""
     if options.workload or options.rounds is not None:
         raise UsageError("argument --window: not allowed with --workload or --rounds")
+    from app.cli.commands import is_display_missing, load_qt
     from app.cli.screenshot import window_size_from_text
-    from app.cli.window import is_display_missing, load_qt
 
     try:
         sizes = [window_size_from_text(size) for size in options.size]
@@ -102,7 +102,7 @@ def measure_window(options: argparse.Namespace, folder: Path | None) -> int:
     if is_display_missing():
         raise ValueError("there is no display to open a window on")
     load_qt()
-    from app.bench.window import run as windows
+    from app.bench import window as windows
 
     return windows.measure_window(
         options.scene or windows.SCENES, sizes or windows.SIZES, folder, options.quick

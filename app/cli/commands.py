@@ -1,4 +1,7 @@
-"""The command line: which commands there are, how one is chosen, and how errors are reported.
+"""The command line: which commands there are, how one is chosen, how errors are reported; else the window.
+
+A command is a module with ``add_arguments(parser)`` and ``run(options) -> int``; it is imported when it is
+called, so that no command waits for what another one needs.
 
 A command is a module with ``add_arguments(parser)`` and ``run(options) -> int``; it is imported when it is
 called, so that no command waits for what another one needs.
@@ -11,12 +14,58 @@ import os
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from pathlib import Path
 from typing import Any, NoReturn
 
 from app import __version__
 from app.usage import PROGRAM, UsageError
 from lessons.os_errors import problem_text
+
+# The window, opened from the command line.
+
+
+BEFORE_QT = ("app.files.open_any", "core.fast_path.workers", "core.trace.tracers", "core.pixel_history")
+"""Modules that the window needs and that need no Qt. Once PySide6 is loaded, it reads the source of every module that
+is imported from then on, to look for its own features: some 0.1 ms for each of several hundred."""
+
+
+def run(target: str | None, allows_outside: bool = False) -> int:
+    """Show the window until it is closed; return the exit code.
+
+    ``allows_outside``: files that the target names may be read from outside its folder. Raises ValueError if there is
+    no display, or Qt cannot be loaded.
+    """
+    if is_display_missing():
+        raise ValueError(
+            "there is no display to open a window on; to render to a file: rasterscope render FILE -o out.png"
+        )
+    for module in BEFORE_QT:
+        import_module(module)
+    load_qt()
+    from app.window.start import run_window
+
+    return run_window(target, allows_outside)
+
+
+def is_display_missing() -> bool:
+    """Return whether Qt would find nothing to show a window on, which ends the process without a word."""
+    if not sys.platform.startswith("linux") or os.environ.get("QT_QPA_PLATFORM"):
+        return False
+    return not (os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def load_qt() -> None:
+    """Load Qt, or raise ValueError with what it lacks."""
+    try:
+        import PySide6.QtSvg
+        import PySide6.QtWidgets  # noqa: F401
+    except ImportError as problem:
+        raise ValueError(f"the window and its charts need Qt, which cannot be loaded: {problem}") from problem
+
+
+# The command line: which commands there are, how one is chosen, and how errors are reported.
+
 
 MOST_ROUNDS = 1000
 MOST_SEED = 999_999_999
@@ -181,7 +230,6 @@ def _run_window(arguments: Sequence[str]) -> int:
     options = _parse(parser, arguments)
     if options is None:
         return 0
-    from app.cli.window import run
 
     return run(options.file, options.allow_outside)
 

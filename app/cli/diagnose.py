@@ -13,8 +13,16 @@ from app.cli.arguments import (
     sized,
 )
 from app.files.drawn_pictures import read_drawn
-from lessons.diagnosis import RIGHT, Diagnosis, check_size, compared_text, diagnose
-from lessons.diagnosis_text import pixels_text, right_text, scene_text
+from lessons.diagnosis import (
+    RIGHT,
+    Diagnosis,
+    check_size,
+    compared_text,
+    diagnose,
+    pixels_text,
+    right_text,
+    scene_text,
+)
 
 DESCRIPTION = """Say which mistake, or which other method, makes a picture of a scene that another program drew; or how
 near the nearest is. For homework in any language."""

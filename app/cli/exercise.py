@@ -1,25 +1,168 @@
-"""``rasterscope exercise``: questions by seed, their check, and exercises that teachers write."""
+"""``rasterscope exercise``: questions by seed, their check, exercises that teachers write, and attempts."""
 
 import argparse
+import sys
+from datetime import UTC, datetime
+from itertools import groupby
+from operator import attrgetter
 from pathlib import Path
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict
+from pydantic import BaseModel, ConfigDict, ValidationError
 
-from app.cli import attempts, exercise_folders
+from app.cli.arguments import add_folders_parser, known_templates, progress_line, run_exercise_folders
 from app.cli.commands import whole_number
-from app.cli.exercise_coverage import coverage_lines
-from app.cli.exercise_folders import known_templates
-from app.usage import UsageError
-from lessons.exercises.answers.answer import NotCheckedError
+from app.files.file_access import read_input, write_file
+from app.files.user_folders import MOST_ATTEMPT_BYTES, attempt_file
+from app.usage import PROGRAM, UsageError
+from lessons.attempts.imports import judged_again
+from lessons.attempts.practice import MISSES_IN_A_ROW, Progress, next_question, progress
+from lessons.attempts.record import DEFAULT_USER, Attempt, attempt_of, exported_attempts, read_attempts_json
+from lessons.exercises.answers.answer import NotCheckedError, Response
+from lessons.exercises.asked import LECTURES, Topic, check_template, kinds_by_stage, mistake_topics, topics
 from lessons.exercises.catalogue import TEMPLATES, template_named
 from lessons.exercises.coding.tasks import TASKS
-from lessons.exercises.draws import SEED_LIMIT
 from lessons.exercises.exercise_file import read_exercise
-from lessons.exercises.question import Question, ask, judge
-from lessons.exercises.selftest import check_template
+from lessons.exercises.numbers import SEED_LIMIT
+from lessons.exercises.question import Judgement, Question, ask, judge
 from lessons.exercises.toml_file import TomlFile
 from lessons.mistakes.shelf import SHELF
+
+# ``rasterscope exercise coverage``: what the templates ask, and what none asks, with the reason.
+
+
+WIDTH = 66
+"""Characters of the names of topics."""
+
+
+def coverage_lines() -> list[str]:
+    """Return the tables as lines of text; one question of every template is drawn."""
+    questions = {name: ask(template, 0) for name, template in TEMPLATES.items()}
+    by_stage = kinds_by_stage(questions)
+    kinds = sorted({kind for counts in by_stage.values() for kind in counts})
+    lines = ["".join(["stage".ljust(13), *(kind.rjust(len(kind) + 2) for kind in kinds), "  templates"])]
+    for stage, counts in by_stage.items():
+        cells = (str(counts[kind] or ".").rjust(len(kind) + 2) for kind in kinds)
+        lines.append("".join([stage.ljust(13), *cells, str(counts.total()).rjust(11)]))
+    sections = {
+        "families of methods": topics()["families"],
+        "experiments of the atlas": topics()["experiments"],
+        "mistakes": mistake_topics(questions),
+        **{f"questions of {lecture}": topics()[lecture] for lecture in LECTURES},
+    }
+    for title, rows in sections.items():
+        asked = sum(bool(row.templates) for row in rows)
+        lines += ["", f"{title}: {asked} of {len(rows)} asked", *map(topic_line, rows)]
+    return lines
+
+
+def topic_line(topic: Topic) -> str:
+    """Return a topic with its templates, or the reason why it has none."""
+    said = ", ".join(topic.templates) if topic.templates else f"- {topic.reason}"
+    return f"  {topic.name:<{WIDTH}} {said}"
+
+
+# What ``rasterscope exercise`` does with attempts: practice, progress, files to exchange.
+
+
+def add_attempt_parsers(parsers: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Add the actions."""
+    for name, summary in (
+        ("practice", "choose the next question for a user"),
+        ("progress", "show what a user has reached, and the mistakes"),
+    ):
+        one = parsers.add_parser(name, help=summary, allow_abbrev=False)
+        one.add_argument(
+            "--user", metavar="NAME", default=DEFAULT_USER, help=f"whose attempts ({DEFAULT_USER})"
+        )
+    export = parsers.add_parser(
+        "export", help="write attempts into a JSON file, or a CSV table", allow_abbrev=False
+    )
+    export.add_argument(
+        "path", metavar="ATTEMPTS", help="the file to write: .json, or .csv for a spreadsheet"
+    )
+    export.add_argument("--user", metavar="NAME", help="only the attempts of this user")
+    taken = parsers.add_parser(
+        "import", help="judge the attempts of a JSON file again, and add them", allow_abbrev=False
+    )
+    taken.add_argument("path", metavar="ATTEMPTS.json", help="a file that export has written")
+
+
+def run_attempts(options: argparse.Namespace) -> int:
+    """Do what the action asks."""
+    file = attempt_file()
+    if left_out := file.left_out():
+        print(f"{PROGRAM}: warning: {left_out}", file=sys.stderr)
+    if options.action == "practice":
+        choice = next_question(
+            file.attempts(options.user), known_templates(), options.user, datetime.now().astimezone()
+        )
+        assert choice is not None
+        template, seed = choice.question.template, choice.question.seed
+        if (missed := choice.explained) is not None:
+            print(
+                f"{missed.template} was missed {MISSES_IN_A_ROW} times in a row. What is right there:\n\n"
+                f"  rasterscope exercise show {missed.template} --seed {missed.seed} --hints --answers\n"
+            )
+        print(f"{choice.reason}\n\n  rasterscope exercise show {template.name} --seed {seed}")
+        return 0
+    if options.action == "progress":
+        print("\n".join(progress_lines(progress(file.attempts(options.user)))))
+        return 0
+    if options.action == "export":
+        attempts = file.attempts(options.user)
+        write_file(options.path, exported_attempts(attempts, options.path))
+        print(f"{options.path}: {counted(len(attempts))}")
+        return 0
+    given = read_attempts_json(read_input(options.path, MOST_ATTEMPT_BYTES), options.path)
+    with progress_line() as report:
+        imported = judged_again(given, known_templates(), datetime.now(UTC), report)
+    added = file.add_all(imported.attempts)
+    print(f"{options.path}: {counted(added)} added, {len(given) - added} known before")
+    print("\n".join(imported.sentences))
+    return 0
+
+
+def progress_lines(reached: Progress) -> list[str]:
+    """Return a table: the templates with their best points, then mistakes by stage."""
+    lines = [reached.points_text]
+    for name, points in reached.best.items():
+        lines.append(
+            f"  {name:<32}{points:.3g} points, {reached.correct[name]} of {reached.tried[name]} right"
+        )
+    if reached.mistakes:
+        lines.append("mistakes, and the answers in which each could show")
+    for stage, counts in groupby(sorted(reached.mistakes, key=attrgetter("stage")), attrgetter("stage")):
+        lines.append(f"  {stage}")
+        lines += [f"    {count.mistake:<30}{count.made} of {count.asked}" for count in counts]
+    return lines
+
+
+def attempt_for(user: str, question: Question, response: Response, judgement: Judgement) -> Attempt:
+    """Return the attempt of a user; UsageError for what is no name."""
+    try:
+        return attempt_of(user, question, response, judgement, 0, datetime.now(UTC))
+    except ValidationError as problem:
+        raise UsageError(f"argument --user: {problem.errors()[0]['msg']}") from None
+
+
+def keep_attempt(attempt: Attempt) -> None:
+    """Save an attempt whose verdict is on the screen; OSError where it is not saved."""
+    try:
+        told = attempt_file().add(attempt)
+    except OSError as problem:
+        raise OSError(f"the attempt is not kept: {problem}") from problem
+    if told:
+        print(f"{PROGRAM}: warning: {told}", file=sys.stderr)
+
+
+def counted(count: int) -> str:
+    """Return a number of attempts in words."""
+    return "1 attempt" if count == 1 else f"{count} attempts"
+
+
+# ``rasterscope exercise``: questions by seed, their check, and exercises that teachers write.
+
 
 DESCRIPTION = """Ask a question by its seed, check an answer, or check an exercise that a teacher wrote."""
 EXAMPLES = """examples:
@@ -74,8 +217,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     selftest = parsers.add_parser("selftest", help="check all exercises", allow_abbrev=False)
     selftest.add_argument("--seeds", metavar="K", type=SEED, default=10, help="seeds of each (10)")
     parsers.add_parser("coverage", help="list what the exercises ask, and what none asks", allow_abbrev=False)
-    exercise_folders.add_parser(parsers)
-    attempts.add_parsers(parsers)
+    add_folders_parser(parsers)
+    add_attempt_parsers(parsers)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -84,9 +227,9 @@ def run(options: argparse.Namespace) -> int:
         print("\n".join(LISTS[options.action]()))
         return 0
     if options.action == "folders":
-        return exercise_folders.run(options)
+        return run_exercise_folders(options)
     if options.action in ("practice", "progress", "export", "import"):
-        return attempts.run(options)
+        return run_attempts(options)
     if options.action == "selftest":
         return _selftest(options.seeds)
     if options.action == "validate":
@@ -173,13 +316,13 @@ def _check(question: Question, path: Path, user: str | None) -> int:
         judgement = judge(question, response)
     except NotCheckedError as problem:
         raise ValueError(f"not checked yet: {file.error(('answer',), str(problem))}") from None
-    attempt = None if user is None else attempts.attempt_for(user, question, response, judgement)
+    attempt = None if user is None else attempt_for(user, question, response, judgement)
     print(f"Understood:\n{answer.text(response)}")
     print(f"{judgement.points:.3g} of {points_text(question.template.points)}: {judgement.verdict.counts}")
     for sentence in filter(None, (*judgement.sentences, answer.first_wrong(response))):
         print(sentence)
     if attempt is not None:
-        attempts.keep(attempt)
+        keep_attempt(attempt)
     return 0
 
 

@@ -1,24 +1,66 @@
-"""``rasterscope lesson``: the lessons of the course as text, checked, and which slides of the lectures they cover."""
+"""``rasterscope lesson``: the lessons of the course as text, checked, played, and which slides they show."""
 
 import argparse
+import os
 import sys
 from collections.abc import Iterator, Sequence
 from itertools import chain
 from pathlib import Path
 from textwrap import indent
 
-from app.cli import lesson_play
-from app.cli.exercise_folders import add_parser, change_folders
+from app.cli.arguments import add_folders_parser, change_folders
+from app.cli.commands import load_qt
+from app.cli.screenshot import add_window_look
+from app.files.file_access import make_folder
 from app.usage import PROGRAM
 from core.stages.declared import stage_of
-from lessons.attempts.lesson_steps import Standing, standings
-from lessons.attempts.record import Attempt
-from lessons.course.catalogue import Course, chapters
-from lessons.course.lesson_file import Lesson, read_lesson
-from lessons.course.questions import question_of
-from lessons.course.slides import coverage, slides
+from lessons.attempts.record import Attempt, Standing, standings
+from lessons.course.catalogue import Course, Lesson, chapters, coverage, read_lesson, slides
 from lessons.course.state import States
+from lessons.course.tasks import question_of
 from lessons.course.validation import validate
+
+# ``rasterscope lesson play``: lessons walked without showing the window, with a picture of each step.
+
+
+def add_play_parser(parsers: "argparse._SubParsersAction[argparse.ArgumentParser]") -> None:
+    """Say what the action takes."""
+    parser = parsers.add_parser(
+        "play", help="walk lessons by their keys, with a picture of each step", allow_abbrev=False
+    )
+    parser.add_argument("names", metavar="NAME", nargs="+", help="lessons of the list, or .toml files")
+    parser.add_argument(
+        "-o", "--output", metavar="DIR", help="folder of the pictures; left out: none are made"
+    )
+    add_window_look(parser)
+    parser.add_argument("--wrong", action="store_true", help="give the wrong answers, too")
+
+
+def play_lessons(options: argparse.Namespace, lessons: list[Lesson]) -> int:
+    """Play the lessons; ValueError where a step is not done by its right answer or recorded solution."""
+    if sys.platform.startswith("linux"):
+        os.environ["QT_QPA_PLATFORM"] = "offscreen"
+    load_qt()
+    from app.export.views import export_widget
+    from app.window.unattended import hidden_window, play
+
+    if options.output is not None:
+        make_folder(Path(options.output))
+    with hidden_window(options.size, options.theme) as window:
+        for lesson in lessons:
+
+            def picture(step: str, name: str = lesson.name) -> None:
+                if options.output is not None:
+                    export_widget(window, str(Path(options.output) / f"{name}-{step}.png"))
+
+            play(window, lesson, picture, tries_wrong=options.wrong)
+            print(f"{lesson.name}: {len(lesson.steps)} steps played")
+    return 0
+
+
+# ``rasterscope lesson``: the lessons of the course as text, checked, and which slides of the lectures they
+# cover.
+
 
 DESCRIPTION = (
     """List the lessons, print one, check a lesson that a lecturer wrote, or say which slides they cover."""
@@ -48,8 +90,8 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
     show.add_argument("name", metavar="NAME", help="a lesson of the list, or a .toml file")
     check = parsers.add_parser("validate", help="check lesson files", allow_abbrev=False)
     check.add_argument("paths", metavar="PATH", nargs="+", help="a .toml file")
-    add_parser(parsers, "lessons")
-    lesson_play.add_parser(parsers)
+    add_folders_parser(parsers, "lessons")
+    add_play_parser(parsers)
     parsers.add_parser(
         "coverage", help="list every slide with its lessons, or why none has it", allow_abbrev=False
     )
@@ -58,19 +100,16 @@ def add_arguments(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     """Do what the action asks."""
     if options.action == "folders":
-        from app.files.lesson_folders import (  # Qt takes a moment: not before it is needed.
-            FOLDERS,
-            own_folder,
-        )
+        from app.files.user_folders import LESSON_FOLDERS, own_lesson_folder
 
-        return change_folders(options, FOLDERS, own_folder())
+        return change_folders(options, LESSON_FOLDERS, own_lesson_folder())
     course = known_course(tells=options.action != "validate")
     if options.action == "list":
         print("\n".join(list_lines(course, options.by_stage, kept_attempts(options.user))))
     elif options.action == "show":
         print("\n".join(lesson_lines(lesson_named(course, options.name))))
     elif options.action == "play":
-        return lesson_play.run(options, [lesson_named(course, name) for name in options.names])
+        return play_lessons(options, [lesson_named(course, name) for name in options.names])
     elif options.action == "validate":
         for path in options.paths:
             lesson = read_lesson(Path(path))
@@ -83,7 +122,7 @@ def run(options: argparse.Namespace) -> int:
 
 def known_course(*, tells: bool = True) -> Course:
     """Return all lessons, of the program and of folders; ``tells``: what is skipped is said on stderr."""
-    from app.files.lesson_folders import whole_course
+    from app.files.user_folders import whole_course
 
     course = whole_course()
     for sentence in course.problems if tells else ():
@@ -98,8 +137,8 @@ def lesson_named(course: Course, name: str) -> Lesson:
 
 def kept_attempts(user: str | None) -> Sequence[Attempt]:
     """Return the attempts of a user, or of who answers in the window; OSError where they cannot be read."""
-    from app.files.attempts import attempt_file
-    from app.files.unfinished_answers import learner
+    from app.files.kept_work import learner
+    from app.files.user_folders import attempt_file
 
     return attempt_file().attempts(user or learner())
 

@@ -3,8 +3,8 @@
 import argparse
 import json
 
+from lessons.lectures.scenes import LECTURE_SCENES, LECTURES
 from lessons.scenes import CATALOGUE, BuiltInScene
-from lessons.slides.scenes import LECTURE_SCENES, LECTURES
 
 DESCRIPTION = (
     """List the built-in scenes, then the lectures' own examples. Their names can be given for any FILE."""

@@ -12,10 +12,8 @@ from app.cli.arguments import (
     outside_hinted,
     size_from_text,
 )
-from app.cli.commands import MOST_ROUNDS, whole_number
-from app.cli.window import load_qt
-from app.files.file_names import VIEW_ENDINGS
-from app.files.file_writing import check_writable
+from app.cli.commands import MOST_ROUNDS, load_qt, whole_number
+from app.files.file_access import VIEW_ENDINGS, check_writable
 from app.usage import UsageError
 from core import STAGES
 
@@ -152,7 +150,7 @@ def run(options: argparse.Namespace) -> int:
     if options.page in (None, "step"):
         view = view or options.show
     else:
-        from app.window.page_filling import PageContent  # All pages come along: not for the Step page alone.
+        from app.window.unattended import PageContent  # All pages come along: not for the Step page alone.
 
         content = PageContent(
             options.page,

@@ -7,10 +7,9 @@ from typing import Any
 
 from app.usage import UsageError
 from core.records.listing import listing
-from lessons.printed.catalogue import PRINTED, printed_listing
-from lessons.printed.records import PrintedListing, first_divergence
-from lessons.slides.catalogue import NUMBERS
-from lessons.slides.scenes import LECTURES
+from lessons.lectures.catalogue import NUMBERS, PRINTED, printed_listing
+from lessons.lectures.printed import PrintedListing, first_divergence
+from lessons.lectures.scenes import LECTURES
 
 DESCRIPTION = """List the slides of the four lectures that have numbers or listings, or show one listing as printed.
 Where a slide has a formula only, its number is the value at the points named."""

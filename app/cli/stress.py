@@ -6,14 +6,12 @@ from pathlib import Path
 
 from app import __version__
 from app.cli.arguments import progress_line
-from app.cli.commands import MOST_SEED, output_folder, whole_number
-from app.cli.window import load_qt
-from app.export.atlas_text import atlas_text
-from app.files.shrunk_files import export_shrunk
+from app.cli.commands import MOST_SEED, load_qt, output_folder, whole_number
+from app.export.failures import atlas_text, export_shrunk
 from app.usage import UsageError
 from core.study import machine
 from core.study.stability import Atlas, Experiment, Outcome, experiments, stress
-from core.study.stability.shrink import shrink_cell
+from core.study.stress import shrink_cell
 
 DESCRIPTION = (
     """Run every method of an experiment over a grid of parameters, and print the outcome of every run."""
@@ -80,7 +78,7 @@ def show_atlas(atlas: Atlas, folder: Path | None) -> None:
     """Print maps, and write them."""
     print("\n".join(atlas_text(atlas)))
     if folder is not None:
-        from app.export.atlas import export_atlas  # Maps need Qt, their text does not.
+        from app.pages.stability.atlas_files import export_atlas  # Maps need Qt, their text does not.
 
         for path in export_atlas(atlas, folder):
             print(f"wrote {path}")

@@ -4,9 +4,8 @@ import argparse
 
 from app import __version__
 from app.cli.arguments import FILE_HELP, add_settings, chosen_settings, outside_hinted, progress_line
-from app.cli.commands import MOST_ROUNDS, MOST_SEED, add_allow_outside, output_folder, whole_number
+from app.cli.commands import MOST_ROUNDS, MOST_SEED, add_allow_outside, load_qt, output_folder, whole_number
 from app.cli.stress import show_atlas
-from app.cli.window import load_qt
 from app.files.open_any import open_any
 from app.pages.words import (
     best_sentences,
@@ -21,10 +20,10 @@ from app.pages.words import (
 from app.usage import UsageError
 from core import Settings
 from core.study import Study, machine, measure, pareto_front, study_families, study_family
-from core.study.accuracy.family import chosen_dials
-from core.study.accuracy.speed_accuracy import ROUNDS
-from core.study.accuracy.timing import ranks
+from core.study.record import ranks
+from core.study.speed_accuracy import ROUNDS
 from core.study.stability import stress, study_experiment
+from core.study.study_family import chosen_dials
 
 DESCRIPTION = """Measure every method of a family on the same work: time, work counts and errors against an exact
 reference. If a method cannot do the work, the reason is printed."""
@@ -164,7 +163,7 @@ def run(options: argparse.Namespace) -> int:
         )
     print("\n".join(table_text(study)))
     if folder is not None:
-        from app.export.study import export_study  # Charts need Qt, numbers do not.
+        from app.pages.compare.study_files import export_study  # Charts need Qt, numbers do not.
 
         for path in export_study(study, folder, options.error):
             print(f"wrote {path}")

@@ -22,16 +22,16 @@ from app.cli.arguments import (
     sized,
 )
 from app.cli.commands import whole_number
-from app.cli.shaders import add_shaders, with_shaders
+from app.cli.render import add_shaders, with_shaders
 from app.cli.trace_tables import arrays, table_parts
-from app.files.file_writing import check_writable, whole_file
+from app.files.file_access import check_writable, whole_file
 from app.files.open_any import Opened
 from app.session.document import MOST_TRIANGLES, Document, focus_on
 from app.session.memory import check_free
 from app.usage import PROGRAM, UsageError
 from core import STAGES, Trace, trace
-from core.raster.binning import bound
-from core.raster.fills.traits import fill_traits
+from core.coverage.binning import bound
+from core.coverage.pixel_runs import fill_traits
 from core.scene import Scene
 
 DESCRIPTION = """Write the trace of one stage: a row for each step, with every number involved."""

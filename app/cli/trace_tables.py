@@ -14,7 +14,7 @@ from core.explain import account
 from core.explain.latex import plain_text, without_macros
 from core.records.arrays import Flags
 from core.trace import Explanation, StageTrace
-from core.trace.symbols import symbols_of
+from core.trace.conditions import symbols_of
 
 Header = dict[str, Any]
 BATCH = 4096

@@ -6,15 +6,12 @@ from collections.abc import Callable, Iterable
 from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication, QHBoxLayout, QLabel, QWidget
 
-from app.export.paint import seen_image
-from app.export.svg import svg_text
-from app.export.views import png_bytes
+from app.export.views import png_bytes, seen_image, svg_text
 from widgets.basics.controls import column_layout
 from widgets.basics.style_sheet import style_sheet
 from widgets.basics.theme import LIGHT, paint_as, text_font
-from widgets.charts.chart import Chart
-from widgets.charts.legend import ChartLegend
-from widgets.charts.records import ChartEmpty, ChartPicture
+from widgets.experiments.chart import Chart
+from widgets.experiments.series import ChartEmpty, ChartLegend, ChartPicture
 
 ENDINGS = (".svg", ".png")
 """Kinds of files that a sheet is written to."""

@@ -12,8 +12,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from app.files.file_names import DRAWN_ENDINGS, IMAGE_FORMATS
-from app.files.input_files import read_input
+from app.files.file_access import DRAWN_ENDINGS, IMAGE_FORMATS, read_input
 from app.files.mesh_formats.images import display_bytes
 from core.framebuffer.display import Bytes, to_display
 from lessons.diagnosis import PIXEL_LIMIT, Drawn, check_size

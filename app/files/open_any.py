@@ -4,18 +4,17 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from app.files.file_names import shown_name
+from app.files.file_access import OutsideWarning, shown_name
 from app.files.mesh_files import MeshFileError, open_mesh
 from app.files.mesh_formats import Report
-from app.files.mesh_sources import remember_file
-from app.files.named_files import OutsideWarning
+from app.files.state_arrays import remember_file
 from app.files.state_files import EXTENSION, State, load_state
 from app.session.document import STEPPED, Document, check_drawing, focus_on, open_document, shortened
 from app.session.memory import MemoryBoundError
 from core.scene import AnyScene, Scene
 from core.settings import settings_from_texts
+from lessons.lectures.scenes import ALL_SCENES
 from lessons.run_place import FIRST_STEP, RunPlace
-from lessons.slides.scenes import ALL_SCENES
 
 
 @dataclass(frozen=True, eq=False)

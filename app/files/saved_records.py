@@ -8,7 +8,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
-from app.files.input_files import read_input
+from app.files.file_access import read_input
 from lessons.os_errors import os_error_reason
 
 Model = TypeVar("Model", bound=BaseModel)

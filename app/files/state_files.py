@@ -1,4 +1,4 @@
-"""State files: what is open, and where the stepping is, saved so that it opens unchanged.
+"""State files: what is open, and where the stepping is, saved so that it opens unchanged, and those of a folder.
 
 A state names the mesh file or built-in scene that its meshes come from and takes from there every array that
 is still the same; edited arrays, cameras, lights and triangles given in clip space stand in the file itself.
@@ -6,14 +6,16 @@ What the source holds is checked by fingerprints: a mesh file that has changed s
 """
 
 import json
+import re
 from collections.abc import Callable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from app.files.earlier_steps import position_now
-from app.files.file_writing import write_file
+import numpy as np
+
+from app.files.file_access import write_file
 from app.files.mesh_formats import Report
 from app.files.saved_records import SavedRecordError, read_record
 from app.files.state_arrays import array_record
@@ -36,10 +38,56 @@ from app.files.state_scenes import (
     scene_record,
 )
 from app.session.document import Document, TeachingRaster
+from core.lines.line_method import line_of_kind
 from core.scene import AnyScene
 from core.settings import Settings, settings_from_texts, settings_record
 from core.stages.needs import check_edits, check_needs
+from core.trace import StageTrace
 from core.trace.conditions import parse_condition
+
+# Positions in state files of earlier versions: rows of traces had fewer operations then.
+
+
+FEWER = {
+    **dict.fromkeys(("clip.sh-in-out", "clip.wa-crossing", "depth.ray-first"), 2),
+    **dict.fromkeys(("clip.wa-ring", "clip.wa-close", "raster.table-level"), 1),
+    **dict.fromkeys(("clip.sh-out-in", "depth.ray", "raster.table-edge", "raster.outcodes-cut"), 3),
+    **dict.fromkeys((f"raster.{part}" for part in ("top", "top-first", "bottom", "bottom-first")), 2),
+    **{"cull.back-stored-normal": 5, "depth.ray-exact": 4, "raster.lane": 2, "raster.active-inside": 2},
+    **dict.fromkeys((f"raster.bresenham{name}" for name in ("", "-float", "-lecture")), 3),
+    **dict.fromkeys(("raster.dda", "raster.dda-float32", "raster.midpoint", "raster.rectangle"), 3),
+    **{"raster.diamond-exit": 3, "raster.wu": 4, "raster.gupta-sproull": 5},
+    **dict.fromkeys((f"raster.{name}-start" for name in ("dda", "dda-float32", "midpoint", "rectangle")), 5),
+    **{"raster.diamond-exit-start": 4, "raster.wu-start": 6, "raster.gupta-sproull-start": 8},
+}
+"""Kind of row to its operations in version 2, where they were others; those of a line stand for its other kinds."""
+ADDED = {
+    "interpolate": frozenset({"factor", "grid"}),
+    "shade": frozenset({"lengths", "level", "fraction", "fractions", "power", "specular"}),
+}
+"""Stage to operations that version 2 did not have in any kind of row."""
+
+
+def position_now(stage: StageTrace, position: int) -> int:
+    """Return the position of a stage's trace that a position of version 2 is: in the same row, or at its end."""
+    steps, added = stage.steps, ADDED.get(stage.stage, frozenset())
+    counts = np.array([len(steps.operations[kind]) for kind in steps.kinds])
+    for number, kind in enumerate(steps.kinds):
+        names = [operation.name for operation in steps.operations[kind]]
+        counts[number] -= sum(name in added for name in names)
+        line = line_of_kind(kind)
+        known = (f"{stage.stage}.{name}" for name in (kind, line))
+        counts[number] = next((FEWER[name] for name in known if name in FEWER), counts[number])
+    starts = np.concatenate([[0], np.cumsum(counts[steps.kind])])
+    row = int(np.searchsorted(starts, position, "right")) - 1
+    if row >= steps.row_count:
+        return steps.count
+    first, end = (int(start) for start in steps.starts[row : row + 2])
+    return min(first + position - int(starts[row]), end)
+
+
+# State files: what is open, and where the stepping is, saved so that it opens unchanged.
+
 
 __all__ = ["EXTENSION", "OutsideSourceError", "State", "StateFileError", "load_state", "save_state"]
 
@@ -186,7 +234,7 @@ def draft_notes(look: Look, settings: Settings) -> tuple[str, ...]:
     if not look.drafts:
         return ()
     from core.edits import Edit, apply_edit
-    from core.lanes.limits import LISTING
+    from core.lanes.problem import LISTING
     from core.lanes.run import bounded
 
     notes = []
@@ -215,13 +263,15 @@ def _settings_and_edits(document: Document) -> tuple[dict[str, str | int], list[
     """Return what is kept of settings, and of the listings that they or side B run edited, where they run."""
     if not document.edits and not document.settings.replacements:
         return settings_record(document.settings), []
-    from app.session.edited_run import settings_of  # Few states need the evaluator.
-    from app.session.printed_run import without_printed
+    from app.session.listing_runs import (
+        settings_as_edited,  # Few states need the evaluator.
+        without_printed,
+    )
     from core.edits import edits_of, without_edits
 
     other = document.settings
     with suppress(ValueError):  # Where they run no more, A | B has said why.
-        other = settings_of(document)[1]
+        other = settings_as_edited(document)[1]
     plain = without_printed(without_edits(other))
     return settings_record(plain), [EditRecord(**vars(edit)) for edit in edits_of(other)]
 
@@ -267,10 +317,11 @@ def _state(record: StateRecord, scene: AnyScene, mesh_path: str) -> State:
         path=mesh_path,
     )
     if record.look.printed:
-        from app.session.printed_run import settings_of  # Few states need the listings.
+        from app.session.listing_runs import settings_as_printed  # Few states need the listings.
 
         with in_field("look.printed"):
-            document = replace(document, settings=settings_of(record.look.printed, document)[0])
+            mine, _ = settings_as_printed(record.look.printed, document)
+            document = replace(document, settings=mine)
     with in_field("triangle and raster"):
         document.make_trace()
     position, bookmarks = record.position, tuple(record.bookmarks)
@@ -317,3 +368,29 @@ def readable_json(value: Any, indent: str = "") -> str:
     if not any(isinstance(part, dict | list) for part in value):
         return short
     return "[\n" + ",\n".join(inner + readable_json(part, inner) for part in value) + f"\n{indent}]"
+
+
+# The states of a folder, one after the other: what a lecture goes through.
+
+
+def states_beside(path: str) -> list[str]:
+    """Return the paths of all states in the folder of a state; numbers in names count: 2 comes before 10.
+
+    Raises OSError where the folder cannot be listed.
+    """
+    found = [file for file in Path(path).parent.iterdir() if file.suffix.lower() == EXTENSION]
+    return [str(file) for file in sorted(found, key=_natural)]
+
+
+def neighbour_of(path: str, states: list[str], direction: int) -> int | None:
+    """Return the place of the next state (1) or of the one before (-1), also of one that is gone; ``None``: none."""
+    here = _natural(Path(path))
+    if direction > 0:
+        return next((k for k, state in enumerate(states) if _natural(Path(state)) > here), None)
+    return next((k for k in reversed(range(len(states))) if _natural(Path(states[k])) < here), None)
+
+
+def _natural(path: Path) -> tuple[list[tuple[int, str]], str]:
+    """Return what a file is sorted by: its words and numbers, and where these are alike its name."""
+    parts = re.findall(r"\d+|\D+", path.stem.casefold())
+    return [(int(part), "") if part.isdecimal() else (-1, part) for part in parts], path.name

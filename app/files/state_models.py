@@ -7,7 +7,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 
 from app.session.document import VIEWS
 from core import STAGES
-from core.lanes.limits import LISTING, NAME_LENGTH, SHADER
+from core.lanes.problem import LISTING, NAME_LENGTH, SHADER
 from widgets.space.orbit import EXTENT_LIMITS
 
 VERSION: Literal[3] = 3

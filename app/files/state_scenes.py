@@ -1,8 +1,10 @@
 """Scenes in state files: what stands in the file, and what is taken from a mesh file or built-in scene."""
 
+import hmac
 import os
+import secrets
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any, Literal
@@ -10,23 +12,35 @@ from typing import Any, Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from app.files.file_names import is_text, shown_name
+from app.files.file_access import (
+    FileWriteError,
+    NamedFileError,
+    NamedFiles,
+    OutsideError,
+    is_text,
+    make_folder,
+    read_input,
+    shown_name,
+    write_file,
+)
 from app.files.mesh_files import MeshFileError, OutsideMeshError, load_meshes
 from app.files.mesh_formats import Report
-from app.files.mesh_sources import (
+from app.files.state_arrays import (
     ARRAYS,
     Fingerprints,
+    array_folder,
+    array_from,
     array_of,
+    array_of_record,
+    array_record,
     built_in_fingerprints,
+    check_unfolded,
     fingerprint,
     fingerprints_of,
     may_name_outside,
     remember_file,
     remembered_fingerprints,
 )
-from app.files.named_files import NamedFileError, NamedFiles, OutsideError
-from app.files.own_files import is_in_own_folder, is_marked, mark_of
-from app.files.state_arrays import array_folder, array_from, array_of_record, array_record, check_unfolded
 from app.files.state_models import (
     ArrayRecord,
     CameraRecord,
@@ -39,7 +53,7 @@ from app.files.state_models import (
     SourceRecord,
     TableSceneRecord,
 )
-from core.assembly.depth_tables import table_scene
+from core.depth.whole_depths import table_scene
 from core.records.depth_table import DepthTable, depths_of_text, text_of_depths
 from core.scene import (
     AnyScene,
@@ -55,6 +69,62 @@ from core.scene import (
 )
 from core.shaders.record import ShaderProgram
 from lessons.scenes import make_scene
+
+# Which state files this program wrote on this machine: they carry a mark that nobody else can make.
+
+
+KEY_NAME = "state.key"
+KEY_BYTES = 32
+
+
+def mark_of(path: Path, allows_outside: bool) -> str:
+    """Return the mark of a state that names the mesh file ``path``, absolute; empty where no key can be kept.
+
+    ``allows_outside``: the user has allowed that the mesh file reads files outside its folder.
+    """
+    key = _key()
+    return (
+        hmac.digest(key, f"{allows_outside} {path}".encode(errors="surrogateescape"), "sha256").hex()
+        if key
+        else ""
+    )
+
+
+def is_marked(mark: str, path: Path, allows_outside: bool) -> bool:
+    """Return whether a mark is that of `mark_of`, made by this program on this machine."""
+    return bool(mark) and hmac.compare_digest(mark.encode(), mark_of(path, allows_outside).encode())
+
+
+def is_in_own_folder(path: Path) -> bool:
+    """Return whether a file lies where the program keeps what was open last."""
+    try:
+        return path.resolve().is_relative_to(_folder().resolve())
+    except FileWriteError:
+        return False
+
+
+def _folder() -> Path:
+    from app.files.user_folders import preferences_folder  # Qt takes a moment: not before a mark is needed.
+
+    return preferences_folder()
+
+
+def _key() -> bytes:
+    """Return the secret number of this user, which is made at its first use; empty where it cannot be kept."""
+    with suppress(OSError):
+        path = _folder() / KEY_NAME
+        if not os.path.lexists(path):
+            make_folder(path.parent)
+            write_file(path, secrets.token_bytes(KEY_BYTES))
+            path.chmod(0o600)
+        key = read_input(path, KEY_BYTES)
+        if len(key) == KEY_BYTES:
+            return key
+    return b""
+
+
+# Scenes in state files: what stands in the file, and what is taken from a mesh file or built-in scene.
+
 
 CLIP_ARRAYS = ("clip", "attributes", "shared", "clip_region", "rings", "region_rings", "texture")
 Keep = Callable[[NDArray[Any]], ArrayRecord]

@@ -1,21 +1,117 @@
-"""Help in the window: a pane at its right side that is made when it is first asked for, and what its links do."""
+"""Help in the window: a pane that is made when it is first asked for, its HTML, its links, and what texts ask."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from functools import partial
+from html import escape
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QPoint, Qt, QTimer, Slot
-from PySide6.QtGui import QCursor
-from PySide6.QtWidgets import QApplication, QComboBox, QDockWidget, QWidget
+from PySide6.QtGui import QCursor, QGuiApplication
+from PySide6.QtWidgets import QApplication, QComboBox, QDockWidget, QLabel, QMenu, QTabBar, QWidget
 
-from app.help.markup import linked
-from app.help.term_menu import term_menu, terms_of
 from app.window.parts import WindowParts
 from core.methods import table
 from core.settings import FIELDS
 from core.stages.declared import STAGES
+from lessons.help import Term, find_terms
 
 if TYPE_CHECKING:
-    from widgets.help.help_view import HelpView
+    from widgets.help import HelpView
+
+
+# HTML of the pages of Help: escaped text, links, and words of the glossary as links.
+
+
+@dataclass(frozen=True)
+class HelpPage:
+    """One page."""
+
+    title: str
+    html: str
+    """Its body, without the title."""
+
+
+def link(address: str, text: str) -> str:
+    """Return a link: ``help:`` shows another page, ``do:`` does something in the window."""
+    return f'<a href="{escape(address)}">{escape(text)}</a>'
+
+
+def linked(text: str, seen: set[str] | None = None) -> str:
+    """Return plain text as HTML in which terms are links where they come first.
+
+    ``seen``: keys of terms that get no link, with those that got one from now on.
+    """
+    parts, end, seen = [], 0, set() if seen is None else seen
+    for first, last, term in find_terms(text):
+        if term.key not in seen:
+            seen.add(term.key)
+            parts += [escape(text[end:first]), link(f"help:term/{term.key}", text[first:last])]
+            end = last
+    return "".join([*parts, escape(text[end:])])
+
+
+def bullets(items: Iterable[str]) -> str:
+    """Return pieces of HTML as a list; nothing if there are none."""
+    rows = "".join(f"<li>{item}</li>" for item in items)
+    return f"<ul>{rows}</ul>" if rows else ""
+
+
+def facts(rows: Iterable[tuple[str, str]]) -> str:
+    """Return names with pieces of HTML, one a paragraph as the pane may be narrow, without those that say nothing."""
+    return "".join(f"<p><b>{escape(name)}</b>: {said}</p>" for name, said in rows if said)
+
+
+def sentence(text: str) -> str:
+    """Return words of the methods table as a sentence."""
+    return f"{text[:1].upper()}{text[1:]}{'' if text.endswith('.') else '.'}"
+
+
+# What a text on screen is about: its terms, for F1 and for the menu that asks what each of them is.
+
+
+MOST_TERMS = 12
+"""Entries of a menu."""
+
+
+def terms_of(widget: QWidget, point: QPoint | None = None) -> list[Term]:
+    """Return the terms of what a widget says; ``point``: where it is pointed at, in the widget."""
+    return list(dict.fromkeys(term for text in texts_of(widget, point) for _, _, term in find_terms(text)))
+
+
+def texts_of(widget: QWidget, point: QPoint | None = None) -> list[str]:
+    """Return what a widget says: the tab that is pointed at, its text or choice, its tip, and its name."""
+    if isinstance(widget, QTabBar):
+        index = widget.tabAt(widget.mapFromGlobal(QCursor.pos()) if point is None else point)
+        index = index if index >= 0 else widget.currentIndex()
+        return [widget.tabText(index), widget.tabToolTip(index)]
+    values = (widget.property(name) for name in ("text", "currentText", "toolTip", "accessibleName"))
+    return [value for value in values if isinstance(value, str) and value]
+
+
+def term_menu(
+    widget: QWidget, point: QPoint, show_page: Callable[[str], None], parent: QWidget
+) -> QMenu | None:
+    """Return the menu of a text: what each of its terms is, and Copy where it can be selected; nothing to ask: None."""
+    terms = terms_of(widget, point)[:MOST_TERMS]
+    if not terms:
+        return None
+    menu = QMenu(parent)
+    menu.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    for term in terms:
+        menu.addAction(f"What is “{term.name}”?").triggered.connect(partial(show_page, f"term/{term.key}"))
+    if (
+        isinstance(widget, QLabel)
+        and widget.textInteractionFlags() & Qt.TextInteractionFlag.TextSelectableByMouse
+    ):
+        menu.addSeparator()
+        copied = widget.selectedText() or widget.text()
+        menu.addAction("Copy").triggered.connect(partial(QGuiApplication.clipboard().setText, copied))
+    return menu
+
+
+# Help in the window: a pane at its right side that is made when it is first asked for, and what its links
+# do.
 
 
 class HelpPane(QObject):
@@ -111,7 +207,7 @@ class HelpPane(QObject):
 
     def _made(self) -> QDockWidget:
         if self.dock is None:
-            from widgets.help.help_view import HelpView
+            from widgets.help import HelpView
 
             view = HelpView(self._body)
             view.link_chosen.connect(self.follow)

@@ -1,4 +1,10 @@
-"""The core's picture of a case against OpenGL's: pixels that show another primitive, and errors of values.
+"""The core's picture of a case against OpenGL's, and which pixels OpenGL may draw otherwise where it clips.
+
+Coverage is decided on corners snapped to 1/256 pixel, and a snapped corner lies up to sqrt(2)/512 pixel from its place.
+OpenGL snaps the corners that clipping makes too, and computes all window positions in float32, which may put a corner
+on the next step. So its edges and the core's both lie beside the given edge, together by at most a step's
+diagonal, sqrt(2)/256 pixel: only centres nearer to an edge may show another triangle. Where near and far plane cut a
+triangle are edges like the others.
 
 How exact a value must be follows from how OpenGL implementations compute it: as a linear function of the
 pixel in float32, as if the sample lay up to 2^-18 of the raster's side beside its place. A value may be off by
@@ -7,18 +13,74 @@ a value (slivers, those seen edge-on) need no tolerances of their own.
 """
 
 from dataclasses import dataclass
+from fractions import Fraction
 
 import numpy as np
 
-from app.opengl_check.case import Case
-from app.opengl_check.clipped_families import CLIPPED_FAMILIES
-from app.opengl_check.draw import Picture
-from app.opengl_check.judge import BOUND, edge_distances
+from app.opengl_check.cases import STEP, Case, Picture
+from app.opengl_check.families import CLIPPED_FAMILIES
 from core import draw_triangles
-from core.fragments.interpolation import Planes, set_up_planes, value_plane
-from core.raster.edges.snapping import place_corners
-from core.raster.lines.drawing import draw_lines, interpolate_line
+from core.coverage.measured_exactly import Corner, homogeneous_corner
+from core.coverage.snapping import place_corners
+from core.interpolation.interpolation import Planes, set_up_planes, value_plane
+from core.lines.drawing import draw_lines, interpolate_line
 from core.records.arrays import Floats, Integers
+
+# Which pixels OpenGL may draw otherwise where it clips: those beside an edge, in exact arithmetic.
+
+
+BOUND = np.sqrt(2) * STEP
+"""Pixels from an edge within which another triangle may be seen."""
+
+Line = tuple[Fraction, Fraction, Fraction]
+
+
+def edge_distances(case: Case, differing: Integers) -> Floats:
+    """Return how far pixels that show different triangles are from the nearest edge that may decide it.
+
+    Parameters
+    ----------
+    case : Case
+        Its triangles are drawn in order, the last one stays.
+    differing : (D, 4) int64
+        Column, row, and the two triangles seen; -1: none.
+
+    Returns
+    -------
+    (D,) float64
+        Pixels, rounded once from a rational number. Of the two triangles the later one is covered in one picture and
+        not in the other: the edges are its own.
+    """
+    lines: dict[int, list[Line]] = {}
+    distances = []
+    for column, row, ours, theirs in differing.tolist():
+        triangle = max(ours, theirs)
+        if triangle not in lines:
+            lines[triangle] = edge_lines(case.clip[triangle].astype(float), case.size)
+        x, y = Fraction(2 * column + 1, 2), Fraction(2 * row + 1, 2)
+        squared = [(a * x + b * y + c) ** 2 / (a * a + b * b) for a, b, c in lines[triangle]]
+        distances.append(float(min(squared)) ** 0.5 if squared else np.inf)
+    return np.array(distances)
+
+
+def edge_lines(corners: Floats, size: tuple[int, int]) -> list[Line]:
+    """Return the lines a x + b y + c = 0 in the window of a triangle's edges (3, 4) and of its cuts by near and far."""
+    placed = [homogeneous_corner(corner, size) for corner in corners]
+    edges = [_line_through(placed[k - 2], placed[k - 1]) for k in range(3)]
+    cuts = []
+    for sign in (1, -1):
+        beyond = [Fraction(float(w)) + sign * Fraction(float(z)) for _, _, z, w in corners]
+        cuts.append(tuple(sum(f * edge[k] for f, edge in zip(beyond, edges, strict=True)) for k in range(3)))
+    return [(Fraction(a), Fraction(b), Fraction(c)) for a, b, c in (*edges, *cuts) if a or b]
+
+
+def _line_through(first: Corner, second: Corner) -> Line:
+    (x1, y1, w1), (x2, y2, w2) = first, second
+    return y1 * w2 - w1 * y2, w1 * x2 - x1 * w2, x1 * y2 - y1 * x2
+
+
+# The core's picture of a case against OpenGL's: pixels that show another primitive, and errors of values.
+
 
 DISPLACEMENT = 2.0**-18
 """How far a sample may lie beside its place, in sides of the raster; four times as far where OpenGL makes new corners
@@ -28,7 +90,7 @@ COLOR_TOLERANCE = 2e-5
 BILINEAR_TOLERANCE = 5e-4
 """Implementations weigh the texels of the bilinear filter with fewer bits than float32 has."""
 BESIDE_EDGES = frozenset({"clipped", "near", *CLIPPED_FAMILIES})
-"""Families in which pixels beside an edge may show another triangle: see `app.opengl_check.judge`."""
+"""Families in which pixels beside an edge may show another triangle: see `app.opengl_check.compare`."""
 PIXELS_ALLOWED = {"line-ends": 4}
 """Pixels per case that may show another primitive, by family; none of the others, but those beside an edge. Where
 OpenGL moves the end of a line to the border of its pixel, the new corner is snapped to 1/256 pixel and the line moves

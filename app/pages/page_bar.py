@@ -1,4 +1,4 @@
-"""The pages of the window and the bar that chooses among them; a page is made when it is first shown."""
+"""The pages of the window and the bar that chooses among them; what stands for one that would show what is asked."""
 
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -8,24 +8,66 @@ from PySide6.QtCore import QByteArray, QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QApplication, QSplitter, QStackedWidget, QTabBar, QWidget
 
-from app.background.workers import Job
-from app.pages.cover import Cover
+from app.background import Job
 from app.session.moment import Change
 from app.session.session import Session
 from core.explain.records import Formula
 from core.settings import Settings
-from widgets.basics.controls import column_layout, row_layout
-from widgets.basics.focus_order import first_stop
-from widgets.basics.key_claim import GIVEN_BACK
+from widgets.basics.accessibility import GIVEN_BACK, first_stop
+from widgets.basics.controls import button_with_tip, column_layout, row_layout, text_label
 from widgets.basics.message_bar import Progress
 
 if TYPE_CHECKING:
-    from app.files.preferences import Preferences
+    from app.files.between_starts import Preferences
     from core.edits import Edit
     from core.scene import AnyScene
-    from core.study.accuracy.record import (
-        Opening,
-    )  # At run time all studies would come along: not before they are wanted.
+    from core.study.record import Opening
+
+
+# What stands for a page that would show what is asked about, with the ways back to the question.
+
+
+COVERED = {
+    "exercise": "Hidden while an exercise asks about this scene.",
+    "lesson": "Hidden while a lesson asks about this scene.",
+}
+"""What is said of a hidden page, by who asks."""
+
+
+class Cover(QWidget):
+    """Says why a page is hidden, and offers the question, or to leave the lesson that asks it."""
+
+    back_requested = Signal()
+    leave_requested = Signal()
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.said = text_label("", self, role="muted")
+        self.back_button = button_with_tip("Go back to the question", "Show what is asked", self)
+        self.leave_button = button_with_tip(
+            "Leave the lesson", "Close the lesson; what you have done of it is kept", self
+        )
+        self.back_button.clicked.connect(self.back_requested)
+        self.leave_button.clicked.connect(self.leave_requested)
+        self.setFocusProxy(self.back_button)
+        buttons = row_layout(spacing=8)
+        buttons.addStretch(1)
+        buttons.addWidget(self.back_button)
+        buttons.addWidget(self.leave_button)
+        buttons.addStretch(1)
+        column = column_layout(self, 12)
+        column.addStretch(1)
+        column.addWidget(self.said, 0, Qt.AlignmentFlag.AlignHCenter)
+        column.addLayout(buttons)
+        column.addStretch(1)
+
+    def show_asker(self, asker: str) -> None:
+        """Name who asks."""
+        self.said.setText(COVERED[asker])
+        self.leave_button.setVisible(asker == "lesson")
+
+
+# The pages of the window and the bar that chooses among them; a page is made when it is first shown.
 
 
 @dataclass(frozen=True, eq=False)
@@ -96,7 +138,7 @@ class Page(QWidget):
     """What is to be opened, as links of Help say it: ``exercise/shared-edge``."""
 
     preference_changed = Signal(str, object)
-    """Name and value of a field of ``app.files.preferences.Preferences`` that the user has changed."""
+    """Name and value of a field of ``app.files.between_starts.Preferences`` that the user has changed."""
 
     action_requested = Signal(str)
     """Name of an action of ``app.window.actions.ACTIONS`` that is another page's, or shows another page."""

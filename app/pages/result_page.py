@@ -9,18 +9,17 @@ from typing import Any, Generic, TypeVar
 from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QPushButton, QSplitter, QWidget
 
-from app.background.workers import PartWork
+from app.background import PartWork
 from app.export.views import copy_widget, export_widget
+from app.files.file_access import write_file
 from app.files.file_dialogs import SaveDialog
-from app.files.file_writing import write_file
-from app.files.kept_results import ENDING, KeptResults
+from app.files.kept_work import ENDING, KeptResults
 from app.pages.experiment_page import ExperimentPage, PacedDrawing, WorkWords, splitter
 from app.pages.words import machine_words
 from core.scene import AnyScene
 from lessons.os_errors import problem_text
-from widgets.basics.controls import button_with_tip, flat_button
-from widgets.basics.labels import ElidedLabel, Readout
-from widgets.charts.family_list import FamilyEntry, FamilyList
+from widgets.basics.controls import ElidedLabel, Readout, button_with_tip, flat_button
+from widgets.experiments.controls import FamilyEntry, FamilyList
 
 Content = TypeVar("Content")
 

@@ -5,7 +5,7 @@ from math import floor, isnan, log10
 
 from core.records.words import joined
 from core.settings import Settings
-from core.study.accuracy.record import Study, best_values
+from core.study.record import Study, best_values
 
 TIME_UNITS = ((1.0, "s"), (1e-3, "ms"), (1e-6, "µs"), (1e-9, "ns"))
 
@@ -70,7 +70,7 @@ def machine_sentence(study: Study) -> str:
 
 
 def machine_words(here: Mapping[str, str]) -> str:
-    """Return a machine as `core.study.accuracy.record.machine` describes it, in words."""
+    """Return a machine as `core.study.record.machine` describes it, in words."""
     if not here:
         return "The machine is unknown."
     return (

@@ -1,13 +1,93 @@
-"""Edits of the whole document: which triangle is in focus, which raster is drawn, what is shared and cleared."""
+"""Edits of the whole document, and drags of vertices, of which the newest place counts."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.session.document import Document, fit_region, focus_on, same_view
 from app.session.session import Session
 from core.scene import ClipScene
 from lessons.scene_edits import join_shared, split_shared
+
+# Calls that come faster than they are done: the first of a turn of the event loop is done at once, then the
+# last.
+
+
+class LatestCall(QObject):
+    """Does the last of the calls that wait, as of a pointer that moves on while its last place is worked on."""
+
+    def __init__(self, do: Callable[..., None], parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._do = do
+        self._waiting: tuple[object, ...] | None = None
+        self._turn = QTimer(self)
+        self._turn.setSingleShot(True)
+        self._turn.timeout.connect(self._do_waiting)
+
+    def call(self, *arguments: object) -> None:
+        """Do this now, or when everything that waits in the event loop has come, unless there is a later call then."""
+        if self._turn.isActive():
+            self._waiting = arguments
+        else:
+            self._turn.start(0)
+            self._do(*arguments)
+
+    def flush(self) -> None:
+        """Do what waits now."""
+        self._turn.stop()
+        arguments, self._waiting = self._waiting, None
+        if arguments is not None:
+            self._do(*arguments)
+
+    @Slot()
+    def _do_waiting(self) -> None:
+        arguments, self._waiting = self._waiting, None
+        if arguments is not None:
+            self.call(*arguments)
+
+
+# Drags of vertices, one after the other: the newest place counts, and each drag is undone as a whole.
+
+
+class DragGestures(QObject):
+    """Names each drag, and ends it in the session."""
+
+    def __init__(
+        self, session: Session, name: str, move: Callable[[int, float, float], None], parent: QObject
+    ) -> None:
+        """``move`` takes a vertex to a place; ``name`` tells these drags from those in other views."""
+        super().__init__(parent)
+        self._session, self._name, self._count = session, name, 0
+        self._moves = LatestCall(move, self)
+
+    @property
+    def name(self) -> str:
+        """Name of the present drag, for `Session.edit`."""
+        return f"{self._name} {self._count}"
+
+    @Slot(int, float, float)
+    def drag(self, vertex: int, x: float, y: float) -> None:
+        """Move a vertex, unless a later place of it comes first."""
+        self._moves.call(vertex, x, y)
+
+    @Slot(int)
+    def end(self, vertex: int) -> None:
+        """End the drag; what follows is another one."""
+        self._moves.flush()
+        self._session.come_to_rest()
+        self._count += 1
+
+    @Slot(int)
+    def take_back(self, vertex: int) -> None:
+        """End the drag as if it had not been."""
+        self._moves.flush()
+        self._session.take_back(self.name)
+        self._count += 1
+
+
+# Edits of the whole document: which triangle is in focus, which raster is drawn, what is shared and
+# cleared.
 
 
 class DocumentEdits(QObject):

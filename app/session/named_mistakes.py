@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import cast
 
 from app.session.document import Document
-from app.session.edited_run import settings_of
+from app.session.listing_runs import settings_as_edited
 from core import Settings, render
 from core.scene import ClipScene
 from lessons.course.catalogue import shipped
@@ -31,7 +31,7 @@ def outcome_of(document: Document) -> Outcome:
 
     Raises ValueError where an edited listing cannot be drawn.
     """
-    mine, other = settings_of(document)
+    mine, other = settings_as_edited(document)
     scene = document.traced_scene
     wanted = frame_bytes(render(scene, other))
     if wanted == frame_bytes(render(scene, mine)):

@@ -5,11 +5,20 @@ from typing import TYPE_CHECKING, Any
 
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
-from app.session.cursor import Cursor, cursor_for, kept_at_pixel, placed, stepped
 from app.session.document import Document, edits_beside
-from app.session.held_bytes import held_arrays
-from app.session.history import History
-from app.session.moment import NOTHING, Change, Moment, Pixel, Step
+from app.session.history import History, held_arrays
+from app.session.moment import (
+    NOTHING,
+    Change,
+    Cursor,
+    Moment,
+    Pixel,
+    Step,
+    cursor_for,
+    kept_at_pixel,
+    placed,
+    stepped,
+)
 from app.session.tracing import QUICK_SECONDS, RESTING_SECONDS, Order, Traced, Tracing, trace_drag, trace_now
 from core import STAGES, Settings, Trace
 from core.records.steps import Level

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.background.workers import Job
+from app.background import Job
 from app.session.document import Document
 from core import Trace
 from core.resolved import resolve

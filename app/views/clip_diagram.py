@@ -11,10 +11,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from core.geometry.culling import PLANES, REASONS
-from core.geometry.polygon_clipping.sutherland_hodgman import distance_from
+from core.clipping.sutherland_hodgman import distance_from
+from core.culling.culling import PLANES, REASONS
 from core.records.arrays import Floats, Integers
-from core.records.nouns import nouns
+from core.records.words import nouns
 from core.trace import StageTrace, Trace
 from widgets.space.diagram import CUBE, Diagram, Patch, Spot, Stroke, Word
 from widgets.space.orbit import Orbit

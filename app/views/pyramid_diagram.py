@@ -14,14 +14,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from app.views.pointed_pixel import PointedPixel, fragment_at
-from core.fragments.interpolation import numerators, plane_value, set_up_planes, value_plane
-from core.geometry.vertex_stage import VertexStage
+from core.interpolation.interpolation import numerators, plane_value, set_up_planes, value_plane
 from core.records.arrays import Floats
-from core.records.nouns import nouns
+from core.records.words import nouns
 from core.trace import TraceSource
-from widgets.grid.buffer import number_text
-from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word
-from widgets.space.paint import clip_polygon
+from core.transform.vertex_stage import VertexStage
+from widgets.grid.layers import number_text
+from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word, clip_polygon
 
 LARGEST_W = 4.0
 SMALLEST_W = 0.4

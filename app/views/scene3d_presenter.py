@@ -7,17 +7,15 @@ import numpy as np
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
 from app.session.document import Document
-from app.session.drag_gestures import DragGestures
+from app.session.document_edits import DragGestures
 from app.session.moment import Moment
 from app.session.session import Session
-from app.views.frame_report import FrameReport
-from app.views.hidden_backs import HiddenBacks
-from app.views.pixel_ray import pixel_marks
-from app.views.pointed_pixel import pointed_pixels
-from app.views.scene_figures import OWN_SIZE, fixed_size, size_choices
+from app.views.pointed_pixel import pixel_marks, pointed_pixels
+from app.views.scene_frames import OWN_SIZE, FrameReport, SceneWorker, fixed_size, size_choices
 from app.views.scene_picture import (
     MOST_TRIANGLES,
     DrawnScene,
+    HiddenBacks,
     SceneShot,
     Thinning,
     draw_thinned,
@@ -26,15 +24,21 @@ from app.views.scene_picture import (
     space_words,
     triangle_seen,
 )
-from app.views.scene_worker import SceneWorker
-from app.views.step_marks import is_scene_asked, is_scene_lit, step_marks
-from app.views.view_space import LARGEST_WITH_CAMERA, ViewSpace, make_space, move_corner_to, with_triangles
+from app.views.view_space import (
+    LARGEST_WITH_CAMERA,
+    ViewSpace,
+    is_scene_asked,
+    is_scene_lit,
+    make_space,
+    move_corner_to,
+    step_marks,
+    with_triangles,
+)
 from core.fast_path.workers import BandWorkers
 from core.records.arrays import Integers
-from core.records.nouns import nouns
-from core.records.words import counted
+from core.records.words import counted, nouns
 from core.scene import AnyScene, Scene
-from core.trace.geometry_progress import is_dropped
+from core.transform.traced import is_dropped
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.space.orbit import Orbit, fitted
 from widgets.space.scene_view import SceneHandle, SceneMark, ScenePicture, SceneView
@@ -146,7 +150,7 @@ class Scene3dPresenter(QObject):
 
     @Slot(str)
     def choose_size(self, name: str) -> None:
-        """Draw at a size of ``app.views.scene_figures``, by its name."""
+        """Draw at a size of ``app.views.scene_frames``, by its name."""
         self._size_name = name
         self._offer_sizes()
 

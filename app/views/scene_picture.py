@@ -1,27 +1,209 @@
-"""The picture of the 3D view: the scene drawn by the core from outside, with camera, view volume and axes."""
+"""The picture of the 3D view: the scene drawn by the core from outside, with lines in space and no hidden backs."""
 
-from dataclasses import dataclass, replace
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from time import perf_counter
 
 import numpy as np
 
-from app.views.hidden_backs import HiddenBacks
-from app.views.scene_figures import FrameFigures
-from app.views.scene_lines import SpaceLine, find_line_pixels, paint_lines
+from app.views.scene_frames import FrameFigures
 from app.views.view_space import ViewSpace, thinned, viewed_scene, viewing_camera, viewing_matrix
-from core import Camera, Settings
+from core import Settings
+from core.coverage.pixel_runs import expand, make_raster
+from core.culling.culling import plane_distances
+from core.depth.fixed_depth import SCALE
 from core.fast_path.workers import BandWorkers
 from core.framebuffer.display import Bytes, linear_light
-from core.framebuffer.fixed_depth import SCALE
-from core.geometry.matrices import transform
+from core.lines.drawing import draw_lines, interpolate_line
 from core.pipeline import draw
-from core.raster.pixel_runs import make_raster
-from core.records.arrays import Floats, Integers
-from core.scene import AnyScene, DirectionalLight, Scene
+from core.records.arrays import Flags, Floats, Integers
+from core.scene import AnyScene, Camera, DirectionalLight, Mesh, Scene
+from core.stages.closed_meshes import is_solid
 from core.trace import scene_triangle_count
+from core.transform.matrices import transform
+from core.transform.vertex_stage import transform_vertices
 from widgets.basics.theme import Theme, ink_color
-from widgets.space.orbit import Orbit
-from widgets.space.view_depth import ViewDepth
+from widgets.space.orbit import Orbit, ViewDepth
+
+# Which back faces the 3D view need not draw: those of solids, seen from outside.
+
+
+FEWEST = 2_000
+"""Triangles; the back faces of fewer cost less than it takes to find out."""
+
+
+class HiddenBacks:
+    """Remembers of the meshes that are drawn whether they are solids.
+
+    It is found out when meshes are drawn a second time, so it costs nothing while they are edited; one thread asks.
+    """
+
+    def __init__(self) -> None:
+        self._meshes: tuple[Mesh, ...] = ()
+        self._is_solid: bool | None = None
+        self._corners = np.zeros((8, 3))
+        """Of the box around the solids, in the world."""
+
+    def are_hidden(self, scene: AnyScene) -> bool:
+        """Return whether no back face can be seen; ``False`` also where that is not known."""
+        if not isinstance(scene, Scene) or sum(len(mesh.triangles) for mesh in scene.meshes) < FEWEST:
+            return False
+        if scene.meshes is not self._meshes:
+            self._meshes, self._is_solid = scene.meshes, None
+            return False
+        if self._is_solid is None:
+            self._is_solid = is_solid(scene)
+            world = transform_vertices(scene).world
+            assert world is not None
+            ends = np.stack([world[:, :3].min(axis=0), world[:, :3].max(axis=0)])
+            self._corners = np.stack(np.meshgrid(*ends.T), axis=-1).reshape(8, 3)
+        return self._is_solid and self._is_before(scene.camera)
+
+    def _is_before(self, camera: Camera) -> bool:
+        """Return whether the near plane cuts nothing off, so that the eye is outside and no solid is seen cut open."""
+        forward = camera.target - camera.eye
+        distance = (self._corners - camera.eye) @ forward / np.linalg.norm(forward)
+        return bool((distance > camera.near).all())
+
+
+# Lines in space drawn into a picture by the core's own line method, hidden parts faint.
+
+
+DEPTH_BIAS = 0.004
+"""How much farther than the surface, as a part of its distance, a line on it may seem to be."""
+
+
+@dataclass(frozen=True, eq=False)
+class SpaceLine:
+    """A line through points of the space that is shown."""
+
+    points: Floats = field(repr=False)
+    """(N, 3) float64; a point that is not finite interrupts it."""
+    ink: str
+    """Name of a colour, see ``widgets.basics.theme``."""
+    width: int = 1
+    """Pixels."""
+    hidden: float = 0.25
+    """Opacity of the parts behind something."""
+
+
+def visible_part(clip: Floats) -> tuple[Floats, Integers]:
+    """Cut segments (L, 2, 4) in clip space to the view volume.
+
+    Returns
+    -------
+    cut : (M, 2, 4) float64, w > 0
+    source : (M,) int64, the segment that each is from
+
+    References
+    ----------
+    Y. Liang, B. Barsky, *A new concept and method for line clipping*, 1984.
+    """
+    distance = plane_distances(clip)
+    start, end = distance[:, 0], distance[:, 1]
+    with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
+        crossing = start / (start - end)
+    enter = np.where((start < 0) & (end >= 0), crossing, 0.0).max(axis=1)
+    leave = np.where((start >= 0) & (end < 0), crossing, 1.0).min(axis=1)
+    keep = ~((start < 0) & (end < 0)).any(axis=1) & (enter <= leave) & np.isfinite(clip).all(axis=(1, 2))
+    ends = np.stack([enter, leave], axis=1)[..., None]
+    cut = clip[:, :1] + ends * (clip[:, 1:] - clip[:, :1])
+    keep &= (cut[..., 3] > 0).all(axis=1)
+    return cut[keep], np.flatnonzero(keep).astype(np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class LinePixels:
+    """N pixels of lines in a picture, a pixel of each line one after the other along it."""
+
+    column: Integers
+    """(N,) int64."""
+    row: Integers
+    """(N,) int64."""
+    inverse_w: Floats
+    """(N,) float64, 1/w of the line there."""
+    line: Integers
+    """(N,) int64, which line it is."""
+    is_steep: Flags
+    """(N,) bool, whether the line goes up more than it goes across: then it is thick across."""
+    size: tuple[int, int]
+    """Width and height of the picture."""
+
+    @property
+    def depth_at(self) -> Integers:
+        """(5 N,) int64, the places of the pixels, then of those left, right, below and above, within the picture."""
+        width, height = self.size
+        place = self.row * width + self.column
+        return np.concatenate(
+            [
+                place,
+                place - (self.column > 0),
+                place + (self.column < width - 1),
+                place - width * (self.row > 0),
+                place + width * (self.row < height - 1),
+            ]
+        )
+
+
+def find_line_pixels(lines: Sequence[SpaceLine], matrix: Floats, size: tuple[int, int]) -> LinePixels:
+    """Return the pixels of lines in a picture.
+
+    Parameters
+    ----------
+    matrix : (4, 4) float64
+        Space to clip space of the viewing camera.
+    size : (width, height)
+    """
+    ends = [np.stack([line.points[:-1], line.points[1:]], axis=1) for line in lines]
+    segments = np.concatenate([np.zeros((0, 2, 3)), *ends])
+    owner = np.repeat(np.arange(len(lines)), [len(of_line) for of_line in ends])
+    homogeneous = np.concatenate([segments, np.ones((*segments.shape[:2], 1))], axis=2)
+    with np.errstate(invalid="ignore", over="ignore"):
+        clip, source = visible_part(transform(matrix, homogeneous))
+    window = (clip[..., :2] / clip[..., 3:] + 1) * np.array([size[0] / 2, size[1] / 2])
+    drawn = draw_lines(window, *size, last_pixel=True)
+    # 1/w is linear in the window, as depth is.
+    near = interpolate_line(drawn.owner, drawn.steps.t, (1 / clip[..., 3])[..., None])[:, 0]
+    across, up = np.abs(window[:, 1] - window[:, 0]).T
+    column, row = drawn.pixels.T
+    return LinePixels(column, row, near, owner[source][drawn.owner], (up > across)[drawn.owner], size)
+
+
+def paint_lines(
+    pixels: Bytes, found: LinePixels, seen: Floats, lines: Sequence[SpaceLine], colors: Sequence[str]
+) -> None:
+    """Paint lines over a picture.
+
+    Parameters
+    ----------
+    pixels : (H, W, 4) uint8, contiguous
+        The picture, written to.
+    seen : (5 N,) float64
+        1/w of what is seen at ``found.depth_at``.
+    lines : sequence of SpaceLine
+        From the first drawn to the last.
+    colors : sequence of str
+        ``#rrggbb`` of every line.
+    """
+    # A line on a slanted surface or along its border counts as seen if it would be in a pixel beside.
+    farthest = seen.reshape(5, -1).min(axis=0)
+    hidden = np.array([line.hidden for line in lines])[found.line]
+    opacity = np.where(found.inverse_w >= farthest * (1 - DEPTH_BIAS), 1.0, hidden)[:, None]
+    inks = np.array([[int(color[k : k + 2], 16) for k in (1, 3, 5)] for color in colors]).reshape(-1, 3)
+    ink = inks[found.line] * opacity
+    width, height = found.size
+    which, offset = expand(np.array([line.width for line in lines], np.int64)[found.line])
+    is_steep = found.is_steep[which]
+    column, row = found.column[which] + offset * is_steep, found.row[which] + offset * ~is_steep
+    inside = np.flatnonzero((column < width) & (row < height))
+    which, place = which[inside], (row * width + column)[inside]
+    flat = pixels.reshape(-1, 4)
+    flat[place, :3] = np.rint(flat[place, :3] * (1 - opacity[which]) + ink[which])
+    flat[place, 3] = 255
+
+
+# The picture of the 3D view: the scene drawn by the core from outside, with camera, view volume and axes.
+
 
 SIGHT_COLUMNS, SIGHT_ROWS = 96, 64
 """Places at which the distance of what is seen is kept."""

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast
 
 from app.help.pane import HelpPane
-from app.pages.step.lesson_presenter import WAY_BACK
+from app.pages.lessons.presenter import WAY_BACK
 from app.pages.step.page import StepPage
 from app.pages.step.panes import PANES, Pane, SidePane
 from app.pages.step.stepping_presenter import SteppingPresenter
@@ -14,10 +14,10 @@ from app.window.focus_walk import FocusWalk
 from app.window.keys import (
     KeyAction,
 )
+from app.window.menus import next_entry, printed_group, scene_groups, scenes_about
 from app.window.parts import WindowParts
 from app.window.presenter import Presenter
 from app.window.remembering import Remembering
-from app.window.scene_groups import next_entry, printed_group, scene_groups, scenes_about
 from core.scene import ClipScene
 from core.stages.declared import STAGES, stage_of
 
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from app.pages.exercises.page import ExercisesPage
     from app.pages.plan.page import PlanPage
     from app.pages.stability.page import StabilityPage
-    from app.pages.start.page import StartPage
+    from app.pages.start_page import StartPage
 
 
 class ActionWindow(WindowParts):

@@ -2,10 +2,9 @@
 
 from typing import TYPE_CHECKING
 
-from app.pages.step.bookmarks import BOOKMARKS
-from app.pages.step.copy_state import copy_state
+from app.pages.step.kept_look import BOOKMARKS, copy_state
+from app.pages.step.main_area import ZOOM, choose_vertex, move_view, nudge_vertex, zoom
 from app.pages.step.panes import PANES
-from app.pages.step.view_keys import ZOOM, choose_vertex, move_view, nudge_vertex, zoom
 from app.window.action import (
     Action,
     Row,

@@ -1,34 +1,228 @@
-"""Files of the window: opening meshes, states and built-in scenes, saving a state."""
+"""Files of the window: opening meshes, states and scenes, saving a state, and the view as a file or on paper."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from pathlib import Path
 
-from PySide6.QtCore import QObject, Signal, Slot
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QObject, QTimer, Signal, Slot
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QApplication, QWidget
 
-from app.background.freeing import Freeing
-from app.background.workers import Job, Progress
+from app.background import Freeing, Job, Progress
+from app.export.views import ViewSheet, copy_widget, export_widget
+from app.files.file_access import is_text
 from app.files.file_dialogs import SaveDialog, ask_file
-from app.files.file_names import is_text
 from app.files.mesh_files import EXTENSIONS, OpeningCancelledError, OutsideMeshError
 from app.files.open_any import Opened, open_any
-from app.files.state_files import EXTENSION, OutsideSourceError, State, StateFileError, save_state
-from app.files.state_folder import neighbour_of, states_beside
+from app.files.state_files import (
+    EXTENSION,
+    OutsideSourceError,
+    State,
+    StateFileError,
+    neighbour_of,
+    save_state,
+    states_beside,
+)
 from app.files.user_folders import preferences_folder
 from app.pages.page_bar import Pages
 from app.pages.page_table import page_endings
-from app.pages.step.looks import show_state, state_of
+from app.pages.step.kept_look import show_state, state_of
 from app.pages.step.page import StepPage
-from app.session.cursor import cursor_at
 from app.session.document import edits_beside
-from app.session.tracing import trace_now
+from app.session.moment import cursor_at
+from app.session.tracing import Tracing, trace_now
 from app.window.appearance import Appearance
-from app.window.work_progress import WorkProgress
 from core import Trace
-from core.records.sentences import sentences
+from core.records.words import sentences
 from lessons.os_errors import problem_text
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
+from widgets.basics.message_bar import Progress as ShownProgress
+from widgets.basics.style_sheet import apply_theme
+from widgets.basics.theme import LIGHT, current_theme
+
+# What long work shows: its progress, once it takes a moment, and its cancelling.
+
+
+PROGRESS_AFTER = 300
+"""Milliseconds before the progress of long work is shown."""
+
+
+class WorkProgress(QObject):
+    """Shows the opening of a file and the tracing of an edit in the message bar."""
+
+    opening_cancelled = Signal()
+    edit_cancelled = Signal()
+
+    def __init__(
+        self, opening: Job, tracing: Tracing, messages: MessageBar, parent: QObject | None = None
+    ) -> None:
+        super().__init__(parent)
+        self._opening, self._tracing, self._messages = opening, tracing, messages
+        self._title = ""
+        """What is waited for, as ``Opening teapot.obj``."""
+        self._slow = QTimer(self)
+        self._slow.setSingleShot(True)
+        self._slow.setInterval(PROGRESS_AFTER)
+        self._slow.timeout.connect(self._show_slow)
+        opening.progressed.connect(self._show_progress)
+        opening.ended.connect(self._end)
+        tracing.busy_changed.connect(self._show_busy)
+        messages.cancel_requested.connect(self.cancel)
+
+    @property
+    def is_busy(self) -> bool:
+        """Whether anything is waited for."""
+        return self._opening.is_running or self._tracing.is_busy
+
+    def begin(self, doing: str) -> None:
+        """Show what is being done, if that takes a moment."""
+        self._title = doing
+        self._slow.start()
+
+    @Slot()
+    def cancel(self) -> None:
+        """Stop waiting; the open scene is unchanged."""
+        if self._tracing.is_busy:
+            self._tracing.cancel()
+            self.edit_cancelled.emit()
+        if self._opening.is_running:
+            self._opening.cancel()
+            self.opening_cancelled.emit()
+
+    @Slot(object, str)
+    def _show_progress(self, fraction: float | None, doing: str) -> None:
+        if not self._slow.isActive():
+            done = 0 if fraction is None else round(fraction * 100)
+            text = f"{self._title}: {doing}" if doing else self._title
+            self._messages.show_progress(ShownProgress(text, done, 0 if fraction is None else 100))
+
+    @Slot()
+    def _show_slow(self) -> None:
+        if self.is_busy:
+            self._messages.show_progress(ShownProgress(self._title, 0, 0))
+
+    @Slot(str)
+    def _show_busy(self, doing: str) -> None:
+        if doing:
+            self.begin(doing)
+        elif not self._opening.is_running:
+            self._end()
+
+    @Slot()
+    def _end(self) -> None:
+        self._slow.stop()
+        self._messages.show_progress(None)
+
+
+# The view as a file, on the clipboard and on paper, with the sentence and the formula of its step.
+
+
+SCALES = (1, 2, 4, 8)
+"""Pixels of a picture to a pixel of the screen's picture that can be chosen."""
+
+
+class ExportActions(QObject):
+    """Exports, copies and prints the main view of the page that is shown."""
+
+    message_sent = Signal(object)
+    """A ``Message`` about what became of it."""
+
+    def __init__(self, pages: Pages, window: QWidget) -> None:
+        super().__init__(window)
+        self._pages = pages
+        self.scale = 1
+        """Of pictures, one of `SCALES`."""
+        self.has_caption = False
+        """Whether the sentence and the formula stand under the view."""
+
+    @Slot(int)
+    def set_scale(self, scale: int) -> None:
+        """Choose how many pixels pictures have to a pixel of the screen's."""
+        self.scale = scale
+
+    def ask_export(self) -> None:
+        """Ask where the view is to go, and export it."""
+        kinds = "PNG picture (*.png);;SVG drawing (*.svg);;PDF page (*.pdf)"
+        name = f"{self._pages.file_stem()}.png"
+        path = SaveDialog(self._pages.window(), "Export view", name, kinds).ask()
+        if path:
+            self.export_to(path)
+
+    def export_to(self, path: str) -> None:
+        """Export the view by the ending of the file, and confirm it."""
+        try:
+            with self._figure() as figure:
+                export_widget(figure, path, self._scale())
+        except (OSError, ValueError) as error:
+            self._tell(f"The view was not exported: {error}", MessageKind.ERROR)
+            return
+        name = Path(path).name
+        size = QImage(path).size() if name.lower().endswith(".png") else None
+        self._tell(f"Exported {name}" + (f", {size.width()} × {size.height()} pixels." if size else "."))
+
+    def copy(self) -> None:
+        """Put the view on the clipboard as a picture, and confirm it."""
+        with self._figure() as figure:
+            size = copy_widget(figure, self._scale())
+        self._tell(f"Copied the view, {size.width()} × {size.height()} pixels.")
+
+    def print_view(self, title: str) -> None:
+        """Show the view with sentence and formula on one page, to be printed."""
+        from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog  # Only who prints waits for it.
+
+        page = self._pages.current
+        with _as_on_paper():
+            page.settle()
+            sheet = ViewSheet(page.main_view(), page.caption(), title)
+            printer = QPrinter(QPrinter.PrinterMode.HighResolution)
+            printer.setDocName(title or "Rasterscope")
+            printer.setCreator("Rasterscope")
+            dialog = QPrintPreviewDialog(printer, self._pages.window())
+            dialog.setWindowTitle("Print view")
+            # Qt's own size is that of its buttons: a page of a few pixels.
+            dialog.resize(self._pages.window().size() * 0.9)
+            dialog.paintRequested.connect(sheet.print_on)
+            if dialog.exec():
+                self._tell("Printed the view.")
+            dialog.deleteLater()
+            sheet.deleteLater()
+
+    @contextmanager
+    def _figure(self) -> Iterator[QWidget]:
+        """Yield what is to be exported: the view, or a sheet with what its page says of it."""
+        page = self._pages.current
+        caption = page.caption()
+        if not (self.has_caption and (caption.sentence or caption.formula)):
+            yield page.main_view()
+            return
+        sheet = ViewSheet(page.main_view(), caption)
+        yield sheet
+        sheet.deleteLater()
+
+    def _scale(self) -> float | None:
+        """Return the pixels of a picture to a logical pixel; ``None``: those of the screen."""
+        return None if self.scale == 1 else self.scale * self._pages.devicePixelRatioF()
+
+    def _tell(self, text: str, kind: MessageKind = MessageKind.INFORMATION) -> None:
+        self.message_sent.emit(Message(kind, text))
+
+
+@contextmanager
+def _as_on_paper() -> Iterator[None]:
+    """Show the window in a light theme meanwhile: dark views would cover a page with ink."""
+    theme, application = current_theme(), QApplication.instance()
+    assert isinstance(application, QApplication)
+    if theme.is_dark:
+        apply_theme(application, LIGHT)
+    try:
+        yield
+    finally:
+        apply_theme(application, theme)
+
+
+# Files of the window: opening meshes, states and built-in scenes, saving a state.
+
 
 READ_OUTSIDE = "Read outside its folder"
 """The button that opens a file again and allows what it names outside its folder."""

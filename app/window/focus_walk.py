@@ -6,8 +6,7 @@ from PySide6.QtWidgets import QApplication, QWidget
 from app.help.pane import HelpPane
 from app.window.appearance import the_application
 from app.window.parts import WindowParts
-from widgets.basics.focus_order import first_stop, give_focus, next_stop, tab_stops
-from widgets.basics.key_claim import GIVEN_BACK, KeyClaim
+from widgets.basics.accessibility import GIVEN_BACK, KeyClaim, first_stop, give_focus, next_stop, tab_stops
 
 
 class FocusWalk(QObject):

@@ -2,12 +2,12 @@
 
 from PySide6.QtCore import QObject, Slot
 
-from app.files.unfinished_answers import read_answers
+from app.files.kept_work import read_answers
 from app.pages.page_bar import Pages
 from app.session.moment import Change
 from app.session.session import Session
 from core.scene import AnyScene
-from lessons.exercises.scene_digest import scene_digest
+from lessons.scene_edits import scene_digest
 
 
 class KeptQuestion(QObject):

@@ -1,11 +1,11 @@
-"""What a key is for, how it is shown, and which keys widgets have a use for themselves."""
+"""What a key is for, how it is shown, which keys widgets have a use for themselves, and the user's own choices."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TypeVar
 
-from PySide6.QtCore import Qt
-from PySide6.QtGui import QKeyEvent
+from PySide6.QtCore import QObject, Qt, Signal, Slot
+from PySide6.QtGui import QKeyEvent, QKeySequence
 from PySide6.QtWidgets import (
     QAbstractButton,
     QAbstractSpinBox,
@@ -15,6 +15,10 @@ from PySide6.QtWidgets import (
     QTabBar,
     QWidget,
 )
+
+from widgets.basics.key_pages import KeyEditor, KeyEntry
+
+# What a key is for, how it is shown, and which keys widgets have a use for themselves.
 
 
 @dataclass(frozen=True)
@@ -203,3 +207,130 @@ def has_use_for(widget: QWidget | None, event: QKeyEvent) -> bool:
     if widget is None or event.modifiers() & ~Qt.KeyboardModifier.KeypadModifier:
         return False
     return any(isinstance(widget, kind) and event.key() in keys for kind, keys in KEYS)
+
+
+# Which keys the user has: those of the table, but for what is changed or turned off.
+
+
+@dataclass(frozen=True)
+class KeyChoices:
+    """Changed keys by the names of their actions, and whether characters alone are keys."""
+
+    changed: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
+    has_characters: bool = True
+    """Whether letters, digits and signs do something without Ctrl or Alt."""
+
+    def keys_of(self, action: KeyAction) -> tuple[str, ...]:
+        """Return the keys of an action, as Qt's portable texts."""
+        keys = self.changed.get(action.name, action.keys)
+        return keys if self.has_characters else tuple(key for key in keys if not is_character(key))
+
+    def table(self, actions: Iterable[KeyAction]) -> list[KeyAction]:
+        """Return actions with the keys that they have now."""
+        return [replace(action, keys=self.keys_of(action)) for action in actions]
+
+    def with_keys(
+        self, action: KeyAction, keys: tuple[str, ...], actions: Iterable[KeyAction]
+    ) -> "KeyChoices":
+        """Return the choices with other keys for one of the actions.
+
+        Raises ValueError if one of them is the key of another action on the same page; the message is a sentence.
+        """
+        wanted = {portable(key): key for key in keys}
+        for other in actions:
+            meets = other.name != action.name and (
+                other.page == action.page or not (other.page and action.page)
+            )
+            taken = wanted.keys() & {portable(key) for key in self.keys_of(other)} if meets else set()
+            for key in taken:
+                raise ValueError(f"{wanted[key]} is the key for “{other.title}”. Change that key first.")
+        changed = {name: value for name, value in self.changed.items() if name != action.name}
+        if keys != action.keys:
+            changed[action.name] = keys
+        return replace(self, changed=changed)
+
+
+def portable(key: str) -> str:
+    """Return one spelling of a key, as Qt has it."""
+    return QKeySequence(key).toString(QKeySequence.SequenceFormat.PortableText)
+
+
+def is_character(key: str) -> bool:
+    """Return whether a key is a letter, digit or sign without Ctrl and Alt, which speech input types by the way."""
+    return len(key.removeprefix("Shift+")) == 1
+
+
+def choices_from(
+    changed: Mapping[str, Iterable[str]], has_characters: bool, actions: Sequence[KeyAction]
+) -> KeyChoices:
+    """Return the choices that were saved, less actions that there are no more, and keys that are taken."""
+    wanted = {
+        action: tuple(filter(portable, changed[action.name])) for action in actions if action.name in changed
+    }
+    choices = KeyChoices({action.name: () for action in wanted}, has_characters)
+    for action, keys in wanted.items():
+        try:
+            choices = choices.with_keys(action, keys, actions)
+        except ValueError:
+            kept = {name: value for name, value in choices.changed.items() if name != action.name}
+            choices = replace(choices, changed=kept)
+    return choices
+
+
+# Changing keys: takes the user's wishes, refuses what is taken, and tells who shows keys.
+
+
+class KeyDesk(QObject):
+    """Holds the keys of a window and the page on which they are changed."""
+
+    keys_changed = Signal(object)
+    """The `KeyChoices` that hold now."""
+
+    def __init__(self, window: QWidget, actions: Sequence[KeyAction]) -> None:
+        super().__init__(window)
+        self.actions = actions
+        self.choices = KeyChoices()
+        self.editor = KeyEditor(window)
+        self.editor.hide()
+        self.editor.closed.connect(self.editor.hide)
+        self.editor.key_wanted.connect(self._take)
+        self.editor.default_wanted.connect(self._restore)
+        self.editor.characters_wanted.connect(self._allow_characters)
+
+    def set_choices(self, choices: KeyChoices) -> None:
+        """Let other keys hold, and tell."""
+        if choices != self.choices:
+            self.choices = choices
+            self.keys_changed.emit(choices)
+        self.show_table()
+
+    def show_table(self) -> None:
+        """Show the present keys on the page, if it is open."""
+        if self.editor.isVisible():
+            table = self.choices.table(self.actions)
+            entries = [
+                KeyEntry(f"{a.page.capitalize()}: {a.group}" if a.page else a.group, key_text(a), a.title)
+                for a in table
+            ]
+            self.editor.show_keys(entries, self.choices.has_characters)
+
+    @Slot(int, str)
+    def _take(self, place: int, key: str) -> None:
+        self._change(place, (key,) if key else ())
+
+    @Slot(int)
+    def _restore(self, place: int) -> None:
+        self._change(place, self.actions[place].keys)
+
+    def _change(self, place: int, keys: tuple[str, ...]) -> None:
+        action = self.actions[place]
+        try:
+            self.set_choices(self.choices.with_keys(action, keys, self.actions))
+        except ValueError as error:
+            self.editor.show_note(f"{error}", is_problem=True)
+        else:
+            self.editor.show_note(f"{action.title}: {', '.join(keys) or 'no key'}")
+
+    @Slot(bool)
+    def _allow_characters(self, is_allowed: bool) -> None:
+        self.set_choices(replace(self.choices, has_characters=is_allowed))

@@ -6,15 +6,13 @@ from PySide6.QtCore import QEvent, Slot
 from PySide6.QtGui import QCloseEvent, QContextMenuEvent, QDragEnterEvent, QDropEvent, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QLabel, QStatusBar
 
-from app.background.workers import ending_within
-from app.files.lesson_folders import is_lesson_file
-from app.files.preferences import Preferences
+from app.background import ending_within
+from app.files.between_starts import Preferences
+from app.files.user_folders import is_lesson_file
 from app.help.pane import HelpPane
-from app.pages.cover import COVERED
-from app.pages.page_bar import Page, Pages
-from app.pages.page_table import PAGE_KINDS, page_of_file
-from app.pages.step.lesson_presenter import BEGINNING, WAY_BACK
-from app.pages.step.opening import StepOpening
+from app.pages.lessons.presenter import BEGINNING, WAY_BACK
+from app.pages.page_bar import COVERED, Page, Pages
+from app.pages.page_table import PAGE_KINDS, StepOpening, page_of_file
 from app.pages.step.page import StepPage
 from app.session.document import Document
 from app.session.document_edits import DocumentEdits
@@ -23,19 +21,15 @@ from app.session.session import Session
 from app.window.action import ActionWindow
 from app.window.actions import ACTIONS, ACTIONS_BY_NAME
 from app.window.appearance import Appearance, the_application
-from app.window.export_desk import ExportActions
-from app.window.file_desk import READ_OUTSIDE, FileActions
+from app.window.file_desk import READ_OUTSIDE, ExportActions, FileActions
 from app.window.focus_walk import FocusWalk
-from app.window.key_choices import KeyChoices
-from app.window.keys import has_use_for
-from app.window.menus import Menus
-from app.window.notices import Notices
-from app.window.overlays import Overlays
+from app.window.keys import KeyChoices, has_use_for
+from app.window.menus import AS_PRINTED, Menus
+from app.window.parts import Notices, Overlays
 from app.window.presenter import Presenter
 from app.window.remembering import Remembering
-from app.window.scene_groups import AS_PRINTED
-from core.records.sentences import sentences
-from widgets.basics.accessible import install_roles
+from core.records.words import sentences
+from widgets.basics.accessibility import install_roles
 from widgets.basics.message_bar import Message, MessageBar, MessageKind
 
 OF_VIEW = ("export_view", "copy_view", "print_view")

@@ -6,14 +6,12 @@ from pathlib import Path
 
 from PySide6.QtCore import QByteArray, QObject, Signal, Slot
 
-from app.files.autosave import Autosave
+from app.files.between_starts import Autosave, Preferences, save_preferences, with_recent_file
 from app.files.file_dialogs import keep_folder, last_folder
-from app.files.preferences import Preferences, save_preferences, with_recent_file
 from app.files.state_files import StateFileError
 from app.pages.page_bar import Page
 from app.window.appearance import DESK_THEMES
-from app.window.key_choices import KeyChoices, choices_from
-from app.window.keys import KeyAction
+from app.window.keys import KeyAction, KeyChoices, choices_from
 from app.window.parts import WindowParts
 from core.records.steps import Level
 

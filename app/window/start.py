@@ -1,37 +1,169 @@
-"""Starting the window: what it shows first, how it looks, and a picture of it without showing it."""
+"""Starting the window: what it shows first, how it looks, a picture of it, and the signals that end it."""
 
 import gc
 import os
+import signal
+import socket
 import sys
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from time import monotonic
+from types import FrameType
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSize, Qt
+from PySide6.QtCore import QObject, QSize, QSocketNotifier, Qt, Signal, Slot
 from PySide6.QtWidgets import QApplication
 
-from app.background.collecting import Collecting
-from app.background.workers import is_work_left
+from app.background import Collecting, is_work_left
 from app.export.views import export_widget
-from app.files.open_any import open_any
-from app.files.preferences import load_preferences
-from app.files.user_folders import has_answers
+from app.files.between_starts import (
+    EarlierWindow,
+    WindowFile,
+    earlier_windows,
+    load_preferences,
+    remove_oldest_windows,
+)
+from app.files.file_access import FileWriteError
+from app.files.open_any import Opened, open_any
+from app.files.user_folders import has_answers, preferences_folder
 from app.pages.page_table import page_of_file
 from app.usage import UsageError
 from app.window.appearance import sized_theme, the_application
-from app.window.end_signals import EndSignals
 from app.window.main_window import MainWindow
-from app.window.reopening import reopen
 from core.fast_path.workers import BandWorkers
+from core.records.words import sentences
 from core.settings import Settings
 from core.trace.run_to import START
+from lessons.os_errors import problem_text
 from lessons.run_place import RunPlace
 from lessons.scenes import CATALOGUE
+from widgets.basics.message_bar import Message, MessageKind
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import Theme
 
 if TYPE_CHECKING:
-    from app.window.page_filling import PageContent
+    from app.window.unattended import PageContent
+
+
+# Signals that end the program: SIGTERM, SIGHUP and Ctrl+C close the window, which saves what is open.
+
+
+PATIENCE = 3.0
+"""Seconds after the first signal in which others change nothing: longer than closing takes."""
+NAMES = ("SIGINT", "SIGTERM", "SIGHUP", "SIGBREAK")
+"""Not every system has all of them."""
+
+
+class EndSignals(QObject):
+    """Listens to the signals, and reports the first one; one that comes much later ends the program at once.
+
+    Qt's event loop is not Python, and Python handles a signal only between two of its own instructions. So Python
+    writes the number of the signal into a socket, and Qt wakes up when there is something to read in it.
+    """
+
+    received = Signal(int)
+    """The number of a signal."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self._first_at: float | None = None
+        self._reader, self._writer = socket.socketpair()
+        for end in (self._reader, self._writer):
+            end.setblocking(False)
+        self._notifier = QSocketNotifier(self._reader.fileno(), QSocketNotifier.Type.Read, self)
+        self._notifier.activated.connect(self._read)
+        signal.set_wakeup_fd(self._writer.fileno(), warn_on_full_buffer=False)
+        for number in (getattr(signal, name) for name in NAMES if hasattr(signal, name)):
+            # A program that was started to outlive its terminal, as by nohup, still does.
+            if signal.getsignal(number) != signal.SIG_IGN:
+                signal.signal(number, self._take)
+
+    def stop(self) -> None:
+        """Do not listen any more."""
+        signal.set_wakeup_fd(-1)
+        self._notifier.setEnabled(False)
+        self._reader.close()
+        self._writer.close()
+
+    def _take(self, number: int, frame: FrameType | None) -> None:
+        # Whoever ends a group of processes may well send two signals at once: the first is still being obeyed.
+        if self._first_at is None:
+            self._first_at = monotonic()
+        elif monotonic() - self._first_at > PATIENCE:
+            signal.signal(number, signal.SIG_DFL)
+            signal.raise_signal(number)
+
+    @Slot()
+    def _read(self) -> None:
+        self._notifier.setEnabled(False)
+        self.received.emit(self._reader.recv(1)[0])
+
+
+# What a window shows first: what was open last, and an offer to restore what a window left that was not
+# closed.
+
+
+@dataclass(frozen=True, eq=False)
+class Reopened:
+    """What a window begins with."""
+
+    opened: Opened
+    file: WindowFile | None = None
+    """The file that it came from, and is saved to; ``None``: it is only shown because there is nothing else."""
+    message: Message | None = None
+    """What the user is to know of it."""
+    offered: str = ""
+    """Path of the state that the message offers; empty: none."""
+
+
+def reopen(is_replaced: bool = False) -> Reopened:
+    """Return what was open last.
+
+    Parameters
+    ----------
+    is_replaced : bool
+        Something else is opened next: what is returned is not to be written over by it.
+    """
+    stand_in = Reopened(open_any(CATALOGUE[0].name))
+    try:
+        folder = preferences_folder()
+        earlier = earlier_windows(folder)
+        remove_oldest_windows(folder)
+    except OSError as problem:
+        return replace(stand_in, message=Message(MessageKind.WARNING, str(problem)))
+    lost = next((each for each in earlier if not each.was_closed), None)
+    if earlier and earlier[0].was_closed:
+        stand_in = _opened_again(earlier[0], stand_in, is_replaced)
+    return stand_in if lost is None else _with_offer(stand_in, lost)
+
+
+def _opened_again(last: EarlierWindow, stand_in: Reopened, is_replaced: bool) -> Reopened:
+    """Return the state of the last window, or the stand-in where it cannot be opened: then it stays for later."""
+    try:
+        opened = open_any(str(last.path))
+        return Reopened(opened, None if is_replaced else WindowFile(last.path))
+    except FileWriteError as problem:
+        return Reopened(opened, message=Message(MessageKind.WARNING, str(problem)))
+    except (OSError, ValueError, MemoryError) as problem:
+        text = sentences(
+            f"The last scene could not be opened again: {problem_text(problem)}",
+            "It is kept: File, Earlier windows",
+        )
+        return replace(
+            stand_in, message=Message(MessageKind.WARNING, text, action="Try again"), offered=str(last.path)
+        )
+
+
+def _with_offer(shown: Reopened, lost: EarlierWindow) -> Reopened:
+    """Return what is shown with the offer to restore what a window left that was not closed."""
+    text = f"Rasterscope ended without closing its window ({lost.title}, saved {lost.when})."
+    return replace(
+        shown, message=Message(MessageKind.WARNING, text, action="Restore"), offered=str(lost.path)
+    )
+
+
+# Starting the window: what it shows first, how it looks, and a picture of it without showing it.
+
 
 PART_OF_SCREEN = 0.85
 TITLE_ROOM = 40
@@ -188,7 +320,7 @@ def grab_window(
 
 def _fill(window: MainWindow, saved: str, content: "PageContent | None") -> None:
     """Show a saved study or atlas, or fill a page."""
-    from app.window.page_filling import (  # Imports all pages: not before one is opened.
+    from app.window.unattended import (  # Imports all pages: not before one is opened.
         fill_page,
         open_saved,
     )

@@ -4,13 +4,13 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import Any
 
-from core.edits import coverage, culling, framebuffer, interpolation, line_clipping, lines, shading, textures
+from core.coverage.edges import covers
+from core.depth.depth import depth_test
+from core.edits import coverage, fragments, framebuffer, lines
 from core.edits.typed import Typed
-from core.fragments.lighting import blinn_phong
-from core.framebuffer.depth import depth_test
 from core.methods import Method, table
-from core.raster.edges.edge_functions import covers
 from core.settings import FAMILIES, Settings
+from core.shading.lighting import blinn_phong
 
 
 def own_listing(method: Method) -> Callable[..., Any] | None:
@@ -80,17 +80,17 @@ EDITABLE = {
             "cull",
             "back-face test",
             "cull",
-            culling.check_cull,
-            culling.edited_cull,
-            passed_over=culling.cull_is_passed_over,
+            coverage.check_cull,
+            coverage.edited_cull,
+            passed_over=coverage.cull_is_passed_over,
             refused={"none": "No face is dropped.", "back": _BY_AREA, "front": _BY_AREA},
         ),
         Part(
             "line_clipping",
             "listing",
             "line_clipping",
-            line_clipping.check_clipper,
-            line_clipping.edited_clipper,
+            lines.check_clipper,
+            lines.edited_clipper,
             refused={
                 "none": "Nothing is clipped.",
                 "exact": "Its listing computes with fractions, which are not in the language of listings.",
@@ -125,18 +125,18 @@ EDITABLE = {
             "interpolation",
             "listing",
             "interpolation",
-            interpolation.check_interpolation,
-            interpolation.edited_interpolation,
-            passed_over=interpolation.interpolation_is_passed_over,
+            fragments.check_interpolation,
+            fragments.edited_interpolation,
+            passed_over=fragments.interpolation_is_passed_over,
         ),
         Part(
             "shading",
             "light",
             "shading",
-            shading.check_shading,
-            shading.edited_shading,
+            fragments.check_shading,
+            fragments.edited_shading,
             function=_light_of,
-            passed_over=shading.shading_is_passed_over,
+            passed_over=fragments.shading_is_passed_over,
             refused={
                 "gouraud": _AT_VERTICES,
                 "flat": _AT_VERTICES,
@@ -147,9 +147,9 @@ EDITABLE = {
             "texture_filter",
             "listing",
             "texture_filter",
-            textures.check_filter,
-            textures.edited_filter,
-            passed_over=textures.filter_is_passed_over,
+            fragments.check_filter,
+            fragments.edited_filter,
+            passed_over=fragments.filter_is_passed_over,
         ),
         Part(
             "depth_test",

@@ -6,8 +6,8 @@ from typing import Any, ClassVar
 
 import numpy as np
 
+from core.depth.depth import DepthFormat, Stored, as_float32
 from core.edits.typed import Typed, parameters_of
-from core.framebuffer.depth import DepthFormat, Stored, as_float32
 from core.methods import Method, is_registered
 from core.records.arrays import Flags, Floats, Singles
 from core.resolved import resolve

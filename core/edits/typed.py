@@ -8,12 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from core.lanes.limits import LISTING, Limits
-from core.lanes.listings import compile_listing
-from core.lanes.problem import Place, Problem, counted
-from core.lanes.program import Program
-from core.lanes.python_values import Log, Many, at_lane, is_flag, is_number, kind_of
-from core.lanes.tables import Table
+from core.lanes.problem import LISTING, Limits, Place, Problem, counted
+from core.lanes.program import Program, compile_listing
+from core.lanes.python_values import Log, Many, Table, at_lane, is_flag, is_number, kind_of
 from core.records.listing import TypedText, listing
 
 BLOCK = 16_384

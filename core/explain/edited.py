@@ -12,20 +12,19 @@ from typing import Any
 import numpy as np
 
 from core.edits.typed import Typed, parameters_of
-from core.explain.digits import spoken
 from core.explain.formulas import formula_of
+from core.explain.listed_code import stated
+from core.explain.number_text import spoken
 from core.explain.records import Formula, Value, Variable
-from core.explain.typed_latex import stated
-from core.fragments.coordinates import finite_coordinates
-from core.geometry.line_clipping.records import ClipWindow
-from core.lanes.limits import LISTING
 from core.lanes.nodes import Put
-from core.lanes.notes import LaneStep, steps_until_problem
-from core.lanes.python_values import Range, at_lane
-from core.lanes.tables import Table
+from core.lanes.problem import LISTING
+from core.lanes.program import LaneStep, steps_until_problem
+from core.lanes.python_values import Range, Table, at_lane
 from core.lanes.terms import equalities, in_symbols, shown
+from core.lines.line_clipping import ClipWindow
 from core.records.listing import EditedListing, moved_lines
 from core.records.words import counted, joined
+from core.textures.look_up import finite_coordinates
 from core.trace import Explanation
 from core.trace.stage_trace import KEPT_EXPLANATIONS, StageTrace
 
@@ -186,7 +185,7 @@ def _inputs(explanation: Explanation, listing: EditedListing) -> list[Any] | Non
 
 def _clipper_inputs(values: Mapping[str, Any], typed: Typed, window: ClipWindow) -> list[Any]:
     """Return what the listing of a line clipper is given."""
-    from core.edits.line_clipping import clipper_inputs
+    from core.edits.lines import clipper_inputs
 
     ends = [*np.asarray(values["window_start"]).tolist(), *np.asarray(values["window_end"]).tolist()]
     return clipper_inputs(typed, ends, window, values["line_clipping"] == "cyrus-beck-lecture")
@@ -194,7 +193,7 @@ def _clipper_inputs(values: Mapping[str, Any], typed: Typed, window: ClipWindow)
 
 def _filter_inputs(values: Mapping[str, Any], typed: Typed, given: Mapping[str, Any]) -> list[Any] | None:
     """Return what the listing of a texture filter is given."""
-    from core.edits.textures import filter_inputs
+    from core.edits.fragments import filter_inputs
 
     texture = given["textures"][int(values["mesh"])]
     if texture is None:

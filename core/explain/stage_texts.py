@@ -4,12 +4,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
+from core.coverage.pixel_runs import fill_traits
 from core.explain.records import StageCard
 from core.methods import table
-from core.raster.fills.traits import fill_traits
-from core.records.nouns import TRIANGLES, Nouns, nouns
 from core.records.steps import Level
-from core.records.words import counted
+from core.records.words import TRIANGLES, Nouns, counted, nouns
 from core.settings import FIELDS
 from core.stages.declared import STAGES, Stage, stage_of
 from core.trace.stage_trace import MARKS

@@ -1,6 +1,6 @@
 """Tables that fill while a stage is stepped: each is read from the rows of the trace up to one step.
 
-A subject of ``core.explain.subjects`` enters the maker of its table with `tabulates`, for the kinds of rows that the
+A topic's ``told`` file enters the maker of its table with `tabulates`, for the kinds of rows that the
 table is about; `step_table` finds it for a position. `filled_table` makes the usual one: a row of the table for each
 row of the trace, and a column for each number.
 """
@@ -11,15 +11,13 @@ from typing import TypeVar
 
 import numpy as np
 
-from core.explain.digits import in_words
-from core.explain.number_text import exact_text, full_text
+from core.explain.number_text import exact_text, full_text, in_words
 from core.explain.records import Value
 from core.explain.step_values import StepValues
 from core.explain.steps import load_subjects, sentence
 from core.records.arrays import Integers
-from core.records.nouns import nouns
-from core.records.steps import Level
-from core.records.tables import StepTable, TableCell, TableColumn
+from core.records.steps import Level, StepTable, TableCell, TableColumn
+from core.records.words import nouns
 from core.trace import StageTrace
 
 Maker = Callable[[StageTrace, Integers, int], StepTable]

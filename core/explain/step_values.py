@@ -1,14 +1,28 @@
-"""The numbers of one step by name and type, as sentences, formulas and tables read them."""
+"""The numbers of one step by name and type, and one row for every kind of step that reads them.
 
-from collections.abc import Sequence
+A row is one function under `explains`, in the ``told`` file of its topic. Its key is
+``stage.kind.operation``; ``a|b`` stands for both, ``*`` as the kind for every kind of the stage that has no row of its
+own. So a new method that uses the operations of others needs no row at all.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from itertools import product
+from typing import TypeVar
 
 import numpy as np
 
+from core.coverage.fill_rule import owns as owns_by_side
+from core.depth.fixed_depth import NUMBER_BITS
 from core.explain.formulas import Named, upright
-from core.framebuffer.packed_keys import NUMBER_BITS
-from core.raster.edges.fill_rule import owns as owns_by_side
-from core.records.nouns import Nouns, nouns
+from core.explain.records import Asked, Formula
+from core.records.arrays import Flags, Integers
+from core.records.listing import Columns
+from core.records.words import Nouns, nouns
 from core.trace import Explanation
+
+# The numbers of one step by name and type, as sentences, formulas and tables read them.
+
 
 AXES = ("x", "y", "z", "w")
 CHANNELS = ("red", "green", "blue", "alpha")
@@ -169,3 +183,54 @@ def component_names(attribute: str, count: int) -> Sequence[str]:
     if attribute == "uv" or count == 1:
         return ("u", "v")[:count]
     return AXES[:count] if attribute in ("position", "normal") else CHANNELS[:count]
+
+
+# One row for every kind of step and operation: what it says, its formula, and what can be asked about it.
+
+
+Said = str | tuple[str, Formula | None]
+"""A sentence, alone or with its formula."""
+Say = TypeVar("Say", bound=Callable[[StepValues], Said])
+
+
+@dataclass(frozen=True)
+class Row:
+    """The explanation of one operation."""
+
+    say: Callable[[StepValues], Said]
+    """Returns the sentence of a step, with its formula where the step computes something."""
+    asks: Callable[[StepValues], Asked | None] | None = None
+    """Returns a question about the step, with its answer; ``None`` where this step has none."""
+    decides: bool = False
+    """Whether it chooses what the later operations of its row do: a step of a whole row says it, too."""
+
+
+ROWS: dict[str, Row] = {}
+"""``stage.kind.operation`` to its row."""
+Which = Callable[[Columns, Integers], Flags]
+"""Takes columns and rows (R,) of a trace; returns which of these, (R,) bool."""
+REMARKS: dict[str, Which] = {}
+"""``stage.kind.operation``, ``a|b`` and ``*`` as in keys, to the rows of which larger steps repeat what it says."""
+
+
+def explains(
+    *keys: str, asks: Callable[[StepValues], Asked | None] | None = None, decides: bool = False
+) -> Callable[[Say], Say]:
+    """Enter a function as the row of these keys; ValueError for a key that has a row already."""
+
+    def enter(say: Say) -> Say:
+        for key in keys:
+            for parts in product(*(part.split("|") for part in key.split("."))):
+                name = ".".join(parts)
+                if name in ROWS:
+                    raise ValueError(f"{name} has a row already, in {ROWS[name].say.__module__}")
+                ROWS[name] = Row(say, asks, decides)
+        return say
+
+    return enter
+
+
+def find_row(key: str) -> Row | None:
+    """Return the row of a key: its own, or that of any kind of the stage."""
+    stage, _, operation = key.split(".", 2)
+    return ROWS.get(key) or ROWS.get(f"{stage}.*.{operation}")

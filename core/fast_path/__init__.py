@@ -21,6 +21,6 @@ from picture to picture (tested).
 """
 
 from core.fast_path.draw import draw_picture
-from core.fast_path.record import Picture, Route, Split
+from core.fast_path.draw_context import Picture, Route, Split
 
 __all__ = ["Picture", "Route", "Split", "draw_picture"]

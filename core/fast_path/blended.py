@@ -10,19 +10,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from core.fast_path.draw_context import DrawContext, blocks
+from core.coverage.fills import Fragments
+from core.depth.depth import run_depth_tests, stacks_of
+from core.fast_path.draw_context import DrawContext, Split, blocks
 from core.fast_path.fragment_colors import FragmentColors
-from core.fast_path.record import Split
 from core.framebuffer.blending import blend_stacks
-from core.framebuffer.depth import run_depth_tests
-from core.framebuffer.stacks import stacks_of
-from core.numeric.sorting import radix_order
-from core.raster.coverage import Fragments
-from core.raster.spans.fill import pixels_of_rows, rows_in_order
+from core.numeric.large_arrays import radix_order
 from core.records.arrays import Flags, Floats, Integers, Singles
 from core.resolved import resolve
+from core.spans.fill import pixels_of_rows, rows_in_order
 from core.stages.bin_and_raster import covered
-from core.stages.fragment_depth import fragment_depth
+from core.stages.fragments import fragment_depth
 
 STRIP_FRAGMENTS = 1 << 17
 """Fragments of a strip of rows, about: sorting them stays in the processor's cache."""

@@ -6,10 +6,10 @@ whose depth, extrapolated from the unsnapped plane to a pixel that only the snap
 
 import numpy as np
 
-from core.fragments.interpolation import set_up_planes, value_plane
-from core.framebuffer.depth import DepthFormat
-from core.framebuffer.fixed_depth import SLOPE_LIMIT
-from core.raster.edges.snapping import SUBPIXELS, place_corners
+from core.coverage.snapping import SUBPIXELS, place_corners
+from core.depth.depth import DepthFormat
+from core.depth.fixed_depth import SLOPE_LIMIT
+from core.interpolation.interpolation import set_up_planes, value_plane
 from core.records.arrays import Flags, Floats, Integers
 from core.stages.geometry import Geometry
 

@@ -10,13 +10,12 @@ from threading import local
 import numpy as np
 from numpy.typing import NDArray
 
+from core.coverage.pixel_runs import Raster, make_raster
 from core.families import suited
-from core.fast_path.draw_context import DrawContext, Words, encode
+from core.fast_path.draw_context import Coloring, DepthStatistics, DrawContext, Picture, Route, Words, encode
 from core.fast_path.opaque import draw_opaque
-from core.fast_path.palette import palette
-from core.fast_path.record import Coloring, DepthStatistics, Picture, Route
-from core.numeric.buffers import ScratchBuffers, short_buffers
-from core.raster.pixel_runs import Raster, make_raster
+from core.fast_path.unlit import palette
+from core.numeric.large_arrays import ScratchBuffers, short_buffers
 from core.records.arrays import Integers, read_only
 from core.records.frame import StageCount
 from core.resolved import resolve
@@ -108,13 +107,13 @@ def draw_picture(
     if scene.program is not None:
         return _draw_frame(scene, settings, raster, encoding, pixels, with_depth, depth_at)
     if not keeps_depth and _is_supersampled(settings):
-        from core.fast_path.supersampled import draw_supersampled
+        from core.fast_path.sampled import draw_supersampled
 
         draw_part = partial(draw_picture, plain_colors=plain_colors)
         return draw_supersampled(draw_part, scene, settings, raster, encoding, pixels, scratch)
     depth = None
     if not keeps_depth and _is_multisampled(settings):
-        from core.fast_path.multisampled import draw_multisampled
+        from core.fast_path.sampled import draw_multisampled
 
         route, passing = draw_multisampled(scene, settings, raster, encoding, pixels, counts, scratch)
     elif not is_drawn_by_spans(settings) or (settings.blend != "opaque" and keeps_depth):
@@ -135,7 +134,7 @@ def _is_supersampled(settings: Settings) -> bool:
     """Return whether the samples of a pixel are pixels of a finer picture, drawn by spans."""
     if not resolve(settings).sampling.side or settings.pixel_center != "half":
         return False
-    from core.antialiasing.sample_rasters import finer_settings
+    from core.antialiasing.resolve import finer_settings
 
     return is_drawn_by_spans(finer_settings(settings))
 

@@ -1,25 +1,98 @@
-"""One picture to be drawn: what it shows, where to, and with what memory; the steps of drawing hand it on."""
+"""One picture to be drawn: what it shows, where to, with what memory, and what drawing it returns."""
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from functools import lru_cache
+from typing import Any, Literal, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.framebuffer.depth import DepthFormat
+from core.coverage.pixel_runs import Raster
+from core.depth.depth import DepthFormat
 from core.framebuffer.display import encode_linear, write_pixels
-from core.numeric.buffers import ScratchBuffers
-from core.raster.pixel_runs import Raster
-from core.raster.spans.bands import TriangleRows, rows_of_triangles
-from core.raster.spans.lanes import TieOwners, TriangleSetup, set_up_lanes, tie_owners
-from core.records.arrays import Flags, Floats, Integers, Singles
-from core.records.cached import cached_property
+from core.numeric.large_arrays import ScratchBuffers
+from core.records.arrays import Flags, Floats, Integers, Singles, cached_property
 from core.records.frame import StageCount
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
+from core.spans.bands import TriangleRows, rows_of_triangles
+from core.spans.lanes import TieOwners, TriangleSetup, set_up_lanes, tie_owners
 from core.stages.geometry import Geometry
+
+# What drawing a picture returns.
+
+
+Visibility = Literal["layer", "packed-depth", "stacks", "frame", "supersampled", "multisampled"]
+Coloring = Literal["palette", "corners", "lit", "texture", "deferred"]
+
+
+@dataclass(frozen=True)
+class Split:
+    """How many triangles went which way, and how many pixels they have."""
+
+    lanes: int
+    """Triangles that walked along spans."""
+    big: int
+    """Triangles drawn in bands."""
+    one_by_one: int
+    """Triangles looked at fragment by fragment."""
+    fragments: int
+    """Covered pixels of all triangles."""
+
+
+@dataclass(frozen=True)
+class Route:
+    """How a picture was drawn, and the counts that decided it."""
+
+    visibility: Visibility
+    """``layer``: no pixel belongs to two triangles, so none is hidden; ``words``: nearest of all fragments;
+    ``stacks``: every fragment in its turn, blended; ``frame``: by all buffers of ``render``; ``supersampled``: a
+    picture of all samples, drawn by any of these, and resolved; ``multisampled``: ``words`` of each of four samples,
+    and what they show averaged where they differ."""
+    color: Coloring
+    """``palette``: one colour a triangle; ``corners``: corner colours interpolated, as bytes where that is near enough,
+    else as linear light, else like ``deferred``; ``lit``: normals, and a texture or colours of vertices, lit once per
+    visible pixel in single precision; ``texture``: packed texels in bands; ``deferred``: attributes and light once per
+    visible pixel, as ``render`` has them."""
+    split: Split | None = None
+    visible: int = 0
+    """Pixels that something is seen at."""
+    allowed: str = ""
+    """The colours that all triangles of this picture, or of this part of one, allow; others than ``color`` where plain
+    colours were asked for. Empty: it was not looked at."""
+
+    @property
+    def depth_complexity(self) -> float:
+        """Fragments for each pixel that something is seen at."""
+        return self.split.fragments / max(self.visible, 1) if self.split else 0.0
+
+
+class DepthStatistics(NamedTuple):
+    """How much of a picture passed the depth test."""
+
+    passed: int
+    """Fragments, or where a pixel has several samples, those of them that show a triangle."""
+    shaded: int
+    """Fragments that were given a colour: fewer where several samples of a pixel show one triangle."""
+
+
+@dataclass(frozen=True, eq=False)
+class Picture:
+    """A scene as a screen shows it."""
+
+    pixels: NDArray[np.uint8]
+    """(H, W, 4) uint8: red, green, blue, alpha; row 0 is the bottom row."""
+    depth: NDArray[Any] | None
+    """(H, W) as the depth method stores it, or (N,) at the pixels it was asked for at; ``None``: it was not."""
+    statistics: dict[str, StageCount]
+    """Counts and seconds per stage."""
+    route: Route
+
+
+# One picture to be drawn: what it shows, where to, and with what memory; the steps of drawing hand it on.
+
 
 Words = NDArray[np.uint32]
 """Pixels of four bytes, red lowest."""

@@ -2,10 +2,10 @@
 
 import numpy as np
 
+from core.coverage.fills import Fragments
+from core.depth.depth import NearestFragments
 from core.fast_path.draw_context import DrawContext
-from core.fragments.interpolation import Interpolator
-from core.framebuffer.nearest import NearestFragments
-from core.raster.coverage import Fragments
+from core.interpolation.interpolation import Interpolator
 from core.records.arrays import Floats, Integers
 from core.resolved import resolve
 from core.stages.fragment_color import shade_fragments

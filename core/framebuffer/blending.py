@@ -21,11 +21,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.framebuffer.stacks import PixelStacks
+from core.depth.depth import PixelStacks
 from core.methods import method, table
 from core.records.arrays import Flags, Floats, Integers, Singles
-from core.records.listing import RETURN
-from core.records.operation import Operation
+from core.records.listing import RETURN, Operation
 
 MIXED = (
     Operation("source", "", (), ("source", "before")),

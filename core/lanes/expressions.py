@@ -5,8 +5,6 @@ from typing import Any, Protocol
 
 import numpy as np
 
-from core.lanes.dialect import Dialect, Value
-from core.lanes.masks import Nobody, Some, split
 from core.lanes.nodes import (
     Binary,
     Call,
@@ -23,7 +21,7 @@ from core.lanes.nodes import (
     Unary,
 )
 from core.lanes.problem import Place, Problem
-from core.lanes.run import Frame
+from core.lanes.run import Dialect, Frame, Nobody, Some, Value, split
 
 Evaluated = Callable[[Frame, Some], Value]
 Stored = Callable[[Frame, Some, Value], None]

@@ -6,16 +6,21 @@ from typing import Any
 
 import numpy as np
 
-from core.lanes.dialect import Rule, Turn
-from core.lanes.limits import LARGEST
-from core.lanes.masks import NOBODY, Mask, Some, split
-from core.lanes.problem import Place, Problem, counted
-from core.lanes.python_functions import NATIVE, ROUNDING, applied, rounded
-from core.lanes.python_lists import ListFunctions
-from core.lanes.python_rules import TOO_LARGE, operator_rule
-from core.lanes.python_values import Log, Many, Range, is_flag, is_number, kind_of, number_kind
-from core.lanes.run import Run
-from core.lanes.tables import Table
+from core.lanes.problem import LARGEST, Place, Problem, counted
+from core.lanes.python_functions import NATIVE, ROUNDING, ListFunctions, applied, rounded
+from core.lanes.python_values import (
+    TOO_LARGE,
+    Log,
+    Many,
+    Range,
+    Table,
+    is_flag,
+    is_number,
+    kind_of,
+    number_kind,
+    operator_rule,
+)
+from core.lanes.run import NOBODY, Mask, Rule, Run, Some, Turn, split
 
 CHECKED_TURNS = 64
 """Rounds of a loop that a check on no lanes looks at."""

@@ -2,8 +2,7 @@
 
 import re
 
-from core.lanes.limits import Limits
-from core.lanes.problem import Place, Problem
+from core.lanes.problem import Limits, Place, Problem
 
 OPEN, CLOSED = "([{", ")]}"
 _STRING = re.compile(r"\"[^\"\n]*\"|'[^'\n]*'")

@@ -3,7 +3,6 @@
 import ast
 from collections.abc import Sequence
 
-from core.lanes.limits import LARGEST
 from core.lanes.nodes import (
     Assign,
     Binary,
@@ -31,8 +30,8 @@ from core.lanes.nodes import (
     Statement,
     Unary,
 )
-from core.lanes.problem import Place, Problem
-from core.lanes.python_rules import TOO_LARGE
+from core.lanes.problem import LARGEST, Place, Problem
+from core.lanes.python_values import TOO_LARGE
 
 DEEPEST = 160
 """Operations, conditions and blocks that may stand in each other."""

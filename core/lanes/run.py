@@ -1,16 +1,62 @@
-"""What one run of a program keeps: its lanes, its clock, what it has stored; and the variables of a call."""
+"""One run of a program: its lanes and masks of them, its clock, its variables, and what its language gives it."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
+from enum import Enum
 from time import thread_time
 from typing import Any, Protocol
 
-from core.lanes.limits import Limits
-from core.lanes.masks import NOBODY, Mask, Some, lanes_in
+import numpy as np
+
 from core.lanes.nodes import Statement
-from core.lanes.problem import Place, Problem, counted
+from core.lanes.problem import Limits, Place, Problem, counted
 from core.records.arrays import Flags
+
+# Masks of lanes: ``None`` is all lanes, `NOBODY` none, an array (L,) of bool at least one of them.
+
+
+class Nobody(Enum):
+    """The mask of no lane."""
+
+    NOBODY = "nobody"
+
+
+NOBODY = Nobody.NOBODY
+Some = Flags | None
+"""A mask of at least one lane."""
+Mask = Flags | Nobody | None
+
+
+def joined(first: Mask, second: Mask) -> Mask:
+    """Return the lanes (L,) of either mask."""
+    if isinstance(first, Nobody) or second is None:
+        return second
+    if isinstance(second, Nobody) or first is None:
+        return first
+    return first | second
+
+
+def lanes_in(mask: Mask, lanes: int) -> int:
+    """Return how many of so many lanes a mask (L,) has."""
+    if isinstance(mask, Nobody):
+        return 0
+    return lanes if mask is None else int(np.count_nonzero(mask))
+
+
+def split(mask: Some, flags: Flags, lanes: int) -> tuple[Mask, Mask]:
+    """Return the lanes of a mask where ``flags`` (L,) hold, and the others: disjoint, together the mask."""
+    yes = flags if mask is None else mask & flags
+    count = int(np.count_nonzero(yes))
+    if count == 0:
+        return NOBODY, mask
+    if count == lanes_in(mask, lanes):
+        return mask, NOBODY
+    return yes, (~flags if mask is None else mask & ~flags)
+
+
+# What one run of a program keeps: its lanes, its clock, what it has stored; and the variables of a call.
+
 
 TICKS = 31
 """The clock is looked at once in so many statements, and one more."""
@@ -116,3 +162,101 @@ class Frame:
         """How many returns and discards were run."""
         self.loops: list[list[Mask]] = []
         """Of every loop that runs: the lanes that have left it, and those that go on with its next round."""
+
+
+# What a language gives the evaluator: its values, and what is done with them.
+
+
+Value = Any
+"""What a variable holds: what only the dialect knows."""
+Rule = Callable[[Value, Value, Some, Run], Value]
+"""Of an operator with two operands."""
+Turn = Callable[[Some, int], tuple[Mask, Mask, Value]]
+"""Of the lanes in a loop, and the number of the round: who goes on, who has ended, and the thing of this round."""
+
+
+class Dialect(Protocol):
+    """One language's values. ``mask`` is that of the lanes that are at ``place``; `Problem` says what does not go."""
+
+    nothing: Value
+    """What a return without a value gives."""
+    is_typed: bool
+    """Whether a variable keeps its type, which ``check_kept`` watches."""
+
+    def names(self) -> Mapping[str, Value]:
+        """Return the variables that every call begins with."""
+
+    def constant(self, value: Any, place: Place) -> Value:
+        """Return the value of what was typed."""
+
+    def unknown(self, name: str, known: Iterable[str]) -> str:
+        """Return what is said of a name without a value, where there are others."""
+
+    def truth(self, value: Value, place: Place) -> Any:
+        """Return a condition as one bool, where all lanes agree, or as flags (L,)."""
+
+    def flag(self, truth: Any) -> Value:
+        """Return the value of such a condition."""
+
+    def uniform(self, value: Value, place: Place) -> bool:
+        """Return a condition that must be the same in all lanes."""
+
+    def rule(self, operator: str, place: Place) -> Rule:
+        """Return what an operator does with two operands."""
+
+    def prefix(self, operator: str, place: Place) -> Callable[[Value], Value]:
+        """Return what an operator does with one operand."""
+
+    def check_stored(self, value: Value, mask: Some, place: Place, run: Run) -> None:
+        """Say what may not be stored in a variable; the mask is (L,)."""
+
+    def check_kept(self, name: str, old: Value, new: Value, place: Place) -> None:
+        """Say where a variable would change its type."""
+
+    def size(self, value: Value) -> int:
+        """Return how many numbers a variable takes up."""
+
+    def merged(self, flags: Any, new: Value, old: Value, place: Place, run: Run, returned: int = 0) -> Value:
+        """Return ``new`` where ``flags`` (L,) hold, else ``old``; 1: it is returned, 2: it is a part of that."""
+
+    def zero(self, of: Any) -> Value:
+        """Return what a variable of a type begins with that is declared without a value."""
+
+    def typed(self, of: Any, value: Value, place: Place, name: str) -> Value:
+        """Return the value that a variable of a type is declared with."""
+
+    def many(
+        self, parts: Sequence[Value], starred: Sequence[bool], mask: Some, place: Place, run: Run
+    ) -> Value:
+        """Return a list; of a starred part its elements; the mask is (L,)."""
+
+    def elements(self, value: Value, mask: Some, place: Place, run: Run) -> list[Value]:
+        """Return the elements of a value that has as many in every lane; the mask is (L,)."""
+
+    def unpacked(
+        self, value: Value, starred: Sequence[bool], mask: Some, place: Place, run: Run
+    ) -> list[Value]:
+        """Return a value for each of several names; one of them may be starred."""
+
+    def turns(self, value: Value, mask: Some, place: Place, run: Run) -> Turn:
+        """Return the rounds of a loop over a value; the mask is (L,)."""
+
+    def put(self, whole: Value, value: Value, mask: Some, place: Place, run: Run) -> None:
+        """Put a value at the end of a list; the mask is (L,)."""
+
+    def part(self, whole: Value, index: Value, mask: Some, place: Place, run: Run) -> Value:
+        """Return an element; the mask is (L,)."""
+
+    def with_part(self, whole: Value, index: Value, new: Value, mask: Some, place: Place, run: Run) -> Value:
+        """Return a value with another element; the mask is (L,)."""
+
+    def field(self, whole: Value, name: str, place: Place) -> Value:
+        """Return a part that has a name."""
+
+    def call(self, name: str, values: Sequence[Value], mask: Some, place: Place, run: Run) -> Value:
+        """Return what a function of the language makes of values; the mask is (L,)."""
+
+    def arguments(
+        self, name: str, parameters: Sequence[str], values: Sequence[Value], place: Place
+    ) -> Sequence[Value]:
+        """Return the values that a function of the program is called with."""

@@ -8,9 +8,7 @@ from collections.abc import Callable, Sequence
 
 import numpy as np
 
-from core.lanes.dialect import Dialect
 from core.lanes.expressions import Evaluated, Expressions, Functions, Stored
-from core.lanes.masks import NOBODY, Mask, Nobody, Some, joined, split
 from core.lanes.nodes import (
     Assign,
     Block,
@@ -28,7 +26,7 @@ from core.lanes.nodes import (
     Statement,
 )
 from core.lanes.problem import Place, Problem
-from core.lanes.run import UNSET, Frame
+from core.lanes.run import NOBODY, UNSET, Dialect, Frame, Mask, Nobody, Some, joined, split
 
 Step = Callable[[Frame, Some], Mask]
 

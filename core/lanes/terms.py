@@ -26,7 +26,7 @@ from core.lanes.nodes import (
     Star,
     Unary,
 )
-from core.lanes.notes import LaneStep
+from core.lanes.program import LaneStep
 from core.records.terms import (
     CHOICE,
     LEAF,

@@ -8,9 +8,8 @@ own; of exact areas ``pieces`` lists which triangle covers how much of the pixel
 """
 
 from core.pixel_history.candidates import PixelCandidates, candidates_at, check_pixel, whole_geometry
-from core.pixel_history.events import list_events
-from core.pixel_history.records import Link, PixelEvent, PixelHistory, PixelState
-from core.pixel_history.verdict import pixel_verdict, triangle_verdict
+from core.pixel_history.events import list_events, pixel_verdict, triangle_verdict
+from core.pixel_history.fragments import Link, PixelEvent, PixelHistory, PixelState
 from core.resolved import resolve
 from core.settings import Settings
 from core.trace import scene_triangle_count

@@ -5,19 +5,18 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
-from core.antialiasing.sample_rasters import at_sample, finer_scene, finer_settings, in_squares
+from core.antialiasing.resolve import at_sample, finer_scene, finer_settings, in_squares
+from core.coverage.active_edges import fill_rings
+from core.coverage.binning import bound
+from core.coverage.edges import EdgeFunctions, edge_functions, is_inside
+from core.coverage.fills import Fragments, PixelTests, examine_pixels
+from core.coverage.number_formats import CornerPositions
+from core.coverage.pixel_runs import PROJECTED, Boxes, Raster, Runs, make_raster
+from core.coverage.snapping import place_corners
+from core.lines.line_method import LineSteps
+from core.lines.wireframe import LineFragments, Outlines, draw_outlines, join_batches
 from core.methods import table
-from core.raster.binning import bound
-from core.raster.coverage import Fragments, PixelTests, examine_pixels
-from core.raster.edges.edge_functions import EdgeFunctions, edge_functions, is_inside
-from core.raster.edges.snapping import place_corners
-from core.raster.lines.records import LineSteps
-from core.raster.lines.wireframe import LineFragments, Outlines, draw_outlines, join_batches
-from core.raster.number_formats.number_format import CornerPositions
-from core.raster.pixel_runs import PROJECTED, Boxes, Raster, Runs, make_raster
-from core.raster.polygon_fills.active_edges import fill_rings
-from core.records.arrays import Flags, Floats, Integers
-from core.records.cached import cached_property
+from core.records.arrays import Flags, Floats, Integers, cached_property
 from core.records.frame import StageCount
 from core.resolved import resolve
 from core.scene import AnyScene

@@ -4,16 +4,16 @@ from typing import Any
 
 import numpy as np
 
-from core.geometry.culling import PLANES, REASONS
-from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
+from core.clipping.sutherland_hodgman import Clipped
+from core.coverage.active_edges import edge_table, find_crossings
+from core.coverage.edges import EdgeFunctions
+from core.coverage.pixel_runs import INSIDE, MIXED, OUTSIDE, Boxes
+from core.coverage.snapping import SUBPIXELS, place_corners
+from core.culling.culling import PLANES, REASONS
 from core.pixel_history.candidates import EdgeTests, PixelCandidates, examine_edges
-from core.pixel_history.records import Link
-from core.raster.edges.edge_functions import EdgeFunctions
-from core.raster.edges.snapping import SUBPIXELS, place_corners
-from core.raster.pixel_runs import INSIDE, MIXED, OUTSIDE, Boxes
-from core.raster.polygon_fills.active_edges import edge_table, find_crossings
+from core.pixel_history.fragments import Link
 from core.records.arrays import Floats, Integers
-from core.records.rings import Rings
+from core.records.primitives import Rings
 from core.resolved import resolve
 
 

@@ -1,21 +1,122 @@
-"""The fragments at one pixel through interpolation, shading, depth test and blending, one after the other."""
+"""What the history of a pixel is made of, and its fragments or pieces: interpolated, shaded, tested, blended in turn.
 
+The painter of the picture cuts this one square, as a raster of its own.
+"""
+
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
+from core.antialiasing.exact_area import ColoredPieces, PiecePainter, piece_painter, sum_areas
+from core.antialiasing.pixel_pieces import area_of, split_pieces, whole_pixels
+from core.coverage.pixel_runs import make_raster
+from core.depth.depth import DepthFormat, stack_fragments
 from core.framebuffer.blending import blend_traits
-from core.framebuffer.depth import DepthFormat
-from core.framebuffer.stacks import stack_fragments
-from core.pixel_history.candidates import PixelCandidates
-from core.pixel_history.records import Link, PixelState
-from core.raster.lines.intensities import weigh_alpha, writes_depth
+from core.lines.wireframe_fragments import weigh_alpha, writes_depth
+from core.pixel_history.candidates import PixelCandidates, check_pixel, whole_geometry
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
+from core.records.frame import StageCount
 from core.resolved import resolve
-from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
-from core.stages.fragments import fragment_values, not_discarded, surface_of
+from core.stages.declared import STAGES
+from core.stages.fragment_color import has_program
+from core.stages.fragments import (
+    fragment_depth,
+    fragment_inverse_w,
+    fragment_values,
+    not_discarded,
+    surface_of,
+)
 from core.stages.hidden_surfaces import cleared_buffers, run_visibility_tests
-from core.stages.vertex_program import has_program
+from core.trace.source import TraceSource
+
+# What the history of a pixel is made of: keys and numbers, no sentences.
+
+
+@dataclass(frozen=True, eq=False)
+class Link:
+    """One fact of a chain from the vertices to the blended colour, or a verdict."""
+
+    stage: str
+    """A stage of ``core.STAGES``, or ``verdict``."""
+    key: str
+    """What became of it there: names the sentence."""
+    values: Mapping[str, Any]
+    """The numbers of the sentence, those of the rules themselves."""
+
+
+@dataclass(frozen=True, eq=False)
+class PixelState:
+    """What the buffers hold at the pixel, or what a fragment offers to them."""
+
+    color: Singles
+    """(4,) float32, linear."""
+    depth: float
+    """As the depth method stores it; exactly a float32."""
+    triangle: int
+    """Number of the triangle in the scene, -1: none."""
+
+
+@dataclass(frozen=True, eq=False)
+class PixelEvent:
+    """The buffers before anything, the clear, or one triangle at this pixel."""
+
+    kind: str
+    """``initial``, ``clear``, ``fragment`` (covered), ``missed`` (not covered), ``culled`` or ``clipped``."""
+    chain: tuple[Link, ...]
+    """What the stages did with it, up to the one where it ended."""
+    triangle: int = -1
+    primitive: int = -1
+    """Index of the piece among the drawn primitives of the whole scene; -1: none was drawn."""
+    before: PixelState | None = None
+    """What was there; ``None``: undefined, or no fragment."""
+    out: PixelState | None = None
+    """What the fragment offers."""
+    after: PixelState | None = None
+    is_rejected: bool = False
+
+    @property
+    def reason(self) -> Link:
+        """The last link: where and why it ended."""
+        return self.chain[-1]
+
+    def link(self, stage: str) -> Link | None:
+        """Return the link of a stage, ``None`` where it was not reached."""
+        return next((link for link in self.chain if link.stage == stage), None)
+
+
+@dataclass(frozen=True, eq=False)
+class PixelHistory:
+    """Everything that happened to one pixel of the picture of the whole scene."""
+
+    column: int
+    row: int
+    triangle: int | None
+    """The triangle that was asked about, ``None``: the pixel itself."""
+    verdict: Link
+    """The first line: what became of the pixel, or of the triangle at this pixel."""
+    events: tuple[PixelEvent, ...]
+    """Initial value, clear, then triangles in drawing order."""
+    counts: Mapping[str, int]
+    """Triangles that are not listed one by one: how many, by the key of their reason."""
+    cover_count: int
+    """Fragments here that are in depth range."""
+    sample: int | None = None
+    """Which of several samples it is the history of; ``None``: the pixel's centre."""
+
+    @property
+    def final(self) -> PixelState:
+        """What the picture shows."""
+        return next(event.after for event in reversed(self.events) if event.after is not None)
+
+    @property
+    def fragments(self) -> tuple[PixelEvent, ...]:
+        """The events of covered fragments, in drawing order."""
+        return tuple(event for event in self.events if event.kind == "fragment")
+
+
+# The fragments at one pixel through interpolation, shading, depth test and blending, one after the other.
 
 
 @dataclass(frozen=True, eq=False)
@@ -177,3 +278,120 @@ def overwriters(fragments: PixelFragments, blend: str) -> list[int]:
         is_hidden = fragments.passes[k] and len(later)
         found.append(int(fragments.triangle[k + 1 + later[0]]) if is_hidden else -1)
     return found
+
+
+# The history of a pixel of exact areas: who covers how much of its square, and how much of that is seen.
+
+
+@dataclass(frozen=True, eq=False)
+class PiecesEvent:
+    """One triangle, or one piece that clipping made of it, at a pixel that it touches."""
+
+    triangle: int
+    area: float
+    """How much of the pixel lies inside its edges, 0 to 1."""
+    passed: float
+    """How much of the pixel it took when it was drawn: what is in depth range and passed the depth test."""
+    seen: float
+    """How much of the pixel it has when everything is drawn."""
+    color: Singles
+    """(4,) float32, linear: the mean of what it drew; NaN where nothing passed."""
+    before: Singles
+    """(4,) float32, linear: the pixel when it came."""
+    after: Singles
+    """(4,) float32."""
+
+
+@dataclass(frozen=True, eq=False)
+class PixelPieces:
+    """What became of one pixel of exact areas."""
+
+    column: int
+    row: int
+    events: tuple[PiecesEvent, ...]
+    """Triangles that touch the pixel, in drawing order."""
+    background: float
+    """How much of the pixel shows no triangle."""
+    background_color: Singles
+    """(4,) float32, linear: the pixel before anything was drawn."""
+    is_blended: bool
+    """Whether what is seen is the last triangle of a stack of transparent ones."""
+    untouching_count: int
+    """Triangles of the scene that do not touch the pixel."""
+
+
+def pixel_pieces(source: TraceSource, column: int, row: int) -> PixelPieces | None:
+    """Return what became of a pixel in the picture of the whole scene; ``None``: no triangles are filled.
+
+    Parameters
+    ----------
+    source : TraceSource
+        Scene and settings; which triangle it traces and its region do not matter here.
+    column, row : int
+        The pixel, row 0 at the bottom.
+
+    Raises
+    ------
+    ValueError
+        For a pixel outside the image.
+    """
+    scene, settings = source.scene, source.settings
+    check_pixel(scene, column, row)
+    geometry = whole_geometry(source)
+    if not geometry.is_cut_to_pixels:
+        return None
+    raster = make_raster(scene.size, settings.pixel_center, (column, row, 1, 1))
+    painter = piece_painter(scene, geometry, raster, {stage: StageCount() for stage in STAGES})
+
+    # One pixel: every layer draws one triangle, and holds all pieces of the pixel.
+    background = np.asarray(scene.background, np.float32)
+    states = [painter.colored(layer.there) for layer in painter.layers()]
+    primitives = painter.squares.primitive
+    areas = _areas_inside(painter)
+    last = states[-1] if states else None
+    events, before = [], background
+    for state, primitive, area in zip(states, primitives.tolist(), areas, strict=True):
+        passed = _area_of(state, primitive)
+        after = read_only(sum_areas(state, 1)[0])
+        triangle = int(geometry.primitives.triangle[primitive])
+        seen = _area_of(last, primitive) if last is not None else 0.0
+        color = _mean_color(state, primitive)
+        events.append(PiecesEvent(triangle, area, passed, seen, color, before, after))
+        before = after
+    touching = {event.triangle for event in events}
+    return PixelPieces(
+        column,
+        row,
+        tuple(events),
+        1.0 if last is None else _area_of(last, -1),
+        read_only(background),
+        resolve(settings).is_mixed,
+        len(geometry.assembled) - len(touching),
+    )
+
+
+def _areas_inside(painter: PiecePainter) -> list[float]:
+    """Return how much of the square lies inside the edges of every triangle that touches it."""
+    squares = painter.squares
+    count = len(squares.primitive)
+    pieces = whole_pixels(np.arange(count))
+    areas = np.ones(count)
+    for edge in range(3):
+        a, b, value = (part[pieces.number, edge] for part in squares.edge_parts)
+        pieces, _ = split_pieces(pieces, a, b, value)
+    inside = np.bincount(pieces.number, area_of(pieces), count)
+    found: list[float] = np.where(squares.is_whole, areas, inside).tolist()
+    return found
+
+
+def _area_of(pieces: ColoredPieces, primitive: int) -> float:
+    """Return how much of the pixel shows a primitive; -1: nothing."""
+    return float(pieces.area[pieces.primitive == primitive].sum())
+
+
+def _mean_color(pieces: ColoredPieces, primitive: int) -> Singles:
+    """Return the mean colour (4,) float32 of what a primitive has; NaN where that is nothing."""
+    is_own = pieces.primitive == primitive
+    with np.errstate(invalid="ignore"):
+        mean = (pieces.area[is_own, None] * pieces.color[is_own]).sum(axis=0) / pieces.area[is_own].sum()
+    return read_only(mean.astype(np.float32))

@@ -1,10 +1,19 @@
-"""Read-only arrays and the checks that every public function makes on its input."""
+"""Read-only arrays, the checks that every public function makes on its input, and values that are found once.
 
-from collections.abc import Sequence
-from typing import Any, TypeVar
+``functools.cached_property`` of Python 3.11 computes under one lock for all instances of a class, so work in the
+background would hold up a window that asks another instance for the same. Here there is no lock: threads that ask one
+instance at a time may all compute, which gives the same result, as what is computed here never changes.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import fields, is_dataclass
+from typing import Any, Generic, Self, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+# Read-only arrays and the checks that every public function makes on its input.
+
 
 Floats = NDArray[np.float64]
 Singles = NDArray[np.float32]
@@ -90,3 +99,66 @@ def checked_size(name: str, size: ArrayLike, limit: int) -> tuple[int, int]:
     if not (1 <= width <= limit and 1 <= height <= limit):
         raise ValueError(f"{name} must be 1 to {limit} pixels each way, got {width}x{height}")
     return width, height
+
+
+# Attributes that are computed when they are first asked for, by any number of threads.
+
+
+Value = TypeVar("Value")
+
+
+class cached_property(Generic[Value]):  # noqa: N801
+    """A method without arguments as an attribute that is kept, also of a frozen record."""
+
+    def __init__(self, compute: Callable[[Any], Value]) -> None:
+        self._compute = compute
+        self.__doc__ = compute.__doc__
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+
+    @overload
+    def __get__(self, instance: None, owner: type) -> Self: ...
+
+    @overload
+    def __get__(self, instance: object, owner: type) -> Value: ...
+
+    def __get__(self, instance: object | None, owner: type) -> Self | Value:
+        if instance is None:
+            return self
+        # Asked only while it is not in the record's own dictionary, which is looked at first.
+        value = self._compute(instance)
+        vars(instance)[self._name] = value
+        return value
+
+
+# Whether two values are the same, bit for bit: asked before anything is traced or painted again.
+
+
+def is_alike(one: Any, other: Any, apart_from: tuple[str, ...] = ()) -> bool:
+    """Return whether two values are the same bits, looking into tuples, lists and records.
+
+    Parameters
+    ----------
+    apart_from : tuple of str
+        Fields of the records themselves that may differ.
+
+    Notes
+    -----
+    Numbers are compared as bits: NaN is like itself, and 0 is not like -0. Arrays of other shapes or dtypes differ.
+    """
+    if one is other:
+        return True
+    if type(one) is not type(other):
+        return False
+    if isinstance(one, np.ndarray):
+        is_like = one.dtype == other.dtype and one.shape == other.shape
+        return bool(is_like and one.tobytes() == other.tobytes())
+    if isinstance(one, float):
+        return np.float64(one).tobytes() == np.float64(other).tobytes()
+    if isinstance(one, tuple | list):
+        return len(one) == len(other) and all(map(is_alike, one, other))
+    if is_dataclass(one):
+        names = (each.name for each in fields(one) if each.name not in apart_from)
+        return all(is_alike(getattr(one, name), getattr(other, name)) for name in names)
+    return bool(one == other)

@@ -1,4 +1,4 @@
-"""A listing: the algorithm of a step as a short scalar function that a student can read and the tests execute.
+"""A listing: the algorithm of a step as a short scalar function that a student can read, and the operations it names.
 
 A line of the function is named by a comment at its end, ``#: name``; a step says the name, the window marks the line.
 """
@@ -6,15 +6,42 @@ A line of the function is named by a comment at its end, ``#: name``; a step say
 import ast
 import inspect
 import re
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from difflib import SequenceMatcher
 from functools import cache, lru_cache
 from textwrap import dedent
+from threading import RLock
 from typing import Any
 
-from core.records.cached import cached_property
-from core.records.python_text import read_statements
+import numpy as np
+from numpy.typing import NDArray
+
+from core.records.arrays import cached_property
+
+# Text in Python's grammar read to a tree, which is looked at and never executed.
+
+
+_ALONE = RLock()
+"""CPython 3.11 has one count for how deep the trees are that all threads make: two at a time end in a SystemError."""
+
+
+def read_statements(text: str) -> ast.Module:
+    """Return the statements of a text; raises what `ast.parse` raises, without its warnings."""
+    with _ALONE, warnings.catch_warnings(action="ignore"):
+        return ast.parse(text)
+
+
+def read_expression(text: str) -> ast.expr:
+    """Return the expression that a text is; raises what `ast.parse` raises, without its warnings."""
+    with _ALONE, warnings.catch_warnings(action="ignore"):
+        return ast.parse(text, mode="eval").body
+
+
+# A listing: the algorithm of a step as a short scalar function that a student can read and the tests
+# execute.
+
 
 _LABEL = re.compile(r"\s*#: (?P<name>[\w-]+)\s*$")
 _CHANGING = frozenset({"append", "remove", "sort"})
@@ -243,3 +270,54 @@ def _plain_lines(source: str) -> list[str]:
         last = next(k for k in range(first, len(lines)) if lines[k].endswith(":"))
         lines[first : last + 1] = [f"{indent}def {node.name}({ast.unparse(node.args)}):"]
     return [" " * ((len(line) - len(line.lstrip())) // 2) + line.lstrip() for line in lines]
+
+
+# What a row of a trace does: methods name the operations of their rows, and wait for nothing else that
+# steps.
+
+
+Columns = Mapping[str, NDArray[Any]]
+"""Every number of a trace: name to (R, ...) array."""
+Labels = Callable[[Columns, Any], NDArray[np.str_]]
+"""Takes columns and rows (C,) int64 or a slice; returns (C,) labels, where the outcome decides which line ran."""
+Variables = tuple[str, ...] | Mapping[str, str]
+"""Columns of the trace; or each column and what the listing calls it, where that is another name."""
+
+
+@dataclass(frozen=True)
+class Operation:
+    """One thing that a row does."""
+
+    name: str
+    """Key of its sentence and formula, within the kind of its row."""
+    label: str | Labels
+    """Label of the line of the listing that ran; empty where no line of it did."""
+    sets: Variables = ()
+    """Variables that its line gives a value."""
+    takes: Variables = ()
+    """Variables that are shown from now on, though no line of the listing gives them a value."""
+
+    @property
+    def shows(self) -> tuple[str, ...]:
+        """Columns that have a value once it is done."""
+        return *self.sets, *self.takes
+
+    def label_at(self, columns: Columns, row: int) -> str:
+        """Return the label of the line that ran in one row."""
+        if isinstance(self.label, str):
+            return self.label
+        return str(self.label(columns, slice(row, row + 1))[0])
+
+
+@dataclass(frozen=True)
+class Either:
+    """`Labels` of an operation that does one thing or another."""
+
+    flag: str
+    """The column (R,) bool that decides."""
+    when_set: str
+    otherwise: str
+
+    def __call__(self, columns: Columns, rows: Any) -> NDArray[np.str_]:
+        """Return the labels (C,) of rows."""
+        return np.where(columns[self.flag][rows], self.when_set, self.otherwise)

@@ -5,21 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from core.lanes.masks import Some
 from core.lanes.problem import Place, Problem
-from core.lanes.run import Run
+from core.lanes.run import Run, Some
 from core.shaders import rules
-from core.shaders.function_names import (
-    ALSO_WHOLE,
-    COMPARISONS,
-    DERIVATIVES,
-    EACH,
-    FLAGS,
-    MATRIX,
-    MAY_BE_ONE,
-    TEXTURES,
-    WHOLE,
-)
 from core.shaders.glsl_types import (
     CONVERTS_NOTHING,
     MATRICES,
@@ -30,8 +18,18 @@ from core.shaders.glsl_types import (
     split_type,
     vector_type,
 )
-from core.shaders.quads import differences
-from core.shaders.samplers import look_up, texel_at, texture_size
+from core.shaders.rules import differences, look_up, texel_at, texture_size
+from core.shaders.words import (
+    ALSO_WHOLE,
+    COMPARISONS,
+    DERIVATIVES,
+    EACH,
+    FLAGS,
+    MATRIX,
+    MAY_BE_ONE,
+    TEXTURES,
+    WHOLE,
+)
 
 
 def call_function(name: str, values: Sequence[GlslValue], mask: Some, place: Place, run: Run) -> GlslValue:

@@ -4,14 +4,19 @@ import re
 
 import numpy as np
 
-from core.lanes.limits import SHADER
 from core.lanes.nodes import Binary, Call, Choose, Constant, Expression, Field, Index, Logic, Name, Unary
-from core.lanes.problem import Place, Problem
-from core.shaders.function_names import FUNCTIONS, OTHER_FUNCTIONS
-from core.shaders.glsl_types import TYPES
-from core.shaders.other_words import OTHER_TYPES, OTHER_WORDS, RESERVED
-from core.shaders.scopes import Scopes, Variable, proposal, typed_name
-from core.shaders.tokens import Token, joined_words
+from core.lanes.problem import SHADER, Place, Problem
+from core.shaders.glsl_types import (
+    OTHER_TYPES,
+    OTHER_WORDS,
+    RESERVED,
+    TYPES,
+    Scopes,
+    Variable,
+    proposal,
+    typed_name,
+)
+from core.shaders.words import FUNCTIONS, OTHER_FUNCTIONS, Token, joined_words
 
 LEVELS = (("||",), ("^^",), ("&&",), ("==", "!="), ("<", ">", "<=", ">="), ("+", "-"), ("*", "/", "%"))
 """Operators from the weakest to the strongest."""

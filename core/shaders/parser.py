@@ -1,14 +1,47 @@
-"""The parser: tokens of a shader to the nodes of `core.lanes.nodes`, by recursive descent.
+"""The parser: tokens of a shader to the nodes of `core.lanes.nodes`, by recursive descent; and the walk over these.
 
 Names are resolved while parsing, as GLSL declares everything before it is used.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
-from core.lanes.nodes import Declare, Function, Statement
+from core.lanes.nodes import Declare, Function, Loop, Node, Statement
 from core.lanes.problem import Place, Problem
 from core.shaders.statements import StatementParser
-from core.shaders.tokens import Token, read_tokens
+from core.shaders.words import Token, read_tokens
+
+# The nodes of a shader, one after the other, and how much they do.
+
+
+ROUNDS = 16
+"""Rounds of a loop, for a guess."""
+
+
+def walk(node: Any) -> Any:
+    """Yield a node and all that are part of it."""
+    yield node
+    for part in _parts(node):
+        yield from walk(part)
+
+
+def _parts(node: Any) -> Iterator[Node]:
+    for name in type(node).__dataclass_fields__:
+        value = getattr(node, name)
+        for part in value if isinstance(value, tuple) and not isinstance(value, Place) else (value,):
+            if isinstance(part, Node):
+                yield part
+
+
+def weight_of(node: Node) -> int:
+    """Return how many statements a node runs, roughly."""
+    inner = sum(map(weight_of, _parts(node)))
+    return isinstance(node, Statement) + inner * (ROUNDS if isinstance(node, Loop) else 1)
+
+
+# The parser: tokens of a shader to the nodes of `core.lanes.nodes`, by recursive descent.
+
 
 QUALIFIERS = (
     "in",

@@ -6,7 +6,7 @@ from math import isfinite
 from typing import TYPE_CHECKING
 
 from core.lanes.problem import Place, Problem
-from core.records.cached import cached_property
+from core.records.arrays import cached_property
 
 if TYPE_CHECKING:
     from core.shaders.shader import Shader
@@ -47,7 +47,7 @@ class ShaderProgram:
     uniforms: tuple[tuple[str, tuple[float, ...]], ...] = ()
     """Name of a uniform and its numbers, of a matrix column by column.
 
-    Those that are missing are the scene's light and material, see `core.shaders.scene_uniforms`; others are 0.
+    Those that are missing are the scene's light and material, see `core.shaders.linking`; others are 0.
     """
     dialect: str = "shader-material"
     """Who declares three.js's names, a key of `DIALECTS`."""

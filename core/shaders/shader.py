@@ -1,4 +1,4 @@
-"""One shader, read and checked, and its run on lanes."""
+"""One shader, read and checked with what is declared for it, and its run on lanes."""
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -7,34 +7,64 @@ from typing import Any, cast
 
 import numpy as np
 
-from core.lanes.dialect import Dialect
 from core.lanes.expressions import Expressions
-from core.lanes.limits import SHADER, Limits
-from core.lanes.masks import NOBODY, Mask, Nobody, Some
-from core.lanes.nodes import (
-    Break,
-    Call,
-    Continue,
-    Discard,
-    Evaluate,
-    Expression,
-    Function,
-    Name,
-    Statement,
-)
-from core.lanes.problem import Place, Problem
+from core.lanes.nodes import Break, Call, Continue, Discard, Evaluate, Expression, Function, Name, Statement
+from core.lanes.problem import SHADER, Limits, Place, Problem
 from core.lanes.program import NOT_COMPUTED, Program
-from core.lanes.run import UNSET, Frame, Run, Stop, Watch
+from core.lanes.run import NOBODY, UNSET, Dialect, Frame, Mask, Nobody, Run, Some, Stop, Watch
 from core.lanes.statements import Statements, Step
-from core.records.arrays import Flags
-from core.records.cached import cached_property
-from core.shaders.declared import declared_elsewhere, declared_for
+from core.records.arrays import Flags, cached_property
 from core.shaders.dialect import GlslDialect
-from core.shaders.function_names import DERIVATIVES
 from core.shaders.glsl_types import GlslValue, component_count, zero_of
-from core.shaders.parser import GlobalVariable, Parser, Syntax
+from core.shaders.parser import GlobalVariable, Parser, Syntax, walk, weight_of
 from core.shaders.record import DIALECTS
-from core.shaders.walking import walk, weight_of
+from core.shaders.words import DERIVATIVES
+
+# What is declared for a shader: GLSL's own variables, and those that three.js adds.
+
+
+ATTRIBUTES = {"position": "vec3", "normal": "vec3", "uv": "vec2", "color": "vec3"}
+"""What a mesh gives its vertices; ``color`` may be declared vec4, too."""
+UNIFORMS = {
+    "modelMatrix": "mat4",
+    "modelViewMatrix": "mat4",
+    "projectionMatrix": "mat4",
+    "viewMatrix": "mat4",
+    "normalMatrix": "mat3",
+    "cameraPosition": "vec3",
+    "isOrthographic": "bool",
+}
+"""What the scene gives a shader."""
+_OWN = {
+    "vertex": (("gl_Position", "vec4", "out"), ("gl_VertexID", "int", "in")),
+    "fragment": (("gl_FragCoord", "vec4", "in"), ("gl_FrontFacing", "bool", "in")),
+}
+_MATERIAL = {
+    "vertex": (
+        *((name, of, "in") for name, of in ATTRIBUTES.items()),
+        *((name, of, "uniform") for name, of in UNIFORMS.items()),
+    ),
+    "fragment": tuple(
+        (name, UNIFORMS[name], "uniform") for name in ("viewMatrix", "cameraPosition", "isOrthographic")
+    ),
+}
+
+
+def declared_for(stage: str, dialect: str) -> tuple[GlobalVariable, ...]:
+    """Return the variables that a shader of a stage finds declared."""
+    rows = _OWN[stage] + (_MATERIAL[stage] if dialect == "shader-material" else ())
+    return tuple(GlobalVariable(name, of, qualifier, False, Place(1)) for name, of, qualifier in rows)
+
+
+def declared_elsewhere(stage: str, dialect: str) -> dict[str, str]:
+    """Return names that only ShaderMaterial declares, with the declarations that a shader may write itself."""
+    if dialect == "shader-material":
+        return {}
+    return {name: f"{qualifier} {of} {name}" for name, of, qualifier in _MATERIAL[stage]}
+
+
+# One shader, read and checked, and its run on lanes.
+
 
 STAGES = ("vertex", "fragment")
 BLOCK = 16_384

@@ -22,9 +22,8 @@ from core.lanes.nodes import (
 from core.lanes.nodes import Field as Component
 from core.lanes.problem import Place, Problem
 from core.shaders.expressions import ExpressionParser
-from core.shaders.glsl_types import TYPES, component_count
-from core.shaders.other_words import OTHER_TYPES
-from core.shaders.tokens import Token
+from core.shaders.glsl_types import OTHER_TYPES, TYPES, component_count
+from core.shaders.words import Token
 
 VARIABLE_LIMIT = 1_024
 """Numbers that all variables of a shader have together, for one lane."""

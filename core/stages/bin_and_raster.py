@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from core.raster.binning import bound
-from core.raster.coverage import Fragments, cover
-from core.raster.edges.edge_functions import EdgeFunctions
-from core.raster.lines.wireframe import draw_outlines
-from core.raster.pixel_runs import Boxes, Raster, Runs, rows_of
+from core.coverage.binning import bound
+from core.coverage.edges import EdgeFunctions
+from core.coverage.fills import Fragments, cover
+from core.coverage.pixel_runs import Boxes, Raster, Runs, rows_of
+from core.lines.wireframe import draw_outlines
 from core.records.arrays import Integers
 from core.records.frame import StageCount
 from core.resolved import resolve
@@ -80,7 +80,7 @@ def outlined(geometry: Geometry, raster: Raster, counts: Counts) -> Iterator[Fra
 
 def filled(geometry: Geometry, raster: Raster, counts: Counts) -> Iterator[Fragments]:
     """Raster polygons from their edge tables: yield the pixels of all spans, which have no bins."""
-    from core.raster.polygon_fills.active_edges import fill_rings
+    from core.coverage.active_edges import fill_rings
 
     assert geometry.polygons is not None
     counts["bin"].incoming = len(geometry.primitives)

@@ -14,19 +14,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.fragments.interpolation import plane_value
-from core.geometry.vertex_stage import transform_vertices
-from core.numeric.buffers import ScratchBuffers
-from core.raster.pixel_runs import Raster, make_raster
-from core.raster.spans.fill import pixels_of_rows, rows_in_order
-from core.raster.spans.lanes import set_up_lanes, tie_owners
+from core.coverage.pixel_runs import Raster, make_raster
+from core.interpolation.interpolation import plane_value
+from core.numeric.large_arrays import ScratchBuffers
 from core.records.arrays import Flags, Floats, Integers
 from core.records.frame import StageCount
 from core.scene import Camera, Scene
 from core.settings import Settings
+from core.spans.fill import pixels_of_rows, rows_in_order
+from core.spans.lanes import set_up_lanes, tie_owners
 from core.stages.declared import STAGES
 from core.stages.geometry import Geometry
 from core.stages.vertices import process_geometry
+from core.transform.vertex_stage import transform_vertices
 
 ASIDE = np.array([0.48, 0.36, 0.8])
 """Direction from which rays are cast: along no face or edge that models often have."""

@@ -11,7 +11,7 @@ class Stage:
     name: str
     """The spelling of files, command line and API.
 
-    Other texts have names of what is drawn in braces, as ``{one}`` and ``{corner}``: see ``core.records.nouns``.
+    Other texts have names of what is drawn in braces, as ``{one}`` and ``{corner}``: see ``core.records.words``.
     """
     short_title: str
     """Its name as a chapter of the run."""
@@ -60,7 +60,7 @@ DECLARED = (
         gives="Every {vertex} in world, camera, clip, NDC and window space.",
         source="Zwicker 2016, The complete vertex transform; Pellacini, Vertex processing",
         heading="Geometry",
-        tracer="core.trace.transform.trace_transform",
+        tracer="core.transform.traced.trace_transform",
         initial="No {vertex} is transformed yet: all are in object space.",
         group="one {corner}",
         group_label="Vertex",
@@ -78,7 +78,7 @@ DECLARED = (
         gives="The {many} that may be visible, and a reason for each dropped one.",
         source="LMU 2020, Culling; Jubair, Backface culling",
         heading="Geometry",
-        tracer="core.trace.cull.trace_cull",
+        tracer="core.culling.traced.trace_cull",
         initial="No {one} has been tested yet.",
         group="one kind of test",
         group_label="Test",
@@ -96,7 +96,7 @@ DECLARED = (
         gives="{Many} wholly inside: each cut one becomes a polygon, split into a fan.",
         source="Sutherland and Hodgman 1974; Pellacini, Polygon clipping",
         heading="Geometry",
-        tracer="core.trace.clip.trace_clip",
+        tracer="core.clipping.traced.trace_clip",
         initial="No {one} has reached the view volume yet.",
         group="one plane",
         group_label="Plane",
@@ -114,7 +114,7 @@ DECLARED = (
         gives="Three functions E = a x + b y + c that are positive inside the triangle.",
         source="Zwicker 2016, Homogeneous rasterization; Olano and Greer 1997",
         heading="Raster",
-        tracer="core.trace.edges.trace_edges",
+        tracer="core.coverage.traced_edges.trace_edges",
         initial="No edge function has been set up yet.",
         not_for={
             "polygons": "A polygon needs no edge functions: its edge table is filled in the stage Raster.",
@@ -135,7 +135,7 @@ DECLARED = (
         gives="A bounding box for every triangle, and blocks that lie inside, outside, or neither.",
         source="Zwicker 2016, Binning; Greene 1996",
         heading="Raster",
-        tracer="core.trace.binning.trace_bin",
+        tracer="core.coverage.traced_edges.trace_bin",
         initial="No box and no block has been tested yet.",
         not_for={
             "polygons": "A polygon's spans are computed row by row, without boxes and blocks.",
@@ -156,7 +156,7 @@ DECLARED = (
         gives="The covered pixels of every {one}; a pixel on a shared edge belongs to exactly one.",
         source="Zwicker 2016, Pixel inside/outside test; Pineda 1988; LMU 2020, Scan line algorithm",
         heading="Raster",
-        tracer="core.trace.raster.trace_raster",
+        tracer="core.coverage.traced.trace_raster",
         initial="No pixel has been tested yet.",
         group="one row",
         outcomes=("covered",),
@@ -170,7 +170,7 @@ DECLARED = (
         gives="Three weights at every pixel, and the weighted sum of the corners' values.",
         source="Zwicker 2016, Perspective correct interpolation; Jubair, Barycentric interpolation",
         heading="Fragments",
-        tracer="core.trace.interpolate.trace_interpolate",
+        tracer="core.interpolation.traced.trace_interpolate",
         initial="No pixel has weights and values yet.",
         at_centers=True,
         outcomes=("values",),
@@ -184,7 +184,7 @@ DECLARED = (
         gives="One linear colour with alpha for every fragment.",
         source="Zwicker 2016, Texture mapping; Pellacini, Lighting computation",
         heading="Fragments",
-        tracer="core.trace.shade.trace_shade",
+        tracer="core.shading.traced.trace_shade",
         initial="No fragment has a colour yet.",
         at_centers=True,
         outcomes=("color",),
@@ -198,7 +198,7 @@ DECLARED = (
         gives="The fragments that are nearer than the buffer's depth.",
         source="Catmull 1974; Zwicker 2016, Z-buffering",
         heading="Framebuffer",
-        tracer="core.trace.depth.trace_depth",
+        tracer="core.depth.traced.trace_depth",
         initial="No fragment has been tested yet: the depth buffer is unchanged.",
         outcomes=("stored", "passes", "after"),
     ),
@@ -211,7 +211,7 @@ DECLARED = (
         gives="The colour buffer with every fragment written or mixed into it.",
         source="Porter and Duff 1984; Pellacini, Framebuffer processing",
         heading="Framebuffer",
-        tracer="core.trace.blend.trace_blend",
+        tracer="core.framebuffer.traced.trace_blend",
         initial="No fragment has been written yet: the colour buffer is unchanged.",
         outcomes=("after",),
     ),
@@ -224,7 +224,7 @@ DECLARED = (
         gives="One colour per pixel: red, green and blue as sRGB bytes, and unchanged alpha.",
         source="LMU 2020, Super Sampling Antialiasing; IEC 61966-2-1, sRGB, 1999",
         heading="Framebuffer",
-        tracer="core.trace.resolve.trace_resolve",
+        tracer="core.antialiasing.traced.trace_resolve",
         initial="No pixel has display bytes yet.",
         outcomes=("bytes",),
     ),

@@ -1,4 +1,4 @@
-"""Where textures meet shading: the colour of a fragment."""
+"""Where textures meet shading: the colour of a fragment, and whether a scene's own shaders give it."""
 
 from dataclasses import dataclass
 
@@ -7,6 +7,26 @@ import numpy as np
 from core.records.arrays import Floats, Integers
 from core.scene import AnyScene, ClipScene, Scene, Texture
 from core.settings import Settings
+from core.transform.vertex_stage import VertexStage, transform_vertices
+
+# Where a scene's own shaders replace the fixed stages; `core.shaders` is imported for such scenes only.
+
+
+def has_program(scene: AnyScene) -> bool:
+    """Whether a scene has shaders of its own."""
+    return scene.program is not None
+
+
+def vertex_stage(scene: AnyScene) -> VertexStage:
+    """Return every vertex in clip space: by the vertex shader of a scene that has one, else by the matrices."""
+    if scene.program is None:
+        return transform_vertices(scene)
+    from core.shaders.stages import shade_vertices
+
+    return shade_vertices(scene)
+
+
+# Where textures meet shading: the colour of a fragment.
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,7 +75,7 @@ def shade_fragments(
         diffuse, specular = values[:, layout["diffuse_light"]], values[:, layout["specular_light"]]
     else:
         return Surface(albedo, None, None, albedo)
-    from core.fragments.shading import shade
+    from core.shading.shading import shade
 
     return Surface(albedo, diffuse, specular, shade(albedo, diffuse, specular))
 
@@ -86,11 +106,11 @@ def _albedo(
 
 def _texture_color(texture: Texture, settings: Settings, uv: Floats, slopes: Floats | None) -> Floats:
     """Return the colours (F, 4) of a texture at ``uv`` (F, 2)."""
-    from core.fragments.textures import texture_colors, uses_mipmaps
+    from core.textures.look_up import texture_colors, uses_mipmaps
 
     if not uses_mipmaps(settings.texture_filter):
         return texture_colors(texture, uv, settings.texture_filter, settings.wrap)
-    from core.fragments.mipmap_samples import mipmap_colors
+    from core.textures.mipmaps import mipmap_colors
 
     assert slopes is not None
     return mipmap_colors(texture, uv, slopes, settings.texture_filter, settings.wrap)

@@ -9,30 +9,34 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from core.fragments.interpolation import Planes, set_up_planes, value_plane
-from core.framebuffer.fixed_depth import FixedPlanes, set_up_fixed_planes
-from core.geometry.culling import CullVerdicts, plane_distances
-from core.geometry.outcodes import RANGE_BIT, Outcodes, has_bits, joined_bits, outcodes
-from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING
-from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
-from core.geometry.reversed_depth import reversed_clip_depth
-from core.geometry.vertex_stage import VertexStage
-from core.raster.edges.edge_functions import EdgeFunctions, edge_functions
-from core.raster.edges.snapping import WindowVertices, place_corners_in
-from core.raster.number_formats.number_format import CornerPositions
-from core.records.arrays import Flags, Floats, Integers
-from core.records.cached import cached_property
+from core.clipping.planes import DEPTH_CLIPPING
+from core.clipping.sutherland_hodgman import Clipped
+from core.coverage.edges import EdgeFunctions, edge_functions
+from core.coverage.number_formats import CornerPositions
+from core.coverage.snapping import WindowVertices, place_corners_in
+from core.culling.culling import (
+    RANGE_BIT,
+    CullVerdicts,
+    Outcodes,
+    has_bits,
+    joined_bits,
+    outcodes,
+    plane_distances,
+)
+from core.depth.fixed_depth import FixedPlanes, set_up_fixed_planes
+from core.interpolation.interpolation import Planes, set_up_planes, value_plane
+from core.records.arrays import Flags, Floats, Integers, cached_property
 from core.records.frame import StageCount
-from core.records.primitives import IndexedPrimitives, Primitives
-from core.records.rings import Rings
+from core.records.primitives import IndexedPrimitives, Primitives, Rings
 from core.resolved import resolve
 from core.settings import Settings
+from core.transform.matrices import reversed_clip_depth
+from core.transform.vertex_stage import VertexStage
 
 if TYPE_CHECKING:
-    from core.raster.lines.wireframe import Outlines
-    from core.stages.clipped_outlines import OutlineClip
-    from core.stages.clipped_polygons import PolygonClip
-    from core.visibility.ray_planes import RayPlanes
+    from core.depth.ray_casting import RayPlanes
+    from core.lines.wireframe import Outlines
+    from core.stages.primitives import OutlineClip, PolygonClip
 
 
 @dataclass(frozen=True, eq=False)
@@ -167,7 +171,7 @@ class Geometry:
     @cached_property
     def ray_planes(self) -> "RayPlanes":
         """What tells exactly which of two triangles of the scene is nearer at a pixel; by z where w is no distance."""
-        from core.visibility.ray_planes import set_up_ray_planes
+        from core.depth.ray_casting import set_up_ray_planes
 
         with self.count:
             vertices = self.vertices
@@ -186,7 +190,7 @@ class Geometry:
         """What line clipping did to the outlines; ``None``: they are drawn as they are."""
         if not resolve(self.settings).clips_lines or self.whole_outlines is None:
             return None
-        from core.stages.clipped_outlines import clip_outlines
+        from core.stages.primitives import clip_outlines
 
         with self.count:
             method, center = self.settings.line_clipping, resolve(self.settings).center
@@ -199,9 +203,9 @@ class Geometry:
         """The edges before line clipping; ``None``: triangles are filled."""
         if not resolve(self.settings).is_outlined:
             return None
-        from core.raster.lines.intensities import run_rightwards
-        from core.raster.lines.traits import has_intensities
-        from core.raster.lines.wireframe import set_up_outlines
+        from core.lines.line_method import has_intensities
+        from core.lines.wireframe import set_up_outlines
+        from core.lines.wireframe_fragments import run_rightwards
 
         with self.count:
             outlines = set_up_outlines(
@@ -228,7 +232,7 @@ class Geometry:
         """What clipping did to the polygons; ``None``: they are filled as they are."""
         if self.vertices.rings is None or not resolve(self.settings).clips_polygons:
             return None
-        from core.stages.clipped_polygons import clip_polygons
+        from core.stages.primitives import clip_polygons
 
         method, center = self.settings.polygon_clipping, resolve(self.settings).center
         return clip_polygons(self.vertices, self.primitives.triangle, method, center)
@@ -259,7 +263,7 @@ def line_reach(settings: Settings) -> float:
     """Return how far outside the raster the lines of an outline may lie, in pixels, whose pixels get something."""
     if not resolve(settings).is_outlined:
         return 0.0
-    from core.raster.lines.traits import line_traits
+    from core.lines.line_method import line_traits
 
     return line_traits(settings.line).reach
 

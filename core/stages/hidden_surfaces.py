@@ -10,17 +10,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from core.coverage.fills import Fragments, join_fragments
+from core.coverage.pixel_runs import Raster
+from core.depth.depth import (
+    DepthFormat,
+    DepthTests,
+    PixelStacks,
+    Stored,
+    replay_depths,
+    run_depth_tests,
+    stack_fragments,
+)
+from core.depth.ray_casting import RayTests, run_ray_tests
 from core.framebuffer.blending import blend_stacks
-from core.framebuffer.depth import DepthFormat, DepthTests, Stored, replay_depths, run_depth_tests
-from core.framebuffer.stacks import PixelStacks, stack_fragments
-from core.raster.coverage import Fragments, join_fragments
-from core.raster.lines.intensities import writes_depth
-from core.raster.pixel_runs import Raster
+from core.lines.wireframe_fragments import writes_depth
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.resolved import resolve
 from core.stages.fragments import fragments_at, owner_of
 from core.stages.geometry import Geometry
-from core.visibility.ray_casting import RayTests, run_ray_tests
 
 
 @dataclass(frozen=True, eq=False)

@@ -39,9 +39,9 @@ def _meeting_rings(scene: AnyScene) -> str:
 @lru_cache(maxsize=4)
 def _meeting_sides(scene: ClipScene) -> str:
     # Only scenes of polygons wait for these.
-    from core.geometry.ring_clipping.exact import meeting_sides, whole_rings
-    from core.geometry.vertex_stage import transform_vertices
-    from core.stages.clipped_polygons import polygons_in_pixels, region_in_pixels
+    from core.clipping.rings import meeting_sides, whole_rings
+    from core.stages.primitives import polygons_in_pixels, region_in_pixels
+    from core.transform.vertex_stage import transform_vertices
 
     vertices, count = transform_vertices(scene), len(scene.clip)
     polygons = polygons_in_pixels(vertices, np.arange(count))

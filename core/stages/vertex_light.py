@@ -9,16 +9,15 @@ from functools import lru_cache
 
 import numpy as np
 
-from core.fragments.light_rule import LightRule
-from core.fragments.lighting import Reflectance, dot, light_surface, reflectance
-from core.fragments.shading import centroids, outward_normals
-from core.geometry.matrices import camera_axes
-from core.geometry.vertex_stage import VertexStage, place_meshes
 from core.methods import table
 from core.records.arrays import Flags, Floats, Integers, read_only
 from core.records.primitives import CornerValues, lit_by, own_corners
 from core.scene import Camera, Light, Material, Mesh, Scene
 from core.settings import Settings
+from core.shading.lighting import Reflectance, dot, light_surface, reflectance
+from core.shading.shading import LightRule, centroids, outward_normals
+from core.transform.matrices import camera_axes
+from core.transform.vertex_stage import VertexStage, place_meshes
 
 ANY_CAMERA = Camera(np.array([0.0, 0.0, 1.0]), np.zeros(3))
 """Stands in for the camera where nothing depends on it."""
@@ -126,7 +125,7 @@ def _shade_corners(
 ) -> dict[str, Floats]:
     """Return by name what shading interpolates: the family's method with the scene's lights and materials.
 
-    Parameters are those of ``core.fragments.shading.phong``; ``mesh`` (N,) is that of every vertex.
+    Parameters are those of ``core.shading.shading.phong``; ``mesh`` (N,) is that of every vertex.
     """
 
     def light_at(at: Floats, facing: Floats, vertex: Integers) -> tuple[Floats, Floats]:

@@ -8,15 +8,24 @@ from functools import partial
 
 import numpy as np
 
+from core.clipping.planes import DEPTH_CLIPPING, PolygonClipping
+from core.clipping.sutherland_hodgman import Clipped
+from core.coverage.edges import doubled_areas, orient
+from core.coverage.pixel_runs import Raster
+from core.coverage.snapping import WindowVertices, place_corners, place_vertices
+from core.culling.culling import (
+    BEHIND_BIT,
+    PLANES,
+    CullVerdicts,
+    Outcodes,
+    cull,
+    has_bits,
+    joined_bits,
+    outcodes,
+    plane_distances,
+    shared_bits,
+)
 from core.families import suited
-from core.geometry.culling import PLANES, CullVerdicts, cull, plane_distances
-from core.geometry.outcodes import BEHIND_BIT, Outcodes, has_bits, joined_bits, outcodes, shared_bits
-from core.geometry.polygon_clipping.methods import DEPTH_CLIPPING, PolygonClipping
-from core.geometry.polygon_clipping.sutherland_hodgman import Clipped
-from core.geometry.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
-from core.raster.edges.edge_functions import doubled_areas, orient
-from core.raster.edges.snapping import WindowVertices, place_corners, place_vertices
-from core.raster.pixel_runs import Raster
 from core.records.arrays import Flags, Floats, Integers
 from core.records.frame import StageCount
 from core.records.primitives import CornerValues, DrawingOrder, IndexedPrimitives, index_corners, own_corners
@@ -24,9 +33,10 @@ from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings, families, no_effect
 from core.stages.declared import GEOMETRY_STAGES
+from core.stages.fragment_color import vertex_stage
 from core.stages.geometry import Geometry, all_projected, clipping_distances, line_reach
 from core.stages.needs import check_edits, check_needs
-from core.stages.vertex_program import vertex_stage
+from core.transform.vertex_stage import CornerPositionsOnDemand, VertexStage, transform_vertices
 
 __all__ = [
     "Geometry",
@@ -101,7 +111,7 @@ def _process(
         doubled_area = face(assembled, window, scene.size, settings) if has_area else np.ones(triangle_count)
         sight = None
         if (look := resolve(settings).look) is not None and vertices.corner_count == 3:
-            from core.geometry.normal_view import eye_triangles  # Only culling by N . V waits for its file.
+            from core.culling.normal_view import eye_triangles  # Only culling by N . V waits for its file.
 
             sight = look(eye_triangles(vertices, assembled.triangle))
         culled = (
@@ -247,7 +257,7 @@ def place(
 def face(
     primitives: IndexedPrimitives, window: WindowVertices, size: tuple[int, int], settings: Settings
 ) -> Floats:
-    """Return (P,) float64 as ``core.raster.edges.edge_functions.orient``, from vertices that are placed already."""
+    """Return (P,) float64 as ``core.coverage.edges.orient``, from vertices that are placed already."""
     facing = doubled_areas(window.x, window.y, primitives.corner)
     lost = np.flatnonzero(~all_projected(window, primitives.corner))
     if len(lost):

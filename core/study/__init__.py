@@ -1,19 +1,6 @@
 """The program measures itself: speed against accuracy, stability, and what a scene needs."""
 
-from core.study.accuracy.families import study_families, study_family
-from core.study.accuracy.record import (
-    BestValue,
-    ErrorMeasure,
-    Opening,
-    Pictures,
-    Point,
-    Study,
-    WorkKind,
-    best_values,
-    machine,
-    pareto_front,
-)
-from core.study.accuracy.speed_accuracy import StudyCancelledError, measure, opening, pictures
+from core.study.families import study_families, study_family
 from core.study.planner import (
     Decision,
     Findings,
@@ -27,6 +14,19 @@ from core.study.planner import (
     plan_and_check,
     reference_settings,
 )
+from core.study.record import (
+    BestValue,
+    ErrorMeasure,
+    Opening,
+    Pictures,
+    Point,
+    Study,
+    WorkKind,
+    best_values,
+    machine,
+    pareto_front,
+)
+from core.study.speed_accuracy import StudyCancelledError, measure, opening, pictures
 
 __all__ = [
     "BestValue",

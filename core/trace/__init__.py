@@ -8,7 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from core.lazy_import import import_on_demand
-from core.records.cached import cached_property
+from core.records.arrays import cached_property
 from core.scene import AnyScene, ClipScene
 from core.settings import Settings
 from core.stages.declared import STAGES

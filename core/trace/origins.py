@@ -9,9 +9,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from core.coverage.traced_edges import ROWS
 from core.records.arrays import Integers
 from core.trace import Trace
-from core.trace.edges import ROWS
 from core.trace.stage_trace import StageTrace
 
 

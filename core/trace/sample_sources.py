@@ -8,12 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from core.antialiasing.sample_rasters import at_sample, finer_raster, finer_scene, finer_settings, in_squares
+from core.antialiasing.resolve import at_sample, finer_raster, finer_scene, finer_settings, in_squares
 from core.antialiasing.sampling import ROTATED_GRID
-from core.raster.coverage import Fragments
-from core.raster.pixel_runs import Raster
-from core.records.arrays import Floats
-from core.records.cached import cached_property
+from core.coverage.fills import Fragments
+from core.coverage.pixel_runs import Raster
+from core.records.arrays import Floats, cached_property
 from core.records.frame import Frame, StageCount
 from core.resolved import resolve
 from core.stages.declared import STAGES

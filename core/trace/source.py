@@ -1,36 +1,56 @@
-"""What the stage traces are made from: the pipeline run on the traced triangles, every stage at most once."""
+"""What the stage traces are made from: the pipeline run on the traced triangles, and how long a trace may be."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
+from core.coverage.active_edges import fill_rings
+from core.coverage.binning import bound
+from core.coverage.fills import Fragments, PixelTests, examine_pixels
+from core.coverage.pixel_runs import Boxes, Raster, Runs, fill_traits, make_raster
+from core.depth.depth import DepthFormat, DepthTests, stack_fragments
+from core.depth.ray_casting import RayTests
 from core.families import suited
-from core.framebuffer.depth import DepthFormat, DepthTests
-from core.framebuffer.stacks import stack_fragments
+from core.lines.line_method import LineSteps
+from core.lines.wireframe import LineFragments, draw_outlines, join_batches
+from core.lines.wireframe_fragments import writes_depth
 from core.pipeline import draw
-from core.raster.binning import bound
-from core.raster.coverage import Fragments, PixelTests, examine_pixels
-from core.raster.lines.intensities import writes_depth
-from core.raster.lines.records import LineSteps
-from core.raster.lines.wireframe import LineFragments, draw_outlines, join_batches
-from core.raster.pixel_runs import Boxes, Raster, Runs, make_raster
-from core.raster.polygon_fills.active_edges import fill_rings
-from core.records.arrays import Flags, Floats, Integers, Singles
-from core.records.cached import cached_property
+from core.records.arrays import Flags, Floats, Integers, Singles, cached_property
 from core.records.frame import Frame, StageCount
 from core.resolved import resolve
 from core.scene import AnyScene, ClipScene
-from core.settings import Settings
+from core.settings import Settings, no_effect
 from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
-from core.stages.fragment_color import Surface
-from core.stages.fragment_depth import fragment_depth, fragment_inverse_w
-from core.stages.fragments import fragment_values, not_discarded, surface_of, texture_slopes
+from core.stages.fragment_color import Surface, vertex_stage
+from core.stages.fragments import (
+    fragment_depth,
+    fragment_inverse_w,
+    fragment_values,
+    not_discarded,
+    surface_of,
+    texture_slopes,
+)
 from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
 from core.stages.needs import check_edits
-from core.stages.vertex_program import vertex_stage
 from core.stages.vertices import Geometry, drawing_order, process_geometry
-from core.visibility.ray_casting import RayTests
+
+# How long a trace is at most: each pixel test keeps all its numbers, so some runs are too long to be kept.
+
+
+LONGEST_RUN = 1_500_000
+"""Pixel tests that a trace may have."""
+
+
+def most_tests(scene: AnyScene, settings: Settings, triangle_count: int, pixel_count: int) -> int:
+    """Return the pixel tests of a trace at most where every pixel is tested, else a guess."""
+    pixels = pixel_count * resolve(settings).sampling.count
+    if fill_traits(settings.fill).looks_everywhere and not no_effect(settings, "fill", scene):
+        return triangle_count * pixels
+    return min(triangle_count, 60) * pixels // 4
+
+
+# What the stage traces are made from: the pipeline run on the traced triangles, every stage at most once.
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +105,7 @@ class TraceSource:
 
     @property
     def fill(self) -> str:
-        """The fill that runs: see ``core.raster.fills.tested.effective_fill``."""
+        """The fill that runs: see ``core.coverage.fills.effective_fill``."""
         return resolve(self.settings).fill_name
 
     @cached_property

@@ -6,8 +6,7 @@ from dataclasses import dataclass
 from datetime import datetime
 
 from core.records.words import counted
-from lessons.attempts.lesson_steps import is_of_lesson
-from lessons.attempts.record import ANSWER_LIMIT, NOT_CHECKED, Attempt
+from lessons.attempts.record import ANSWER_LIMIT, NOT_CHECKED, Attempt, is_of_lesson
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.question import Question, Template, ask, judge
 from lessons.exercises.screen import PREFIX, screen_template

@@ -7,9 +7,8 @@ from datetime import UTC, datetime, timedelta
 from hashlib import sha256
 from itertools import combinations, count, islice
 
-from lessons.attempts.lesson_steps import is_of_lesson
-from lessons.attempts.record import NOT_CHECKED, Attempt
-from lessons.exercises.draws import SEED_LIMIT
+from lessons.attempts.record import NOT_CHECKED, Attempt, is_of_lesson
+from lessons.exercises.numbers import SEED_LIMIT
 from lessons.exercises.question import Question, Template, ask
 
 MISSES_IN_A_ROW = 3

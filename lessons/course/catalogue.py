@@ -1,16 +1,188 @@
-"""The lessons that ship with the program, in the order of learning, and those of a lecturer's own folders."""
+"""The lessons that ship with the program, in the order of learning: files, minutes, and the slides that they cover."""
 
+import json
 import tomllib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from functools import cache
+from hashlib import sha256
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
 from core import STAGES
-from lessons.course.lesson_file import Lesson, read_lesson
+from lessons.course.record import LessonPart, StepPart, word_count
+from lessons.exercises.toml_file import TomlFile
 from lessons.named_files import read_files, read_folders
+
+# A lesson as it is read from its file.
+
+
+NAME_LIMIT = 60
+"""Longest name of a file, without its ending."""
+REVISIONS = 1_000_000
+
+
+@dataclass(frozen=True, eq=False)
+class Lesson:
+    """One lesson; a step of it is named by its number, from 0."""
+
+    name: str
+    """Of the file."""
+    part: LessonPart
+    """What the file holds."""
+    file: TomlFile
+    """Knows the line of what is wrong."""
+
+    @property
+    def path(self) -> Path:
+        """The file."""
+        return self.file.path
+
+    @property
+    def title(self) -> str:
+        """What it is called."""
+        return self.part.title
+
+    @property
+    def question(self) -> str:
+        """What one wants to know."""
+        return self.part.question
+
+    @property
+    def minutes(self) -> int:
+        """How long it takes, roughly."""
+        return self.part.minutes
+
+    @property
+    def steps(self) -> list[StepPart]:
+        """From the first to the last."""
+        return self.part.step
+
+    @property
+    def stage(self) -> str:
+        """The first stage that it shows."""
+        return self.part.state.stage or self.steps[0].state.stage or STAGES[0]
+
+    @property
+    def revision(self) -> int:
+        """A number that differs where another step is asked, and stays where only texts change."""
+        asked = [
+            [step.kind, json.dumps(self.file.values["step"][number].get("answer"), sort_keys=True)]
+            for number, step in enumerate(self.steps)
+        ]
+        digest = sha256(json.dumps(asked).encode()).digest()
+        return 1 + int.from_bytes(digest[:8], "big") % (REVISIONS - 1)
+
+    def step_name(self, number: int) -> str:
+        """Return the name under which a step stands among the attempts."""
+        return f"{STEP_PREFIX}{self.name}/{number + 1}"
+
+
+STEP_PREFIX = "lesson/"
+
+
+def read_lesson(path: Path) -> Lesson:
+    """Return the lesson of a file.
+
+    Raises ValueError for what is no lesson: one sentence with file, line and what was expected; OSError if the file
+    cannot be read. Whether its scenes, events, answers and numbers hold is said by `lessons.course.validation`.
+    """
+    stem = path.stem
+    if not stem or len(stem) > NAME_LIMIT or not all(c.isascii() and (c.isalnum() or c == "-") for c in stem):
+        raise ValueError(
+            f"{str(path)!a}: expected a name of letters, digits and hyphens, up to {NAME_LIMIT} of them"
+        )
+    file = TomlFile(path)
+    if "step" not in file.values:
+        raise ValueError(f"{path}: line 1: expected a lesson, with [[step]]")
+    lesson = Lesson(stem, file.checked(LessonPart), file)
+    for number, (one, other) in enumerate(pairwise(lesson.steps), 1):
+        if one.kind == other.kind == "look":
+            raise file.error(
+                ("step", number, "kind"), "expected a task after a step to look at, got another look"
+            )
+    return lesson
+
+
+# How long a lesson takes: a plain sum over its steps, so that the minutes of all lessons mean the same.
+
+
+WORDS_A_MINUTE = 110
+"""Reading that is thought about, with numbers, in a language that is not the reader's own."""
+LOOK, TASK, MEASURE, RECALL = 20, 120, 120, 75
+"""Seconds for a picture, for a change of the scene or the settings, for a measurement, and for the warm-up."""
+ANSWERS = {"choice": 45, "pixels": 90, "order": 90, "code": 200, "table": 150}
+"""Seconds for an answer, by its type."""
+NUMBER, EACH = 45, 40
+"""Seconds for an answer in numbers, and for each of them."""
+
+
+def estimated_minutes(lesson: Lesson) -> float:
+    """Return how many minutes a lesson takes, without its closing exercises."""
+    seconds = sum(map(_seconds, lesson.steps)) + RECALL * (lesson.part.recall is not None)
+    return seconds / 60
+
+
+def _seconds(step: StepPart) -> float:
+    words = sum(word_count(text) for text in (step.text, step.task, step.after) if text)
+    seconds = LOOK + 60 * words / WORDS_A_MINUTE
+    if step.answer is not None:
+        count = len(step.answer.values) if step.answer.type == "numbers" else 1
+        return seconds + ANSWERS.get(step.answer.type, NUMBER + EACH * count)
+    return seconds + {"do": TASK, "break": TASK, "measure": MEASURE}.get(step.kind, 0)
+
+
+# What the four lectures show: every heading, with the lessons and steps that cover it, or the reason why
+# none does.
+
+
+PATH = Path(__file__).with_name("slides.toml")
+
+
+@dataclass(frozen=True)
+class Slide:
+    """A heading of a lecture."""
+
+    name: str
+    """As lessons name it: ``Zwicker: Shared edges``."""
+    reason: str = ""
+    """Why no lesson covers it."""
+
+
+@cache
+def slides() -> tuple[Slide, ...]:
+    """Return all headings, lecture by lecture."""
+    with PATH.open("rb") as file:
+        lectures = tomllib.load(file)
+    return tuple(
+        Slide(f"{lecture}: {heading}", value if isinstance(value, str) else "")
+        for lecture, rows in lectures.items()
+        for heading, value in rows.items()
+    )
+
+
+@cache
+def headings() -> frozenset[str]:
+    """Return the names of all headings."""
+    return frozenset(slide.name for slide in slides())
+
+
+def coverage(lessons: Iterable[Lesson]) -> dict[str, list[str]]:
+    """Return by heading where lessons cover it: ``shared-edges``, or a step as ``shared-edges/3``."""
+    found: dict[str, list[str]] = {slide.name: [] for slide in slides()}
+    for lesson in lessons:
+        for name in lesson.part.covers:
+            found.setdefault(name, []).append(lesson.name)
+        for number, step in enumerate(lesson.steps, 1):
+            for name in step.covers:
+                found.setdefault(name, []).append(f"{lesson.name}/{number}")
+    return found
+
+
+# The lessons that ship with the program, in the order of learning, and those of a lecturer's own folders.
+
 
 FOLDER = Path(__file__).parent
 DATA = ("order.toml", "slides.toml")

@@ -15,10 +15,10 @@ from core.settings import settings_from_texts, settings_record
 from core.trace import StageTrace
 from core.trace.run_to import END
 from lessons.course.quoted import flags_of
-from lessons.course.texts import changes_of_edits, shaders_of
+from lessons.course.state import changes_of_edits, shaders_of
 from lessons.exercises.record import PRIMITIVE_LIMIT
+from lessons.lectures.scenes import ALL_SCENES
 from lessons.scene_edits import WINDOW_NAMES, window_of_clip
-from lessons.slides.scenes import ALL_SCENES
 
 MOVED = 1e-9
 """Pixels, or units, by which numbers may differ that count as the same."""

@@ -24,7 +24,7 @@ from core.trace import StageTrace, trace
 from core.trace.conditions import Condition, TraceNames, evaluate, parse_condition, spelled
 from core.trace.run_to import named_position
 from core.trace.stage_trace import MARKS
-from lessons.exercises.drawn_scene import different_pixels
+from lessons.exercises.drafting import different_pixels
 
 COUNTS = ("drawn", "twice", "tested", "decisions", "colors", "rows")
 """Counts that are names as well as functions of settings."""

@@ -5,8 +5,8 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BeforeValidator, Field, model_validator
 
 from core.shaders.presets import PRESETS
-from lessons.exercises.answer_parts import AnswerPart
-from lessons.exercises.fields import (
+from lessons.exercises.record import AnswerPart, ScenePart
+from lessons.exercises.toml_file import (
     AnyMistake,
     AnyNumber,
     MistakeName,
@@ -17,7 +17,6 @@ from lessons.exercises.fields import (
     Text,
     Word,
 )
-from lessons.exercises.record import ScenePart
 
 STEP_WORDS, AFTER_WORDS, LINE_WORDS, NOTE_WORDS = 60, 40, 25, 300
 """Most words of a step with its task, of what is said after it, of one line, and of the notes for a lecturer."""

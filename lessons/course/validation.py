@@ -6,13 +6,11 @@ from typing import TypeVar
 
 from core.study import study_families
 from core.study.stability import experiments
-from lessons.course.conditions import check_kept, first_open
-from lessons.course.lesson_file import Lesson
-from lessons.course.questions import question_of
+from lessons.course.catalogue import Lesson, headings
 from lessons.course.quoted import Situation, is_right, said_instead
 from lessons.course.record import StepPart
-from lessons.course.slides import headings
 from lessons.course.state import State, States, solved
+from lessons.course.tasks import check_kept, first_open, question_of
 from lessons.exercises.answers.answer import NotCheckedError, Response
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.toml_file import Location

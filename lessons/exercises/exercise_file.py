@@ -1,8 +1,8 @@
-"""Exercises that teachers write as TOML: read, checked, and drawn as questions."""
+"""Exercises that teachers write as TOML, one by one or in folders: read, checked, and drawn as questions."""
 
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from hashlib import sha256
 from pathlib import Path
 from typing import Any
@@ -10,17 +10,19 @@ from typing import Any
 from core import Settings
 from core.scene import AnyScene, ClipScene
 from core.settings import settings_from_texts
-from lessons.exercises.answer_parts import AnswerPart, ChoicePart, PixelPart, PlacePart
-from lessons.exercises.answers.code import CodeAnswer
-from lessons.exercises.answers.pixels import Pixels
-from lessons.exercises.drawn_scene import Corner, draw_scene, seen_pixels
-from lessons.exercises.draws import Draws, NoQuestionError
+from lessons import named_files
+from lessons.exercises.answers.listings import CodeAnswer
+from lessons.exercises.answers.marked import Pixels
+from lessons.exercises.drafting import Corner, draw_scene, factor_text, seen_pixels
 from lessons.exercises.file_answers import answer_of
+from lessons.exercises.numbers import Draws, NoQuestionError
 from lessons.exercises.question import Draft, Template, ask
-from lessons.exercises.record import Exercise
-from lessons.exercises.templates.drafting import factor_text
+from lessons.exercises.record import AnswerPart, ChoicePart, Exercise, PixelPart, PlacePart
 from lessons.exercises.toml_file import TomlFile
 from lessons.mistakes.shelf import SHELF
+
+# Exercises that teachers write as TOML: read, checked, and drawn as questions.
+
 
 NAME_LIMIT = 100
 """Longest name of a file, without its ending."""
@@ -137,3 +139,32 @@ def wrong_pixels(
     if not isinstance(answer, PixelPart) or answer.art is not None:
         raise ValueError("expected an answer that is found by drawing: pixels without art")
     return {name: seen_pixels(SHELF[name].draw(scene, settings), answer.triangle) for name in mistakes}
+
+
+# Folders of exercises that teachers write: TOML only, of which nothing runs as code.
+
+
+FILE_LIMIT = 300
+"""Most files of a folder: each is drawn once."""
+
+
+def read_folders(
+    folders: Iterable[Path], shipped: Mapping[str, Template]
+) -> tuple[dict[str, Template], list[str]]:
+    """Read the exercises of folders.
+
+    Parameters
+    ----------
+    folders : iterable of Path
+        Each holds ``.toml`` files; folders inside them are not looked into.
+    shipped : mapping
+        Templates that come with the program, whose names are taken.
+
+    Returns
+    -------
+    dict
+        Templates by name, which is that of the file, in the order of folders and names.
+    list of str
+        A sentence for each file or folder that was skipped: which one, where, and what was expected.
+    """
+    return named_files.read_folders(folders, read_exercise, "an exercise", FILE_LIMIT, shipped)

@@ -9,7 +9,17 @@ from core import Settings, render
 from core.scene import AnyScene, ClipScene
 from core.settings import settings_from_texts
 from core.study.planner.trials import difference, shown
-from lessons.exercises.answer_parts import (
+from lessons.exercises.answers.answer import Answer, Dial, Entry, NotCheckedError
+from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer, SpotAnswer
+from lessons.exercises.answers.fields import Column, NumberAnswer, TableAnswer
+from lessons.exercises.answers.listings import CodeAnswer, LineAnswer, head_alone, with_line
+from lessons.exercises.answers.marked import PixelAnswer, PlaceAnswer, Places, read_art
+from lessons.exercises.answers.steps import StepsAnswer
+from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family, Values
+from lessons.exercises.coding.tasks import task_named
+from lessons.exercises.drafting import DrawnScene, different_pixels, frame_art, seen_pixels
+from lessons.exercises.numbers import Draws, NoQuestionError
+from lessons.exercises.record import (
     AnswerPart,
     BreakPart,
     CheapestPart,
@@ -25,20 +35,6 @@ from lessons.exercises.answer_parts import (
     StepsPart,
     TablePart,
 )
-from lessons.exercises.answers.answer import Answer, NotCheckedError
-from lessons.exercises.answers.cells import Dial, Entry
-from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
-from lessons.exercises.answers.code import CodeAnswer, head_alone, with_line
-from lessons.exercises.answers.fields import Column, NumberAnswer, TableAnswer
-from lessons.exercises.answers.listings import LineAnswer
-from lessons.exercises.answers.pixels import PixelAnswer, read_art
-from lessons.exercises.answers.places import PlaceAnswer, Places
-from lessons.exercises.answers.spots import SpotAnswer
-from lessons.exercises.answers.steps import StepsAnswer
-from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family, Values
-from lessons.exercises.coding.tasks import task_named
-from lessons.exercises.drawn_scene import DrawnScene, different_pixels, frame_art, seen_pixels
-from lessons.exercises.draws import Draws, NoQuestionError
 from lessons.mistakes.shelf import SHELF
 
 SEARCH_LIMIT = 400

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from core import STAGES, Settings, trace
-from core.raster.edges.snapping import window_position
+from core.coverage.snapping import window_position
 from core.scene import AnyScene, ClipScene
 from core.settings import settings_from_texts, settings_record
 from core.stages.declared import stage_of
@@ -22,12 +22,11 @@ from core.trace.stage_trace import BufferTrack
 from lessons.exercises.answers.answer import Answer
 from lessons.exercises.answers.choices import ChoiceAnswer
 from lessons.exercises.answers.fields import NumberAnswer
-from lessons.exercises.drawn_scene import window_text
-from lessons.exercises.draws import Draws, NoQuestionError
-from lessons.exercises.next_step import TOLERANCE, row_draft
-from lessons.exercises.question import Draft, Template
-from lessons.exercises.templates.next_steps import known_text, step_variables
-from lessons.slides.scenes import ALL_SCENES
+from lessons.exercises.drafting import window_text
+from lessons.exercises.numbers import Draws, NoQuestionError
+from lessons.exercises.question import TOLERANCE, Draft, Template, row_draft
+from lessons.exercises.templates.stepping import known_text, step_variables
+from lessons.lectures.scenes import ALL_SCENES
 
 PREFIX = "ask/"
 VERSION = 1

@@ -1,19 +1,28 @@
-"""Mistakes in clipping lines to a rectangle."""
+"""Mistakes in clipping lines and polygons, in culling and in binning: faulty runs, and wrong formulas."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from fractions import Fraction
 from functools import partial
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 
 from core import Settings
-from core.geometry.line_clipping.cohen_sutherland import FIRST_EDGE, outcode
-from core.geometry.line_clipping.edge_walk import clipped_lines, points_at, walk_edges
-from core.geometry.line_clipping.liang_barsky import liang_barsky, on_borders
-from core.geometry.line_clipping.records import ClippedLines, ClipWindow
+from core.antialiasing.pixel_pieces import Polygon, cut_polygon, polygon_area
+from core.coverage.binning import block_verdict
+from core.culling.culling import plane_distances
+from core.lines.cohen_sutherland import FIRST_EDGE, outcode
+from core.lines.line_clipping import ClippedLines, ClipWindow, clipped_lines, points_at, walk_edges
+from core.lines.parametric_clipping import liang_barsky, on_borders
 from core.records.arrays import Floats
-from lessons.mistakes.twin import Case, Twin, clipped_ends
+from lessons.mistakes.transforms import Vector, dot
+from lessons.mistakes.twin import Case, Twin, WrongRule, clipped_ends
 from lessons.small_scenes import Point, segment_scene
+
+# Mistakes in clipping lines to a rectangle.
+
 
 Clipper = Callable[[Floats, ClipWindow], ClippedLines]
 SIZE = (8, 6)
@@ -154,5 +163,186 @@ TWINS = (
         ACROSS,
         segment((-4, 1), (4, 5)),
         change_settings=with_clipper(cut_once),
+    ),
+)
+
+
+# Mistakes in clipping polygons, in culling and in binning, as wrong formulas.
+
+
+Edge = tuple[float, float, float, bool]
+"""a, b and c of an edge function, and whether the edge owns the centres on it."""
+Face = tuple[Vector, Vector]
+"""Outward normal and a point of a face."""
+
+
+def planes_outside(clip: Vector) -> frozenset[int]:
+    """Return the planes of the view volume that a clip position lies outside of."""
+    distances = plane_distances(np.array(clip, float))
+    return frozenset(np.flatnonzero(distances < 0).tolist())
+
+
+def at_crossing(near: Any, far: Any, t: Any) -> Vector:
+    """Return an attribute at t on the way from one end to another."""
+    return (near + t * (far - near),)
+
+
+def triangles_after_clipping(inside: int) -> Vector:
+    """Return how many triangles one plane leaves of a triangle of which so many vertices are inside."""
+    return (Fraction((0, 1, 2, 1)[inside]),)
+
+
+def new_corners(corners: Sequence[Vector], border: int) -> tuple[Vector, Vector]:
+    """Return where the two sides at corner 0 cross x = ``border``: to corner 1, and from corner 2."""
+    return cut_at(corners[0], corners[1], border), cut_at(corners[0], corners[2], border)
+
+
+def cut_at(start: Vector, end: Vector, border: int) -> Vector:
+    """Return where a side crosses x = ``border``."""
+    t = Fraction(border - start[0], end[0] - start[0])
+    return tuple(a + t * (b - a) for a, b in zip(start, end, strict=True))
+
+
+def new_corners_in_place(corners: Sequence[Vector], border: int) -> tuple[Vector, Vector]:
+    """Put the first crossing in the place of corner 0, and start the second side there, at the t that it had."""
+    (x, _), end = corners[0], corners[2]
+    moved = cut_at(corners[0], corners[1], border)
+    t = Fraction(border - x, end[0] - x)
+    return moved, tuple(a + t * (b - a) for a, b in zip(moved, end, strict=True))
+
+
+def area_in_window(polygon: Polygon, window: Polygon) -> Vector:
+    """Return the area that Sutherland-Hodgman leaves of a polygon in a convex, counter-clockwise window."""
+    for (x0, y0), (x1, y1) in pairwise([*window, window[0]]):
+        a, b = y0 - y1, x1 - x0
+        polygon = cut_polygon(polygon, a, b, -(a * x0 + b * y0))
+    return (polygon_area(polygon) if polygon else 0.0,)
+
+
+def culled_faces(faces: Sequence[Face], eye: Vector) -> frozenset[int]:
+    """Return the faces that face away from the eye: N . (point - eye) > 0."""
+    rays = [tuple(p - e for p, e in zip(point, eye, strict=True)) for _, point in faces]
+    return frozenset(
+        k for k, ((normal, _), ray) in enumerate(zip(faces, rays, strict=True)) if dot(normal, ray) > 0
+    )
+
+
+def rejected_blocks(edges: Sequence[Edge], blocks: int, size: int) -> frozenset[tuple[int, int]]:
+    """Return the blocks of size x size pixels, out of blocks x blocks, that one edge has wholly outside."""
+    last = size - 0.5
+    return frozenset(
+        (i, j)
+        for j in range(blocks)
+        for i in range(blocks)
+        if block_verdict(list(edges), i * size + 0.5, j * size + 0.5, i * size + last, j * size + last)
+        == "outside"
+    )
+
+
+def rejected_by_one_corner(edges: Sequence[Edge], blocks: int, size: int) -> frozenset[tuple[int, int]]:
+    """Look at the lower left pixel of each block alone."""
+    return frozenset(
+        (i, j)
+        for j in range(blocks)
+        for i in range(blocks)
+        if any(a * (i * size + 0.5) + b * (j * size + 0.5) + c < 0 for a, b, c, _ in edges)
+    )
+
+
+def owned_edges(corners: Sequence[Vector]) -> frozenset[int]:
+    """Return the edges of a counter-clockwise triangle that own their centres: left ones, level bottom ones."""
+    edges = enumerate(zip(corners, [*corners[1:], corners[0]], strict=True))
+    return frozenset(k for k, ((x0, y0), (x1, y1)) in edges if y0 > y1 or (y0 == y1 and x1 > x0))
+
+
+def edges_at_leftmost(corners: Sequence[Vector]) -> frozenset[int]:
+    """Take the two edges at the vertex with the smallest x for the left ones."""
+    leftmost = min(range(len(corners)), key=lambda k: corners[k][0])
+    return frozenset({leftmost, (leftmost - 1) % len(corners)})
+
+
+def doubled_area(width: int, height: int) -> Vector:
+    """Return twice the area of a right triangle in units of 1/256 x 1/256 pixel."""
+    return (Fraction(256 * width * 256 * height),)
+
+
+SQUARE: Polygon = [(0.0, 0.0), (4.0, 0.0), (4.0, 4.0), (0.0, 4.0)]
+SLANTED: list[Edge] = [(1.0, 1.0, -8.0, True)]
+
+RULES = (
+    WrongRule(
+        "planes-after-divide",
+        "The planes were tested after the divide. Compare x, y and z with -w and w while w still has its sign.",
+        planes_outside,
+        lambda clip: planes_outside((*(c / clip[3] for c in clip[:3]), 1)),
+        ((1, 1, Fraction(-14, 3), -2),),
+        ((1, 3, 1, 2),),
+    ),
+    WrongRule(
+        "attribute-copied",
+        "The new vertex has the attribute of the end that was cut off. Interpolate it with t, as the position.",
+        at_crossing,
+        lambda _near, far, _t: (far,),
+        (Fraction(0), Fraction(1), Fraction(1, 2)),
+        (Fraction(1), Fraction(1), Fraction(1, 2)),
+    ),
+    WrongRule(
+        "quad-as-triangle",
+        "Two vertices inside leave a quad, which is two triangles.",
+        triangles_after_clipping,
+        lambda inside: (Fraction(min(inside, 1)),),
+        (2,),
+        (1,),
+    ),
+    WrongRule(
+        "clipped-in-place",
+        "The first new corner replaced the vertex that the second one starts from. Keep the old vertices until all "
+        "crossings are found.",
+        new_corners,
+        new_corners_in_place,
+        (((2, 2), (12, 2), (12, 8)), 8),
+        (((2, 2), (12, 2), (8, 8)), 8),
+    ),
+    WrongRule(
+        "window-clockwise",
+        "The window was followed clockwise, so its outside was kept. Inside is on the left of counter-clockwise edges.",
+        area_in_window,
+        lambda polygon, window: area_in_window(polygon, window[::-1]),
+        ([(1.0, 1.0), (3.0, 1.0), (2.0, 3.0)], SQUARE),
+        ([(5.0, 5.0), (7.0, 5.0), (6.0, 7.0)], SQUARE),
+    ),
+    WrongRule(
+        "view-direction-fixed",
+        "Normals were compared with one view direction. With perspective it is that from the eye to the face.",
+        culled_faces,
+        lambda faces, _eye: frozenset(k for k, (normal, _) in enumerate(faces) if normal[2] < 0),
+        ([((1, 0, Fraction(-1, 4)), (-9, 0, -10))], (0, 0, 0)),
+        ([((0, 0, -1), (0, 0, -10))], (0, 0, 0)),
+    ),
+    WrongRule(
+        "block-by-one-corner",
+        "Blocks were rejected by their lower left pixel. The pixel where E is largest decides.",
+        rejected_blocks,
+        rejected_by_one_corner,
+        (SLANTED, 3, 4),
+        ([(-1.0, -1.0, 8.0, True)], 3, 4),
+    ),
+    WrongRule(
+        "leftmost-vertex",
+        "The edges at the leftmost vertex were taken for left edges. An edge is left if the inside is on its right.",
+        owned_edges,
+        edges_at_leftmost,
+        (((1, 1), (9, 5), (3, 9)),),
+        (((1, 1), (9, 1), (8, 5)),),
+    ),
+    WrongRule(
+        "product-overflows",
+        "The product does not fit into 32 bits with a sign: from 2^31 on it turns over.",
+        doubled_area,
+        lambda width, height: (
+            Fraction(int(np.array(256 * width * 256 * height, np.int64).astype(np.int32))),
+        ),
+        (200, 200),
+        (20, 20),
     ),
 )

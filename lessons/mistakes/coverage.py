@@ -6,7 +6,7 @@ from functools import partial
 import numpy as np
 
 from core import Settings
-from core.raster.edges.snapping import snap, window_position
+from core.coverage.snapping import snap, window_position
 from core.records.arrays import Flags, Floats
 from core.records.frame import Frame
 from core.scene import AnyScene, ClipScene

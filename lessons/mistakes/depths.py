@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from core import Settings
-from core.framebuffer.depth import DepthFormat
+from core.depth.depth import DepthFormat
 from core.methods import table
 from core.scene import ClipScene
 from lessons.mistakes.fragments import ALPHA, CLEAR_RED, COLOR, OPAQUE, RED_AND_BLUE, WINDOW, in_over

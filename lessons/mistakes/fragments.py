@@ -6,8 +6,8 @@ from dataclasses import replace
 import numpy as np
 
 from core import Settings, Texture
+from core.depth.depth import DepthFormat
 from core.framebuffer.blending import over
-from core.framebuffer.depth import DepthFormat
 from core.framebuffer.display import linear_light, srgb
 from core.methods import table
 from core.records.arrays import Floats, Singles

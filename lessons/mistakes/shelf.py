@@ -2,37 +2,47 @@
 
 from difflib import get_close_matches
 
-from lessons import shader_mistakes
 from lessons.mistakes import (
     clipping,
     coverage,
-    cutting,
     depths,
-    fills,
     fragments,
-    lighting,
-    lines,
-    textures,
+    scan_conversion,
+    shaders,
+    surfaces,
     transforms,
 )
+from lessons.mistakes.shaders import ShaderMistake
 from lessons.mistakes.twin import Twin, WrongRule
-from lessons.shader_mistakes import ShaderMistake
 
 SHELF: dict[str, Twin] = {
     twin.name: twin
-    for module in (coverage, fills, lines, clipping, fragments, textures, depths)
+    for module in (
+        coverage,
+        scan_conversion,
+        clipping,
+        fragments,
+        surfaces,
+        depths,
+    )
     for twin in module.TWINS
 }
 """Runs that make a mistake, stage by stage."""
 
 RULES: dict[str, WrongRule] = {
     rule.name: rule
-    for module in (transforms, cutting, fills, lighting, textures, depths)
+    for module in (
+        transforms,
+        clipping,
+        scan_conversion,
+        surfaces,
+        depths,
+    )
     for rule in module.RULES
 }
 """Wrong formulas, stage by stage."""
 
-SHADERS: dict[str, ShaderMistake] = {mistake.name: mistake for mistake in shader_mistakes.SHELF}
+SHADERS: dict[str, ShaderMistake] = {mistake.name: mistake for mistake in shaders.SHELF}
 """Wrong lines of shaders."""
 
 MISTAKES: dict[str, Twin | WrongRule | ShaderMistake] = {**SHELF, **RULES, **SHADERS}

@@ -5,7 +5,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from app.cli.window import BEFORE_QT
+from app.cli.commands import BEFORE_QT
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -28,7 +28,7 @@ def test_what_is_imported_before_qt_needs_no_qt_and_a_scene_opens_without_pillow
     )
     assert {*BEFORE_QT, "app.files.mesh_files", "app.files.mesh_formats.images"} <= imported
     assert not {"PySide6", "shiboken6", "pyqtgraph"} & imported
-    assert not {"PIL", "trimesh", "app.files.mesh_formats.gltf_header"} & imported
+    assert not {"PIL", "trimesh", "app.files.mesh_formats.gltf_buffers"} & imported
 
 
 def test_the_process_of_the_first_picture_imports_little() -> None:
@@ -41,7 +41,7 @@ def test_neither_the_window_nor_a_colour_map_waits_for_a_typesetter_chart_or_oth
     code = (
         "import app.window.start; from app.window.main_window import MainWindow; "
         "from app.window.appearance import the_application; from app.files.open_any import open_any; "
-        "from widgets.basics.colormaps import colormap_table; "
+        "from widgets.basics.image import colormap_table; "
         "the_application(); window = MainWindow(open_any('cube').document); window.show(); colormap_table('viridis')"
     )
     imported = imported_by(code)
@@ -51,4 +51,4 @@ def test_neither_the_window_nor_a_colour_map_waits_for_a_typesetter_chart_or_oth
     assert [
         name for name in sorted(imported) if name.startswith(tuple(f"app.pages.{page}" for page in pages))
     ] == []
-    assert not {"core.study.planner", "core.study.accuracy.families"} & imported
+    assert not {"core.study.planner", "core.study.families"} & imported

@@ -12,7 +12,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).resolve().parents[2]))
 
 from core.study import Point, measure, study_families
-from core.study.accuracy.timing import CLOSE, is_faster
+from core.study.record import CLOSE, is_faster
 from tests.core.study.accuracy.order_agreement import kendall_tau
 
 BUSY = (

@@ -2,12 +2,12 @@
 
 import numpy as np
 
+from core.coverage.binning import bound
+from core.coverage.edges import EdgeFunctions, orient, set_up_edges
+from core.coverage.fills import cover
+from core.coverage.pixel_runs import Raster, Runs, make_raster
+from core.coverage.snapping import place_corners
 from core.methods import table
-from core.raster.binning import bound
-from core.raster.coverage import cover
-from core.raster.edges.edge_functions import EdgeFunctions, orient, set_up_edges
-from core.raster.edges.snapping import place_corners
-from core.raster.pixel_runs import Raster, Runs, make_raster
 
 TESTING_FILLS = [name for name in table.names("fill") if "projected" not in table.get("fill", name).needs]
 """Fills that draw any triangle; the others are wrong by design or clip first."""

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from core import Camera, ClipScene, Mesh, Scene, Settings, Texture, draw_triangles, render
+from core.coverage.pixel_runs import make_raster
 from core.methods import table
-from core.raster.pixel_runs import make_raster
 from core.scene import triangulate
 from tests.core.drawing import cover_each, text
 from tests.core.strategies import clip_of_window

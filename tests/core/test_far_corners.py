@@ -11,8 +11,8 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, render, trace
+from core.lines.line_method import STEP_LIMIT
 from core.methods import table
-from core.raster.lines.records import STEP_LIMIT
 from tests.core.strategies import clip_of_window
 from tests.core.trace.trace_cases import CHOICES, EACH_METHOD, name_of
 

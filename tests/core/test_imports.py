@@ -21,25 +21,25 @@ scene = ClipScene(clip, np.ones((1, 3, 4)), (8, 8))
 print(draw_picture(scene, Settings(cull="back", interpolation="flat", depth="fixed-38")).route.color)
 """
 UNUSED = (
-    "core.antialiasing.sample_rasters",
-    "core.fragments.lighting",
-    "core.fragments.textures",
+    "core.antialiasing.resolve",
+    "core.shading.lighting",
+    "core.textures.look_up",
     "core.framebuffer.blending",
-    "core.geometry.line_clipping.clipping",
+    "core.lines.line_clipping",
     "core.fast_path.blended",
     "core.fast_path.lit",
-    "core.fast_path.multisampled",
-    "core.fast_path.smooth_colors",
-    "core.fast_path.supersampled",
+    "core.fast_path.sampled",
+    "core.fast_path.corner_colors",
+    "core.fast_path.sampled",
     "core.pipeline",
-    "core.raster.coverage",
-    "core.raster.lines.drawing",
-    "core.raster.lines.wireframe",
+    "core.coverage.fills",
+    "core.lines.drawing",
+    "core.lines.wireframe",
     "core.records.steps",
     "core.study",
     "core.trace.source",
     "core.trace.tracers",
-    "core.visibility.ray_casting",
+    "core.depth.ray_casting",
     "core.pixel_history",
 )
 """Parts of the core that a picture of plain triangles has no use for."""
@@ -98,7 +98,7 @@ def test_every_method_in_a_file_is_found() -> None:
 
 
 def test_a_new_file_in_the_folder_of_a_family_is_found_after_the_first_ones() -> None:
-    code = "import core.raster.lines.wireframe as new; from core.methods import method, table\n"
+    code = "import core.lines.wireframe as new; from core.methods import method, table\n"
     code += "def drawn(): ...\ndrawn.__module__ = new.__name__\n"
     code += "method('line', 'new', 'New', source='here', exact_for='nothing')(drawn)\n"
     (line,) = run_fresh(code + "print(*table.names('line'))")
@@ -111,10 +111,8 @@ def test_chosen_methods_are_imported_before_stages_are_timed() -> None:
     code = "import sys; import core.pipeline; from core.settings import Settings, import_methods; "
     code += "old = set(sys.modules); import_methods(Settings(visibility='painters', shading='gouraud')); "
     imported = run_fresh(code + "print(*set(sys.modules) - old, sep='\\n')")
-    assert {"core.fragments.shading", "core.visibility.painters", "core.raster.number_formats.floats"} <= set(
-        imported
-    )
-    assert "core.raster.number_formats.exact" not in imported
+    assert {"core.shading.shading", "core.depth.painters", "core.coverage.edge_formats"} <= set(imported)
+    assert "core.coverage.edges" not in imported
 
 
 def test_defaults_are_methods_of_the_table() -> None:
@@ -123,7 +121,7 @@ def test_defaults_are_methods_of_the_table() -> None:
 
 
 def test_methods_keep_their_order_whatever_is_imported_first() -> None:
-    code = "import core.raster.spans.fill; from core.methods import table; print(*table.names('fill'))"
+    code = "import core.spans.fill; from core.methods import table; print(*table.names('fill'))"
     assert run_fresh(code) == [" ".join(table.names("fill"))]
     assert table.names("fill")[-1] == "spans"
 

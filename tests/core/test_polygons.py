@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, assemble, render, trace
+from core.coverage.active_edges import fill_listing
+from core.coverage.snapping import SUBPIXELS
+from core.coverage.traced_polygons import ENTER, LEAVE
 from core.explain import account
 from core.methods import table
-from core.raster.edges.snapping import SUBPIXELS
-from core.raster.polygon_fills.active_edges import fill_listing
-from core.trace.polygon_fill import ENTER, LEAVE
 from tests.core.agreement import Case, check_case
 from tests.core.strategies import clip_of_window
 

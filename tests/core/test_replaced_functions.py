@@ -12,15 +12,15 @@ from app.pages.step.ab.pictures import compare
 from app.pages.step.ab.side_b import settings_difference
 from app.session.document import Document, TeachingRaster
 from core import ClipScene, Settings, draw_picture, render, trace
+from core.depth.depth import WINDOW_DEPTH, DepthFormat, as_float32
 from core.fast_path.workers import BandWorkers
-from core.framebuffer.depth import WINDOW_DEPTH, DepthFormat, as_float32
 from core.framebuffer.display import to_display
+from core.lines.bresenham import bresenham
 from core.methods import table
 from core.pixel_history import why
-from core.raster.lines.bresenham import bresenham
 from tests.core.strategies import clip_of_window
-from widgets.grid.buffer import GridBuffer
 from widgets.grid.compare_view import Side
+from widgets.grid.layers import GridBuffer
 
 SIZE = (8, 8)
 

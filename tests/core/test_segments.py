@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, draw_lines, render, trace
+from core.clipping.planes import clip_segments
+from core.clipping.sutherland_hodgman import ALL_PLANES
+from core.culling.culling import plane_distances
 from core.explain import account
-from core.geometry.culling import plane_distances
-from core.geometry.polygon_clipping.segments import clip_segments
-from core.geometry.polygon_clipping.sutherland_hodgman import ALL_PLANES
 from core.methods import table
 from core.records.primitives import Primitives
 from core.scene import CORNER_COUNTS

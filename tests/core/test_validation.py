@@ -17,8 +17,8 @@ from core import (
     Texture,
     draw_triangles,
 )
+from core.coverage.fill_rule import owns
 from core.methods import Method, MethodTable, table
-from core.raster.edges.fill_rule import owns
 from core.records.arrays import checked, checked_size, read_only
 from core.records.listing import listing
 from core.settings import families, settings_from_texts
@@ -284,9 +284,9 @@ def test_a_name_is_registered_once() -> None:
 
 
 def test_a_method_must_stand_in_a_file_of_its_family() -> None:
-    methods = MethodTable({"fill": ("core.raster.fills.tested", "core.raster.fills.scanline")})
+    methods = MethodTable({"fill": ("core.coverage.fills", "core.coverage.scanline")})
     row = Method("fill", "blocks", "Blocks", test_a_name_is_registered_once, "source", "everything")
-    with pytest.raises(ValueError, match=r"of fill must stand in core\.raster\.fills, got blocks in"):
+    with pytest.raises(ValueError, match=r"of fill must stand in core\.coverage, got blocks in"):
         methods.add(row)
 
 

@@ -1,7 +1,6 @@
 """The glossary and the guide: enough terms, each found in any text, in plain sentences."""
 
-from lessons.glossary import find_terms, glossary
-from lessons.guide import guide
+from lessons.help import find_terms, glossary, guide
 
 
 def names_in(text):

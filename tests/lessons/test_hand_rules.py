@@ -7,13 +7,13 @@ import numpy as np
 import pytest
 
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, Settings, render
-from core.fragments.lighting import blinn_phong, plain_lights, plain_material
-from core.fragments.textures import sample_texture
-from core.geometry.matrices import projection, rotation, scaling, translation, viewport, world_to_camera
-from core.geometry.vertex_stage import world_normals
-from core.raster.edges.snapping import window_position
+from core.coverage.snapping import window_position
 from core.scene import Texture
-from lessons.exercises.draws import Draws, NoQuestionError
+from core.shading.lighting import blinn_phong, plain_lights, plain_material
+from core.textures.look_up import sample_texture
+from core.transform.matrices import projection, rotation, scaling, translation, viewport, world_to_camera
+from core.transform.vertex_stage import world_normals
+from lessons.exercises.numbers import Draws, NoQuestionError
 from lessons.exercises.templates.on_picture import draw_box
 from lessons.mistakes import depths, transforms
 from lessons.mistakes.shelf import RULES, SHELF

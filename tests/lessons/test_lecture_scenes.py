@@ -10,8 +10,8 @@ from app.session.document import STEPPED
 from core import Settings, render, trace
 from core.explain import account, formula, variables
 from core.stages.declared import STAGES
-from lessons.printed.catalogue import printed_listing
-from lessons.slides.scenes import ALL_SCENES, LECTURE_SCENES, LECTURES
+from lessons.lectures.catalogue import printed_listing
+from lessons.lectures.scenes import ALL_SCENES, LECTURE_SCENES, LECTURES
 
 OF_LECTURES = [scene.name for scenes in LECTURE_SCENES.values() for scene in scenes]
 

@@ -4,18 +4,10 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from lessons.mistakes import (
-    clipping,
-    coverage,
-    cutting,
-    depths,
-    fills,
-    fragments,
-    lighting,
-    lines,
-    textures,
-    transforms,
-)
+from lessons.mistakes import clipping, coverage, depths, fragments, scan_conversion, surfaces, transforms
+from lessons.mistakes import clipping as cutting
+from lessons.mistakes import scan_conversion as lines
+from lessons.mistakes import surfaces as textures
 from lessons.mistakes.clipping import ACROSS, segment
 from lessons.mistakes.shelf import MISTAKES, RULES, SHADERS, SHELF, twin_named
 from lessons.mistakes.twin import Twin, WrongRule, line_pixels, right_reading
@@ -38,8 +30,8 @@ def test_a_wrong_formula_shows_in_one_place_and_hides_in_another(rule: WrongRule
 
 
 def test_names_are_unique_and_unknown_ones_refused() -> None:
-    runs = (clipping, coverage, depths, fills, fragments, lines, textures)
-    formulas = (cutting, depths, fills, lighting, textures, transforms)
+    runs = {clipping, coverage, depths, scan_conversion, fragments, lines, textures}
+    formulas = {cutting, depths, scan_conversion, surfaces, textures, transforms}
     count = sum(len(module.TWINS) for module in runs) + sum(len(module.RULES) for module in formulas)
     assert len(MISTAKES) == count + len(SHADERS)
     with pytest.raises(ValueError, match="expected a mistake such as corner-for-center"):
@@ -87,15 +79,21 @@ def test_clipped_ends_are_those_of_the_mistakes() -> None:
 def test_formulas_go_wrong_where_they_are_known_to() -> None:
     # Two triangles of float32 numbers draw 47 or 49 pixels by the order of their corners.
     rounded = RULES["third-weight-rounded"]
-    assert (rounded.right(fills.HALVES, 7), rounded.wrong(fills.HALVES, 7)) == ((49,), (47,))
-    assert rounded.wrong(fills.TURNED_HALVES, 7) == (49,)
+    assert (rounded.right(scan_conversion.HALVES, 7), rounded.wrong(scan_conversion.HALVES, 7)) == (
+        (49,),
+        (47,),
+    )
+    assert rounded.wrong(scan_conversion.TURNED_HALVES, 7) == (49,)
     # Edges that leave late draw an extra pixel in rows 6 and 7: a pair of edges too many in each.
     late = RULES["edges-leave-late"]
-    extra = [len(late.wrong(fills.LATE, y) - late.right(fills.LATE, y)) for y in range(1, 9)]
+    extra = [
+        len(late.wrong(scan_conversion.LATE, y) - late.right(scan_conversion.LATE, y)) for y in range(1, 9)
+    ]
     assert extra == [0, 0, 0, 0, 0, 2, 2, 0]
     dropped = RULES["level-side-dropped"]
-    assert len(dropped.right(fills.RECTANGLE)) == 20
-    assert dropped.right(fills.RECTANGLE) - dropped.wrong(fills.RECTANGLE) == {(i, 4) for i in range(1, 6)}
+    assert len(dropped.right(scan_conversion.RECTANGLE)) == 20
+    rest = dropped.right(scan_conversion.RECTANGLE) - dropped.wrong(scan_conversion.RECTANGLE)
+    assert rest == {(i, 4) for i in range(1, 6)}
     # The crossing on the side that was cut second leaves the border.
     cut = RULES["clipped-in-place"]
     right, wrong = cut.right(*cut.shows), cut.wrong(*cut.shows)

@@ -5,12 +5,12 @@ import dataclasses
 import pytest
 
 from app.files.open_any import open_any
-from app.session.cursor import cursor_at
+from app.session.moment import cursor_at
 from core.explain import account
 from core.records.steps import Level
 from core.stages.declared import stage_of
+from lessons.lectures.scenes import ALL_SCENES
 from lessons.run_place import FIRST_STEP, RunPlace
-from lessons.slides.scenes import ALL_SCENES
 
 
 @pytest.mark.parametrize("scene", ALL_SCENES.values(), ids=list(ALL_SCENES))

@@ -6,11 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Settings, render
-from core.geometry.vertex_stage import transform_vertices
-from core.raster.edges.snapping import SUBPIXELS, snap
+from core.coverage.snapping import SUBPIXELS, snap
 from core.scene import ClipScene, Scene
+from core.transform.vertex_stage import transform_vertices
 from lessons.scenes import CATALOGUE, TEACHING_SIZE, built_in_scene, make_scene, scene_names, window_triangle
-from lessons.teapot import patches
+from lessons.shapes import patches
 
 sizes = st.tuples(st.integers(1, 4096), st.integers(1, 4096))
 weights = st.floats(1e-3, 1e3) | st.floats(-1e3, -1e-3)

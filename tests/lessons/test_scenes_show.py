@@ -8,8 +8,8 @@ import pytest
 
 from app.files.open_any import open_any
 from core import Frame, Trace, draw_picture, render
+from lessons.lectures.scenes import ALL_SCENES
 from lessons.scenes import RED_GREEN_BLUE
-from lessons.slides.scenes import ALL_SCENES
 
 
 @dataclass

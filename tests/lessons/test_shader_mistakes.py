@@ -7,9 +7,9 @@ import pytest
 
 from core import Settings, render
 from core.shaders.presets import preset_program
+from lessons.lectures.scenes import scene_named
+from lessons.mistakes.shaders import SHELF, recognised, wrong_program
 from lessons.scenes import make_scene
-from lessons.shader_mistakes import SHELF, recognised, wrong_program
-from lessons.slides.scenes import scene_named
 
 
 def scene_for(mistake):

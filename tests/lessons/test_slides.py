@@ -5,10 +5,9 @@ import dataclasses
 import pytest
 
 from app.cli import slides
-from lessons.printed.catalogue import PRINTED
-from lessons.printed.records import is_same
-from lessons.slides.catalogue import NUMBERS
-from lessons.slides.scenes import LECTURES
+from lessons.lectures.catalogue import NUMBERS, PRINTED
+from lessons.lectures.printed import is_same
+from lessons.lectures.scenes import LECTURES
 from tests.app.cli.cli_runs import refused, run_program
 
 KNOWN_SLIPS = {

@@ -16,8 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from app.opengl_check.case import Case
-from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer, Picture
+from app.opengl_check.cases import Case, OpenGLMissingError, OpenGLRenderer, Picture
 from app.opengl_check.families import FAMILIES, make_case
 from core.scene import Texture
 

@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from app.opengl_check.case import Case
+from app.opengl_check.cases import Case
 from app.opengl_check.families import make_case
 
 FOLDER = Path(__file__).parent / "multisampled"

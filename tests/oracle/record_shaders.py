@@ -4,7 +4,7 @@ From the top of the project, where the extra ``gpu`` is installed::
 
     python -m tests.oracle.record_shaders
 
-makes the file of tests/oracle/shaders afresh: the answers of all cases of `app.opengl_check.shader_cases` on 8 x 8
+makes the file of tests/oracle/shaders afresh: the answers of all cases of `app.opengl_check.shaders` on 8 x 8
 pixels, and the pictures of the tutorial's shaders.
 """
 
@@ -13,9 +13,8 @@ from pathlib import Path
 
 import numpy as np
 
-from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer
-from app.opengl_check.shader_cases import CASES, shader_inputs
-from app.opengl_check.shader_draw import draw_scene_with_opengl, draw_with_opengl
+from app.opengl_check.cases import OpenGLMissingError, OpenGLRenderer
+from app.opengl_check.shaders import CASES, draw_scene_with_opengl, draw_with_opengl, shader_inputs
 from core.scene import Scene
 from core.shaders.presets import MINIMAL_FRAGMENT, MINIMAL_VERTEX
 from tests.core.shaders.scenes import tutorial_scene

@@ -3,11 +3,9 @@
 import numpy as np
 import pytest
 
-from app.opengl_check.case import STEP, Case, clip_positions
-from app.opengl_check.command import describe
-from app.opengl_check.compare import compare
-from app.opengl_check.draw import Picture
-from app.opengl_check.judge import BOUND, edge_distances, edge_lines
+from app.cli.opengl_check import describe
+from app.opengl_check.cases import STEP, Case, Picture, clip_positions
+from app.opengl_check.compare import BOUND, compare, edge_distances, edge_lines
 from core import draw_triangles
 
 SIZE = (8, 8)

@@ -9,12 +9,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.opengl_check.case import Case, clip_positions
-from app.opengl_check.command import describe, run_opengl_check
+from app.cli.opengl_check import describe, run_opengl_check
+from app.opengl_check.cases import Case, OpenGLMissingError, OpenGLRenderer, clip_positions
 from app.opengl_check.compare import compare
-from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer
 from app.opengl_check.families import FAMILIES, make_case
-from app.opengl_check.shader_check import SHADERS
+from app.opengl_check.shaders import SHADERS
 from tests.covering import is_everything
 from tests.oracle.record_cases import read_case, write_case
 
@@ -119,7 +118,9 @@ def test_command_writes_a_line_for_every_family(renderer):
 @pytest.mark.usefixtures("renderer")
 @pytest.mark.slow
 def test_process_that_used_opengl_ends_well():
-    code = "from app.opengl_check.command import run_opengl_check as run; raise SystemExit(run(['mesh'], count=2))"
+    code = (
+        "from app.cli.opengl_check import run_opengl_check as run; raise SystemExit(run(['mesh'], count=2))"
+    )
     result = run_python(code)
     assert (result.returncode, result.stderr) == (0, "")
     assert result.stdout.splitlines()[-1] == "All families agree within the tolerances."
@@ -157,7 +158,7 @@ def test_missing_moderngl_is_one_line(capsys, monkeypatch):
 @pytest.mark.slow
 def test_missing_opengl_is_one_line():
     pytest.importorskip("moderngl")
-    code = "from app.opengl_check.command import run_opengl_check as run; raise SystemExit(run())"
+    code = "from app.cli.opengl_check import run_opengl_check as run; raise SystemExit(run())"
     result = run_python(code, GLCONTEXT_LINUX_LIBEGL="libEGL-that-is-not-there.so")
     assert result.returncode == 1
     assert result.stdout == ""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import core
-from app.opengl_check.command import describe
+from app.cli.opengl_check import describe
 from app.opengl_check.compare import PIXELS_ALLOWED, compare, draw_with_core
 from app.opengl_check.families import FAMILIES
 from core.methods import table

@@ -5,14 +5,19 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.opengl_check.command import run_opengl_check
-from app.opengl_check.draw import OpenGLMissingError, OpenGLRenderer
-from app.opengl_check.shader_cases import CASES, shader_inputs
-from app.opengl_check.shader_check import compare_shader
-from app.opengl_check.shader_draw import draw_scene_with_opengl, draw_with_opengl, run_with_core
+from app.cli.opengl_check import run_opengl_check
+from app.opengl_check.cases import OpenGLMissingError, OpenGLRenderer
+from app.opengl_check.shaders import (
+    CASES,
+    compare_shader,
+    draw_scene_with_opengl,
+    draw_with_opengl,
+    run_with_core,
+    shader_inputs,
+)
 from core import Settings, render
-from core.shaders.function_names import FUNCTIONS
 from core.shaders.glsl_types import TYPES
+from core.shaders.words import FUNCTIONS
 from tests.oracle.record_shaders import FILE, SEED, SIDE, tutorial_scenes
 
 RECORDED = np.load(FILE)

@@ -16,10 +16,9 @@ sys.path.insert(0, ROOT)
 
 import numpy as np  # noqa: E402
 
-from app.export.study import study_csv  # noqa: E402
-from app.files.atlas_files import load_atlas  # noqa: E402
 from app.files.open_any import open_any  # noqa: E402
-from app.files.study_files import load_study  # noqa: E402
+from app.pages.compare.study_files import load_study, study_csv  # noqa: E402
+from app.pages.stability.atlas_files import load_atlas  # noqa: E402
 
 TRACED = 50
 """Most triangles that are traced: a trace keeps every pixel of each, which is not what the bound on memory is about."""

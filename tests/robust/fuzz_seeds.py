@@ -11,9 +11,9 @@ from app.files.open_any import open_any
 from app.files.state_files import State, save_state
 from app.files.state_models import Bookmark, Breakpoints, GridLook, Look, OrbitRecord
 from app.session.document import Document, open_document
-from core.assembly.depth_tables import table_scene
+from core.depth.whole_depths import table_scene
 from core.scene import Mesh
-from lessons.depth_tables import depth_table
+from lessons.window_scenes import depth_table
 from tests.app.files.mesh_writing import GltfWriter, ply_binary, ply_text, stl_binary, stl_text
 
 EARLIER = Path(__file__).resolve().parents[1] / "app/files/earlier"

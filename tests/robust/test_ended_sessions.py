@@ -12,7 +12,7 @@ from threading import Thread
 import pytest
 
 from app.files.open_any import open_any
-from app.window.reopening import Reopened, reopen
+from app.window.start import Reopened, reopen
 
 PROGRAM = Path(__file__).with_name("edited_session.py")
 SECONDS = 3.0

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.files import autosave, file_writing
+from app.files import between_starts, file_access
 from app.files.open_any import open_any
 from app.files.user_folders import preferences_folder
 from app.window.main_window import CLOSE_UNSAVED, MainWindow
@@ -26,7 +26,7 @@ class Disk:
     def __init__(self, monkeypatch: pytest.MonkeyPatch) -> None:
         self.is_full = False
         self.sync = os.fsync
-        monkeypatch.setattr(file_writing.os, "fsync", self.finish)
+        monkeypatch.setattr(file_access.os, "fsync", self.finish)
 
     def finish(self, handle: int) -> None:
         """Do what the disk does at the end of a file."""
@@ -49,8 +49,8 @@ def only_state() -> Path:
 def test_edits_are_saved_once_there_is_room_again(
     window: MainWindow, disk: Disk, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(autosave, "PAUSE", 0)
-    monkeypatch.setattr(autosave, "RETRY", 20)
+    monkeypatch.setattr(between_starts, "PAUSE", 0)
+    monkeypatch.setattr(between_starts, "RETRY", 20)
     window.memory.autosave.begin(None)
     window.session.set_setting("fill", "blocks")
     qtbot.waitUntil(lambda: len(list(preferences_folder().glob("last*.rasterscope"))) == 1, timeout=20000)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from app.files.file_access import OutsideWarning
 from app.files.mesh_files import load_meshes
-from app.files.named_files import OutsideWarning
 from tests.app.files.mesh_writing import write, write_image
 
 DART = ((0, 0), (2, 1), (0, 2), (0.5, 1))

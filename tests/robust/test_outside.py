@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from app.files.file_access import NamedFileError, NamedFiles, OutsideError, OutsideWarning, is_network_path
 from app.files.mesh_files import MeshFileError, OutsideMeshError, load_meshes
-from app.files.named_files import NamedFileError, NamedFiles, OutsideError, OutsideWarning, is_network_path
 from app.files.open_any import open_any
 from app.files.state_files import OutsideSourceError, load_state, save_state
 from tests.app.cli.cli_runs import refused, run_program

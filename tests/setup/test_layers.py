@@ -8,7 +8,18 @@ from pathlib import Path
 
 import bootstrap
 
-STAGES = ("core/fragments", "core/framebuffer", "core/geometry", "core/raster", "core/visibility")
+TOPICS = (
+    *(
+        "core/clipping",
+        "core/coverage",
+        "core/culling",
+        "core/depth",
+        "core/framebuffer",
+        "core/interpolation",
+    ),
+    *("core/lines", "core/shading", "core/spans", "core/textures", "core/transform"),
+)
+TOLD = tuple(path.relative_to(bootstrap.ROOT).as_posix() for path in bootstrap.ROOT.glob("core/*/told*.py"))
 APP = (
     "cli",
     "bench",
@@ -28,8 +39,8 @@ OTHERS = (
     "core/explain",
     "core/fast_path",
     "core/pixel_history",
-    "core/raster/edges",
     "core/records",
+    "core/shaders",
     "core/stages",
     "core/study",
     "core/trace",
@@ -53,21 +64,19 @@ FORBIDDEN = [
     ("widgets", "import trimesh"),
     ("widgets", "from core.pipeline import render"),
     ("widgets", "from core.trace import case"),
-    ("widgets", "from core.raster.edges import case"),
-    ("core/geometry", "import core.raster"),
+    ("widgets", "from core.coverage import case"),
     ("app/session", "import app.files"),
     ("app/views", "import app.pages"),
     ("app/pages", "import app.window"),
     ("app/window", "import app.cli"),
-    ("core/raster", "import core.framebuffer"),
-    ("core/raster", "from core.explain import rows"),
+    ("core/coverage", "from core.explain import step_values"),
 ]
 ALLOWED = [
     ("core", "import numpy"),
     ("lessons", "import core"),
     ("widgets", "import core, PySide6, pyqtgraph"),
-    ("core", "import core.geometry, core.raster, core.fragments"),
-    ("core/explain", "import numpy, core.raster"),
+    ("core", "import core.coverage, core.depth, core.lines"),
+    ("core/explain", "import numpy, core.coverage"),
     ("widgets", "import core.explain, core.records, core.framebuffer"),
     ("app", "import core, lessons, widgets, PySide6, trimesh, PIL"),
     ("app/pages", "import app.export, app.views, app.session"),
@@ -77,12 +86,13 @@ ALLOWED = [
 def check_layers(folder: Path, statements: list[tuple[str, str]]) -> "subprocess.CompletedProcess[str]":
     """Check a copy of the layers in which each statement stands in a module of its own."""
     shutil.copy(bootstrap.ROOT / "pyproject.toml", folder)
-    for name in ("app", "core", "lessons", "widgets", *STAGES, *OTHERS):
+    for name in ("app", "core", "lessons", "widgets", *TOPICS, *OTHERS):
         (folder / name).mkdir()
         (folder / name / "__init__.py").touch()
     for name in (
         "core/pipeline.py",
-        "core/explain/rows.py",
+        "core/explain/step_values.py",
+        *TOLD,
         "app/module.py",
         "app/__main__.py",
         "app/usage.py",

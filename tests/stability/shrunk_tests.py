@@ -2,7 +2,7 @@
 
 from functools import cache
 
-from core.study.stability.shrink import Shrunk, shrink_cell
+from core.study.stress import Shrunk, shrink_cell
 
 
 @cache

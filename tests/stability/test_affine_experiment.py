@@ -5,9 +5,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from core.fragments.corrected_affine import largest_affine_error
+from core.interpolation.corrected_affine import largest_affine_error
+from core.interpolation.measured import HALF_TEXEL, StripCase, leaning_strip
 from core.study.stability import Outcome, experiments
-from core.study.stability.fragments.affine import HALF_TEXEL, StripCase, leaning_strip
 from tests.covering import in_turn
 
 AFFINE = experiments.get("affine-w-ratio")

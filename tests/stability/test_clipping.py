@@ -3,8 +3,8 @@
 import pytest
 
 from core import Settings, render
+from core.clipping.measured import CLIPPINGS, signs_of_w
 from core.study.stability import Outcome, experiments
-from core.study.stability.coverage.clipping import CLIPPINGS, signs_of_w
 from tests.stability.maps import is_right_everywhere, outcomes, wrong_at_random
 
 CLIP_FIRST = ("clipping=sutherland-hodgman-lecture", "clipping=sutherland-hodgman", "clipping=homogeneous")

@@ -5,10 +5,10 @@ from math import log
 import numpy as np
 import pytest
 
+from core.depth.measured import FAR, facing_walls, orthographic_walls
 from core.pipeline import render
 from core.settings import Settings
 from core.study.stability import Outcome, experiments
-from core.study.stability.fragments.depth_gaps import FAR, facing_walls, orthographic_walls
 
 BY_DISTANCE = experiments.get("z-fighting-distance")
 BY_RANGE = experiments.get("z-fighting-range")

@@ -4,19 +4,18 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings
-from core.methods import table
-from core.study.accuracy.workloads import flat_scene
-from core.study.stability import Outcome, StressCancelledError, experiments
-from core.study.stability.coverage.covered_pixels import CoverageExperiment, as_given
-from core.study.stability.coverage.dial_pixel import (
+from core.coverage.measured_cover import FORMATS, CoverageExperiment, as_given, sliver
+from core.coverage.measured_formats import (
     FormatAtPixel,
     PixelInFormats,
     covering_triangles,
     pixel_in_formats,
     settings_in,
 )
-from core.study.stability.coverage.number_formats import FORMATS, sliver
-from core.study.stability.coverage.precision_dial import FILL_RULE
+from core.coverage.measured_pixel import FILL_RULE
+from core.methods import table
+from core.study.stability import Outcome, StressCancelledError, experiments
+from core.study.workloads import flat_scene
 from tests.covering import is_everything
 from tests.stability.failing_cells import FAILING_CELLS
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from core import draw_lines
+from core.coverage.measured_sums import long_line
 from core.study.stability import Outcome, experiments
-from core.study.stability.coverage.drift import long_line
 from core.trace import trace
 from tests.stability.maps import is_right_everywhere, outcomes
 

@@ -5,10 +5,10 @@ import re
 import numpy as np
 import pytest
 
-from core.geometry.line_clipping.clipping import clip_lines
-from core.study.exact.lines import clipped_ends
+from core.lines.line_clipping import clip_lines
+from core.lines.measured import clipped_ends
+from core.lines.measured_clipping import PROMISED, SIDE, judge_clip, stretch_text
 from core.study.stability import Outcome, Verdict, experiments, stress
-from core.study.stability.coverage.line_clippers import PROMISED, SIDE, judge_clip, stretch_text
 from core.trace import trace
 from tests.covering import is_everything
 from tests.stability.maps import is_right_everywhere, outcomes

@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings
+from core.coverage.measured_cover import SIDE, count_cover, scene_of_window, through_the_eye, uneven_grid
 from core.records.arrays import Integers
-from core.study.accuracy.family import settings_of
-from core.study.accuracy.workloads import on_grid, random_source
 from core.study.stability import Outcome, experiments
-from core.study.stability.coverage.covered_pixels import count_cover
-from core.study.stability.coverage.meshes import SIDE, through_the_eye, uneven_grid
-from core.study.stability.coverage.number_formats import scene_of_window
+from core.study.study_family import settings_of
+from core.study.workloads import on_grid, random_source
 from tests.stability.maps import is_right_everywhere, outcomes, wrong_at_random
 
 PLAIN = Settings(fill="bounding-box")

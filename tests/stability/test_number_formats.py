@@ -3,9 +3,8 @@
 import pytest
 
 from core import Settings, render
+from core.coverage.measured_cover import count_cover, crowded_mesh, sliver
 from core.study.stability import Outcome, experiments
-from core.study.stability.coverage.covered_pixels import count_cover
-from core.study.stability.coverage.number_formats import crowded_mesh, sliver
 from tests.stability.maps import is_right_everywhere, outcomes, wrong_at_random
 
 NAMES = ("precision-dial", "slivers", "coordinates", "singular-matrix")

@@ -5,9 +5,9 @@ from itertools import permutations
 import numpy as np
 import pytest
 
+from core.depth.measured_order import shuffled_layers
+from core.framebuffer.measured import ORDERS, LayersCase, layered_glass
 from core.study.stability import Outcome, experiments
-from core.study.stability.fragments.blending_order import ORDERS, LayersCase, layered_glass
-from core.study.stability.fragments.drawing_order import shuffled_layers
 
 CIRCLE = experiments.get("painters-cycle")
 LAYERS = experiments.get("drawing-order")

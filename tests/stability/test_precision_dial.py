@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, render
-from core.study.stability.coverage.covered_pixels import as_given
-from core.study.stability.coverage.number_formats import FORMATS, far_corners, sliver
-from core.study.stability.coverage.precision_dial import (
+from core.coverage.measured_cover import FORMATS, as_given, far_corners, sliver
+from core.coverage.measured_pixel import (
     AREA,
     ELIMINATION,
     OVERFLOW,

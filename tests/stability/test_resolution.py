@@ -3,7 +3,7 @@
 import pytest
 
 from core.study.stability import Axis, experiments
-from core.study.stability.stress import axes_at
+from core.study.stress import axes_at
 
 
 def values(axis: Axis, resolution: str) -> tuple[float, ...]:

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from core.antialiasing.measured import ThinCase, needle
 from core.study.stability import Outcome, experiments
-from core.study.stability.fragments.thin_triangles import ThinCase, needle
 
 MINIFICATION = experiments.get("minification")
 ALIASING = experiments.get("shading-aliasing")

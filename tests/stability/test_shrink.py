@@ -7,11 +7,11 @@ import pytest
 
 import core
 from core import ClipScene, Settings
+from core.study.case_text import scene_text
+from core.study.cases import digit_count, minimize, simpler_numbers
+from core.study.experiment import SEGMENTS, TRIANGLES, first_edge, scene_of_segment
 from core.study.stability import Outcome, StressCancelledError, Verdict, experiments
-from core.study.stability.case_text import scene_text
-from core.study.stability.kinds import SEGMENTS, TRIANGLES, first_edge, scene_of_segment
-from core.study.stability.minimization import digit_count, minimize, simpler_numbers
-from core.study.stability.shrink import shrink_cell
+from core.study.stress import shrink_cell
 from tests.stability.shrunk_tests import run_test, shrunk_of
 
 CASES = [

@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings
-from core.study.accuracy.workloads import flat_scene
-from core.study.stability import Experiment, Outcome, experiments
-from core.study.stability.fragments import FRAGMENT_EXPERIMENTS
-from core.study.stability.fragments.blending_order import LayersCase, layered_glass
-from core.study.stability.fragments.cases import NearestCase
-from core.study.stability.fragments.thin_triangles import ThinCase, needle
-from core.study.stability.kinds import in_clip_space
+from core.antialiasing.measured import ThinCase, needle
+from core.framebuffer.measured import LayersCase, layered_glass
+from core.study.experiment import in_clip_space
+from core.study.fragment_cases import NearestCase
+from core.study.stability import FRAGMENT_EXPERIMENTS, Experiment, Outcome, experiments
+from core.study.workloads import flat_scene
 
 
 @pytest.mark.parametrize("experiment", FRAGMENT_EXPERIMENTS, ids=lambda each: each.name)

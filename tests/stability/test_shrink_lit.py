@@ -6,18 +6,17 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Material, Settings, Texture, render
-from core.study.stability import Outcome
-from core.study.stability.case_text import scene_text
-from core.study.stability.fragments.highlights import HighlightCase, highlight_case, shining_sphere
-from core.study.stability.fragments.opposite_normals import NormalsCase, flattened_tube
-from core.study.stability.fragments.texels import TextureCase, textured_square
-from core.study.stability.kinds import (
+from core.shading.measured import HighlightCase, NormalsCase, flattened_tube, highlight_case, shining_sphere
+from core.study.case_text import scene_text
+from core.study.experiment import (
     LIT_MESHES,
     TEXTURED_TRIANGLES,
     camera_of,
     nearer_looks,
     with_smaller_texture,
 )
+from core.study.stability import Outcome
+from core.textures.measured import TextureCase, textured_square
 from tests.stability.shrunk_tests import shrunk_of
 from tests.stability.tube import evenly_lit
 

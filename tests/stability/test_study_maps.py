@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from core.study import study_family
-from core.study.accuracy.record import Opening, Verdict, judged
+from core.study.record import Opening, Verdict, judged
 from core.study.stability import Outcome, stress, study_experiment
-from core.study.stability.shrink import shrink_cell
+from core.study.stress import shrink_cell
 
 ANGLES = study_experiment(study_family("coverage"), ("angle",), "slivers")
 
@@ -46,7 +46,7 @@ def test_what_is_not_an_axis_stays_and_is_named() -> None:
 
 
 def test_a_refused_run_has_no_time(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("core.study.accuracy.frame_task.MOST_TESTS", 1000)
+    monkeypatch.setattr("core.study.frame_task.MOST_TESTS", 1000)
     fills = study_experiment(study_family("fill"), ("size",))
     assert fills.run("fill=brute-force", (2.0,), 1).outcome == Outcome.REFUSED
     assert np.isnan(fills.time("fill=brute-force", (2.0,), 1))

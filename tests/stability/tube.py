@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.study.stability.fragments.opposite_normals import LIGHT, MATERIAL, SIZE, turned_normals
+from core.shading.measured import LIGHT, MATERIAL, SIZE, turned_normals
 
 
 def evenly_lit(angle: float) -> np.ndarray:

@@ -4,9 +4,9 @@ import pytest
 from PySide6.QtGui import QColor
 from pytestqt.qtbot import QtBot
 
-from core.records.sketch import Sketch
+from core.records.cells import Sketch
 from widgets.basics.theme import current_theme
-from widgets.exercises.sketch_view import SketchView
+from widgets.exercises.question_view import SketchView
 
 
 @pytest.mark.parametrize(

@@ -7,10 +7,15 @@ from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtGui import QStandardItem, QStandardItemModel
 from PySide6.QtWidgets import QComboBox, QGridLayout, QLabel, QToolButton, QWidget
 
-from widgets.basics.choice_box import ChoiceBox
-from widgets.basics.controls import button_with_tip, column_layout, flat_button, row_layout
-from widgets.basics.focus_order import ArrowGroup
-from widgets.basics.labels import text_label
+from widgets.basics.accessibility import ArrowGroup
+from widgets.basics.controls import (
+    ChoiceBox,
+    button_with_tip,
+    column_layout,
+    flat_button,
+    row_layout,
+    text_label,
+)
 
 MORE, FEWER = "More methods", "Fewer methods"
 

@@ -9,9 +9,8 @@ from PySide6.QtWidgets import QLineEdit, QSizePolicy, QToolTip, QWidget
 
 from core.explain.number_text import full_text, number_text, parse_number
 from core.records.words import counted
-from widgets.basics.accessible import announce
-from widgets.basics.controls import column_layout
-from widgets.basics.labels import text_label
+from widgets.basics.accessibility import announce
+from widgets.basics.controls import column_layout, text_label
 from widgets.basics.theme import current_theme, theme_notifier
 
 _SEPARATOR = re.compile(r"\s*(?:;|,\s)\s*")

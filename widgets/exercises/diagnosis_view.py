@@ -3,13 +3,18 @@
 from PySide6.QtCore import Qt, Signal, Slot
 from PySide6.QtWidgets import QFrame, QPushButton, QScrollArea, QWidget
 
-from widgets.basics.accessible import announce
-from widgets.basics.controls import button_with_tip, column_layout, row_layout
-from widgets.basics.flow_layout import FlowLayout
-from widgets.basics.labels import set_role, text_label
-from widgets.basics.pane_splitter import PaneSplitter
+from widgets.basics.accessibility import announce
+from widgets.basics.controls import (
+    FlowLayout,
+    button_with_tip,
+    column_layout,
+    row_layout,
+    set_role,
+    text_label,
+)
+from widgets.basics.panes import PaneSplitter
 from widgets.exercises.records import DiagnosisRecord
-from widgets.grid.overlay import Mark, MaskOverlay
+from widgets.grid.layers import CellMark, MaskOverlay
 from widgets.grid.pixel_grid import PixelGrid
 
 TITLE = "Which mistake makes this picture?"
@@ -76,7 +81,7 @@ class DiagnosisView(QWidget):
         self.verdict.setText(record.verdict)
         set_role(self.verdict, "good" if record.is_right else "strong")
         self.grid.show_buffer(record.picture)
-        self.grid.show_overlays((MaskOverlay("differs", Mark.EXTRA, record.differing, title="differs"),))
+        self.grid.show_overlays((MaskOverlay("differs", CellMark.EXTRA, record.differing, title="differs"),))
         self.grid.fit()
         self._show_found(record)
         self._sentences = [record.verdict, *(each.sentence for each in record.found)]

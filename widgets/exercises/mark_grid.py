@@ -1,25 +1,117 @@
-"""A pixel grid that is answered on: click, drag, or arrows and Space mark pixels; points are placed the same way."""
+"""A pixel grid that is answered on: pixels are marked and points placed; and what all forms of answers share."""
 
 from collections.abc import Collection, Sequence
+from typing import Any
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal, Slot
-from PySide6.QtGui import QFocusEvent, QKeyEvent, QMouseEvent, QPainter
-from PySide6.QtWidgets import QWidget
+from PySide6.QtCore import QLineF, QPointF, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtGui import QColor, QFocusEvent, QIcon, QKeyEvent, QMouseEvent, QPainter, QPen
+from PySide6.QtWidgets import QLabel, QListWidget, QSizePolicy, QWidget
 
-from core.records.cells import Marks
-from widgets.basics.accessible import announce
-from widgets.basics.theme import current_theme
-from widgets.exercises.point_layer import Place, PointLayer, paint_names
+from core.records.cells import Form, Marks
+from widgets.basics.accessibility import announce
+from widgets.basics.drawing import Mark, mark_pixmap
+from widgets.basics.theme import Theme, current_theme, text_font
 from widgets.exercises.records import Pixel, Pixels
-from widgets.grid.buffer import GridBuffer
-from widgets.grid.geometry import GridGeometry
-from widgets.grid.overlay import Mark, MaskOverlay, Overlay
+from widgets.grid.geometry import GridGeometry, moved_inside, paint_chip
+from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay, Overlay
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridPlacement
 
+# Named points over a pixel grid, which are placed by clicks, drags and keys.
+
+
+Place = tuple[float, float]
+REACH = 12.0
+"""How near the pointer must come to a point to take it, in widget pixels."""
+RADIUS = 6.0
+
+
+class PointLayer:
+    """The points that a form has on the picture; those without a place are not drawn."""
+
+    def __init__(self, names: Sequence[str] = ()) -> None:
+        self.names = tuple(names)
+        self.places: list[Place | None] = [None] * len(self.names)
+        self.marks: dict[int, bool] = {}
+        """By point, whether a check has found it right."""
+        self.chosen = 0
+        """The point that the keys move, and that a click beside all points places."""
+
+    def near(self, placement: GridPlacement, position: QPointF) -> int | None:
+        """Return the point under a widget position, or ``None``."""
+        best, reach = None, REACH
+        for number, place in enumerate(self.places):
+            if place is not None:
+                distance = QLineF(placement.to_widget(*place), position).length()
+                if distance <= reach:
+                    best, reach = number, distance
+        return best
+
+    def next_free(self) -> int:
+        """Return the point that a click places: the first without a place, or else the chosen one."""
+        return next((number for number, place in enumerate(self.places) if place is None), self.chosen)
+
+    def text(self, number: int) -> str:
+        """Return a point and its place in words."""
+        place = self.places[number]
+        where = "not placed" if place is None else f"at {place[0]:.6g}, {place[1]:.6g}"
+        mark = {True: ", right", False: ", wrong", None: ""}[self.marks.get(number)]
+        return f"Point {self.names[number]} {where}{mark}"
+
+    def paint(self, painter: QPainter, placement: GridPlacement, theme: Theme, *, has_focus: bool) -> None:
+        """Paint every point with its name; a right one has a tick in its name, a wrong one a cross."""
+        painter.save()
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.setFont(text_font(theme))
+        for number, place in enumerate(self.places):
+            if place is None:
+                continue
+            center = placement.to_widget(*place)
+            radius = RADIUS + 2 * (has_focus and number == self.chosen)
+            for color, width in (("#ffffff", 5.0), ("#000000", 2.0)):
+                painter.setPen(QPen(QColor(color), width))
+                painter.setBrush(QColor(theme.panel))
+                painter.drawEllipse(center, radius, radius)
+            mark = {True: " ✓", False: " ✗", None: ""}[self.marks.get(number)]
+            text = f"{self.names[number]}{mark}"
+            box = _label_box(painter, text)
+            box.moveBottomLeft(center + QPointF(RADIUS + 2, -RADIUS))
+            paint_chip(painter, moved_inside(box, QRectF(placement.viewport)), text, theme.text, theme)
+        painter.restore()
+
+
+def paint_names(
+    painter: QPainter, placement: GridPlacement, theme: Theme, names: Sequence[str], places: Sequence[Place]
+) -> None:
+    """Write names about places in the window; of a place beside the picture at its border."""
+    painter.save()
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    painter.setFont(text_font(theme))
+    for name, place in zip(names, places, strict=True):
+        box = _label_box(painter, name)
+        box.moveCenter(placement.to_widget(*place))
+        paint_chip(painter, moved_inside(box, QRectF(placement.viewport)), name, theme.text, theme)
+    painter.restore()
+
+
+def _label_box(painter: QPainter, text: str) -> QRectF:
+    """Return the room of a name."""
+    metrics = painter.fontMetrics()
+    return QRectF(0, 0, metrics.horizontalAdvance(text) + 10, metrics.height() + 2)
+
+
+# A pixel grid that is answered on: click, drag, or arrows and Space mark pixels; points are placed the same
+# way.
+
+
 NOTHING: Pixels = frozenset()
-FOUND = {"right": Mark.RIGHT, "missing": Mark.MISSING, "extra": Mark.EXTRA, "double": Mark.DOUBLE}
+FOUND = {
+    "right": CellMark.RIGHT,
+    "missing": CellMark.MISSING,
+    "extra": CellMark.EXTRA,
+    "double": CellMark.DOUBLE,
+}
 _MOVES = {Qt.Key.Key_Left: (-1, 0), Qt.Key.Key_Right: (1, 0), Qt.Key.Key_Up: (0, 1), Qt.Key.Key_Down: (0, -1)}
 _WINDOWS_OWN = (
     Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.AltModifier | Qt.KeyboardModifier.MetaModifier
@@ -101,7 +193,9 @@ class MarkGrid(PixelGrid):
         marked = self._mask(self._marked)
         own = GridBuffer("marked", marked, "bool", title="your marks")
         self.show_buffer(self._picture or own)
-        rings = () if self._picture is None else (MaskOverlay("marked", Mark.TIE, marked, title="your mark"),)
+        rings = (
+            () if self._picture is None else (MaskOverlay("marked", CellMark.TIE, marked, title="your mark"),)
+        )
         self.show_overlays((*rings, *self._found))
 
     def spoken_description(self) -> str:
@@ -262,3 +356,86 @@ def _between(start: Pixel, end: Pixel) -> Pixels:
     count = max(abs(end[0] - start[0]), abs(end[1] - start[1]))
     steps = np.rint(np.linspace(start, end, count + 1)).astype(int)
     return frozenset((column, row) for column, row in steps.tolist())
+
+
+# What all forms of answers share.
+
+
+class AnswerView(QWidget):
+    """A form: what is in it, and what a check found of it. Set by code, it emits nothing."""
+
+    answer_changed = Signal()
+    """The learner has changed the answer."""
+    note_changed = Signal(str)
+    """How what is being typed is understood; empty: nothing is to be said."""
+
+    stop_requested = Signal()
+    """A check of the answer that runs is to end."""
+
+    uses_grid = False
+    """Whether it is answered on the picture."""
+
+    def __init__(self, form: Form, grid: MarkGrid, parent: QWidget | None = None) -> None:
+        """Make an empty form; ``grid`` is the picture beside it."""
+        super().__init__(parent)
+        self._form, self._grid = form, grid
+
+    def given(self) -> object:
+        """Return what is in the form, as an answer file has it."""
+        raise NotImplementedError
+
+    def unread(self) -> str:
+        """Say what is typed but is not in the answer, and why; empty: nothing."""
+        return ""
+
+    def show_given(self, given: Any) -> None:
+        """Fill the form with what was in it; ``None`` empties it."""
+        raise NotImplementedError
+
+    def show_problem(self, problem: tuple[int, int, str] | None) -> None:
+        """Mark line and column, from 1, at which a listing cannot run; ``None``: it can."""
+
+    def show_marks(self, marks: Marks | None) -> None:
+        """Mark what is right and what is not; ``None`` takes the marks away. Where a run decides, words say it."""
+
+    def set_open(self, is_open: bool) -> None:
+        """Take an answer, or only show it."""
+        self.setEnabled(is_open)
+
+    def release(self) -> None:
+        """Leave the picture to the next form."""
+
+
+class ItemList(QListWidget):
+    """Items with marks."""
+
+    def fit_height(self, spare: int) -> None:
+        """Be as high as all items and ``spare`` pixels."""
+        self._spare = spare
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+
+    def sizeHint(self) -> QSize:
+        """Return the height of all items, where it is to be that."""
+        hint = super().sizeHint()
+        if self.sizePolicy().verticalPolicy() != QSizePolicy.Policy.Fixed:
+            return hint
+        rows = sum(self.sizeHintForRow(row) for row in range(self.count()))
+        return QSize(hint.width(), rows + 2 * self.frameWidth() + self._spare)
+
+    def show_mark(self, row: int, mark: Mark | None, tip: str = "") -> None:
+        """Mark an item; ``None`` takes the mark away."""
+        side = current_theme().text_px
+        self.setIconSize(QSize(side, side))
+        icon = QIcon() if mark is None else QIcon(mark_pixmap(mark, side, self.devicePixelRatioF()))
+        self.item(row).setIcon(icon)
+        self.item(row).setToolTip(tip if mark is not None else "")
+
+
+def show_mark(label: QLabel, is_right: bool | None) -> None:
+    """Show a tick, a cross, or nothing, with its word for who does not see it."""
+    mark = {True: Mark.RIGHT, False: Mark.WRONG}.get(is_right)  # type: ignore[arg-type]
+    label.clear()
+    label.setAccessibleName(mark.value if mark else "")
+    label.setToolTip(mark.value if mark else "")
+    if mark is not None:
+        label.setPixmap(mark_pixmap(mark, current_theme().text_px, label.devicePixelRatioF()))

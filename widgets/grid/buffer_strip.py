@@ -1,19 +1,62 @@
-"""A row of small linked pixel grids: the same pixel in every buffer, with its value under each."""
+"""Which buffer is looked at: chosen by its name, or in a row of small linked pixel grids."""
+
+from collections.abc import Sequence
 
 from PySide6.QtCore import QPoint, QSize, Qt, QTimer, Signal, Slot
 from PySide6.QtGui import QAction, QResizeEvent, QShowEvent, QWheelEvent
-from PySide6.QtWidgets import QLabel, QMenu, QScrollArea, QSizePolicy, QToolButton, QWidget
+from PySide6.QtWidgets import QComboBox, QLabel, QMenu, QScrollArea, QSizePolicy, QToolButton, QWidget
 
-from widgets.basics.controls import column_layout, row_layout
-from widgets.basics.focus_order import ArrowGroup
+from widgets.basics.accessibility import ArrowGroup
+from widgets.basics.controls import ChoiceBox, column_layout, row_layout
 from widgets.basics.theme import current_theme, text_font, theme_notifier
-from widgets.grid.buffer import GridBuffer
+from widgets.grid.canvas import OutlineLayer
 from widgets.grid.geometry import GridGeometry
+from widgets.grid.layers import GridBuffer, Overlay
 from widgets.grid.marks import StepMark
-from widgets.grid.outline_layer import OutlineLayer
-from widgets.grid.overlay import Overlay
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import FIT, GridView
+
+# Which buffer the main grid shows, chosen by its name.
+
+
+ROOM = 11
+"""Letters that the box has room for: other buffers must not move what stands beside it."""
+
+
+class BufferChoice(ChoiceBox):
+    """The buffers of the stage at hand; set by code, it emits nothing."""
+
+    buffer_chosen = Signal(str)
+    """Name of the buffer that was chosen."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._names: list[tuple[str, str]] = []
+        self.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+        self.setAccessibleName("Buffer in the main view")
+        self.setToolTip("Choose the buffer in the main view")
+        self.setSizeAdjustPolicy(QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon)
+        self.setMinimumContentsLength(ROOM)
+        self.activated.connect(self._choose)
+
+    def show_buffers(self, buffers: Sequence[GridBuffer], chosen: str) -> None:
+        """Offer buffers and mark the one that is shown; there is nothing to choose of one."""
+        names = [(buffer.name, buffer.label) for buffer in buffers]
+        if names != self._names:
+            self._names = names
+            self.clear()
+            for buffer in buffers:
+                self.addItem(buffer.label, buffer.name)
+                self.setItemData(self.count() - 1, buffer.description, Qt.ItemDataRole.ToolTipRole)
+            self.setEnabled(len(names) > 1)
+        self.setCurrentIndex(self.findData(chosen))
+
+    @Slot(int)
+    def _choose(self, index: int) -> None:
+        self.buffer_chosen.emit(self.itemData(index))
+
+
+# A row of small linked pixel grids: the same pixel in every buffer, with its value under each.
 
 
 class BufferTile(QWidget):

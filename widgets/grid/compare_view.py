@@ -8,17 +8,14 @@ from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication, QKeyEvent, QResizeEvent
 from PySide6.QtWidgets import QBoxLayout, QGraphicsOpacityEffect, QLabel, QPushButton, QSizePolicy, QWidget
 
-from widgets.basics.choice_box import ChoiceBox
-from widgets.basics.controls import button_with_tip, column_layout, row_layout
-from widgets.basics.labels import CutLabel
+from widgets.basics.controls import ChoiceBox, CutLabel, button_with_tip, column_layout, row_layout
 from widgets.basics.settings_panel import Setting
 from widgets.basics.theme import theme_notifier
-from widgets.grid.buffer import GridBuffer
-from widgets.grid.buffer_choice import BufferChoice
+from widgets.grid.buffer_strip import BufferChoice
 from widgets.grid.geometry import GridGeometry
+from widgets.grid.layers import GridBuffer, Overlay
 from widgets.grid.linked_grids import SPACING, LinkedGrids
 from widgets.grid.marks import StepMark
-from widgets.grid.overlay import Overlay
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.inspector.listing import ListingText, ListingView
 

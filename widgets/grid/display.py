@@ -8,18 +8,15 @@ from PySide6.QtCore import QRect, QRectF, QSize, Qt
 from PySide6.QtGui import QAccessible, QColor, QPainter, QPaintEvent, QRegion
 from PySide6.QtWidgets import QSizePolicy, QWidget
 
-from core.records.alike import is_alike
-from widgets.basics.key_claim import FocusRing
+from core.records.arrays import is_alike
+from widgets.basics.accessibility import FocusRing
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.grid.buffer import NO_VALUE, GridBuffer
-from widgets.grid.canvas import GridCanvas
+from widgets.grid.canvas import GridCanvas, OutlineLayer
 from widgets.grid.geometry import GridGeometry, NameBox, name_boxes, paint_focus
-from widgets.grid.marks import StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
-from widgets.grid.outline_layer import OutlineLayer
-from widgets.grid.overlay import CenterOverlay, Overlay
+from widgets.grid.layers import NO_VALUE, CenterOverlay, GridBuffer, Overlay
+from widgets.grid.marks import SampleDots, StepMark, marked_rect, paint_hover, paint_pin, paint_step_mark
 from widgets.grid.paint import is_on_numbers, number_boxes
 from widgets.grid.rulers import paint_ruler_pixel, ruler_areas, ruler_size
-from widgets.grid.sample_dots import SampleDots
 from widgets.grid.view import FIT, GridPlacement, GridView, clamped, place
 
 

@@ -1,4 +1,4 @@
-"""Primitives over a pixel grid: exact thin outlines, handles at the vertices, and the snapped positions."""
+"""Primitives over a pixel grid: exact thin outlines, also behind the eye, handles at the vertices, and names."""
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
@@ -8,11 +8,57 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QPainter, QPen, QPolygonF, QRegion
 
-from core.records.cached import cached_property
+from core.records.arrays import cached_property
 from widgets.basics.theme import Theme, text_font
-from widgets.grid.edge_ends import edge_segments, towards
-from widgets.grid.line_clip import widget_lines
-from widgets.grid.view import GridPlacement
+from widgets.grid.view import GridPlacement, widget_lines
+
+# Both ends of edges in the window, also of those that end behind the eye: there they have no end in sight.
+
+
+FAR = 2.0**22
+"""Pixels that an edge goes on towards a vertex behind the eye: beyond every raster."""
+
+
+def edge_segments(
+    vertices: NDArray[np.float64], behind: NDArray[np.float64] | None, pairs: NDArray[np.integer]
+) -> NDArray[np.float64]:
+    """Return (N, 2, 2) float64 the ends of edges in the window.
+
+    Parameters
+    ----------
+    vertices : (V, 2) float64 array
+        Window positions; NaN: none.
+    behind : (V, 3) float64 array or None
+        Homogeneous window coordinates (x w, y w, w) of the vertices at w <= 0, else NaN.
+    pairs : (N, 2) integer array
+        The vertices at both ends of each edge.
+
+    Notes
+    -----
+    From the end p in front, the edge to (X, Y, W) begins in the direction (X, Y) - W p, for any W: what is seen of it
+    is a ray, since it meets the plane w = 0 infinitely far away.
+    """
+    ends: NDArray[np.float64] = vertices[pairs]
+    if behind is None:
+        return ends
+    for here, there in ((0, 1), (1, 0)):
+        start = ends[:, here]
+        with np.errstate(over="ignore", invalid="ignore", divide="ignore"):
+            direction = towards(start, behind[pairs[:, there]])
+            reached = start + direction / np.linalg.norm(direction, axis=1, keepdims=True) * FAR
+        is_ray = np.isfinite(reached).all(axis=1)
+        ends[is_ray, there] = reached[is_ray]
+    return ends
+
+
+def towards(start: NDArray[np.float64], goal: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Return (..., 2) the direction in which goals (..., 3) in homogeneous window coordinates lie, of any length."""
+    direction: NDArray[np.float64] = goal[..., :2] - start * goal[..., 2:]
+    return direction
+
+
+# Primitives over a pixel grid: exact thin outlines, handles at the vertices, and the snapped positions.
+
 
 HANDLE_RADIUS = 5.0
 """Radius of a vertex handle in logical pixels."""

@@ -6,11 +6,10 @@ from PySide6.QtCore import QSize, Qt, Signal, Slot
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QGridLayout, QWidget
 
-from widgets.basics.accessible import announce
-from widgets.basics.controls import closing_button
-from widgets.basics.labels import CutLabel, text_label
+from widgets.basics.accessibility import announce
+from widgets.basics.controls import CutLabel, closing_button, text_label
 from widgets.basics.theme import current_theme
-from widgets.grid.buffer import GridBuffer
+from widgets.grid.layers import GridBuffer
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
 

@@ -8,31 +8,30 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
 from widgets.basics.image import mask_image
-from widgets.basics.mark_patterns import is_pattern, mark_color, pattern_brush, transparent_image
 from widgets.basics.theme import Theme, faded, text_font
 from widgets.grid.geometry import moved_inside, paint_chip
-from widgets.grid.line_clip import widget_lines
-from widgets.grid.overlay import (
+from widgets.grid.layers import (
     BlockOverlay,
     BlockState,
+    CellMark,
     CountOverlay,
-    Mark,
     MaskOverlay,
     Overlay,
     SegmentOverlay,
     SpanOverlay,
     bounds,
 )
-from widgets.grid.view import GridPlacement
+from widgets.grid.marks import is_pattern, mark_color, pattern_brush, transparent_image
+from widgets.grid.view import GridPlacement, widget_lines
 
 _GLYPH_CELL = 6.0
 """Side of a cell from which glyphs have their form; below it they are dots."""
 _STROKES = {
-    Mark.DEPTH_FAILED: (((-1, -1), (1, 1)), ((-1, 1), (1, -1))),
-    Mark.RIGHT: (((-1, 0.1), (-0.3, 0.8), (1, -0.8)),),
-    Mark.MISSING: (((-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)),),
-    Mark.EXTRA: (((-1, -1), (1, 1)), ((-1, 1), (1, -1))),
-    Mark.DOUBLE: (((-0.45, -1), (-0.45, 1)), ((0.45, -1), (0.45, 1))),
+    CellMark.DEPTH_FAILED: (((-1, -1), (1, 1)), ((-1, 1), (1, -1))),
+    CellMark.RIGHT: (((-1, 0.1), (-0.3, 0.8), (1, -0.8)),),
+    CellMark.MISSING: (((-1, -1), (1, -1), (1, 1), (-1, 1), (-1, -1)),),
+    CellMark.EXTRA: (((-1, -1), (1, 1)), ((-1, 1), (1, -1))),
+    CellMark.DOUBLE: (((-0.45, -1), (-0.45, 1)), ((0.45, -1), (0.45, 1))),
 }
 """Glyphs drawn as lines: the corners of each, x to the right and y down, 1 is the glyph's reach."""
 _COUNT_CELL = 18.0
@@ -73,7 +72,7 @@ def paint_above(
 
 
 def paint_pattern(
-    painter: QPainter, placement: GridPlacement, mask: NDArray[np.bool_], mark: Mark, theme: Theme
+    painter: QPainter, placement: GridPlacement, mask: NDArray[np.bool_], mark: CellMark, theme: Theme
 ) -> None:
     """Paint the pattern of ``mark`` over the visible cells of an (H, W) mask.
 
@@ -117,7 +116,7 @@ def _paint_tint(
     for level in range(1, min(int(part.max()), 5) + 1):
         painter.save()
         painter.setOpacity(0.35)
-        paint_pattern(painter, placement, counts >= level, Mark.COVERED, theme)
+        paint_pattern(painter, placement, counts >= level, CellMark.COVERED, theme)
         painter.restore()
 
 
@@ -151,11 +150,11 @@ def _paint_glyphs(painter: QPainter, placement: GridPlacement, overlay: MaskOver
         cells = [placement.cells_rect(*pixel) for pixel in _visible(painter, placement, overlay.mask)]
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(color)
-        if overlay.mark is Mark.MISSING:
+        if overlay.mark is CellMark.MISSING:
             painter.setPen(QPen(color, 1.0))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRects([rect.adjusted(0.5, 0.5, -0.5, -0.5) for rect in cells])
-        elif overlay.mark is Mark.EXTRA:
+        elif overlay.mark is CellMark.EXTRA:
             for rect in cells:
                 painter.drawPolygon(QPolygonF([rect.bottomLeft(), rect.topRight(), rect.bottomRight()]))
         else:
@@ -170,14 +169,14 @@ def _paint_glyphs(painter: QPainter, placement: GridPlacement, overlay: MaskOver
     for column, row in _visible(painter, placement, overlay.mask):
         rect = placement.cells_rect(column, row)
         middle = rect.center()
-        if overlay.mark is Mark.TIE:
+        if overlay.mark is CellMark.TIE:
             painter.setBrush(Qt.BrushStyle.NoBrush)
             for pen in (outer, inner):
                 painter.setPen(pen)
                 painter.drawEllipse(middle, size, size)
         elif overlay.mark in _STROKES:
-            place = _glyph_place(rect) if overlay.mark is Mark.DEPTH_FAILED else middle
-            reach = size * (0.55 if overlay.mark is Mark.DEPTH_FAILED else 0.9)
+            place = _glyph_place(rect) if overlay.mark is CellMark.DEPTH_FAILED else middle
+            reach = size * (0.55 if overlay.mark is CellMark.DEPTH_FAILED else 0.9)
             lines = [
                 QPolygonF([place + QPointF(reach * x, reach * y) for x, y in stroke])
                 for stroke in _STROKES[overlay.mark]
@@ -190,7 +189,7 @@ def _paint_glyphs(painter: QPainter, placement: GridPlacement, overlay: MaskOver
             painter.setPen(QPen(halo, 1.0))
             painter.setBrush(color)
             painter.drawPolygon(
-                _arrowhead(rect, size) if overlay.mark is Mark.DEPTH_PASSED else _corner(rect)
+                _arrowhead(rect, size) if overlay.mark is CellMark.DEPTH_PASSED else _corner(rect)
             )
     painter.restore()
 
@@ -224,7 +223,7 @@ def _corner(rect: QRectF) -> QPolygonF:
 def _fill_blocks(painter: QPainter, placement: GridPlacement, overlay: BlockOverlay, theme: Theme) -> None:
     """Fill accepted blocks and hatch rejected ones."""
     ratio = painter.device().devicePixelRatioF()
-    fills = {BlockState.ACCEPTED: Mark.COVERED, BlockState.REJECTED: Mark.REJECTED}
+    fills = {BlockState.ACCEPTED: CellMark.COVERED, BlockState.REJECTED: CellMark.REJECTED}
     painter.save()
     painter.setBrushOrigin(QPointF(placement.left, placement.bottom))
     for rect, state in zip(_block_rects(placement, overlay), overlay.states, strict=True):

@@ -8,12 +8,10 @@ from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QBrush, QColor, QFont, QFontMetricsF, QImage, QPainter, QPen, QRegion
 
 from core.framebuffer.display import linear_light
-from widgets.basics.mark_patterns import cell_tile
 from widgets.basics.theme import LUMINANCE, Theme, relative_luminance, text_font
-from widgets.grid.buffer import NAN, GridBuffer
-from widgets.grid.overlay import Mark
+from widgets.grid.layers import NAN, CellMark, GridBuffer
+from widgets.grid.marks import SampleDots, between_samples, cell_tile, has_room
 from widgets.grid.overlay_paint import paint_pattern
-from widgets.grid.sample_dots import SampleDots, between_samples, has_room
 from widgets.grid.view import GridPlacement
 
 LINE_CELL = 6.0
@@ -133,7 +131,7 @@ def paint_nan(painter: QPainter, placement: GridPlacement, buffer: GridBuffer, t
         if buffer.known is not None:
             is_nan = is_nan & buffer.known
         if is_nan.any():
-            paint_pattern(painter, placement, is_nan, Mark.NAN, theme)
+            paint_pattern(painter, placement, is_nan, CellMark.NAN, theme)
 
 
 def _number_size(

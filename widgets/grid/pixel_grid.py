@@ -17,7 +17,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QToolTip, QWidget
 
-from widgets.basics.key_claim import EscapeClaim
+from widgets.basics.accessibility import EscapeClaim
 from widgets.grid.display import GridDisplay
 from widgets.grid.geometry import vertex_near
 from widgets.grid.view import FIT, GridView, panned, zoomed
@@ -36,7 +36,7 @@ class _Drag(Enum):
 
 
 class PixelGrid(GridDisplay):
-    """Shows a :class:`~widgets.grid.buffer.GridBuffer` magnified and reports what the user points at and drags.
+    """Shows a :class:`~widgets.grid.layers.GridBuffer` magnified and reports what the user points at and drags.
 
     Wheel: zoom about the pointer. Middle drag, right drag or Space and drag: pan. Click: ``pixel_clicked``.
     Vertices of the triangle in focus can be dragged; Shift rounds to half pixels, Escape takes the drag

@@ -19,10 +19,9 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QSizePolicy, QToolTip, QWidget
 
-from core.explain.latex import plain_text, without_macros
+from core.explain.latex import plain_text, spoken, without_macros
 from core.explain.records import Formula
-from core.explain.spoken import spoken
-from widgets.basics.key_claim import FocusRing
+from widgets.basics.accessibility import FocusRing
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.formula_layout import MARGIN, FormulaNumber, FormulaSetter, Line, extent, number_at
 from widgets.inspector.typesetter import Typesetter, is_typesetter_loaded, load_typesetter

@@ -19,9 +19,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QApplication, QWidget
 
-from widgets.basics.key_claim import KeyClaim
-from widgets.inspector.code_view import CodeView
-from widgets.inspector.listing_looks import color_tokens
+from widgets.basics.accessibility import KeyClaim
+from widgets.inspector.code_view import CodeView, color_tokens
 
 _COMMANDS = (Qt.Key.Key_Up, Qt.Key.Key_Down, Qt.Key.Key_Return, Qt.Key.Key_Enter)
 

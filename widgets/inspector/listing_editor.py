@@ -15,8 +15,7 @@ from PySide6.QtWidgets import QTextEdit, QWidget
 
 from core.records.listing import kept_line
 from widgets.basics.theme import current_theme
-from widgets.inspector.code_view import CodeView
-from widgets.inspector.listing_looks import token_formats, token_looks
+from widgets.inspector.code_view import CodeView, token_formats, token_looks
 
 PAUSE_MS = 150
 """Time after the last key, in milliseconds, from which a text is taken to be typed."""

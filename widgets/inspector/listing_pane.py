@@ -14,10 +14,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from core.lanes.limits import NAME_LENGTH
-from widgets.basics.accessible import announce
-from widgets.basics.controls import LEAST_TARGET, column_layout, row_layout
-from widgets.basics.labels import ElidedLabel, set_role, text_label
+from core.lanes.problem import NAME_LENGTH
+from widgets.basics.accessibility import announce
+from widgets.basics.controls import LEAST_TARGET, ElidedLabel, column_layout, row_layout, set_role, text_label
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.inspector.listing import ListingView
 from widgets.inspector.listing_editor import ListingEditor

@@ -5,10 +5,9 @@ from PySide6.QtWidgets import QLabel, QPushButton, QWidget
 
 from core.explain.number_text import parse_number
 from core.explain.records import AnswerKind, Question, Verdict
-from widgets.basics.accessible import announce
-from widgets.basics.controls import column_layout, row_layout
-from widgets.basics.labels import set_role, text_label
-from widgets.basics.marks import Mark, mark_pixmap
+from widgets.basics.accessibility import announce
+from widgets.basics.controls import column_layout, row_layout, set_role, text_label
+from widgets.basics.drawing import Mark, mark_pixmap
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import NumberEdit
 

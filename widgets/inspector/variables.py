@@ -41,9 +41,9 @@ from shiboken6 import delete
 
 from core.explain.number_text import DIGITS, exact_text, fraction_text, full_text
 from core.explain.records import Value, Variable
+from widgets.basics.accessibility import KeyClaim
 from widgets.basics.controls import LEAST_TARGET
-from widgets.basics.key_claim import KeyClaim
-from widgets.basics.marks import paint_share
+from widgets.basics.drawing import paint_share
 from widgets.basics.theme import Theme, current_theme, theme_notifier
 from widgets.basics.typed_value import tabular_font
 

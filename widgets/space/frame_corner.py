@@ -22,7 +22,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QAbstractButton, QMenu, QWidget
 
-from widgets.basics.key_claim import KeyClaim
+from widgets.basics.accessibility import KeyClaim
 from widgets.basics.theme import current_theme, faded, text_font, theme_notifier
 
 _MARGIN = 6

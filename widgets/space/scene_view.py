@@ -20,16 +20,14 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
-from core.records.alike import is_alike
-from widgets.basics.drawn_text import LabelPlaces
+from core.records.arrays import is_alike
+from widgets.basics.drawing import LabelPlaces
 from widgets.basics.image import display_image
 from widgets.basics.theme import Theme, current_theme, faded, ink_color
-from widgets.space.diagram import Spot
+from widgets.space.diagram import Spot, paint_label, paint_spot
 from widgets.space.frame_corner import FrameCorner, SizeChoice, picture_area
-from widgets.space.orbit import Orbit
-from widgets.space.orbit_area import GRAB_RADIUS, OrbitArea
-from widgets.space.paint import paint_label, paint_spot
-from widgets.space.view_depth import ViewDepth
+from widgets.space.orbit import Orbit, ViewDepth
+from widgets.space.view import GRAB_RADIUS, OrbitArea
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""A texture under the pointer: pan, magnify, and read texels; footprints of pixels are outlined in it."""
+"""A texture under the pointer: pan, magnify, read texels; one view, or two for the levels that a pixel reads."""
 
 from math import floor
 
@@ -7,13 +7,22 @@ from PySide6.QtCore import QEvent, QPointF, Qt, Signal
 from PySide6.QtGui import QHelpEvent, QImage, QMouseEvent, QPainter, QPixmap
 from PySide6.QtWidgets import QToolTip, QWidget
 
-from widgets.basics.accessible import announce
+from widgets.basics.accessibility import announce
+from widgets.basics.controls import row_layout
 from widgets.basics.image import buffer_image
 from widgets.basics.theme import Theme, current_theme
-from widgets.grid.buffer import GridBuffer
-from widgets.space.moved_area import MovedArea
-from widgets.space.texture_paint import TexturePlacement, outside_image, paint_read, paint_texture
-from widgets.space.texture_picture import TexturePicture
+from widgets.grid.layers import GridBuffer
+from widgets.space.texture_paint import (
+    TexturePicture,
+    TexturePlacement,
+    outside_image,
+    paint_read,
+    paint_texture,
+)
+from widgets.space.view import MovedArea
+
+# A texture under the pointer: pan, magnify, and read texels; footprints of pixels are outlined in it.
+
 
 _KEY_PIXELS = 32.0
 LARGEST_TEXEL = 160.0
@@ -25,7 +34,7 @@ FOOTPRINT_ROOM = 3.0
 
 
 class TextureView(MovedArea):
-    """Shows a :class:`~widgets.space.texture_picture.TexturePicture`.
+    """Shows a :class:`~widgets.space.texture_paint.TexturePicture`.
 
     Drag: pan. Wheel: magnify about the pointer. Double click: the footprint, and again the whole texture.
     With the keyboard's focus arrows pan, plus and minus magnify, Home shows the whole texture, and Shift with an
@@ -257,3 +266,43 @@ class TextureView(MovedArea):
         """Paint everything again with the present theme."""
         self._make_images()
         self.update()
+
+
+# One texture view, or two side by side: the mipmap levels that a pixel reads.
+
+
+GAP = 4
+"""Logical pixels between the views."""
+
+
+class TextureLevels(QWidget):
+    """Shows a texture, or the finer level on the left and the coarser one on the right; each has its own view."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._views = TextureView(), TextureView()
+        layout = row_layout(self, GAP)
+        for view in self._views:
+            layout.addWidget(view)
+        self.setAccessibleName("Texture space")
+        self._views[1].setAccessibleName("Texture space, coarser level")
+        self._views[1].hide()
+        self.setFocusProxy(self._views[0])
+
+    def views(self) -> tuple[TextureView, TextureView]:
+        """Return the views of the finer and of the coarser level."""
+        return self._views
+
+    def pictures(self) -> tuple[TexturePicture, ...]:
+        """Return what is shown."""
+        found = (view.picture() for view in self._views)
+        return tuple(picture for picture in found if picture is not None)
+
+    def show_pictures(self, pictures: tuple[TexturePicture, ...], empty_text: str) -> None:
+        """Show one texture, or two levels; of none, the empty text."""
+        for place, view in enumerate(self._views):
+            view.empty_text = empty_text
+            view.show_picture(pictures[place] if place < len(pictures) else None)
+        self._views[1].setVisible(len(pictures) > 1)
+        captions = " ".join(picture.caption for picture in pictures)
+        self.setAccessibleDescription(captions if pictures else empty_text)

@@ -1,14 +1,248 @@
-"""The whole run as chapters in one row: a chapter per stage, what goes in and out of it, and how far the run is."""
+"""The whole run as chapters in one row: a stage with its key, what goes in and out of it, how much of it is done."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
+from enum import Enum, IntEnum
+from functools import lru_cache
 
-from PySide6.QtCore import QEvent, QPoint, QSize, Qt, Signal, Slot
-from PySide6.QtGui import QKeyEvent, QMouseEvent, QResizeEvent
-from PySide6.QtWidgets import QApplication, QSizePolicy, QWidget
+from PySide6.QtCore import QEvent, QPoint, QRect, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetrics,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPolygonF,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import QAbstractButton, QApplication, QSizePolicy, QWidget
 
 from widgets.basics.controls import row_layout
-from widgets.basics.theme import theme_notifier
-from widgets.timeline.chapter_button import Chapter, ChapterButton, ChapterState, Spelling
+from widgets.basics.drawing import blended
+from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
+
+# One chapter of the run: a stage with its key, what goes in and out of it, and how much of it is done.
+
+
+_SIDE = 6
+"""Room at both sides of a chapter's text."""
+_STRIP = 3
+"""Height of the strip that shows how much of a chapter is done."""
+_TICK = 3
+"""By how much the tick in it is higher."""
+
+
+class ChapterState(Enum):
+    """Where a chapter lies in the run; each has a word and a look."""
+
+    DONE = "done"
+    CURRENT = "current"
+    AHEAD = "not yet stepped"
+    SKIPPED = "not needed"
+
+
+class Spelling(IntEnum):
+    """How much of a chapter is written; all chapters of a row are spelled alike, as fully as the row has room."""
+
+    WORDS = 0
+    UNITS = 1
+    TITLE = 2
+    KEY = 3
+
+
+@dataclass(frozen=True)
+class Chapter:
+    """One stage of the run."""
+
+    title: str
+    key: str = ""
+    """The key that enters it, such as ``3``."""
+    counts: str = ""
+    """What goes in and out, in words: ``12 triangles → 2,060 pixels``."""
+    short_counts: str = ""
+    """The same with the units' signs: ``12 tri → 2,060 px``."""
+    duration: str = ""
+    """Measured time with the share of all stages, for the tooltip."""
+    state: ChapterState = ChapterState.AHEAD
+    is_inserted: bool = False
+    """The pipeline has put it in by itself, to provide what a later stage needs."""
+    reason: str = ""
+    """Why it is not needed or was inserted."""
+
+    def second_line(self, spelling: Spelling) -> str:
+        """Return what stands under the title."""
+        if spelling >= Spelling.TITLE:
+            return ""
+        if self.state is ChapterState.SKIPPED:
+            return str(self.state.value)
+        return self.counts if spelling is Spelling.WORDS else self.short_counts
+
+
+class ChapterButton(QAbstractButton):
+    """One chapter: key and title, counts, and a strip as long as what is done of it."""
+
+    def __init__(self, chapter: Chapter, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._chapter = chapter
+        self._spelling = Spelling.WORDS
+        self._share_done = 0.0
+        self._is_under_mouse = False
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.setCursor(Qt.CursorShape.PointingHandCursor)
+        self.show_chapter(chapter)
+
+    def show_chapter(self, chapter: Chapter) -> None:
+        """Show another state of the stage."""
+        self._chapter = chapter
+        words = [chapter.state.value] + ["inserted"] * chapter.is_inserted
+        status = ", ".join(words) + (f": {chapter.reason}" if chapter.reason else "")
+        figures = ", ".join(part for part in (chapter.counts, chapter.duration) if part)
+        key = f" ({chapter.key})" if chapter.key else ""
+        self.setToolTip("\n".join(part for part in (f"{chapter.title}{key}", figures, status) if part))
+        self.setAccessibleName(f"Stage {chapter.title}")
+        self.setAccessibleDescription(", ".join(part for part in (status, figures) if part))
+        self.update()
+
+    def chapter(self) -> Chapter:
+        """Return what is shown."""
+        return self._chapter
+
+    def show_spelling(self, spelling: Spelling) -> None:
+        """Write more or less of the chapter."""
+        if spelling is not self._spelling:
+            self._spelling = spelling
+            self.update()
+
+    def show_share_done(self, share: float) -> None:
+        """Show how much of the present chapter is done, 0 to 1."""
+        if share != self._share_done:
+            self._share_done = share
+            self.update(self._strip())
+
+    def wanted_width(self, spelling: Spelling) -> int:
+        """Return the width in pixels that a spelling needs."""
+        return _wanted_width(self._chapter, spelling, current_theme())
+
+    def sizeHint(self) -> QSize:
+        """Room for a title and a line of counts."""
+        height = QFontMetrics(self._title_font()).height() + QFontMetrics(self._small_font()).height()
+        return QSize(self.wanted_width(self._spelling), max(height + _STRIP + 5, 24))
+
+    def minimumSizeHint(self) -> QSize:
+        """As tall as wanted, and wide enough to be hit."""
+        return QSize(24, self.sizeHint().height())
+
+    def event(self, event: QEvent) -> bool:
+        """Light up under the mouse."""
+        if event.type() in (QEvent.Type.Enter, QEvent.Type.Leave):
+            self._is_under_mouse = event.type() == QEvent.Type.Enter
+            self.update()
+        return super().event(event)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Draw ground and state, the two lines and the strip; or only the strip, where it alone has changed."""
+        theme, chapter = current_theme(), self._chapter
+        is_current = chapter.state is ChapterState.CURRENT
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        self._paint_ground(painter)
+        self._paint_strip(painter)
+        left, right, top = _SIDE, self.width() - _SIDE + 2, 2
+        title_height = QFontMetrics(self._title_font()).height()
+        flags = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignVCenter
+        line = chapter.second_line(self._spelling)
+        if not line:
+            top = (self.height() - _STRIP - title_height) // 2
+        # Of the text only its second line comes near the strip.
+        is_whole = not self._strip().contains(event.rect())
+        if chapter.key and is_whole:
+            painter.setFont(self._small_font())
+            painter.setPen(QColor(theme.muted_text))
+            painter.drawText(QRect(left, top, right - left, title_height), flags, chapter.key)
+            left += painter.fontMetrics().horizontalAdvance(chapter.key) + 4
+        if is_whole and (self._spelling < Spelling.KEY or is_current or not chapter.key):
+            painter.setFont(self._title_font(is_bold=is_current))
+            is_dim = chapter.state is ChapterState.SKIPPED
+            painter.setPen(QColor(theme.muted_text if is_dim else theme.text))
+            painter.drawText(QRect(left, top, right - left, title_height), flags, chapter.title)
+        if line:
+            painter.setFont(self._small_font())
+            painter.setPen(QColor(theme.muted_text))
+            box = QRect(_SIDE, top + title_height, right - _SIDE, painter.fontMetrics().height())
+            painter.drawText(box, flags, line)
+
+    def _strip(self) -> QRect:
+        """Return where the strip is, with its tick."""
+        height = _STRIP + _TICK + 1
+        return QRect(0, self.height() - height, self.width(), height)
+
+    def _paint_ground(self, painter: QPainter) -> None:
+        """Draw the card: raised where there is work, an outline that is open below for the present chapter."""
+        theme, state = current_theme(), self._chapter.state
+        box = QRectF(self.rect()).adjusted(1.0, 1.0, -1.0, -1.0)
+        ground = QColor(theme.window if state is ChapterState.SKIPPED else theme.panel)
+        if state is ChapterState.CURRENT:
+            ground = blended(theme.accent, theme.panel, 0.12)
+        elif self.isDown() or self._is_under_mouse:
+            ground = QColor(theme.selection)
+        painter.fillRect(box, ground)
+        if state is ChapterState.CURRENT:
+            painter.setPen(QPen(QColor(theme.accent), 2.0))
+            corners = (box.bottomLeft(), box.topLeft(), box.topRight(), box.bottomRight())
+            painter.drawPolyline(QPolygonF(corners))
+        elif state is ChapterState.SKIPPED or self._chapter.is_inserted:
+            painter.setPen(QPen(QColor(theme.outline), 1.0, Qt.PenStyle.DashLine))
+            painter.drawRect(box)
+        if self.hasFocus():
+            painter.setPen(QPen(QColor(theme.focus), 2.0))
+            painter.drawRect(box.adjusted(2.0, 2.0, -2.0, -2.0))
+
+    def _paint_strip(self, painter: QPainter) -> None:
+        """Draw how much of the chapter is done, with a tick of the accent where the run is."""
+        theme, state = current_theme(), self._chapter.state
+        if state is ChapterState.SKIPPED:
+            return
+        share = self._share_done if state is ChapterState.CURRENT else float(state is ChapterState.DONE)
+        track = QRectF(1.0, self.height() - _STRIP - 1.0, self.width() - 2.0, _STRIP)
+        painter.fillRect(track, QColor(theme.selection))
+        painter.fillRect(
+            QRectF(track.left(), track.top(), track.width() * share, track.height()), QColor(theme.muted_text)
+        )
+        if state is ChapterState.CURRENT:
+            x = min(track.left() + track.width() * share, track.right() - 3.0)
+            painter.fillRect(QRectF(x, track.top() - _TICK, 3.0, _STRIP + _TICK), QColor(theme.accent))
+
+    def _title_font(self, *, is_bold: bool = False) -> QFont:
+        return _title_font(current_theme(), is_bold=is_bold)
+
+    def _small_font(self) -> QFont:
+        return text_font(current_theme(), current_theme().small_px)
+
+
+@lru_cache(maxsize=256)
+def _wanted_width(chapter: Chapter, spelling: Spelling, theme: Theme) -> int:
+    small = QFontMetrics(text_font(theme, theme.small_px))
+    # The title may become bold, and a stage may become needed, while nothing should move.
+    name = QFontMetrics(_title_font(theme, is_bold=True)).horizontalAdvance(chapter.title)
+    key = small.horizontalAdvance(chapter.key)
+    if spelling is Spelling.KEY and chapter.key and chapter.state is not ChapterState.CURRENT:
+        return key + 2 * _SIDE
+    title = name + (key + 4 if chapter.key else 0)
+    line = small.horizontalAdvance(chapter.second_line(spelling))
+    return max(title, line) + 2 * _SIDE
+
+
+def _title_font(theme: Theme, *, is_bold: bool = False) -> QFont:
+    font = text_font(theme)
+    font.setBold(is_bold)
+    return font
+
+
+# The whole run as chapters in one row: a chapter per stage, what goes in and out of it, and how far the run
+# is.
 
 
 class ChapterRow(QWidget):

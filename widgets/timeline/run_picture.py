@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication, QImage, QPainter
 
-from widgets.basics.marks import Mark, draw_mark
+from widgets.basics.drawing import Mark, draw_mark
 from widgets.basics.theme import CLEAR, contrast, current_theme
 
 LANES = (Mark.COVERED, Mark.REJECTED, Mark.TIE, Mark.NAN, Mark.DEPTH_FAILED)

@@ -7,10 +7,8 @@ from PySide6.QtGui import QColor, QIcon, QKeyEvent, QPainter, QPixmap, QPolygonF
 from PySide6.QtWidgets import QButtonGroup, QComboBox, QLabel, QSizePolicy, QToolButton, QWidget
 
 from core.records.steps import Level
-from widgets.basics.controls import column_layout, row_layout
-from widgets.basics.flow_layout import FlowLayout
-from widgets.basics.focus_order import ArrowGroup
-from widgets.basics.labels import text_label
+from widgets.basics.accessibility import ArrowGroup
+from widgets.basics.controls import FlowLayout, column_layout, row_layout, text_label
 from widgets.basics.theme import current_theme, theme_notifier
 from widgets.basics.typed_value import NumberEdit
 from widgets.timeline.bar import TimelineBar

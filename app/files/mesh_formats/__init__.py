@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 
+from app.files.file_access import NamedFiles, OutsideWarning
 from app.files.mesh_formats.obj import read_obj
 from app.files.mesh_formats.off import read_off
 from app.files.mesh_formats.ply import read_ply
@@ -24,7 +25,6 @@ from app.files.mesh_formats.reading import (
     check_positions,
 )
 from app.files.mesh_formats.stl import read_stl
-from app.files.named_files import NamedFiles, OutsideWarning
 from app.session.memory import MemoryBoundError
 from core.scene import Mesh
 from lessons.os_errors import os_error_reason

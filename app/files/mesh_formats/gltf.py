@@ -6,8 +6,8 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.mesh_formats.gltf_buffers import GltfFile
-from app.files.mesh_formats.gltf_header import MeshParts, Node, Primitive
+from app.files.file_access import NamedFileError, NamedFiles, left_out
+from app.files.mesh_formats.gltf_buffers import GltfFile, MeshParts, Node, Primitive
 from app.files.mesh_formats.images import TextureReader
 from app.files.mesh_formats.reading import (
     DRAWING,
@@ -16,7 +16,6 @@ from app.files.mesh_formats.reading import (
     Report,
     check_mesh_count,
 )
-from app.files.named_files import NamedFileError, NamedFiles, left_out
 from app.session.memory import Need, check_free
 from core.records.arrays import Floats, Integers
 from core.scene import Mesh, Texture

@@ -10,8 +10,7 @@ from typing import TYPE_CHECKING, BinaryIO
 import numpy as np
 from numpy.typing import ArrayLike
 
-from app.files.input_files import open_input
-from app.files.named_files import NamedFileError, NamedFiles
+from app.files.file_access import NamedFileError, NamedFiles, open_input
 from app.session.memory import MemoryBoundError, Need
 from core.framebuffer.display import Bytes, from_display, linear_light
 from core.records.arrays import Floats, Singles

@@ -7,9 +7,15 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.input_files import read_input
+from app.files.file_access import (
+    NamedFileError,
+    NamedFiles,
+    OutsideError,
+    OutsideWarning,
+    left_out,
+    read_input,
+)
 from app.files.mesh_formats.images import TextureReader, linear_from_srgb
-from app.files.named_files import NamedFileError, NamedFiles, OutsideError, OutsideWarning, left_out
 from core.records.arrays import Floats
 from core.scene import Material, Texture
 from lessons.os_errors import os_error_reason

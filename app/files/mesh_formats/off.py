@@ -7,20 +7,20 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.input_files import open_text_input
+from app.files.file_access import NamedFiles, open_text_input
 from app.files.mesh_formats.images import linear_from_srgb
-from app.files.mesh_formats.polygons import check_polygons, triangulate_polygons
 from app.files.mesh_formats.reading import (
     LoadedMeshes,
     MeshFileError,
     Report,
     check_memory,
+    check_polygons,
     check_positions,
     check_text,
     numbers_of,
+    triangulate_polygons,
     whole_numbers_of,
 )
-from app.files.named_files import NamedFiles
 from core.records.arrays import Floats
 from core.scene import Mesh
 

@@ -5,23 +5,24 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.input_files import open_input
+from app.files.file_access import NamedFileError, NamedFiles, left_out, open_input
 from app.files.mesh_formats.images import TextureReader, linear_from_srgb
 from app.files.mesh_formats.ply_body import Column, Element, Property, Rows, read_body
-from app.files.mesh_formats.polygons import check_polygons, share_vertices, triangulate_polygons
 from app.files.mesh_formats.reading import (
     LoadedMeshes,
     MeshFileError,
     Report,
     Wires,
     check_memory,
+    check_polygons,
     check_positions,
     load_wires,
+    share_vertices,
+    triangulate_polygons,
 )
-from app.files.named_files import NamedFileError, NamedFiles, left_out
-from core.geometry.vertex_stage import vertex_normals
 from core.records.arrays import Floats
 from core.scene import Mesh, Texture
+from core.transform.vertex_stage import vertex_normals
 
 MEMORY_PER_BYTE = 16
 """Bytes of memory that a byte of a PLY file takes at most while it is opened (measured)."""

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from app.files.input_files import open_input
+from app.files.file_access import open_input
 from app.files.mesh_formats.reading import MeshFileError, Report, numbers_of
 from core.records.arrays import Integers
 

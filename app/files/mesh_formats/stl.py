@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from app.files.input_files import open_input
+from app.files.file_access import NamedFiles, open_input
 from app.files.mesh_formats.reading import (
     LoadedMeshes,
     MeshFileError,
@@ -12,9 +12,9 @@ from app.files.mesh_formats.reading import (
     check_memory,
     check_positions,
     first_bytes,
+    load_with_trimesh,
+    translated_errors,
 )
-from app.files.mesh_formats.through_trimesh import load_with_trimesh, translated_errors
-from app.files.named_files import NamedFiles
 from core.scene import Mesh
 
 HEADER = 84

@@ -7,9 +7,9 @@ import numpy as np
 
 from core.explain.stage_texts import family_title
 from core.methods import table
-from core.study.accuracy.record import Axis, ErrorMeasure, Point, Study, best_values, pareto_front
-from core.study.accuracy.speed_accuracy import cost_dial
-from widgets.charts.records import MOST_NAMED, ChartAxis, ChartEmpty, ChartPicture, ChartSeries
+from core.study.record import Axis, ErrorMeasure, Point, Study, best_values, pareto_front
+from core.study.speed_accuracy import cost_dial
+from widgets.experiments.series import MOST_NAMED, ChartAxis, ChartEmpty, ChartPicture, ChartSeries
 
 TIME = "time"
 """The cost that is time on this machine; every other one is a name of `Point.counts`."""

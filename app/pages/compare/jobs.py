@@ -7,21 +7,20 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from app.background.workers import Progress
+from app.background import Progress
 from app.pages.compare.charts import title_of
-from app.pages.opened import DrawnPictures
+from app.pages.experiment_page import DrawnPictures
 from app.pages.page_bar import StepRequest
 from app.pages.result_page import Result
-from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER
-from app.session.opening_document import part_around
+from app.session.document import TEACHING_LIMIT, TRACED_TOGETHER, part_around
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study import Opening, Pictures, Plan, Point, Study, opening, pictures
-from core.study.accuracy.divergence import first_divergence
-from core.study.accuracy.family import Candidate, settings_of
+from core.study.divergence import first_divergence
+from core.study.study_family import Candidate, settings_of
 from core.trace import scene_triangle_count
-from widgets.charts.study_pictures import PicturesRecord
-from widgets.grid.buffer import BufferKind, GridBuffer, number_text
+from widgets.experiments.case_pictures import PicturesRecord
+from widgets.grid.layers import BufferKind, GridBuffer, number_text
 from widgets.grid.linked_grids import Pixel
 
 

@@ -1,4 +1,4 @@
-"""The page that charts speed against accuracy: families, work, two charts, their numbers, pictures of points."""
+"""The page that charts speed against accuracy, and the pictures that a click on a point opens."""
 
 from dataclasses import replace
 from functools import partial
@@ -9,30 +9,42 @@ from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QSplitter, QTabWidget, QWidget
 
 from app import __version__
-from app.background.workers import PartWork
-from app.export.study import study_content, study_stem
-from app.files.study_files import EXTENSION, load_study
+from app.background import PartWork
 from app.pages.compare.charts import growth_of, numbers_of, scatter_of, title_of
-from app.pages.compare.choices import FamilyChoice, choice_of_saved, choices_of_all, controls_of
-from app.pages.compare.figures import family_text, point_text, study_sentences, study_text, table_of
+from app.pages.compare.figures import (
+    FamilyChoice,
+    choice_of_saved,
+    choices_of_all,
+    controls_of,
+    family_text,
+    point_text,
+    study_sentences,
+    study_text,
+    table_of,
+)
 from app.pages.compare.jobs import chosen_points, drawn_points, measured, plan_candidates
-from app.pages.experiment_page import splitter
-from app.pages.opened import OpenedPictures
+from app.pages.compare.study_files import EXTENSION, load_study, study_content, study_stem
+from app.pages.experiment_page import OpenedPictures, splitter
 from app.pages.result_page import ResultKind, ResultPage
 from app.session.moment import Change
 from app.session.session import Session
 from core.records.words import counted
 from core.study import machine, measure
-from core.study.accuracy.family import Candidate
-from core.study.accuracy.record import Point, Study
-from core.study.accuracy.whole_picture import PIPELINE, SAMPLED_COLOR
+from core.study.record import Point, Study
+from core.study.study_family import Candidate
+from core.study.whole_picture import PIPELINE, SAMPLED_COLOR
 from widgets.basics.controls import row_layout
-from widgets.charts.chart import Chart
-from widgets.charts.legend import ChartLegend
-from widgets.charts.records import MOST_NAMED, ChartEmpty, ChartPicture
-from widgets.charts.study_controls import StudyControls
-from widgets.charts.study_pictures import StudyPictures
-from widgets.charts.study_table import StudyTable, TableRecord
+from widgets.experiments.case_pictures import StudyPictures
+from widgets.experiments.chart import Chart
+from widgets.experiments.controls import StudyControls
+from widgets.experiments.series import (
+    MOST_NAMED,
+    ChartEmpty,
+    ChartLegend,
+    ChartPicture,
+    StudyTable,
+    TableRecord,
+)
 
 KIND: ResultKind[Study, FamilyChoice] = ResultKind(
     page="Compare",

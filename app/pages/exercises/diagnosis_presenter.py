@@ -6,12 +6,11 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.background.workers import Job, Progress
+from app.background import Job, Progress
 from app.files.drawn_pictures import read_drawn
+from app.files.file_access import DRAWN_ENDINGS
 from app.files.file_dialogs import ask_file
-from app.files.file_names import DRAWN_ENDINGS
-from app.pages.cover import COVERED
-from app.pages.page_bar import Page, StepRequest
+from app.pages.page_bar import COVERED, Page, StepRequest
 from app.session.document import Document
 from app.session.moment import Change
 from app.session.session import Session
@@ -19,16 +18,25 @@ from core import STAGES
 from core.records.words import counted
 from core.scene import AnyScene, ClipScene
 from core.settings import FAMILIES
-from core.study.accuracy.record import Opening
-from core.study.planner.phrases import capitalized
-from lessons.diagnosis import RIGHT, Candidate, Diagnosis, Drawn, compared_text, diagnose
-from lessons.diagnosis_text import pixels_text, right_text, scene_text
-from lessons.exercises.scene_digest import scene_digest
+from core.study.planner.records import capitalized
+from core.study.record import Opening
+from lessons.diagnosis import (
+    RIGHT,
+    Candidate,
+    Diagnosis,
+    Drawn,
+    compared_text,
+    diagnose,
+    pixels_text,
+    right_text,
+    scene_text,
+)
 from lessons.mistakes.twin import same_scene
 from lessons.os_errors import problem_text
+from lessons.scene_edits import scene_digest
 from widgets.exercises.diagnosis_view import DiagnosisView
 from widgets.exercises.records import DiagnosisRecord, FoundRun
-from widgets.grid.buffer import GridBuffer
+from widgets.grid.layers import GridBuffer
 
 KINDS = f"Pictures ({' '.join(f'*{ending}' for ending in DRAWN_ENDINGS)});;All files (*)"
 MOST_FOUND = 8

@@ -1,30 +1,153 @@
-"""What stands behind an answer: the run or picture of its mistake, the step that refutes it, and the right run."""
+"""What stands behind an answer: what is said of the check, the mistake's run or picture, the step that refutes it."""
 
 from collections.abc import Callable
+from dataclasses import replace
 from functools import partial
 
+import numpy as np
 from PySide6.QtCore import QObject, Slot
 from PySide6.QtWidgets import QMenu
 
-from app.pages.exercises.answer_pictures import Live
-from app.pages.exercises.runs import (
-    drawn_picture,
-    explaining_run,
-    faulty_picture,
-    faulty_run,
-    is_pictured,
-    is_stepped,
-    refuting_step,
-    right_run,
-    wanted_picture,
-    wrong_run,
+from app.pages.exercises.answers import (
+    Checked,
+    Live,
+    Tried,
+    are_marks_shown,
+    coverage_of,
+    document_of,
+    picture_of,
+    scene_outline,
 )
-from app.pages.exercises.work import Checked
 from app.pages.page_bar import Page, StepRequest
+from core import STAGES, trace
 from core.records.frame import Frame
-from lessons.exercises.question import Question
-from widgets.exercises.mark_grid import MarkGrid
+from core.records.words import counted
+from core.scene import ClipScene
+from core.study.record import Opening
+from lessons.attempts.practice import MISSES_IN_A_ROW
+from lessons.attempts.record import Attempt
+from lessons.exercises.answers.answer import Response
+from lessons.exercises.answers.listings import CodeAnswer, Opened
+from lessons.exercises.answers.marked import PixelAnswer
+from lessons.exercises.coding.shader_task import Beside
+from lessons.exercises.question import Question, Refutation
+from lessons.mistakes.shelf import SHELF
+from widgets.exercises.answer_forms import problem_text
+from widgets.exercises.mark_grid import AnswerView, MarkGrid
 from widgets.exercises.question_view import QuestionView
+from widgets.exercises.records import Feedback
+from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay
+
+# The runs behind a question, for the Step page: the right one, and beside it the one with a mistake.
+
+
+PICTURED = ("numbers", "table", "choice", "order", "line")
+"""Types of answers beside which a picture may stand."""
+
+
+def right_run(question: Question, *, is_asked: bool = False) -> StepRequest | None:
+    """Return what steps the right run, hidden while it ``is_asked``; ``None``: the question draws nothing."""
+    draft = question.draft
+    if draft.scene is None:
+        return None
+    document = document_of(draft, question.template.title)
+    opening = Opening(draft.scene, document.settings, question.template.stage, draft.pixel)
+    return StepRequest(opening, question.template.title, is_asked=is_asked)
+
+
+def explaining_run(question: Question, response: Response) -> StepRequest | None:
+    """Return what steps the right run at the pixel asked about, or the lowest that an answer has wrong."""
+    request, answer = right_run(question), question.draft.answer
+    if request is None or request.opening.pixel is not None or not isinstance(answer, PixelAnswer):
+        return request
+    wrong = (response ^ answer.reference) - answer.may
+    pixel = min(wrong, key=lambda pixel: pixel[::-1], default=None)
+    return replace(request, opening=replace(request.opening, pixel=pixel))
+
+
+def is_stepped(question: Question, mistake: str) -> bool:
+    """Return whether the run with a mistake can be stepped beside the right one."""
+    return isinstance(question.draft.scene, ClipScene) and mistake in SHELF and SHELF[mistake].is_run
+
+
+def is_pictured(question: Question, mistake: str) -> bool:
+    """Return whether only the picture with a mistake can be shown; of marked pixels the answer is that picture."""
+    has_scene = isinstance(question.draft.scene, ClipScene) and question.draft.answer.kind in PICTURED
+    return has_scene and mistake in SHELF and not SHELF[mistake].is_run
+
+
+def faulty_picture(question: Question, mistake: str) -> Live:
+    """Return the picture with a mistake."""
+    scene = question.draft.scene
+    assert isinstance(scene, ClipScene)
+    return Live(scene_outline(scene), picture_of(SHELF[mistake].draw(scene, question.draft.settings)))
+
+
+def refuting_step(refutation: Refutation, title: str) -> StepRequest:
+    """Return what shows the step that refutes a belief."""
+    opening = Opening(refutation.scene, refutation.settings, refutation.stage)
+    return StepRequest(opening, title, position=refutation.position(), is_asked=False)
+
+
+def faulty_run(question: Question, mistake: str) -> StepRequest | None:
+    """Return what steps the right run beside that with a mistake, from their first difference on."""
+    request, scene = right_run(question), question.draft.scene
+    if request is None or not isinstance(scene, ClipScene):
+        return None
+    twin = SHELF[mistake]
+    return StepRequest(
+        request.opening,
+        request.title,
+        twin.change_settings(request.opening.settings),
+        other_scene=twin.change_scene(scene),
+        other_title=f"with the mistake: {mistake.replace('-', ' ')}",
+        is_asked=False,
+    )
+
+
+def wanted_picture(question: Question) -> GridBuffer | None:
+    """Return the picture that a question shows, which a listing must draw; ``None``: there is none."""
+    answer = question.draft.answer
+    wanted = answer.picture if isinstance(answer, CodeAnswer) else None
+    return None if wanted is None else coverage_of(wanted, "the picture")
+
+
+def drawn_picture(question: Question, drawn: Frame) -> Live:
+    """Return what a listing draws in place of the wanted picture, with marks where it differs."""
+    answer = question.draft.answer
+    assert isinstance(answer, CodeAnswer)
+    assert answer.picture is not None
+    differs = np.asarray((drawn.primitive >= 0) != (answer.picture.primitive >= 0))
+    marks = (MaskOverlay("differs", CellMark.DIFFERENCE, differs, title="other than wanted"),)
+    return Live(None, coverage_of(drawn, "your picture"), marks)
+
+
+def wrong_run(question: Question, opened: Opened | Beside, *, hides_right: bool) -> StepRequest:
+    """Return what steps the right run beside a wrong one, on the smallest input that shows it.
+
+    ``hides_right``: the right listing itself is not shown. A shader stands beside built-in shading.
+    """
+    if isinstance(opened, Beside):
+        last = trace(opened.scene, opened.settings).stage(STAGES[-1]).steps.count
+        return StepRequest(
+            Opening(opened.scene, opened.settings, STAGES[-1]),
+            question.template.title,
+            opened.settings,
+            other_scene=opened.other,
+            other_title="my shader",
+            position=last,
+            is_asked=False,
+        )
+    shown = opened.shown
+    opening = Opening(shown.scene, shown.settings, shown.stage, shown.pixel)
+    return StepRequest(
+        opening, question.template.title, edits=(opened.edit,), hides_right=hides_right, is_asked=False
+    )
+
+
+# What stands behind an answer: the run or picture of its mistake, the step that refutes it, and the right
+# run.
+
 
 BACK, SEVERAL, EXPLAIN, OPEN = "Back to my answer", "Show those runs", "Step it", "Show it in A | B"
 DRAWN = "Show what mine draws"
@@ -168,3 +291,60 @@ class Evidence(QObject):
         """Step the right run."""
         if self._question is not None:
             self._step(partial(right_run, self._question))
+
+
+# What is said of a check: points, counts, the mistake by name, and whether it counts.
+
+
+SHOWN = "What is right was shown before, so this earns nothing."
+CORRECTED = "A new variant earns points of its own."
+
+
+EXPLAINED = (
+    f"Missed {MISSES_IN_A_ROW} times in a row. Choose {EXPLAIN}: it opens the right run at the step that decides.",
+    f"Missed {MISSES_IN_A_ROW} times in a row. Model answer shows what is right.",
+)
+"""What is said of an exercise with a scene, and of one without."""
+
+
+def not_checked_text(problem: Exception) -> str:
+    """Return why an answer is not checked, as a sentence."""
+    said = f"Not checked yet: {problem}"
+    return said if said.endswith("?") else f"{said}."
+
+
+def show_tried(view: AnswerView, tried: Tried) -> str:
+    """Mark where a listing that is typed cannot run, and return why as a sentence; empty: it can."""
+    problem = tried.problem
+    view.show_problem(None if problem is None else (*problem.place, problem.sentence))
+    return "" if problem is None else problem_text((*problem.place, problem.sentence))
+
+
+def marks_are_shown(question: Question, checked: Checked, *, is_corrected: bool) -> bool:
+    """Return whether the answer is marked: where the first one is in pixels, and wrong, words say less."""
+    is_first = checked.attempt is not None and not is_corrected
+    is_right = checked.judgement.verdict.score == 1
+    return are_marks_shown(question.draft, is_right=is_right, is_first=is_first)
+
+
+def feedback_of(
+    question: Question, checked: Checked, *, first: Attempt | None, is_explained: bool = False
+) -> Feedback:
+    """Return what is said.
+
+    ``first``: the earlier check that counts, if there was one; ``is_explained``: its step is offered.
+    """
+    judgement, double = checked.judgement, checked.marks.get("double")
+    heading = f"{judgement.points:.3g} of {counted(question.template.points, 'point')}"
+    if first is not None:
+        heading += f" now; the first check counted, with {first.points:.3g}"
+    is_right = judgement.verdict.score == 1
+    counts = judgement.verdict.counts
+    if double:
+        counts += f", {len(double)} of these double"
+    reveal = (question.draft.reveal,) if is_right and question.draft.reveal else ()
+    is_marked = marks_are_shown(question, checked, is_corrected=first is not None)
+    where = () if is_marked else (question.draft.answer.first_wrong(checked.response),)
+    before = (SHOWN,) if checked.attempt is None else (CORRECTED,) if first is not None else ()
+    offer = (EXPLAINED[question.draft.scene is None],) if is_explained else ()
+    return Feedback(heading, counts, (*judgement.sentences, *where, *reveal, *before, *offer), is_right)

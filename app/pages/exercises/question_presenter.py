@@ -9,34 +9,43 @@ from typing import Any
 from PySide6.QtCore import QObject, Qt, Signal, Slot
 from PySide6.QtGui import QGuiApplication
 
-from app.background.workers import JobGroup
-from app.files.unfinished_answers import Unfinished, UnfinishedFile
-from app.pages.exercises.answer_history import AnswerHistory
-from app.pages.exercises.answer_pictures import Live, numbers_of, picture_of, place_of, size_of
-from app.pages.exercises.evidence import Evidence
-from app.pages.exercises.feedback import feedback_of, marks_are_shown, not_checked_text, show_tried
-from app.pages.exercises.runs import wanted_picture
-from app.pages.exercises.work import (
+from app.background import JobGroup
+from app.files.kept_work import Unfinished, UnfinishedFile
+from app.pages.exercises.answers import (
+    AnswerHistory,
     Asked,
     Checked,
+    Live,
     Tried,
     asking,
     asking_apart,
     checking,
     drawing,
     drawn,
+    numbers_of,
+    picture_of,
+    place_of,
+    size_of,
     trying,
+)
+from app.pages.exercises.evidence import (
+    Evidence,
+    feedback_of,
+    marks_are_shown,
+    not_checked_text,
+    show_tried,
+    wanted_picture,
 )
 from app.pages.page_bar import Page
 from core.records.words import counted
 from lessons.attempts.practice import MISSES_IN_A_ROW, TRY_LIMIT, first_tries, is_correction, misses_in_a_row
 from lessons.attempts.record import Attempt
 from lessons.exercises.answers.answer import NotCheckedError, Response
-from lessons.exercises.answers.code import CannotRunError
-from lessons.exercises.answers.spots import SpotAnswer
+from lessons.exercises.answers.choices import SpotAnswer
+from lessons.exercises.answers.listings import CannotRunError
 from lessons.exercises.answers.steps import StepsAnswer
 from lessons.exercises.question import Question, Template, ask, hints_after
-from lessons.exercises.scene_digest import scene_digest
+from lessons.scene_edits import scene_digest
 from widgets.exercises.mark_grid import MarkGrid
 from widgets.exercises.question_view import QuestionView
 from widgets.exercises.records import QuestionRecord

@@ -1,4 +1,4 @@
-"""The page “What does this scene need?”: tolerance, choices with reasons and numbers, and the difference they make."""
+"""The page “What does this scene need?”: tolerance, choices with reasons and numbers, and what they differ in."""
 
 from dataclasses import replace
 from functools import partial
@@ -6,18 +6,14 @@ from functools import partial
 from PySide6.QtCore import Slot
 from PySide6.QtWidgets import QSplitter, QWidget
 
-from app.pages.experiment_page import ExperimentPage, WorkWords
-from app.pages.opened import OpenedPictures
-from app.pages.plan.jobs import PlanShown, drawn_choice, planned
-from app.pages.plan.words import EMPTY, applied_text, rows_of, summary_of
+from app.pages.experiment_page import ExperimentPage, OpenedPictures, WorkWords
+from app.pages.plan.plans import EMPTY, PlanShown, applied_text, drawn_choice, planned, rows_of, summary_of
 from app.session.moment import Change
 from app.session.session import Session
 from core.settings import Settings
 from core.study import Tolerance, reference_settings
-from widgets.charts.study_pictures import StudyPictures
-from widgets.plan.controls import PlanControls
-from widgets.plan.rows import PlanRows
-from widgets.plan.summary import PlanFindings, PlanSummary
+from widgets.experiments.case_pictures import StudyPictures
+from widgets.experiments.plan import PlanControls, PlanFindings, PlanRows, PlanSummary
 
 WORDS = WorkWords(
     "Plan",

@@ -7,16 +7,14 @@ from pathlib import Path
 from PySide6.QtCore import Qt, Slot
 from PySide6.QtWidgets import QSplitter, QWidget
 
-from app.background.workers import PartWork
-from app.export.atlas import atlas_content, atlas_stem
-from app.files.atlas_files import EXTENSION, load_atlas
-from app.files.shrunk_files import save_shrunk, shrunk_name
+from app.background import PartWork
+from app.export.failures import save_shrunk, shrunk_name
 from app.files.state_files import EXTENSION as STATE_EXTENSION
 from app.pages.experiment_page import splitter
 from app.pages.result_page import Result, ResultKind, ResultPage
+from app.pages.stability.atlas_files import EXTENSION, atlas_content, atlas_stem, load_atlas
 from app.pages.stability.case_presenter import CasePresenter
-from app.pages.stability.choices import ExperimentChoice, choice_of, choices_of_all
-from app.pages.stability.jobs import CaseOrder, RowRun, run_grid
+from app.pages.stability.jobs import CaseOrder, ExperimentChoice, RowRun, choice_of, choices_of_all, run_grid
 from app.pages.stability.records import (
     atlas_record,
     blank_atlas,
@@ -35,18 +33,17 @@ from app.pages.stability.records import (
 )
 from app.session.moment import Change
 from app.session.session import Session
+from core.study.fragment_cases import NAME as OPEN_SCENE
+from core.study.fragment_cases import watertightness
 from core.study.stability import Atlas, ExperimentInfo
-from core.study.stability.open_scene import NAME as OPEN_SCENE
-from core.study.stability.open_scene import watertightness
-from widgets.atlas.case_view import CaseView
-from widgets.atlas.records import CellPlace
-from widgets.atlas.stability_controls import StabilityControls
-from widgets.atlas.view import AtlasView
-from widgets.basics.accessible import announce
+from widgets.basics.accessibility import announce
 from widgets.basics.controls import row_layout
-from widgets.charts.chart import Chart
-from widgets.charts.legend import ChartLegend
-from widgets.charts.records import ChartPicture
+from widgets.experiments.case_pictures import CaseView
+from widgets.experiments.chart import Chart
+from widgets.experiments.controls import StabilityControls
+from widgets.experiments.map_view import AtlasView
+from widgets.experiments.maps import CellPlace
+from widgets.experiments.series import ChartLegend, ChartPicture
 
 KIND: ResultKind[Atlas, ExperimentChoice] = ResultKind(
     page="Stability",

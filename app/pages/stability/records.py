@@ -7,9 +7,8 @@ from math import isnan
 
 import numpy as np
 
-from app.export.atlas_text import MARKS, WORDS
-from app.pages.stability.choices import ExperimentChoice
-from app.pages.stability.jobs import CaseFound, RowRun
+from app.export.failures import MARKS, WORDS
+from app.pages.stability.jobs import CaseFound, ExperimentChoice, RowRun
 from app.pages.words import machine_words
 from core import Frame
 from core.explain.number_text import number_text
@@ -19,10 +18,10 @@ from core.records.words import counted
 from core.scene import ClipScene
 from core.study import Opening
 from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap, Verdict
-from widgets.atlas.case_view import CaseRecord
-from widgets.atlas.records import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellKind, CellPlace
-from widgets.charts.records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
-from widgets.grid.buffer import GridBuffer
+from widgets.experiments.case_pictures import CaseRecord
+from widgets.experiments.maps import UNKNOWN, AtlasAxis, AtlasMap, AtlasRecord, CellKind, CellPlace
+from widgets.experiments.series import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
+from widgets.grid.layers import GridBuffer
 
 
 def blank_atlas(info: ExperimentInfo, axes: tuple[Axis, ...], seed: int) -> Atlas:

@@ -1,13 +1,15 @@
 """The pixel grids of the stepping page: what they show of the trace, and what is done in them."""
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, QPoint, Signal, Slot
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import QMenu, QWidget
 
 from app.files.state_models import GridLook
 from app.pages.page_bar import Page
-from app.pages.step.cut_overlays import area_overlays, clip_overlays
+from app.pages.step.grid_overlays import Guesses, area_overlays, clip_overlays, polygon_overlays, step_mark
 from app.pages.step.grid_records import (
     LANE_MARKS,
     block_overlays,
@@ -15,22 +17,139 @@ from app.pages.step.grid_records import (
     edge_overlays,
     geometry_of,
     mask_overlays,
+    outlined_triangles,
     sample_dots,
     span_overlays,
 )
-from app.pages.step.guesses import Guesses
 from app.pages.step.main_area import MainArea
-from app.pages.step.polygon_overlays import polygon_overlays
-from app.pages.step.step_mark import step_mark
-from app.pages.step.vertex_drags import VertexDrags
+from app.pages.step.stepping_presenter import SteppingPresenter
+from app.session.document import Document
+from app.session.document_edits import DragGestures
 from app.session.moment import Moment
 from app.session.session import Session
 from core import STAGES
-from widgets.grid.buffer import GridBuffer
+from core.stages.declared import stage_of
+from lessons.scene_edits import move_corner
 from widgets.grid.geometry import GridGeometry
-from widgets.grid.overlay import CenterOverlay, Overlay
-from widgets.grid.overlay_legend import OverlayLegend
+from widgets.grid.insets import OverlayLegend
+from widgets.grid.layers import CenterOverlay, GridBuffer, Overlay
+from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
+
+# Vertices dragged in pixel grids: the scene follows, and one drag is undone as a whole.
+
+
+class VertexDrags(QObject):
+    """Takes the drags in grids that show ``app.pages.step.grid_records.geometry_of`` to the session."""
+
+    def __init__(
+        self,
+        session: Session,
+        grids: Sequence[PixelGrid],
+        focus: Callable[[], int | None],
+        take: Callable[[Document, str], None],
+        name: str,
+        page: Page,
+    ) -> None:
+        """Listen to the grids.
+
+        Parameters
+        ----------
+        focus : callable
+            Returns the triangle with handles where the document has none in focus.
+        take : callable
+            Takes over a moved document and its gesture: ``Session.drag``, or ``Session.edit`` where the whole picture
+            is looked at.
+        name : str
+            Of these drags, other than of those in other views.
+        """
+        super().__init__(page)
+        self._page = page
+        self._session, self._focus, self._take = session, focus, take
+        self._drags = DragGestures(session, name, self._move, self)
+        for grid in grids:
+            grid.vertex_dragged.connect(self._drags.drag)
+            grid.vertex_drag_finished.connect(self._drags.end)
+            grid.vertex_drag_taken_back.connect(self._drags.take_back)
+
+    def _move(self, vertex: int, x: float, y: float) -> None:
+        document, latest, trace = self._session.document, self._session.latest, self._session.trace
+        first_column, first_row, _, _ = trace.source.raster.bounds
+        wanted = document.triangle if document.triangle is not None else self._focus()
+        place, corner = divmod(vertex, trace.source.scene.corner_count)
+        triangle = int(outlined_triangles(trace, wanted)[place])
+        position, size = (x + first_column, y + first_row), document.traced_scene.size
+        try:
+            scene = move_corner(latest.scene, triangle, corner, position, size)
+            self._take(replace(latest, scene=scene), self._drags.name)
+        except ValueError as error:
+            self._page.refuse(f"The vertex was not moved: {error}")
+
+
+# What can be done with one pixel: the menu of a right click in a grid.
+
+
+class PixelMenu(QObject):
+    """Pins the pixel, sets breakpoints at it, and goes to the first step of any stage that touches it."""
+
+    origin_requested = Signal()
+    """The user asks where the value of the pixel, which is pinned by now, comes from."""
+    question_requested = Signal()
+    """The value of the pixel, which is pinned by now, is to become a question."""
+
+    def __init__(self, session: Session, stepping: SteppingPresenter, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._session, self._stepping = session, stepping
+        self.menu = QMenu(parent)
+        self.menu.triggered.connect(self._run)
+        self._pixel = (0, 0)
+
+    @Slot(int, int, QPoint)
+    def open_at(self, column: int, row: int, place: QPoint) -> None:
+        """Offer what can be done with a pixel of the grid."""
+        self.fill(column, row)
+        self.menu.popup(place)
+
+    def fill(self, column: int, row: int) -> None:
+        """Make the entries for a pixel of the grid."""
+        self._pixel = self._session.moment.pixel_at(column, row)
+        self.menu.clear()
+        heading = self.menu.addAction(f"Pixel ({self._pixel[0]}, {self._pixel[1]})")
+        heading.setEnabled(False)
+        is_pinned = self._session.pin == self._pixel
+        self._add("Remove the pin" if is_pinned else "Pin", "pin")
+        has_breakpoint = self._pixel in self._stepping.breaks.pixels
+        self._add("Remove the breakpoint" if has_breakpoint else "Breakpoint", "breakpoint")
+        self._add("Where does this value come from?", "origin")
+        self._add("Ask for this value", "ask")
+        self.menu.addSeparator()
+        for stage in STAGES[STAGES.index("raster") :]:
+            self._add(f"Step here in {stage_of(stage).short_title}", stage)
+
+    def _add(self, text: str, name: str) -> None:
+        self.menu.addAction(text).setData(name)
+
+    @Slot(QAction)
+    def _run(self, action: QAction) -> None:
+        name = action.data()
+        if name == "pin":
+            self._session.set_pin(None if self._session.pin == self._pixel else self._pixel)
+        elif name == "breakpoint":
+            self._session.set_pin(self._pixel)
+            self._stepping.toggle_pixel_breakpoint()
+        elif name == "origin":
+            self._session.set_pin(self._pixel)
+            self.origin_requested.emit()
+        elif name == "ask":
+            self._session.set_pin(self._pixel)
+            self.question_requested.emit()
+        else:
+            self._session.set_pin(self._pixel)
+            self._stepping.step_into(name, *self._pixel)
+
+
+# The pixel grids of the stepping page: what they show of the trace, and what is done in them.
+
 
 OUTLINING = ("transform", "cull")
 """Stages in which outlines appear and vanish."""

@@ -6,33 +6,34 @@ import numpy as np
 
 from app.session.moment import Step
 from core import STAGES, Trace
+from core.coverage.number_formats import number_format
+from core.coverage.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT
+from core.coverage.snapping import SUBPIXELS
+from core.coverage.traced_edges import half_plane, known_edges, weights_everywhere
+from core.coverage.traced_rows import PRINTED
 from core.explain.stage_texts import depth_text
 from core.framebuffer.display import to_display
-from core.raster.edges.snapping import SUBPIXELS
-from core.raster.number_formats.number_format import number_format
-from core.raster.pixel_runs import INSIDE, LEAF, OUTSIDE, SPLIT
 from core.records.arrays import Integers
 from core.records.primitives import own_corners
 from core.resolved import resolve
 from core.trace import BufferTrack, StageTrace, TraceSource
-from core.trace.edges import half_plane, known_edges, weights_everywhere
-from core.trace.geometry_progress import WINDOW, is_dropped, spaces_reached
-from core.trace.raster_rows import PRINTED
-from core.trace.symbols import symbols_of
-from widgets.grid.buffer import BufferKind, GridBuffer
+from core.trace.conditions import symbols_of
+from core.transform.traced import WINDOW, is_dropped, spaces_reached
 from widgets.grid.geometry import GridGeometry
-from widgets.grid.overlay import (
+from widgets.grid.layers import (
     EDGE_MARKS,
     BlockOverlay,
     BlockState,
+    BufferKind,
+    CellMark,
     CountOverlay,
-    Mark,
+    GridBuffer,
     MaskOverlay,
     Overlay,
     SegmentOverlay,
     SpanOverlay,
 )
-from widgets.grid.sample_dots import SampleDots
+from widgets.grid.marks import SampleDots
 
 OUTLINE_LIMIT = 400
 """Triangles up to which every outline is drawn; of more, only the one in focus: a part would look like a shape."""
@@ -53,7 +54,7 @@ STATES = {
 }
 
 
-LANE_MARKS = {"does not run this line": Mark.REJECTED, "discarded": Mark.DEPTH_FAILED}
+LANE_MARKS = {"does not run this line": CellMark.REJECTED, "discarded": CellMark.DEPTH_FAILED}
 """What fragments of a triangle do while another one runs a statement, and how that is marked."""
 
 
@@ -250,20 +251,20 @@ def mask_overlays(step: Step) -> list[Overlay]:
     overlays: list[Overlay] = []
     marks = {name: flags[:done] for name, flags in stage.marks.items()}
     if stage.stage == "raster":
-        overlays.append(MaskOverlay("covered", Mark.COVERED, mask(marks["covered"])))
-        overlays.append(MaskOverlay("rejected", Mark.REJECTED, mask(marks["rejected"])))
+        overlays.append(MaskOverlay("covered", CellMark.COVERED, mask(marks["covered"])))
+        overlays.append(MaskOverlay("rejected", CellMark.REJECTED, mask(marks["rejected"])))
         values = stage.columns.get("values")
         # A line has no edge functions: nothing is outside an edge.
         for k in range(3 if values is not None else 0):
             assert values is not None
             outside = mask(values[:done, k] < 0)
             overlays.append(MaskOverlay(f"outside {k}", EDGE_MARKS[k], outside, title=f"outside edge {k}"))
-        overlays.append(MaskOverlay("tie", Mark.TIE, mask(marks["tie"]), title="on an edge"))
+        overlays.append(MaskOverlay("tie", CellMark.TIE, mask(marks["tie"]), title="on an edge"))
         counted = next(track for track in stage.buffers if track.name == "overdraw").at(done)
         overlays.append(CountOverlay("overdraw", counted))
     if stage.stage == "depth":
-        overlays.append(MaskOverlay("passed", Mark.DEPTH_PASSED, mask(marks["covered"])))
-        overlays.append(MaskOverlay("failed", Mark.DEPTH_FAILED, mask(marks["depth-failed"])))
+        overlays.append(MaskOverlay("passed", CellMark.DEPTH_PASSED, mask(marks["covered"])))
+        overlays.append(MaskOverlay("failed", CellMark.DEPTH_FAILED, mask(marks["depth-failed"])))
     if (waiting := stage.waiting_at(step.row) if done else None) is not None:
         for key, mark, lanes in zip(LANE_MARKS, LANE_MARKS.values(), waiting, strict=True):
             chosen = np.zeros(raster.shape, bool)
@@ -271,9 +272,9 @@ def mask_overlays(step: Step) -> list[Overlay]:
             overlays.append(MaskOverlay(key, mark, chosen, title=key))
     if "unset" in stage.extra:
         unset = mask(stage.extra["unset"][:done])
-        overlays.append(MaskOverlay("unset", Mark.MISSING, unset, title="read without a value"))
+        overlays.append(MaskOverlay("unset", CellMark.MISSING, unset, title="read without a value"))
     if "nan" in marks:
-        overlays.append(MaskOverlay("nan", Mark.NAN, mask(marks["nan"])))
+        overlays.append(MaskOverlay("nan", CellMark.NAN, mask(marks["nan"])))
     return overlays
 
 

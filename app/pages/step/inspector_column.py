@@ -1,19 +1,27 @@
-"""The inspector's column: the step in words, formula, listing and variables; or the history of a pixel."""
+"""The right column: a lesson's pane and the inspector with the step in words; and what is said of it aloud."""
 
-from PySide6.QtCore import QEvent, QObject, Qt, Signal, Slot
+from PySide6.QtCore import QCoreApplication, QEvent, QObject, Qt, QTimer, Signal, Slot
+from PySide6.QtGui import QAccessible, QResizeEvent
 from PySide6.QtWidgets import QFrame, QLabel, QScrollArea, QSizePolicy, QTabWidget, QWidget
 
-from app.session.moment import Moment
+from app.session.moment import Cursor, Moment
 from core.explain.records import Formula
+from core.stages.declared import stage_of
+from widgets.basics.accessibility import announce
 from widgets.basics.controls import column_layout
-from widgets.basics.pane_splitter import PaneSplitter
+from widgets.basics.panes import LessonScroll, PaneSplitter
 from widgets.basics.theme import current_theme, text_font, theme_notifier
+from widgets.grid.pixel_grid import PixelGrid
 from widgets.inspector.formula_view import FormulaView
-from widgets.inspector.history_view import PixelHistory
 from widgets.inspector.listing_pane import ListingPane
+from widgets.inspector.pixel_history import PixelHistory
 from widgets.inspector.prediction import PredictionView
 from widgets.inspector.variables import VariablesView
-from widgets.timeline.stage_card import StageCardView
+from widgets.timeline.stage_cards import StageCardView
+from widgets.timeline.transport import Timeline
+
+# The inspector's column: the step in words, formula, listing and variables; or the history of a pixel.
+
 
 LISTING_LINES, PRESENTED_LINES = 10, 4
 """Lines of the listing that are seen whole, and the same while presenting: the formula goes before it."""
@@ -227,3 +235,161 @@ class InspectorColumn(QTabWidget):
         """Ask in place of telling: above the sentence."""
         self.prediction.setVisible(is_shown)
         self.show_step()
+
+
+# The right column of the Step page: the pane of a lesson while one is open, and the inspector below it.
+
+
+INSPECTOR_LINES = 9
+"""Height that the inspector keeps under a lesson, in lines of text, where sentence and formula need no less."""
+
+
+class SideColumn(QWidget):
+    """Both panes, one below the other; hidden where there is nothing to show."""
+
+    def __init__(self, inspector: InspectorColumn, parent: QWidget) -> None:
+        super().__init__(parent)
+        self._inspector = inspector
+        self._lesson: LessonScroll | None = None
+        self._gives_way = self._is_idle = self._is_presenting = self._is_owed = False
+        self._layout = column_layout(self, 4)
+        self._below = QWidget(self)
+        column_layout(self._below).addWidget(inspector)
+        self._layout.addWidget(self._below, 1)
+        inspector.installEventFilter(self)
+        inspector.formula_grown.connect(self._divide)
+
+    def show_lesson(self, lesson: LessonScroll | None) -> None:
+        """Show the pane of a lesson above the inspector, or no longer."""
+        if self._lesson is not None and self._lesson is not lesson:
+            self._layout.removeWidget(self._lesson)
+            self._lesson.height_changed.disconnect(self._divide)
+            self._lesson.hide()
+        is_new, self._lesson = lesson is not self._lesson, lesson
+        if lesson is not None and is_new:
+            self._layout.insertWidget(0, lesson, 0, Qt.AlignmentFlag.AlignTop)
+            lesson.height_changed.connect(self._divide)
+            lesson.show()
+        self._follow()
+
+    def let_inspector_give_way(self, gives_way: bool) -> None:
+        """Leave the inspector out where the lesson needs the room: nothing has been stepped that it could show."""
+        if gives_way != self._gives_way:
+            self._gives_way = gives_way
+            # When all is known that the lesson shows, and before it is painted.
+            self._is_owed = True
+            QCoreApplication.postEvent(self, QEvent(QEvent.Type.LayoutRequest))
+
+    def set_idle(self, is_idle: bool) -> None:
+        """Leave the inspector out of a lesson: no step has been done that it could show."""
+        if is_idle != self._is_idle:
+            self._is_idle = is_idle
+            self._divide()
+
+    def set_presenting(self, is_presenting: bool) -> None:
+        """Leave the inspector out wherever the lesson needs the room: a class does not scroll."""
+        self._is_presenting = is_presenting
+        self._divide()
+
+    def panes(self) -> list[QWidget]:
+        """Return the pane of a lesson, while it is there."""
+        return [] if self._lesson is None else [self._lesson]
+
+    def _follow(self) -> None:
+        """Be there while one of both is."""
+        self.setVisible(not self._inspector.isHidden() or self._lesson is not None)
+        self._divide()
+
+    def event(self, event: QEvent) -> bool:
+        """Divide the height where that was put off."""
+        if event.type() == QEvent.Type.LayoutRequest and self._is_owed:
+            self._divide()
+        return super().event(event)
+
+    @Slot()
+    def _divide(self) -> None:
+        """Give the lesson the height that it wants, unless the inspector would have too little."""
+        self._is_owed = False
+        if self._lesson is None:
+            self._below.show()
+            self._inspector.show_formula_alone(False)
+            return
+        whole, formula = self._inspector.step_heights(self.width())
+        least = min(whole, round(INSPECTOR_LINES * 1.5 * current_theme().text_px))
+        wanted = self._lesson.height_for(self.width())
+        room = self.height() - wanted - self._layout.spacing()
+        is_alone, has_room = False, room >= least
+        if self._is_presenting:
+            is_alone, has_room = room < whole, room >= formula
+        gives_way = self._gives_way or self._is_presenting
+        is_wanted = not (self._inspector.isHidden() or self._is_idle)
+        is_inspected = is_wanted and (has_room or not gives_way)
+        self._inspector.show_formula_alone(is_alone and has_room)
+        self._below.setVisible(is_inspected)
+        most = (
+            self.height() if not is_inspected or has_room else max(self.height() - least, self.height() // 2)
+        )
+        self._lesson.take_room(wanted, most)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Divide another height."""
+        super().resizeEvent(event)
+        self._divide()
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Follow the inspector when it is folded away or shown."""
+        if watched is self._inspector and event.type() in (
+            QEvent.Type.ShowToParent,
+            QEvent.Type.HideToParent,
+        ):
+            self._follow()
+        return False
+
+
+# What is said after a step: sentence, line of the algorithm, formula, the value at the pixel, and what is
+# asked.
+
+
+REST_MILLISECONDS = 150
+"""Steps that follow each other faster than this are not said: only the one that is reached."""
+
+
+class StepNarrator(QObject):
+    """Has a screen reader say what stands in the inspector now, and the value of the pinned or pointed pixel."""
+
+    def __init__(
+        self,
+        cursor: Cursor,
+        column: InspectorColumn,
+        grid: PixelGrid,
+        timeline: Timeline,
+        parent: QObject | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._cursor, self._column, self._grid, self._timeline = cursor, column, grid, timeline
+        self._said = ("", "", "", "", "")
+        """Stage, level, step, value and question that were said last."""
+        self._rest = QTimer(self)
+        self._rest.setSingleShot(True)
+        self._rest.setInterval(REST_MILLISECONDS)
+        self._rest.timeout.connect(self._say)
+
+    def owe(self, moment: Moment) -> None:
+        """Say what is shown as soon as nothing moves any more."""
+        self._cursor = moment.cursor
+        if QAccessible.isActive():
+            self._rest.start()
+
+    @Slot()
+    def _say(self) -> None:
+        """Say what differs from what was said last."""
+        level = self._timeline.level_buttons[self._cursor.level].accessibleName()
+        stage = f"Stage {stage_of(self._cursor.stage).short_title}"
+        column, question = self._column, self._column.prediction.question
+        texts = (column.sentence.text(), column.listing.accessibleDescription(), column.formula.spoken())
+        step = ". ".join(text.rstrip(".") for text in texts if text)
+        asked = question.text() if question.isVisible() else ""
+        now = (stage, level, step, self._grid.spoken_description(), asked)
+        new = [text for text, before in zip(now, self._said, strict=True) if text and text != before]
+        self._said = now
+        announce(column.sentence, ". ".join(new), is_urgent=step in new)

@@ -7,14 +7,13 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, QTimer, Signal, Slot
 
-from app.background.workers import Job
+from app.background import Job
 from app.files.state_models import DRAFT_LIMIT, DraftRecord
 from app.pages.step.ab.presenter import ComparePresenter
-from app.pages.step.breaks import line_positions
 from app.pages.step.inspector_column import InspectorColumn
-from app.pages.step.inspector_presenter import InspectorPresenter
+from app.pages.step.inspector_presenter import InspectorPresenter, load_stages
+from app.pages.step.kept_look import line_positions
 from app.pages.step.stepping_presenter import nearest
-from app.pages.step.steps_ahead import load_stages
 from app.session.document import Document
 from app.session.moment import Moment, Step
 from app.session.session import Session
@@ -202,7 +201,7 @@ class ListingPresenter(QObject):
         elif self._hides_right:
             self._set_side(B)
         if self._pane.is_editing and self._place is not None:
-            from app.session.edited_run import edit_of
+            from app.session.listing_runs import edit_of
             from core.edits import original
 
             edit = edit_of(document, self._place)
@@ -228,7 +227,7 @@ class ListingPresenter(QObject):
             self._pane.show_head(PaneHead(has_head, LOADING))
             self._later.start(LATER_MS)
             return
-        from app.session.edited_run import changed_lines, changed_text, edit_of, edited_place, why_not
+        from app.session.listing_runs import changed_lines, changed_text, edit_of, edited_place, why_not
         from core.edits import original
 
         place = self._place if self._pane.is_editing else edited_place(listing, document)
@@ -279,7 +278,7 @@ class ListingPresenter(QObject):
     @Slot(str)
     def _name(self, name: str) -> None:
         """Name the edited version."""
-        from app.session.edited_run import edited_place, named
+        from app.session.listing_runs import edited_place, named
 
         document = self._session.latest
         place = self._place or edited_place(self._inspector.shown_listing, document)
@@ -303,7 +302,7 @@ class ListingPresenter(QObject):
     @Slot(int)
     def begin(self, line: int = 0) -> None:
         """Edit the listing that is shown, from a line (from 1) on; 0: the line of the step."""
-        from app.session.edited_run import edit_of, edited_place, why_not
+        from app.session.listing_runs import edit_of, edited_place, why_not
         from core.edits import Edit, original
 
         moment, listing = self._session.moment, self._inspector.shown_listing
@@ -361,7 +360,7 @@ class ListingPresenter(QObject):
     @Slot()
     def reset(self) -> None:
         """Take all changes of the listing that is shown back, or else the last edit of another one."""
-        from app.session.edited_run import edit_of, edited_place, without_edit
+        from app.session.listing_runs import edit_of, edited_place, without_edit
         from core.edits import original
 
         document = self._session.latest
@@ -396,7 +395,7 @@ class ListingPresenter(QObject):
     @Slot(str)
     def _try(self, text: str) -> None:
         """Run what is typed; B stays the last version that ran where it cannot."""
-        from app.session.edited_run import edit_of, with_edit
+        from app.session.listing_runs import edit_of, with_edit
         from core.edits import Edit
 
         if self._place is None:

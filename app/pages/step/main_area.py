@@ -1,6 +1,7 @@
-"""The middle of the Step page: the row of views and buffers, the view that is shown, and the thumbnails."""
+"""The middle of the Step page: views, buffers and thumbnails, and the keys that do there what the wheel does."""
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, Qt, Signal, Slot
 from PySide6.QtGui import QResizeEvent
@@ -11,19 +12,24 @@ from app.session.session import Session
 from app.views.companions import COMPANIONS, Companion, NewDepths
 from app.views.stage_views import StageViews
 from core.stages.declared import stage_of
-from widgets.basics.accessible import announce
-from widgets.basics.controls import column_layout, flat_button, row_layout
-from widgets.basics.labels import text_label
-from widgets.basics.pane_splitter import PaneSplitter
+from widgets.basics.accessibility import announce
+from widgets.basics.controls import column_layout, flat_button, row_layout, text_label
+from widgets.basics.panes import PaneSplitter
 from widgets.basics.theme import current_theme, theme_notifier
-from widgets.grid.buffer import GridBuffer
-from widgets.grid.buffer_choice import BufferChoice
-from widgets.grid.buffer_strip import BufferStrip
+from widgets.grid.buffer_strip import BufferChoice, BufferStrip
 from widgets.grid.compare_view import CompareView
+from widgets.grid.layers import GridBuffer
 from widgets.grid.paint import NUMBER_PART
 from widgets.grid.pixel_grid import PixelGrid
-from widgets.grid.range_button import RangeButton
-from widgets.grid.range_control import RangeControl
+from widgets.grid.range_control import RangeButton, RangeControl
+from widgets.space.view import MovedArea
+
+if TYPE_CHECKING:
+    from app.pages.step.page import StepPage
+
+
+# The middle of the Step page: the row of views and buffers, the view that is shown, and the thumbnails.
+
 
 LEAST_ROOM_OF_BOTH = 34
 """Heights of the text below which the area shows one side of a stage only."""
@@ -345,3 +351,59 @@ class MainArea(QWidget):
             self._viewed_stage = stage
             if self.current_view() != "compare":
                 self.show_own_view()
+
+
+# Keys that do in the main view and the timeline what else the wheel and a drag do.
+
+
+ZOOM = 1.25
+"""Magnification of one press."""
+NUDGE = 0.5
+"""Pixels by which one press moves a vertex."""
+
+
+def _view(page: "StepPage") -> PixelGrid | MovedArea | None:
+    """Return the view that is shown: of several side by side the first, which the others follow."""
+    shown = page.main_view()
+    parts: list[QWidget] = [shown, *shown.findChildren(QWidget)]
+    return next(
+        (part for part in parts if isinstance(part, PixelGrid | MovedArea) and part.isVisible()), None
+    )
+
+
+def zoom(page: "StepPage", factor: float) -> None:
+    """Magnify the view, or the timeline that has the keyboard."""
+    view = _view(page)
+    if page.timeline.bar.hasFocus():
+        page.timeline.bar.zoom(1 / factor)
+    elif view is not None:
+        view.zoom_by(factor)
+
+
+def move_view(page: "StepPage", across: int, up: int) -> None:
+    """Look further to a side, by columns and rows (y up)."""
+    view = _view(page)
+    if page.timeline.bar.hasFocus():
+        page.timeline.bar.move_view(across)
+    elif view is not None:
+        view.move_view(across, up)
+
+
+def choose_vertex(page: "StepPage") -> None:
+    """Choose the next vertex to move."""
+    if page.grid.choose_next_vertex() is None:
+        page.tell("No vertex can be moved here. Show the pixels of a triangle in focus (V, F).")
+    else:
+        _tell_vertex(page)
+
+
+def nudge_vertex(page: "StepPage", across: int, up: int) -> None:
+    """Move the chosen vertex by a part of a pixel."""
+    if page.grid.nudge_vertex(NUDGE * across, NUDGE * up):
+        _tell_vertex(page)
+    else:
+        page.tell("Choose a vertex first (Alt+N).")
+
+
+def _tell_vertex(page: "StepPage") -> None:
+    page.tell(f"{page.grid.vertex_text()}. Ctrl+Shift+arrows move it.")

@@ -12,10 +12,10 @@ from PySide6.QtGui import QImage, QPolygonF
 
 from app.pages.page_bar import Page
 from app.session.document import Document
-from app.session.latest_call import LatestCall
+from app.session.document_edits import LatestCall
 from app.session.moment import Moment
 from app.session.session import Session
-from app.views.scene_worker import SceneWorker
+from app.views.scene_frames import SceneWorker
 from core import STAGES
 from core.fast_path import draw_picture
 from core.framebuffer.display import Bytes
@@ -23,7 +23,7 @@ from core.records.arrays import Floats
 from core.scene import AnyScene
 from core.settings import Settings
 from widgets.basics.image import display_image, transparent_image
-from widgets.grid.navigator import Navigator
+from widgets.grid.insets import Navigator
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
 

@@ -7,41 +7,33 @@ from functools import partial
 from PySide6.QtCore import QCoreApplication, QEvent, QThread, Signal, Slot
 from PySide6.QtWidgets import QSplitter, QStackedWidget, QWidget
 
+from app.pages.columns import StepColumns
+from app.pages.lessons.presenter import LessonPresenter
 from app.pages.page_bar import Caption, Page
 from app.pages.step.ab.presenter import ComparePresenter
-from app.pages.step.ask_this import AskThis
-from app.pages.step.depth_table_presenter import DepthTablePresenter
-from app.pages.step.event_choice import EventChoice
-from app.pages.step.grid_presenter import GridPresenter
-from app.pages.step.inspector_column import InspectorColumn
+from app.pages.step.grid_presenter import GridPresenter, PixelMenu
+from app.pages.step.inspector_column import InspectorColumn, SideColumn, StepNarrator
 from app.pages.step.inspector_presenter import InspectorPresenter
-from app.pages.step.lesson_presenter import LessonPresenter
 from app.pages.step.listing_presenter import ListingPresenter
 from app.pages.step.main_area import MainArea
-from app.pages.step.narrator import StepNarrator
 from app.pages.step.navigator_presenter import NavigatorPresenter
 from app.pages.step.panes import PANES, SIDE_PANES
-from app.pages.step.pixel_menu import PixelMenu
-from app.pages.step.prediction_presenter import PredictionPresenter
-from app.pages.step.scene_outline_presenter import SceneOutlinePresenter
+from app.pages.step.questions import AskThis, PredictionPresenter
+from app.pages.step.scene_pane import DepthTablePresenter, SceneOutlinePresenter
 from app.pages.step.shader_presenter import ShaderPresenter, make_shader_pane
-from app.pages.step.side_column import SideColumn
-from app.pages.step.step_columns import StepColumns
-from app.pages.step.stepping_presenter import SteppingPresenter
+from app.pages.step.stepping_presenter import EventChoice, SteppingPresenter
 from app.session.moment import Change, Moment
 from app.session.session import Session
 from app.views.stage_views import StageViews
 from core.scene import AnyScene
 from core.stages.declared import stage_of
-from widgets.basics.accessible import announce
-from widgets.basics.controls import column_layout, row_layout
-from widgets.basics.labels import ElidedLabel
-from widgets.basics.scene_outline import SceneOutline
+from widgets.basics.accessibility import announce
+from widgets.basics.controls import ElidedLabel, column_layout, row_layout
+from widgets.basics.panes import SideTabs
 from widgets.basics.settings_panel import SettingsPanel
-from widgets.basics.side_tabs import SideTabs
-from widgets.grid.navigator import Navigator
-from widgets.grid.overlay_legend import OverlayLegend
-from widgets.tables.depth_table_editor import DepthTableEditor
+from widgets.grid.insets import Navigator, OverlayLegend
+from widgets.scene.depth_table import DepthTableEditor
+from widgets.scene.outline import SceneOutline
 from widgets.timeline.transport import Timeline
 
 PANES_AT_FIRST = ("inspector", "details", "navigator", "run")

@@ -2,14 +2,13 @@
 
 from dataclasses import dataclass, replace
 
-from app.pages.step.guesses import Guesses
+from app.pages.step.grid_overlays import Guesses
+from core.coverage.pixel_runs import Raster
 from core.explain.records import AnswerKind, Question, Verdict
-from core.raster.pixel_runs import Raster
 from core.trace import StageTrace
 from lessons.exercises.answers.choices import ChoiceAnswer
-from lessons.exercises.answers.pixels import PixelAnswer
-from lessons.exercises.next_step import coverage_sentence, next_draft, pixel_sentence
-from lessons.exercises.question import Draft
+from lessons.exercises.answers.marked import PixelAnswer
+from lessons.exercises.question import Draft, coverage_sentence, next_draft, pixel_sentence
 
 KINDS = {"pixels": AnswerKind.GRID, "numbers": AnswerKind.NUMBER, "choice": AnswerKind.CHOICE}
 

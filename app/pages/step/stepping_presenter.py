@@ -4,28 +4,31 @@ from collections.abc import Callable, Iterable
 from functools import partial
 
 import numpy as np
-from PySide6.QtCore import QObject, Signal, Slot
+from PySide6.QtCore import QObject, Qt, Signal, Slot
+from PySide6.QtWidgets import QComboBox
 
 from app.files.state_models import Bookmark, Breakpoints
 from app.pages.page_bar import Page
-from app.pages.step.bookmarks import Bookmarks
-from app.pages.step.breaks import Breaks, line_positions
-from app.session.cursor import Cursor, stepped
-from app.session.moment import Moment
+from app.pages.step.kept_look import Bookmarks, Breaks, line_positions
+from app.session.moment import Cursor, Moment, stepped
 from app.session.session import Session
-from app.views.chapters import chapters_of
+from app.views.stage_views import chapters_of
 from core import STAGES
+from core.coverage.fills import effective_fill
+from core.coverage.pixel_runs import fill_traits
 from core.methods import table
-from core.raster.fills.tested import effective_fill
-from core.raster.fills.traits import fill_traits
 from core.records.arrays import Integers
-from core.records.nouns import nouns
 from core.records.steps import Level
+from core.records.words import nouns
 from core.stages.declared import stage_of
 from core.trace.run_to import next_at_pixel, next_marked
-from widgets.basics.marks import Mark
+from widgets.basics.controls import flat_button
+from widgets.basics.drawing import Mark
 from widgets.timeline.run_picture import TimelineRun
 from widgets.timeline.transport import Timeline
+
+# Stepping: the timeline with its chapters, and running to events, breakpoints and bookmarks.
+
 
 MARKS = {
     "covered": Mark.COVERED,
@@ -356,3 +359,48 @@ def _level_names(moment: Moment) -> dict[Level, str]:
         return names | {Level.GROUP: label if corner_count <= 3 else declared.group_label}
     names[Level.GROUP] = "Ring" if stage == "clip" and corner_count > 3 else declared.group_label
     return names | ({Level.PIXEL: declared.row_label} if declared.row_label else {})
+
+
+# The choice of events above the timeline's bar, with a button to each side that runs to the next one of the
+# kind.
+
+
+class EventChoice(QObject):
+    """Keeps the kind of event that the stepping runs to."""
+
+    def __init__(self, stepping: SteppingPresenter, timeline: Timeline, parent: QObject) -> None:
+        super().__init__(parent)
+        self._stepping = stepping
+        self.box = QComboBox(timeline)
+        for name, title in EVENT_TITLES.items():
+            self.box.addItem(f"Run to: {title}", name)
+        self.box.setAccessibleName("Kind of event")
+        self.box.setToolTip("What N (next) and Shift+N (previous) run to")
+        self.box.activated.connect(self._choose)
+        self.previous_button = flat_button(
+            "<", "Previous event", "Previous event of this kind (Shift+N)", timeline
+        )
+        self.next_button = flat_button(">", "Next event", "Next event of this kind (N)", timeline)
+        self.previous_button.clicked.connect(self._run_back)
+        self.next_button.clicked.connect(self._run_on)
+        for widget in (self.previous_button, self.box, self.next_button):
+            widget.setFocusPolicy(Qt.FocusPolicy.TabFocus)
+            timeline.add_control(widget)
+
+    @Slot()
+    def _run_back(self) -> None:
+        self._stepping.run_to_event(-1)
+
+    @Slot()
+    def _run_on(self) -> None:
+        self._stepping.run_to_event(1)
+
+    @Slot(int)
+    def _choose(self, index: int) -> None:
+        self._stepping.event_kind = self.box.itemData(index)
+
+    def choose(self, name: str) -> None:
+        """Choose the kind of event that N runs to."""
+        if name in EVENT_TITLES:
+            self.box.setCurrentIndex(self.box.findData(name))
+            self._stepping.event_kind = name

@@ -1,33 +1,103 @@
-"""Drawing with worker processes: when, with whom, and what if one of them fails."""
+"""Drawing with worker processes: what is to be drawn, with whom, and what if one of them fails."""
 
 import os
+from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from multiprocessing import current_process
 from threading import Lock
 from time import perf_counter
+from typing import Any
 from weakref import finalize
 
 import numpy as np
 from numpy.typing import NDArray
 
-from core.fast_path.record import Picture
-from core.fast_path.workers.balance import even_cuts, moved_cuts, rows_of
-from core.fast_path.workers.cost_model import Load, load_of
-from core.fast_path.workers.order import Order
+from core.fast_path.draw import draw_picture
+from core.fast_path.draw_context import Picture
 from core.fast_path.workers.sharing import (
     BandTime,
+    Load,
+    Pace,
     Sharing,
+    even_cuts,
     have_colors_of_whole,
     joined_counts,
     joined_route,
+    load_of,
+    moved_cuts,
+    rows_of,
 )
-from core.fast_path.workers.throttle import Pace
 from core.fast_path.workers.worker import Worker, WorkerFailedError
-from core.records.arrays import Integers, read_only
+from core.records.arrays import Flags, Integers, read_only
 from core.records.frame import StageCount
 from core.scene import AnyScene
 from core.settings import Settings
 from core.stages.declared import UNSAMPLED_STAGES
+
+# What is to be drawn, by one process as a whole or by several in bands of rows.
+
+
+@dataclass(frozen=True, eq=False)
+class Order:
+    """What is to be drawn, by however many processes."""
+
+    scene: AnyScene
+    settings: Settings
+    encoding: str
+    depth_at: Integers | None
+    out: NDArray[np.uint8] | None
+
+    def draw(
+        self, out: NDArray[np.uint8] | None, rows: tuple[int, int] | None = None, plain_colors: bool = False
+    ) -> Picture:
+        """Draw rows from first to end, or all, in this process; pixels go to ``out`` (H, W, 4)."""
+        return draw_picture(
+            self.scene,
+            self.settings,
+            encoding=self.encoding,
+            depth_at=self.depth_at if rows is None else self.depth_in(*rows),
+            region=None if rows is None else self.region(*rows),
+            out=out,
+            plain_colors=plain_colors,
+        )
+
+    def region(self, first: int, end: int) -> tuple[int, int, int, int]:
+        """Return the region of rows ``first`` to ``end``."""
+        return 0, first, self.scene.size[0], end - first
+
+    def depth_in(self, first: int, end: int) -> Integers | None:
+        """Return the places in the band of rows ``first`` to ``end`` whose depth is asked for."""
+        return (
+            None if self.depth_at is None else self.depth_at[self.is_in(first, end)] - first * self.shape[1]
+        )
+
+    def is_in(self, first: int, end: int) -> Flags:
+        """Return which pixels whose depth is asked for (N,) are in rows ``first`` to ``end``."""
+        assert self.depth_at is not None
+        columns = self.shape[1]
+        return (self.depth_at >= first * columns) & (self.depth_at < end * columns)
+
+    def joined_depth(
+        self, rows: Sequence[tuple[int, int]], of_bands: Sequence[NDArray[Any] | None]
+    ) -> NDArray[Any] | None:
+        """Return the depth (N,) that is asked for, from that of the bands of ``rows``."""
+        if self.depth_at is None or of_bands[0] is None:
+            return None
+        depth = np.empty(len(self.depth_at), of_bands[0].dtype)
+        for band, found in zip(rows, of_bands, strict=True):
+            depth[self.is_in(*band)] = found
+        return read_only(depth)
+
+    @property
+    def shape(self) -> tuple[int, int, int]:
+        """Of the pixels: rows, columns, 4."""
+        width, height = self.scene.size
+        return height, width, 4
+
+
+# Drawing with worker processes: when, with whom, and what if one of them fails.
+
 
 DEFAULT_PROCESSES = 2
 """Every process does the vertices and the culling of all triangles again, so each one more gains less."""

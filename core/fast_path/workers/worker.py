@@ -18,9 +18,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from core.fast_path.workers.balance import band_pixels, byte_count
-from core.fast_path.workers.messages import Sender
-from core.fast_path.workers.serving import READY, BandDone, BandFailed, BandOrder, serve
+from core.fast_path.workers.serving import READY, BandDone, BandFailed, BandOrder, Sender, serve
+from core.fast_path.workers.sharing import band_pixels, byte_count
 from core.records.arrays import Integers
 from core.scene import AnyScene
 from core.settings import Settings

@@ -10,11 +10,21 @@ from core.fast_path import draw_picture
 from core.records.arrays import Floats, Integers
 from core.scene import AnyScene
 from core.settings import Settings
-from core.study.accuracy.timing import collector_off
-from core.study.planner.phrases import capitalized, in_bytes, phrase
 from core.study.planner.planning import plan
-from core.study.planner.records import Decision, Outcome, Plan, PlanReport, Tolerance, Watch, unwatched
+from core.study.planner.records import (
+    Decision,
+    Outcome,
+    Plan,
+    PlanReport,
+    Tolerance,
+    Watch,
+    capitalized,
+    in_bytes,
+    phrase,
+    unwatched,
+)
 from core.study.planner.trials import difference, shown
+from core.study.record import collector_off
 
 ROUNDS = 5
 

@@ -18,7 +18,7 @@ def reference_settings(scene: AnyScene, base: Settings | None = None) -> Setting
     Notes
     -----
     The reference is the picture of 16 samples a pixel, each of them lit and textured by itself. The mean of 256 samples
-    is nearer to the truth (see ``core.study.accuracy.sampled``), but it is no method that could be chosen: at an
+    is nearer to the truth (see ``core.antialiasing.measured``), but it is no method that could be chosen: at an
     edge of full contrast even 16 samples are sixteenths away from it, so no plan at all would be within 2/255.
     """
     wished = base or Settings()

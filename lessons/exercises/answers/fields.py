@@ -11,10 +11,20 @@ from typing import Any, ClassVar, Literal
 
 from core.records.cells import Form
 from core.records.words import counted
-from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict, placed
-from lessons.exercises.answers.cells import Entry, Value, behind, exact, is_blank, random_number, with_heads
-from lessons.exercises.draws import Draws
-from lessons.exercises.numbers import Number, number_text
+from lessons.exercises.answers.answer import (
+    Answer,
+    Entry,
+    NotCheckedError,
+    Value,
+    Verdict,
+    behind,
+    exact,
+    is_blank,
+    placed,
+    random_number,
+    with_heads,
+)
+from lessons.exercises.numbers import Draws, Number, number_text
 
 Numbers = tuple[Number, ...]
 Row = tuple[Value, ...]

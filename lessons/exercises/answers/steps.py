@@ -8,9 +8,18 @@ from typing import ClassVar
 
 from core.records.cells import Form, StepLine, StepsState
 from core.records.words import counted
-from lessons.exercises.answers.answer import Answer, NotCheckedError, Verdict
-from lessons.exercises.answers.cells import Entry, Value, behind, exact, exact_pair, with_heads
-from lessons.exercises.draws import Draws
+from lessons.exercises.answers.answer import (
+    Answer,
+    Entry,
+    NotCheckedError,
+    Value,
+    Verdict,
+    behind,
+    exact,
+    exact_pair,
+    with_heads,
+)
+from lessons.exercises.numbers import Draws
 
 Tries = tuple[Value, ...]
 """What was tried at a step, in order; ``FIXED`` last where the program put it right."""

@@ -8,15 +8,25 @@ from itertools import product
 from typing import Any, ClassVar
 
 from core import Settings
+from core.coverage.snapping import window_position
 from core.methods import table
-from core.raster.edges.snapping import window_position
 from core.records.cells import Corner, Form
 from core.scene import ClipScene
 from core.settings import FAMILIES, with_method
-from lessons.exercises.answers.answer import CANDIDATES, Answer, NotCheckedError, Verdict, spread
-from lessons.exercises.answers.cells import Dial, Entry, behind, exact, is_blank, with_heads
-from lessons.exercises.draws import Draws
-from lessons.exercises.numbers import number_text
+from lessons.exercises.answers.answer import (
+    CANDIDATES,
+    Answer,
+    Dial,
+    Entry,
+    NotCheckedError,
+    Verdict,
+    behind,
+    exact,
+    is_blank,
+    spread,
+    with_heads,
+)
+from lessons.exercises.numbers import Draws, number_text
 
 Values = tuple[Fraction, ...]
 """Of the dials, in their order."""

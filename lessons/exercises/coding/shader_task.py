@@ -11,10 +11,10 @@ from core import Settings, render
 from core.lanes.problem import Place, Problem
 from core.lanes.run import bounded
 from core.scene import Scene, Texture
-from core.shaders.fragment_stage import texture_colors_of
 from core.shaders.glsl_types import MATRICES, GlslValue, component_count, from_rows
-from core.shaders.samplers import Sampler
+from core.shaders.rules import Sampler
 from core.shaders.shader import SECONDS, Outcome, Shader, compile_shader
+from core.shaders.stages import texture_colors_of
 from lessons.exercises.coding.task import Case, Task
 from lessons.exercises.coding.triangles import numbers_text
 

@@ -10,10 +10,8 @@ import numpy as np
 
 from core import Settings
 from core.edits.typed import Shape, returned, surroundings
-from core.lanes.limits import LISTING, line_rounds
-from core.lanes.listings import compile_listing
-from core.lanes.problem import Problem
-from core.lanes.program import Program
+from core.lanes.problem import LISTING, Problem, line_rounds
+from core.lanes.program import Program, compile_listing
 from core.lanes.python_values import Log, at_lane
 from core.scene import ClipScene
 from lessons.exercises.asked_text import parts_of

@@ -1,20 +1,19 @@
 """All tasks by name, as files name them."""
 
-from lessons.exercises.coding import (
-    fragment_shaders,
-    interpolations,
-    lines,
-    pictures,
-    pixels,
-    triangles,
-    vertex_shaders,
-)
+from lessons.exercises.coding import fragment_shaders, lines, pixels, triangles, vertex_shaders
 from lessons.exercises.coding.task import Task
 
 TASKS: dict[str, Task] = {
     task.name: task
-    for module in (lines, triangles, interpolations, pixels, pictures, vertex_shaders, fragment_shaders)
-    for task in module.TASKS
+    for tasks in (
+        lines.TASKS,
+        triangles.TASKS,
+        pixels.TASKS,
+        lines.PICTURES,
+        vertex_shaders.TASKS,
+        fragment_shaders.TASKS,
+    )
+    for task in tasks
 }
 
 

@@ -5,8 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from lessons.exercises.coding.fragment_shaders import DIFFUSE
-from lessons.exercises.coding.shader_scenes import matte
+from lessons.exercises.coding.fragment_shaders import DIFFUSE, matte
 from lessons.exercises.coding.shader_task import HEAD, ShaderTask
 from lessons.exercises.coding.task import Case, Fault
 

@@ -8,11 +8,9 @@ import numpy as np
 from core import Settings
 from core.framebuffer.display import srgb_byte
 from core.scene import ClipScene, Texture
-from lessons.exercises.draws import Draws
-from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, template
-from lessons.exercises.refutation import Refutation
-from lessons.exercises.templates.believing import believed
+from lessons.exercises.drafting import believed
+from lessons.exercises.numbers import Draws, number_text
+from lessons.exercises.question import Draft, Refutation, template
 from lessons.small_scenes import EVERYWHERE, rectangle_corners, triangle_scene
 
 BLACK, WHITE = np.array([0.0, 0.0, 0.0, 1.0]), np.array([1.0, 1.0, 1.0, 1.0])

@@ -1,10 +1,9 @@
 """Beliefs about pixels, ties, lines and blocks."""
 
 from core import Settings
-from lessons.exercises.draws import Draws, reject
-from lessons.exercises.question import Draft, template
-from lessons.exercises.refutation import Refutation
-from lessons.exercises.templates.believing import believed
+from lessons.exercises.drafting import believed
+from lessons.exercises.numbers import Draws, reject
+from lessons.exercises.question import Draft, Refutation, template
 from lessons.exercises.templates.coverage import SIZE
 from lessons.exercises.templates.lines import d_values
 from lessons.small_scenes import pixel_segments, rectangle_corners, triangle_scene

@@ -4,11 +4,9 @@ from dataclasses import replace
 from fractions import Fraction
 
 from core.scene import Scene
-from lessons.exercises.draws import Draws
-from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, template
-from lessons.exercises.refutation import Refutation
-from lessons.exercises.templates.believing import believed, eye_scene
+from lessons.exercises.drafting import believed, eye_scene
+from lessons.exercises.numbers import Draws, number_text
+from lessons.exercises.question import Draft, Refutation, template
 from lessons.exercises.templates.transforms import sketched
 from lessons.small_scenes import triangle_scene
 

@@ -6,17 +6,14 @@ from math import inf, isinf
 import numpy as np
 
 from core import Settings, render
-from core.assembly.depth_tables import table_scene
-from core.framebuffer.depth_formats import unsigned_depth
+from core.depth.formats import unsigned_depth
+from core.depth.whole_depths import table_scene
 from core.records.arrays import Floats
 from core.records.depth_table import DepthTable, text_of_depths
 from core.scene import ClipScene
 from lessons.exercises.answers.choices import OrderAnswer
 from lessons.exercises.answers.fields import Column, Rows, TableAnswer, empty_rows, followed
-from lessons.exercises.draws import Draws, reject
-from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import (
+from lessons.exercises.drafting import (
     by_rule,
     drafted,
     listed,
@@ -26,6 +23,8 @@ from lessons.exercises.templates.drafting import (
     several,
     table,
 )
+from lessons.exercises.numbers import Draws, number_text, reject
+from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.fragments import follow_buffer
 from lessons.mistakes.depths import cards
 from lessons.mistakes.shelf import RULES, SHELF

@@ -7,16 +7,11 @@ from typing import Any
 import numpy as np
 
 from core import Settings, render
-from core.raster.edges.fill_rule import shared_edge
-from core.raster.edges.snapping import snap_one
-from lessons.exercises.answers.pixels import PixelAnswer
+from core.coverage.fill_rule import shared_edge
+from core.coverage.snapping import snap_one
+from lessons.exercises.answers.marked import PixelAnswer
 from lessons.exercises.coding.triangles import edge_of
-from lessons.exercises.drawn_scene import window_text
-from lessons.exercises.draws import Draws, reject
-from lessons.exercises.numbers import number_text
-from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
-from lessons.exercises.templates.drafting import (
+from lessons.exercises.drafting import (
     by_rule,
     drafted,
     factor_text,
@@ -26,7 +21,11 @@ from lessons.exercises.templates.drafting import (
     place_text,
     several,
     table,
+    window_text,
 )
+from lessons.exercises.numbers import Draws, number_text, reject
+from lessons.exercises.question import Draft, template
+from lessons.exercises.templates.coverage import Corner, corner_text, twice_area
 from lessons.exercises.templates.transforms import sketched, wholes
 from lessons.mistakes.coverage import owns_level, owns_slanted
 from lessons.mistakes.shelf import RULES

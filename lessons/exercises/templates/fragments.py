@@ -9,7 +9,7 @@ import numpy as np
 from core import STAGES, Settings, render
 from core.records.frame import Frame
 from core.scene import ClipScene
-from lessons.exercises.answers.cells import Value
+from lessons.exercises.answers.answer import Value
 from lessons.exercises.answers.choices import OrderAnswer
 from lessons.exercises.answers.fields import (
     Column,
@@ -22,10 +22,10 @@ from lessons.exercises.answers.fields import (
     TableAnswer,
     number_rows,
 )
-from lessons.exercises.draws import Draws, reject
+from lessons.exercises.drafting import TOLERANCE, WITHIN, drafted, factor_text, listed
+from lessons.exercises.numbers import Draws, reject
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import Corner, corner_text, facing_text, twice_area
-from lessons.exercises.templates.drafting import TOLERANCE, WITHIN, drafted, factor_text, listed
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import EVERYWHERE, triangle_scene
 

@@ -6,11 +6,10 @@ from typing import Any
 from core import Settings, render
 from lessons.exercises.answers.fields import Numbers
 from lessons.exercises.coding.triangles import edge_of
-from lessons.exercises.draws import Draws, reject
-from lessons.exercises.numbers import number_text
+from lessons.exercises.drafting import by_rule, listed, numbers, place_text, table
+from lessons.exercises.numbers import Draws, number_text, reject
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import corner_text, facing_text, twice_area
-from lessons.exercises.templates.drafting import by_rule, listed, numbers, place_text, table
 from lessons.exercises.templates.fragments import NAMES, attributes_at, triangle_and_pixel, weights_at
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.transforms import dot

@@ -7,12 +7,11 @@ from fractions import Fraction
 import numpy as np
 
 from core import Settings
+from core.antialiasing.resolve import tent
 from core.framebuffer.display import srgb_byte
-from core.framebuffer.resolve import tent
-from lessons.exercises.draws import Draws
-from lessons.exercises.numbers import number_text
+from lessons.exercises.drafting import by_rule, listed, numbers
+from lessons.exercises.numbers import Draws, number_text
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import by_rule, listed, numbers
 from lessons.mistakes.depths import Layer, cards
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import EVERYWHERE, triangle_scene

@@ -11,14 +11,12 @@ from core import Settings, Texture, render
 from core.records.arrays import Flags
 from core.records.frame import Frame
 from core.scene import ClipScene
-from lessons.exercises.answers.pixels import PixelAnswer, Pixels
+from lessons.exercises.answers.marked import PixelAnswer, Pixels
 from lessons.exercises.coding.triangles import edge_of
-from lessons.exercises.drawn_scene import seen_pixels, window_text
-from lessons.exercises.draws import Draws, reject
-from lessons.exercises.numbers import number_text
+from lessons.exercises.drafting import drafted, factor_text, listed, pictured, seen_pixels, window_text
+from lessons.exercises.numbers import Draws, number_text, reject
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, Corner, corner_text, facing_text, row_hint, twice_area
-from lessons.exercises.templates.drafting import drafted, factor_text, listed, pictured
 from lessons.mistakes.coverage import in_window
 from lessons.mistakes.shelf import SHELF
 from lessons.small_scenes import rectangle_corners, triangle_scene

@@ -3,15 +3,13 @@
 from fractions import Fraction
 
 from core import Settings, clip_lines
-from lessons.exercises.answers.places import PlaceAnswer
-from lessons.exercises.drawn_scene import DrawnScene, window_text
-from lessons.exercises.draws import Draws, reject
+from lessons.exercises.answers.marked import PlaceAnswer
+from lessons.exercises.drafting import DrawnScene, drafted, factor_text, run_exactly, window_text
 from lessons.exercises.file_answers import corner_answer
-from lessons.exercises.numbers import number_text
+from lessons.exercises.numbers import Draws, number_text, reject
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.clipping import PARAMETERS, SIZE, cut_ends, segment_text
 from lessons.exercises.templates.coverage import RULE, corner_text, twice_area
-from lessons.exercises.templates.drafting import drafted, factor_text, run_exactly
 from lessons.exercises.templates.fragments import NAMES
 from lessons.mistakes.shelf import RULES, SHELF
 from lessons.mistakes.transforms import dot

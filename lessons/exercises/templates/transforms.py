@@ -4,13 +4,12 @@ from collections.abc import Mapping, Sequence
 from fractions import Fraction
 from typing import Any
 
-from core.geometry.matrices import viewport
-from core.records.sketch import Sketch
+from core.records.cells import Sketch
+from core.transform.matrices import viewport
 from lessons.exercises.answers.choices import OrderAnswer
-from lessons.exercises.draws import Draws, reject
-from lessons.exercises.numbers import number_text
+from lessons.exercises.drafting import by_rule, drafted, factor_text, listed, numbers, place_text
+from lessons.exercises.numbers import Draws, number_text, reject
 from lessons.exercises.question import Draft, template
-from lessons.exercises.templates.drafting import by_rule, drafted, factor_text, listed, numbers, place_text
 from lessons.mistakes.transforms import Turn
 
 TURNS: tuple[Turn, ...] = tuple(

@@ -7,8 +7,8 @@ from threading import Thread, get_ident
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.background.collecting import Collecting
-from core.study.accuracy.timing import collector_off
+from app.background import Collecting
+from core.study.record import collector_off
 
 
 class Ring:

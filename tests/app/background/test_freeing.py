@@ -2,14 +2,14 @@
 
 from threading import get_ident
 
-from app.background import freeing
-from app.background.freeing import Freeing
+from app import background
+from app.background import Freeing
 
 
 def test_memory_is_given_back_once_and_off_the_gui_thread(qtbot, monkeypatch):
     threads = []
-    monkeypatch.setattr(freeing, "PAUSE", 1)
-    monkeypatch.setattr(freeing, "give_back", lambda: threads.append(get_ident()))
+    monkeypatch.setattr(background, "PAUSE", 1)
+    monkeypatch.setattr(background, "give_back", lambda: threads.append(get_ident()))
     back = Freeing()
     for _ in range(3):
         back.ask()

@@ -7,8 +7,8 @@ import pytest
 from PySide6.QtCore import QThread
 from pytestqt.qtbot import QtBot
 
-from app.background import workers
-from app.background.workers import Job, ending_within, is_work_left
+from app import background
+from app.background import Job, ending_within, is_work_left
 
 
 class Large:
@@ -63,12 +63,12 @@ def test_ended_threads_are_held_no_longer(qtbot: QtBot) -> None:
 
 
 def test_work_without_end_is_left(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(workers, "_left", [])
+    monkeypatch.setattr(background, "_left", [])
     job, is_over = Job(), Event()
     job.call(is_over.wait)
     with ending_within(0.05):
         job.shut_down()
     assert is_work_left()
     is_over.set()
-    (left,) = workers._left
+    (left,) = background._left
     assert left.wait()

@@ -5,8 +5,7 @@ from threading import Event
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.background.turns import CancelledWaitError, Turns
-from app.background.workers import JobGroup
+from app.background import CancelledWaitError, JobGroup, Turns
 
 
 def test_work_waits_for_that_of_another_page_and_names_it(qtbot: QtBot) -> None:

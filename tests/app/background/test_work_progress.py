@@ -4,8 +4,7 @@ from pytestqt.qtbot import QtBot
 
 from app.pages.experiment_page import ExperimentPage, WorkWords
 from app.window.main_window import MainWindow
-from widgets.basics.message_bar import Progress
-from widgets.basics.run_panel import RunPanel
+from widgets.basics.message_bar import Progress, RunPanel
 
 
 def test_the_progress_of_opening_names_the_file(window: MainWindow) -> None:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import bootstrap
-from app.bench.scenes import WORKLOADS
+from app.bench.workloads import WORKLOADS
 
 
 def run_program(*arguments: str) -> "subprocess.CompletedProcess[str]":

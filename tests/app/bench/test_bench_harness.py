@@ -11,18 +11,11 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.bench import ours, pillow_peer, run
-from app.bench.chart import chart_svg
-from app.bench.contender import Contender, Prepared, UnavailableError
-from app.bench.goals import GOALS, SHARED_GOALS, Goal, goal_of
-from app.bench.harness import Result, run_workload
-from app.bench.libraries import LIBRARIES
-from app.bench.machine import this_machine
-from app.bench.random_triangles import random_triangles
-from app.bench.records import TypedPicture
-from app.bench.report import foot_text, result_text
-from app.bench.results_file import results_text
-from app.bench.scenes import WORKLOADS, Workload
-from app.bench.timing import SHORT_CALLS, time_in_turn
+from app.bench.harness import LIBRARIES, SHORT_CALLS, Result, run_workload, time_in_turn
+from app.bench.records import Contender, Prepared, TypedPicture, UnavailableError, random_triangles
+from app.bench.report import GOALS, SHARED_GOALS, Goal, foot_text, goal_of, result_text, this_machine
+from app.bench.run import chart_svg, results_text
+from app.bench.workloads import WORKLOADS, Workload
 
 SMALL = Workload("B", "a few triangles", lambda: random_triangles(1, 40, (40, 30), 40.0))
 """Has the name of a workload with goals."""

@@ -7,15 +7,24 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from app.bench import cold_start, ours, ours_child, ours_shared, pillow_peer, trimesh_peer
-from app.bench.meshes import TO_LIGHT, textured_floor, viewed
-from app.bench.random_triangles import large_triangle, random_triangles
-from app.bench.records import ColdStart, Lighting, Lines, MeshFile, ViewedMesh, Work
+from app.bench import ours, ours_child, ours_shared, pillow_peer, trimesh_peer
+from app.bench.harness import cold_contender
+from app.bench.records import (
+    ColdStart,
+    Lighting,
+    Lines,
+    MeshFile,
+    ViewedMesh,
+    Work,
+    large_triangle,
+    random_triangles,
+)
 from app.bench.reference import Difference, compare, make_reference
-from app.opengl_check.shapes import icosphere
+from app.bench.workloads import TO_LIGHT, textured_floor, viewed
+from app.opengl_check.cases import icosphere
 from core.fast_path.workers import Sharing
-from core.geometry.matrices import projection, world_to_camera
 from core.scene import Camera
+from core.transform.matrices import projection, world_to_camera
 from lessons import shapes
 
 
@@ -125,7 +134,7 @@ def test_all_readers_give_the_mesh_of_the_file(extension: str) -> None:
 @pytest.mark.slow
 def test_a_fresh_process_draws_the_same_picture() -> None:
     work = random_triangles(1, 50, (64, 48), 40.0)
-    contender = cold_start.contender(ours, ColdStart(work))
+    contender = cold_contender(ours, ColdStart(work))
     assert contender is not None
     with ExitStack() as stack:
         pixels = contender.prepare(stack).run()

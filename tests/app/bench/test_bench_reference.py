@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from app.bench.projection import project
-from app.bench.records import Lines, ViewedMesh, WindowTriangles
+from app.bench.records import Lines, ViewedMesh, WindowTriangles, project
 from app.bench.reference import compare, cover_triangles, make_reference
-from app.bench.scenes import WORKLOADS, small_triangles
+from app.bench.workloads import WORKLOADS, small_triangles
 from core import draw_lines
 
 RED, GREEN = (255, 20, 30, 255), (40, 250, 50, 255)

@@ -6,11 +6,9 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.bench.machine import this_machine
-from app.bench.window.event_loop import Answer
-from app.bench.window.figures import COLUMNS, csv_text, figures_of, table_text
-from app.bench.window.run import opened_scene
-from app.bench.window.script import Amount, Sample, Script, opened_window
+from app.bench.report import this_machine
+from app.bench.window import COLUMNS, csv_text, figures_of, opened_scene, table_text
+from app.bench.window_script import Amount, Answer, Sample, Script, opened_window
 from core import STAGES
 
 

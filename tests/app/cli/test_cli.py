@@ -23,10 +23,10 @@ from core import STAGES, Settings, render, trace
 from core.framebuffer.display import picture_bytes, to_display
 from core.methods import table
 from core.scene import ClipScene
-from core.trace.symbols import symbols_of
+from core.trace.conditions import symbols_of
+from lessons.lectures.catalogue import LECTURES
+from lessons.lectures.scenes import ALL_SCENES
 from lessons.scenes import make_scene, scene_names
-from lessons.slides.catalogue import LECTURES
-from lessons.slides.scenes import ALL_SCENES
 from tests.app.cli.cli_runs import ROOT, run_program, start_program
 from tests.app.files.mesh_writing import SQUARE, write
 from tests.covering import in_turn

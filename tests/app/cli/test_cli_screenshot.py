@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from app.export.atlas import atlas_json
+from app.pages.stability.atlas_files import atlas_json
 from core.study.stability import Axis, experiments, stress
 from tests.app.cli.cli_runs import ROOT, refused
 

@@ -5,10 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from app.files.attempts import attempt_file
-from lessons.attempts.lesson_steps import lesson_attempt
-from lessons.course.catalogue import shipped
-from lessons.course.lesson_file import read_lesson
+from app.files.user_folders import attempt_file
+from lessons.attempts.record import lesson_attempt
+from lessons.course.catalogue import read_lesson, shipped
 from tests.app.cli.cli_runs import refused, run_program
 from tests.lessons.course.lesson_texts import GOOD
 

@@ -11,7 +11,7 @@ from app.files.state_files import State, StateFileError, load_state
 from core import render
 from core.shaders.presets import PRESETS, TASK_FRAGMENT, TASK_VERTEX, preset_program
 from core.shaders.record import ShaderProgram
-from lessons.slides.scenes import scene_named
+from lessons.lectures.scenes import scene_named
 from tests.app.cli.cli_runs import refused, run_program
 from tests.app.files.states import again, assert_same
 

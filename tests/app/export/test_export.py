@@ -10,11 +10,11 @@ from PySide6.QtSvg import QSvgRenderer
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QScrollArea, QWidget
 
 from app.export.views import copy_widget, export_widget, widget_image
-from app.files.file_writing import FileWriteError
+from app.files.file_access import FileWriteError
 from core import Settings, render
 from core.explain.records import Formula
 from lessons.scenes import make_scene
-from widgets.grid.buffer import GridBuffer
+from widgets.grid.layers import GridBuffer
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
 from widgets.inspector.formula_view import FormulaView

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.export.atlas import atlas_json
-from app.files.atlas_files import AtlasFileError, load_atlas
+from app.pages.stability.atlas_files import AtlasFileError, atlas_json, load_atlas
 from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
 from core.study.stability import Axis, experiments, stress
@@ -21,7 +20,7 @@ from tests.app.pages.stability.stability_pages import (
     stability_page,
     wait_for_case,
 )
-from widgets.atlas.records import CellPlace
+from widgets.experiments.maps import CellPlace
 
 
 @pytest.fixture

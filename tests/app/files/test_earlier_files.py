@@ -7,14 +7,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from app.files.atlas_files import load_atlas
 from app.files.open_any import open_any
 from app.files.state_files import State, load_state, save_state
 from app.files.state_models import Bookmark, Breakpoints, Look
-from app.files.study_files import load_study
+from app.pages.compare.study_files import load_study
+from app.pages.stability.atlas_files import load_atlas
 from core import Settings
+from core.coverage.edges import covers
 from core.pipeline import render
-from core.raster.edges.edge_functions import covers
 from core.records.listing import listing
 
 EARLIER = Path(__file__).parent / "earlier"

@@ -6,7 +6,7 @@ import sys
 
 import pytest
 
-from app.files.file_writing import FileWriteError, check_writable, whole_file, write_file
+from app.files.file_access import FileWriteError, check_writable, whole_file, write_file
 
 
 def test_the_file_appears_when_it_is_whole(tmp_path):

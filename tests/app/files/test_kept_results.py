@@ -9,13 +9,13 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.files.file_writing import FileWriteError
-from app.files.kept_results import LARGEST, KeptResults, remove_oldest, results_folder, write_result
-from app.files.study_files import load_study, study_json
+from app.files.file_access import FileWriteError
+from app.files.kept_work import LARGEST, KeptResults, remove_oldest, results_folder, write_result
 from app.pages.compare.page import ComparePage
+from app.pages.compare.study_files import load_study, study_json
 from app.session.document import open_document
 from app.window.main_window import MainWindow
-from core.study.stability.open_scene import NAME as OPEN_SCENE
+from core.study.fragment_cases import NAME as OPEN_SCENE
 from lessons.scenes import built_in_scene
 from tests.app.pages.compare.compare_pages import compare_page, hand_made, measured
 

@@ -10,7 +10,7 @@ import time
 import numpy as np
 import pytest
 
-from app.files import input_files, mesh_process
+from app.files import file_access, mesh_files
 from app.files.mesh_files import (
     EXTENSIONS,
     MeshFileError,
@@ -20,8 +20,8 @@ from app.files.mesh_files import (
     open_mesh,
 )
 from app.files.mesh_formats import obj, reading
-from core.geometry.vertex_stage import transform_vertices
 from core.scene import Mesh
+from core.transform.vertex_stage import transform_vertices
 from lessons.shapes import cube, knot, torus
 from tests.app.files.mesh_writing import SQUARE, GltfWriter, stl_binary, write, write_image
 
@@ -115,7 +115,7 @@ def test_a_file_without_permission_is_refused(tmp_path, monkeypatch):
         def refuse(*arguments):
             raise PermissionError(13, "Permission denied")
 
-        monkeypatch.setattr(input_files, "_open_at_once", refuse)
+        monkeypatch.setattr(file_access, "_open_at_once", refuse)
     with pytest.raises(MeshFileError, match=r"a\.obj may not be read: permission is denied"):
         open_mesh(path)
 
@@ -188,7 +188,7 @@ def test_cancelling_takes_effect_soon_and_leaves_nothing(tmp_path, kind, monkeyp
         processes.append(start(*arguments, **options))
         return processes[-1]
 
-    monkeypatch.setattr(mesh_process.subprocess, "Popen", started)
+    monkeypatch.setattr(mesh_files.subprocess, "Popen", started)
     seen, asked = [], []
 
     def is_cancelled():
@@ -207,7 +207,7 @@ def test_cancelling_takes_effect_soon_and_leaves_nothing(tmp_path, kind, monkeyp
 
 
 def test_a_reader_that_dies_is_an_error(tmp_path, monkeypatch):
-    monkeypatch.setattr(mesh_process, "START", "import os; os._exit(3)")
+    monkeypatch.setattr(mesh_files, "START", "import os; os._exit(3)")
     with pytest.raises(MeshFileError, match=r"a\.obj cannot be read: its reader ended"):
         open_mesh(write(tmp_path / "a.obj", SQUARE), None, never)
 
@@ -217,25 +217,25 @@ def test_what_a_reader_prints_does_not_disturb_the_result(tmp_path, monkeypatch)
         "def noisy(path, report):\n    print('noise', flush=True)\n    return r(path, report)\n"
         "m.read_file = noisy\n"
     )
-    before, serve = mesh_process.START.rsplit("; ", 1)
-    monkeypatch.setattr(mesh_process, "START", f"{before}\n{noisy}{serve}")
+    before, serve = mesh_files.START.rsplit("; ", 1)
+    monkeypatch.setattr(mesh_files, "START", f"{before}\n{noisy}{serve}")
     loaded = load_meshes(write(tmp_path / "a.obj", SQUARE + "f 1 2 3\n"), None, never)
     assert len(loaded.meshes) == 1
 
 
 def test_a_program_without_a_console_reads_too(tmp_path, monkeypatch):
     """Such as ``pythonw``: it has no standard error."""
-    before, serve = mesh_process.START.rsplit("; ", 1)
-    monkeypatch.setattr(mesh_process, "START", f"{before}; sys.stderr = None; {serve}")
+    before, serve = mesh_files.START.rsplit("; ", 1)
+    monkeypatch.setattr(mesh_files, "START", f"{before}; sys.stderr = None; {serve}")
     loaded = load_meshes(write(tmp_path / "a.obj", SQUARE + "f 1 2 3\n"), None, never)
     assert len(loaded.meshes) == 1
 
 
 def test_a_reader_that_nobody_listens_to_any_more_is_quiet(tmp_path):
     path = write(tmp_path / "a.obj", SQUARE + "f 1 2 3\n")
-    order = [json.dumps([str(mesh_process.PROJECT), *filter(None, sys.path)]), str(path), ""]
+    order = [json.dumps([str(mesh_files.PROJECT), *filter(None, sys.path)]), str(path), ""]
     with subprocess.Popen(
-        [sys.executable, "-P", "-c", mesh_process.START, *order],
+        [sys.executable, "-P", "-c", mesh_files.START, *order],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
     ) as process:

@@ -4,9 +4,8 @@ from random import Random
 
 import pytest
 
-from app.files.mesh_formats import obj_lines
-from app.files.mesh_formats.alike_lines import corner_rows, decimal_rows, runs_of_lines
-from app.files.mesh_formats.obj_lines import read_lines
+from app.files.mesh_formats import obj
+from app.files.mesh_formats.obj import corner_rows, decimal_rows, read_lines, runs_of_lines
 from app.files.mesh_formats.reading import MeshFileError
 from tests.app.files.mesh_writing import write
 
@@ -49,7 +48,7 @@ def test_lines_read_together_say_what_each_says(tmp_path, monkeypatch):
         path = write(tmp_path / "a.obj", "\n".join(lines))
         together = outcome(path)
         with monkeypatch.context() as patch:
-            patch.setattr(obj_lines, "FEWEST_ALIKE", 10**9)
+            patch.setattr(obj, "FEWEST_ALIKE", 10**9)
             assert outcome(path) == together, f"seed {seed}"
         refused += together.startswith("a.obj, line ")
     assert 30 < refused < 270

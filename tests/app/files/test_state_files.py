@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.files.file_writing import FileWriteError
+from app.files.file_access import FileWriteError
 from app.files.open_any import open_any
 from app.files.state_files import EXTENSION, State, StateFileError, load_state, readable_json, save_state
 from app.session.document import open_document

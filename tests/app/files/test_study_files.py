@@ -12,14 +12,21 @@ import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 
-from app.export.study import export_study, study_content, study_csv, study_sheet
-from app.files.study_files import StudyFileError, load_study, study_json
+from app.pages.compare.study_files import (
+    StudyFileError,
+    export_study,
+    load_study,
+    study_content,
+    study_csv,
+    study_json,
+    study_sheet,
+)
 from app.pages.words import digits, time_text
 from core import Settings
 from core.study import ErrorMeasure, Point, Study, WorkKind, machine, measure, pareto_front
-from core.study.accuracy.record import Axis
+from core.study.record import Axis
 from widgets.basics.theme import DARK, LIGHT, current_theme, paint_as
-from widgets.charts.chart import Chart
+from widgets.experiments.chart import Chart
 
 
 @pytest.fixture(scope="module")

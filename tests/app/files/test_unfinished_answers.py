@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.files.unfinished_answers import Unfinished, UnfinishedFile
+from app.files.kept_work import Unfinished, UnfinishedFile
 from app.files.user_folders import ANSWERS
 from lessons.exercises.catalogue import TEMPLATES
 

@@ -4,7 +4,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.window.main_window import MainWindow
-from lessons.guide import guide
+from lessons.help import guide
 
 
 @pytest.mark.parametrize("title", ["Change a method", "Let two plates fight"])

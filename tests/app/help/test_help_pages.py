@@ -5,23 +5,20 @@ from functools import cache
 
 import pytest
 
-from app.help.asked import slides
-from app.help.library import GUIDES, find_page, guide_page, page
-from app.help.places import occurrences, places
-from app.help.reference import listings_of
-from app.session.printed_run import runnable
+from app.help.library import GUIDES, find_page, guide_page, occurrences, page, places
+from app.help.reference import listings_of, slides
+from app.session.listing_runs import runnable
 from app.views.stage_views import VIEWS
 from app.window.actions import ACTIONS
 from core.methods import table
 from core.settings import FAMILIES
 from core.stages.declared import STAGES
-from core.study.accuracy.families import study_families
+from core.study.families import study_families
 from core.study.stability import experiments
 from lessons.exercises.asked import topics
 from lessons.exercises.catalogue import TEMPLATES
-from lessons.glossary import find_terms, glossary
-from lessons.guide import guide
-from lessons.slides.scenes import ALL_SCENES
+from lessons.help import find_terms, glossary, guide
+from lessons.lectures.scenes import ALL_SCENES
 
 
 @cache

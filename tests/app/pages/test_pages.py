@@ -11,12 +11,12 @@ from PySide6.QtWidgets import QLabel
 from pytestqt.qtbot import QtBot
 
 import app.pages
-from app.files.preferences import Preferences, load_preferences
+from app.files.between_starts import Preferences, load_preferences
 from app.pages.page_bar import StepRequest
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import Settings
-from core.study.accuracy.record import Opening
+from core.study.record import Opening
 from lessons.scenes import built_in_scene, make_scene
 
 pytestmark = pytest.mark.shared_window

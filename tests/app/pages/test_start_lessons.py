@@ -8,14 +8,12 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.files.attempts import attempt_file
-from app.files.lesson_folders import own_folder
-from app.pages.start.lessons import EXPLORATIONS, OTHERS
-from app.pages.start.page import StartPage
+from app.files.user_folders import attempt_file, own_lesson_folder
+from app.pages.lessons.lesson_list import EXPLORATIONS, OTHERS
+from app.pages.start_page import StartPage
 from app.window.main_window import MainWindow
-from lessons.attempts.lesson_steps import lesson_attempt
-from lessons.course.catalogue import Course, Exploration
-from lessons.course.lesson_file import Lesson, read_lesson
+from lessons.attempts.record import lesson_attempt
+from lessons.course.catalogue import Course, Exploration, Lesson, read_lesson
 from tests.lessons.course.lesson_texts import GOOD
 
 pytestmark = pytest.mark.shared_window
@@ -27,11 +25,11 @@ def lessons(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> list[Lesson]:
     """Two lessons of a lecturer, and no others."""
     monkeypatch.setenv("RASTERSCOPE_CONFIG", str(tmp_path / "data"))
     monkeypatch.setattr("lessons.course.catalogue.shipped", lambda: Course({}))
-    own_folder().mkdir(parents=True)
+    own_lesson_folder().mkdir(parents=True)
     texts = {"one": GOOD, "two": GOOD.replace("Whose pixel?", "Whose row?").replace("raster", "resolve", 1)}
     for name, text in texts.items():
-        (own_folder() / f"{name}.toml").write_text(text)
-    return [read_lesson(own_folder() / f"{name}.toml") for name in texts]
+        (own_lesson_folder() / f"{name}.toml").write_text(text)
+    return [read_lesson(own_lesson_folder() / f"{name}.toml") for name in texts]
 
 
 @pytest.fixture
@@ -117,7 +115,7 @@ def test_single_steps_open_where_they_surprise(
 def test_a_broken_lesson_is_named_and_the_others_are_listed(
     window: MainWindow, page: StartPage, qtbot: QtBot
 ) -> None:
-    (own_folder() / "three.toml").write_text(GOOD.replace("minutes = 5", "minutes = 0"))
+    (own_lesson_folder() / "three.toml").write_text(GOOD.replace("minutes = 5", "minutes = 0"))
     shown(window, qtbot)
     assert "three.toml: line 4: minutes: expected" in window.messages.text.text()
     assert [card.entry.name for card in page.lesson_list.cards] == ["one", "two"]

@@ -4,8 +4,7 @@ from dataclasses import replace
 
 import pytest
 
-from app.session.held_bytes import held_arrays
-from app.session.history import BYTES_LIMIT, LIMIT, History
+from app.session.history import BYTES_LIMIT, LIMIT, History, held_arrays
 from core.scene import Scene
 from lessons.scenes import make_scene
 

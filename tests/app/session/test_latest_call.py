@@ -2,7 +2,7 @@
 
 from pytestqt.qtbot import QtBot
 
-from app.session.latest_call import LatestCall
+from app.session.document_edits import LatestCall
 
 
 def test_the_first_call_is_made_at_once_and_of_those_that_wait_the_last(qtbot: QtBot) -> None:

@@ -5,9 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from app.session.scene_values import outline
+from app.pages.step.scene_pane import outline
 from core import ClipScene, Scene
-from core.geometry.vertex_stage import transform_vertices
+from core.transform.vertex_stage import transform_vertices
 from lessons.scene_edits import (
     clip_of_window,
     join_shared,
@@ -18,7 +18,7 @@ from lessons.scene_edits import (
     window_of_clip,
 )
 from lessons.scenes import make_scene
-from widgets.basics.scene_outline import OutlineGroup
+from widgets.scene.outline import OutlineGroup
 
 number = st.floats(-500, 500)
 

@@ -7,7 +7,7 @@ from app.session.document import open_document
 from app.session.session import Session
 from app.views.clip_diagram import clip_diagram, clip_state, is_in_ndc
 from core import ClipScene, Settings
-from core.geometry.culling import plane_distances
+from core.culling.culling import plane_distances
 from lessons.scenes import make_scene
 
 CLIPPED = Settings(clipping="sutherland-hodgman")

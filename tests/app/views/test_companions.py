@@ -12,14 +12,14 @@ from app.views.companions import COMPANIONS, entered_diagram, new_depths
 from app.window.main_window import MainWindow
 from core import Settings
 from core.settings import settings_from_texts
-from core.trace.geometry_progress import SPACES, spaces_reached
+from core.transform.traced import SPACES, spaces_reached
+from lessons.lectures.scenes import ALL_SCENES, LECTURE_SCENES
 from lessons.scenes import make_scene
-from lessons.slides.scenes import ALL_SCENES, LECTURE_SCENES
 from widgets.basics.style_sheet import style_sheet
 from widgets.basics.theme import current_theme
+from widgets.inspector.step_table import StepTableView
 from widgets.space.diagram import CUBE, Diagram
 from widgets.space.view import SpaceView
-from widgets.tables.step_table_view import StepTableView
 
 pytestmark = pytest.mark.shared_window
 

@@ -13,7 +13,7 @@ from lessons.scenes import make_scene
 from tests.app.views.following import Following
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import LIGHT, PRESENTER, for_screen
-from widgets.timeline.phases import Phases
+from widgets.timeline.stage_cards import Phases
 
 
 def shown(qtbot: QtBot, scene: str) -> tuple[Session, Phases, StageViews]:

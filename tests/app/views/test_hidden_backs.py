@@ -6,12 +6,11 @@ import numpy as np
 import pytest
 
 from app.session.document import open_document
-from app.views.hidden_backs import FEWEST, HiddenBacks
-from app.views.scene_picture import DrawnScene, SceneShot, draw_scene
+from app.views.scene_picture import FEWEST, DrawnScene, HiddenBacks, SceneShot, draw_scene
 from app.views.view_space import make_space, viewing_camera
 from core import Camera, Scene
 from core.fast_path.workers import BandWorkers
-from core.geometry.vertex_stage import transform_vertices
+from core.transform.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
 from lessons.shapes import cube, torus
 from widgets.basics.theme import LIGHT
@@ -79,7 +78,7 @@ def test_a_mesh_that_is_edited_is_looked_at_when_it_stays():
 @pytest.mark.parametrize("kind", ["few triangles", "clip space"])
 def test_what_is_not_worth_it_is_not_looked_at(kind, monkeypatch):
     scene = scene_with(cube()) if kind == "few triangles" else make_scene("shared-edge")
-    monkeypatch.setattr("app.views.hidden_backs.is_solid", None)
+    monkeypatch.setattr("app.views.scene_picture.is_solid", None)
     backs = HiddenBacks()
     assert len(cube().triangles) < FEWEST
     assert not backs.are_hidden(scene)

@@ -10,27 +10,35 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from app.session.document import open_document
-from app.views.hidden_backs import HiddenBacks
-from app.views.scene_figures import (
+from app.views.scene_frames import (
     COLORS,
     VISIBILITIES,
     FrameFigures,
+    SceneWorker,
     drawing_text,
     figures_text,
     fixed_size,
     size_choices,
 )
-from app.views.scene_lines import SpaceLine, find_line_pixels, paint_lines, visible_part
-from app.views.scene_picture import SceneShot, draw_scene, sight_places, triangle_seen
-from app.views.scene_worker import SceneWorker
+from app.views.scene_picture import (
+    HiddenBacks,
+    SceneShot,
+    SpaceLine,
+    draw_scene,
+    find_line_pixels,
+    paint_lines,
+    sight_places,
+    triangle_seen,
+    visible_part,
+)
 from app.views.view_space import make_space, thinned, viewed_scene, viewing_camera
 from core import STAGES, Settings, render
+from core.culling.culling import plane_distances
 from core.fast_path import Route, Split, draw_picture
-from core.fast_path.record import Coloring, Visibility
+from core.fast_path.draw_context import Coloring, Visibility
 from core.fast_path.workers import BandTime, BandWorkers, Sharing
-from core.geometry.culling import plane_distances
-from core.geometry.vertex_stage import transform_vertices
 from core.records.frame import StageCount
+from core.transform.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
 from widgets.basics.theme import LIGHT
 from widgets.space.orbit import fitted

@@ -9,17 +9,15 @@ from PySide6.QtWidgets import QApplication
 
 from app.session.document import focus_on, open_document
 from app.session.session import Session
-from app.views.pointed_pixel import shown_triangle
+from app.views.companions import PyramidView
+from app.views.pointed_pixel import no_texture_reason, shown_triangle
 from app.views.scene3d_presenter import ASKED, DRAWING
 from app.views.scene_picture import fractions
-from app.views.stage_view import PyramidView
 from app.views.stage_views import StageViews
-from app.views.step_marks import step_marks
-from app.views.texture_footprint import no_texture_reason
-from app.views.view_space import make_space, thinned, viewed_scene, viewing_camera
+from app.views.view_space import make_space, step_marks, thinned, viewed_scene, viewing_camera
 from core import Settings, render
 from core.fast_path.workers import BandWorkers
-from core.geometry.vertex_stage import transform_vertices
+from core.transform.vertex_stage import transform_vertices
 from lessons.scenes import make_scene
 from tests.app.views.following import Following
 from widgets.basics.style_sheet import apply_theme
@@ -198,7 +196,7 @@ def test_hover_and_pin_are_marked_with_their_rays(show):
 
 
 def test_a_ray_ends_on_the_surface_that_is_seen(show):
-    from app.views.pixel_ray import pixel_ray
+    from app.views.pointed_pixel import pixel_ray
 
     session, views, _ = show("scene", "cube")
     source, space = session.trace.source, views.scene_presenter.space

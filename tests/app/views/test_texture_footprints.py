@@ -5,7 +5,7 @@ import pytest
 
 from app.session.document import focus_on, open_document
 from app.session.session import Session
-from app.views.texture_footprint import (
+from app.views.pointed_pixel import (
     PIXEL_SQUARE,
     no_texture_reason,
     pixel_in_texture,
@@ -13,7 +13,7 @@ from app.views.texture_footprint import (
     tile_shift,
 )
 from core import ClipScene, Settings, Texture
-from core.fragments.interpolation import plane_value, value_plane
+from core.interpolation.interpolation import plane_value, value_plane
 from lessons.scenes import make_scene
 
 

@@ -14,11 +14,11 @@ from pytestqt.qtbot import QtBot
 from app.pages.stability.records import cell_kinds
 from app.window.main_window import MainWindow
 from tests.covering import is_everything
-from widgets.atlas.canvas import cell_pixmap
-from widgets.basics.marks import draw_mark
-from widgets.basics.pane_splitter import PaneSplitter
+from widgets.basics.drawing import draw_mark
+from widgets.basics.panes import PaneSplitter
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, Theme
+from widgets.experiments.map_canvas import cell_pixmap
 from widgets.timeline.bar import TimelineBar
 from widgets.timeline.run_picture import FLAGS, LANES, TimelineRun
 

@@ -7,7 +7,7 @@ from PySide6.QtTest import QTest
 
 from app.session.document import open_document
 from app.window.actions import ACTIONS
-from app.window.key_choices import KeyChoices, choices_from, is_character
+from app.window.keys import KeyChoices, choices_from, is_character
 from app.window.main_window import MainWindow
 from lessons.scenes import built_in_scene
 

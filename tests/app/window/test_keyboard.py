@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QSplitterHandle, QT
 from app.window import focus_walk
 from app.window.main_window import MainWindow
 from tests.covering import is_everything
-from widgets.basics.focus_order import ArrowGroup, tab_stops
+from widgets.basics.accessibility import ArrowGroup, tab_stops
 from widgets.space.scene_view import SceneView
 
 pytestmark = pytest.mark.shared_window

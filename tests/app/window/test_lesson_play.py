@@ -7,9 +7,9 @@ import pytest
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication
 
-from app.files.attempts import attempt_file
-from app.window.lesson_play import hidden_window, play
+from app.files.user_folders import attempt_file
 from app.window.main_window import MainWindow
+from app.window.unattended import hidden_window, play
 from lessons.course.catalogue import shipped
 from tests.app.cli.cli_runs import run_program
 from tests.lessons.course.lesson_texts import GOOD

@@ -2,7 +2,7 @@
 
 import pytest
 
-from core.records.sentences import sentence_case, sentences
+from core.records.words import sentence_case, sentences
 
 
 @pytest.mark.parametrize(

@@ -8,7 +8,7 @@ from pytestqt.qtbot import QtBot
 
 from app.window.main_window import MainWindow
 from tests.app.window.new_user import NewUser
-from widgets.inspector.pixel_story import ENTRY_ROLE
+from widgets.inspector.pixel_history import ENTRY_ROLE
 
 pytestmark = pytest.mark.shared_window
 MOST_ACTIONS = 6

@@ -6,8 +6,7 @@ import sys
 
 import pytest
 
-from app.files.file_writing import FileWriteError
-from app.files.preferences import (
+from app.files.between_starts import (
     FILE_NAME,
     RECENT_LIMIT,
     Preferences,
@@ -15,6 +14,7 @@ from app.files.preferences import (
     save_preferences,
     with_recent_file,
 )
+from app.files.file_access import FileWriteError
 from app.files.user_folders import preferences_folder
 
 

@@ -14,13 +14,13 @@ from app.pages.experiment_page import ExperimentPage
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES
-from lessons.slides.scenes import ALL_SCENES
+from lessons.lectures.scenes import ALL_SCENES
 from tests.covering import in_turns, is_everything
-from widgets.basics.key_claim import KeyClaim
+from widgets.basics.accessibility import KeyClaim
 from widgets.basics.message_bar import Message, MessageKind
 from widgets.basics.theme import current_theme
+from widgets.inspector.step_table import StepTableView
 from widgets.space.scene_view import SceneView
-from widgets.tables.step_table_view import StepTableView
 
 SIZES = [(1280, 720), (1920, 1080)]
 CTRL_SHIFT = Qt.KeyboardModifier.ControlModifier | Qt.KeyboardModifier.ShiftModifier

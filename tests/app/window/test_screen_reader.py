@@ -19,7 +19,7 @@ from pytestqt.qtbot import QtBot
 
 from app.window.main_window import MainWindow
 from tests.lessons.course.lesson_texts import GOOD
-from widgets.basics import accessible
+from widgets.basics import accessibility
 from widgets.basics.message_bar import MessageKind
 
 pytestmark = pytest.mark.shared_window
@@ -38,7 +38,7 @@ def heard(monkeypatch: pytest.MonkeyPatch) -> Iterator[Heard]:
             texts.append((event.politeness().name, event.message()))
 
     monkeypatch.setattr(QAccessible, "updateAccessibility", staticmethod(hear))
-    monkeypatch.setattr(accessible, "NOTICE_PLATFORMS", ())
+    monkeypatch.setattr(accessibility, "NOTICE_PLATFORMS", ())
     QAccessible.setActive(True)
     yield texts
     QAccessible.setActive(False)
@@ -124,10 +124,10 @@ def test_where_orca_listens_each_announcement_is_a_notice_that_appears(
             said.append(notice.text(QAccessible.Text.Name))
 
     monkeypatch.setattr(QAccessible, "updateAccessibility", staticmethod(hear))
-    monkeypatch.setattr(accessible, "NOTICE_PLATFORMS", (QGuiApplication.platformName(),))
+    monkeypatch.setattr(accessibility, "NOTICE_PLATFORMS", (QGuiApplication.platformName(),))
     for texts in (("First.",), ("Second.", "Third."), ("Second.",)):
         for text in texts:
-            accessible.announce(window.page.sentence, text)
+            accessibility.announce(window.page.sentence, text)
         QApplication.processEvents()
     assert said == ["First.", "Second. Third.", "Second."]
     assert not heard

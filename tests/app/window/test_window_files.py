@@ -11,17 +11,17 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from app.files.between_starts import load_preferences
 from app.files.file_dialogs import SaveDialog
 from app.files.open_any import open_any
-from app.files.preferences import load_preferences
 from app.files.state_files import EXTENSION
 from app.session.document import open_document
 from app.window.main_window import MainWindow
-from app.window.reopening import reopen
+from app.window.start import reopen
 from core.records.steps import Level
 from core.scene import Scene
+from lessons.lectures.scenes import LECTURE_SCENES
 from lessons.scenes import built_in_scene
-from lessons.slides.scenes import LECTURE_SCENES
 from tests.app.files.mesh_writing import write_image
 from tests.covering import is_everything
 from widgets.basics.theme import DARK, current_theme

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from core.antialiasing.sample_rasters import bands_of
+from core.antialiasing.resolve import bands_of
+from core.coverage.pixel_runs import make_raster
 from core.pipeline import draw_supersampled
-from core.raster.pixel_runs import make_raster
 from core.records.arrays import Singles, read_only
 from core.scene import AnyScene
 from core.settings import Settings

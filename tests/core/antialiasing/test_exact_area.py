@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
 from core.antialiasing.exact_area import draw_pieces
-from core.raster.pixel_runs import make_raster
+from core.coverage.pixel_runs import make_raster
 from core.records.frame import StageCount
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, draw_picture, pipeline, render
+from core.antialiasing.resolve import resolve_samples
+from core.coverage.pixel_runs import make_raster
 from core.framebuffer.display import to_display
-from core.framebuffer.resolve import resolve_samples
 from core.pipeline import draw
-from core.raster.pixel_runs import make_raster
 from tests.core.trace.trace_cases import EACH_METHOD, SCENES, name_of, settings_of
 from tests.covering import every_pair, in_turn
 
@@ -157,7 +157,7 @@ def test_other_pictures_take_the_plain_way(antialiasing):
 
 def test_resolving_is_the_rule():
     frame = render(SCENES["clip"], Settings(antialiasing="msaa-4", resolve_filter="tent"))
-    from core.framebuffer.resolve import filter_weights
+    from core.antialiasing.resolve import filter_weights
 
     weights = filter_weights(frame.samples.position, "tent")
     assert np.array_equal(resolve_samples(frame.samples.color, weights), frame.color)

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import render
-from core.assembly.primitives import (
+from core.transform.assembly import (
     ASSEMBLIES,
     assemble,
     line_loop,

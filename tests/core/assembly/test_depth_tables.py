@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from core.assembly.depth_tables import table_scene
-from core.explain.history.sentences import verdict_sentence
+from core.depth.whole_depths import table_scene
 from core.fast_path.draw import draw_picture
 from core.framebuffer.display import to_display
 from core.pixel_history import why
+from core.pixel_history.told import verdict_sentence
 from core.records.depth_table import (
     DEPTH_TESTS,
     MOST_DEPTH,
@@ -23,7 +23,7 @@ from core.records.depth_table import (
 from core.scene import ClipScene
 from core.stages.declared import STAGES
 from core.trace import TraceSource
-from lessons.depth_tables import LEVEL, SLOPING, depth_table, two_triangles, two_triangles_turned
+from lessons.window_scenes import LEVEL, SLOPING, depth_table, two_triangles, two_triangles_turned
 
 COMPARE = {"<": float.__lt__, "≤": float.__le__, ">": float.__gt__, "≥": float.__ge__}
 

@@ -23,8 +23,6 @@ from core.edits.typed import Typed
 from core.explain import formula
 from core.explain.edited import edited_step
 from core.explain.steps import sentence
-from core.fragments.edited_slopes import slopes_of_edit
-from core.fragments.lighting import blinn_phong
 from core.framebuffer.display import to_display
 from core.lanes.problem import Problem
 from core.methods import table
@@ -32,7 +30,10 @@ from core.pixel_history import why
 from core.records.listing import EditedListing
 from core.settings import families
 from core.shaders.presets import preset_program
-from lessons.mistakes import clipping, coverage, depths, fragments, lighting, textures
+from core.shading.lighting import blinn_phong
+from core.textures.footprints import slopes_of_edit
+from lessons.mistakes import clipping, coverage, depths, fragments, surfaces
+from lessons.mistakes import surfaces as textures
 from lessons.scenes import make_scene
 
 TWINS = {
@@ -351,7 +352,7 @@ LIGHTS = {
 
 @pytest.mark.parametrize("name", LIGHTS)
 def test_a_mistake_in_the_light_that_is_an_edit_of_a_line_is_its_formula(name):
-    rule = next(rule for rule in lighting.RULES if rule.name == name)
+    rule = next(rule for rule in surfaces.RULES if rule.name == name)
     typed = Typed(blinn_phong, edit("shading", *LIGHTS[name]).text)
     right = Typed(blinn_phong, original("shading", "phong").source)
     for numbers in (rule.shows, rule.hides):

@@ -9,8 +9,7 @@ import pytest
 
 from core import Settings, draw_lines, render
 from core.edits import EDITABLE, Edit, apply_edit, original, refusal
-from core.lanes.limits import LISTING
-from core.lanes.problem import Problem
+from core.lanes.problem import LISTING, Problem
 from core.methods import table
 from lessons.small_scenes import triangle_scene
 from tests.core.trace.trace_cases import lit_scene, textured_clip_scene

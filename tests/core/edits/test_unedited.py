@@ -10,9 +10,9 @@ from core.edits import EDITABLE, Edit, apply_edit, edits_of, original, place_of,
 from core.edits.typed import Typed
 from core.explain import variables
 from core.lanes.python_values import at_lane
+from core.lines.line_method import check_segments
 from core.methods import table
 from core.pixel_history import why
-from core.raster.lines.records import check_segments
 from core.stages.needs import refusal as refusal_of_scene
 from lessons.mistakes.twin import frame_bytes
 from lessons.scenes import make_scene, scene_names

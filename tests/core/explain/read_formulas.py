@@ -10,9 +10,9 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from core.explain.arithmetic import in_full, is_arithmetic, work_out
+from core.explain.formulas import Chain
 from core.explain.latex import split_cells
-from core.explain.statements import Chain
+from core.explain.term_latex import in_full, is_arithmetic, work_out
 from core.records.terms import Applied, Leaf, ListOf, Operation, Prefix, Term
 
 RELATIONS = ("=", "<", ">", r"\le", r"\ge", r"\ne", r"\approx", r"\equiv")

@@ -11,13 +11,11 @@ from pytestqt.qtbot import QtBot
 
 from core import ClipScene, Settings, trace
 from core.explain import formula
-from core.explain.arithmetic import work_out
-from core.explain.formulas import Stated, call, formula_of, named, on_grid
+from core.explain.formulas import Stated, call, formula_of, is_same, named, on_grid
 from core.explain.latex import split_cells
 from core.explain.number_text import latex_text
 from core.explain.records import Formula
-from core.explain.statements import is_same
-from core.explain.term_latex import TermLatex
+from core.explain.term_latex import TermLatex, work_out
 from core.records.terms import Operation, Term, term
 from core.trace import Explanation
 from tests.core.explain.explained_steps import all_said, rare_trace, steps_of

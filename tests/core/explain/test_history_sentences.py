@@ -8,7 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings
-from core.explain.history.sentences import (
+from core.methods import table
+from core.pixel_history import Link, PixelHistory, why
+from core.pixel_history.told import (
     COUNTED,
     SENTENCES,
     count_sentences,
@@ -16,8 +18,6 @@ from core.explain.history.sentences import (
     link_sentence,
     verdict_sentence,
 )
-from core.methods import table
-from core.pixel_history import Link, PixelHistory, why
 from core.settings import families
 from core.trace.source import TraceSource
 from tests.core.strategies import ANY_TRIANGLES

@@ -13,27 +13,27 @@ from typing import Any
 import numpy as np
 
 from core import STAGES, ClipScene, Settings, Trace, trace
+from core.depth.told import passes
 from core.edits import Edit, apply_edit, original
 from core.explain import account, initial_sentence, summary_sentence
-from core.explain.history.sentences import (
+from core.explain.latex import plain_text
+from core.explain.step_tables import step_table
+from core.explain.step_values import StepValues
+from core.methods import table
+from core.pixel_history import Link, PixelHistory, why
+from core.pixel_history.told import (
     count_sentences,
     event_reason,
     event_title,
     link_sentence,
     verdict_sentence,
 )
-from core.explain.latex import plain_text
-from core.explain.step_tables import step_table
-from core.explain.step_values import StepValues
-from core.explain.subjects.depth import passes
-from core.methods import table
-from core.pixel_history import Link, PixelHistory, why
 from core.records.steps import Level
 from core.scene import AnyScene
 from core.trace import Explanation, StageTrace
 from core.trace.source import TraceSource
+from lessons.lectures.scenes import ALL_SCENES, clipped, degenerate, frustum_segments
 from lessons.scenes import built_in_scene, make_scene, window_triangle
-from lessons.slides.scenes import ALL_SCENES, clipped, degenerate, frustum_segments
 from tests.core.explain.explained_steps import (
     ROWS,
     Step,

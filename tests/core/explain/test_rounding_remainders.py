@@ -7,9 +7,9 @@ import pytest
 
 from core import STAGES, Settings, trace
 from core.explain import sentence
-from core.explain.digits import remainder_note
+from core.explain.number_text import remainder_note
 from core.trace import StageTrace
-from lessons.slides.scenes import ALL_SCENES
+from lessons.lectures.scenes import ALL_SCENES
 from tests.core.explain.explained_steps import places_of, step_at
 
 TINY = re.compile(r"e−1[4-9]\b")

@@ -7,11 +7,10 @@ import pytest
 
 from core import STAGES, Settings
 from core.explain import question
-from core.explain.rows import ROWS, explains
-from core.explain.step_values import row_key
+from core.explain.step_values import ROWS, explains, row_key
 from core.explain.steps import load_subjects, row_of
 from core.methods import table
-from lessons.printed.catalogue import PRINTED
+from lessons.lectures.catalogue import PRINTED
 from tests.core.explain.explained_steps import all_steps, fewest_traces, line_trace, traces
 from tests.covering import is_everything
 
@@ -38,9 +37,7 @@ def test_every_operation_has_a_row_and_every_row_an_operation() -> None:
 
 def test_a_key_has_one_row() -> None:
     load_subjects()
-    with pytest.raises(
-        ValueError, match=r"depth\.\*\.compare has a row already, in core.explain.subjects.depth"
-    ):
+    with pytest.raises(ValueError, match=r"depth\.\*\.compare has a row already, in core.depth.told"):
         explains("depth.*.compare")(lambda step: "")
 
 

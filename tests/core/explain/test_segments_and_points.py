@@ -7,7 +7,7 @@ import pytest
 from core import STAGES, Settings, trace
 from core.explain import formula, sentence, variables
 from core.explain.latex import plain_text
-from core.raster.lines.points import point_listing
+from core.lines.drawing import point_listing
 from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import steps_of
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, trace
+from core.antialiasing import traced_areas
 from core.explain import formula, sentence
-from core.trace import pixel_cuts
 from lessons.scenes import make_scene
 
 # The triangle with window corners (1, 1), (7, 1), (1, 7) on 8 x 8 pixels, by hand:
@@ -18,7 +18,7 @@ AREA = Settings(antialiasing="area")
 
 
 def test_cuts_that_are_left_out_are_said_to_be(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(pixel_cuts, "MOST_NUMBERS", 1)
+    monkeypatch.setattr(traced_areas, "MOST_NUMBERS", 1)
     found = trace(ClipScene([[[-1, -1, 0, 1], [1, -1, 0, 1], [-1, 1, 0, 1]]], size=(1, 1)), AREA).stage(
         "resolve"
     )

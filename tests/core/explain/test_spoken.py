@@ -6,8 +6,8 @@ import pytest
 
 import core
 from core.explain import formula
+from core.explain.latex import spoken
 from core.explain.records import Formula
-from core.explain.spoken import spoken
 from lessons.scenes import built_in_scene
 
 SAID = {

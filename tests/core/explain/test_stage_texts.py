@@ -9,7 +9,7 @@ from core.methods import table
 from core.settings import FAMILIES, families
 from core.stages.declared import DECLARED, stage_of
 from lessons.scenes import make_scene
-from widgets.timeline.stage_card import StageCardView
+from widgets.timeline.stage_cards import StageCardView
 
 
 def test_the_texts_follow_the_stages() -> None:

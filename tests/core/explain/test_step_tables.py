@@ -5,11 +5,11 @@ import pytest
 
 from core import Settings, trace
 from core.explain.step_tables import has_tables, step_table
-from core.geometry.line_clipping.cohen_sutherland import cohen_sutherland_listing
-from core.geometry.line_clipping.liang_barsky import liang_barsky_listing
-from core.records.tables import StepTable
+from core.lines.cohen_sutherland import cohen_sutherland_listing
+from core.lines.parametric_clipping import liang_barsky_listing
+from core.records.steps import StepTable
 from core.trace import StageTrace
-from lessons.slides.scenes import clipped
+from lessons.lectures.scenes import clipped
 
 WINDOW = (4.0, 3.0, 12.0, 9.0)
 """Borders of the clip window that the lectures' scenes have, in pixels."""

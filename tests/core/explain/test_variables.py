@@ -11,8 +11,7 @@ from core.explain import variables
 from core.explain.latex import plain_text
 from core.explain.records import Variable
 from core.explain.step_values import StepValues
-from core.explain.steps import load_subjects
-from core.explain.variable_text import GIVEN, HIDDEN, VARIABLES, VariableText, shows, variables_of
+from core.explain.steps import GIVEN, HIDDEN, VARIABLES, VariableText, load_subjects, shows, variables_of
 from core.trace import Explanation
 from tests.core.explain.explained_steps import all_said, rare_trace
 from widgets.inspector.variables import VariablesView, value_text

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture
-from core.geometry.matrices import camera_axes
+from core.transform.matrices import camera_axes
 from tests.core.meshes import icosphere, torus
 
 SPANS = Settings(fill="spans", depth="fixed-38")

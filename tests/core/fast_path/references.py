@@ -4,7 +4,7 @@ import numpy as np
 
 from core import STAGES, Scene, Settings, Texture, draw_picture, render
 from core.fast_path.depth_free import THIN
-from core.fast_path.record import Picture
+from core.fast_path.draw_context import Picture
 from core.framebuffer.display import to_display
 from core.records.frame import StageCount
 from core.scene import AnyScene

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, DirectionalLight, Material, Mesh, PointLight, Scene, Settings, Texture, draw_picture
-from core.fast_path.lit.by_mesh import MOST
+from core.fast_path.lit import MOST
 from lessons.shapes import cube, sphere, torus
 from tests.core.fast_path.references import PHONG, assert_deferred, assert_lit
 from tests.covering import every_pair

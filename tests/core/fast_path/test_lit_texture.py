@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, DirectionalLight, Material, Mesh, Scene, Settings, Texture, draw_picture
-from core.fast_path.lit.corner_places import CornerPlaces
-from core.fast_path.lit.textured import position_error
+from core.fast_path.lit import position_error
+from core.fast_path.lit_planes import CornerPlaces
 from core.methods import table
 from lessons.shapes import knot, sphere, torus
 from tests.core.fast_path.references import assert_lit, noise

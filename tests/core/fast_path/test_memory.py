@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from core import Camera, ClipScene, DirectionalLight, Mesh, Scene, Settings, draw_picture
-from core.numeric.buffers import ScratchBuffers
+from core.numeric.large_arrays import ScratchBuffers
 from core.scene import AnyScene
 from lessons.shapes import sphere
 from tests.core.fast_path.references import exact_bytes

@@ -9,10 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, draw_picture, render
-from core.fast_path import multisampled
+from core.coverage.number_formats import number_format
+from core.fast_path import sampled
 from core.framebuffer.display import encode_linear, to_display
 from core.methods import table
-from core.raster.number_formats.number_format import number_format
 from lessons.scenes import make_scene
 from tests.core.strategies import ANY_TRIANGLES
 from tests.core.trace.trace_cases import CHOICES, MIXES, SCENES, name_of, settings_of
@@ -77,7 +77,7 @@ def test_a_region_is_the_crop_whatever_the_bands(monkeypatch, resolve_filter):
     scene = replace(make_scene("torus"), size=(64, 48))
     settings = Settings(antialiasing="msaa-4", resolve_filter=resolve_filter)
     whole = draw_picture(scene, settings).pixels
-    monkeypatch.setattr(multisampled, "BAND", 200)
+    monkeypatch.setattr(sampled, "BAND", 200)
     assert np.array_equal(draw_picture(scene, settings).pixels, whole)
     for column, row, columns, rows in ((0, 0, 20, 48), (13, 7, 30, 20), (50, 40, 14, 8)):
         part = draw_picture(scene, settings, region=(column, row, columns, rows))

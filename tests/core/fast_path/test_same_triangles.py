@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from core import Settings
 from core.methods import table
-from core.raster.spans.bands import BIG_AREA
+from core.spans.bands import BIG_AREA
 from tests.core.fast_path.numbered import assert_same
 from tests.core.raster.spans.adversarial import SIZES, mixed, projected
 from tests.core.strategies import clip_of_window

@@ -1,6 +1,6 @@
 """Which side of a triangle is seen, written plainly."""
 
-from core.fragments.shading import centroids, outward_normals
+from core.shading.shading import centroids, outward_normals
 
 
 def is_seen_from_behind(position, normal, corners, eye):

@@ -8,10 +8,10 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render, trace
-from core.fragments.barycentric import NO_AREA, WAYS
-from core.fragments.interpolation import FEW_PRIMITIVES, Interpolator, interpolate, set_up_planes
+from core.interpolation.barycentric import NO_AREA, WAYS
+from core.interpolation.interpolation import FEW_PRIMITIVES, Interpolator, interpolate, set_up_planes
 from core.methods import table
-from lessons.slides.scenes import ALL_SCENES
+from lessons.lectures.scenes import ALL_SCENES
 from tests.core.strategies import clip_of_window
 
 UNIT = 2.0**-53

@@ -8,9 +8,9 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
-from core.fragments.corrected_affine import corrected_affine, largest_affine_error, place_anchors
-from core.fragments.interpolation import affine, perspective, plane_value, set_up_planes, value_plane
-from core.raster.edges.snapping import place_corners
+from core.coverage.snapping import place_corners
+from core.interpolation.corrected_affine import corrected_affine, largest_affine_error, place_anchors
+from core.interpolation.interpolation import affine, perspective, plane_value, set_up_planes, value_plane
 from core.trace import trace
 from tests.core.exact_reference import determinant, homogeneous_window
 from tests.core.strategies import perspective_triangles

@@ -9,8 +9,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from core import Texture
-from core.fragments.footprint_mean import PIECE_LIMIT, footprint_means
-from core.fragments.textures import texture_colors, wrapped_index
+from core.textures.footprints import PIECE_LIMIT, footprint_means
+from core.textures.look_up import texture_colors, wrapped_index
 
 WRAPS = ["repeat", "clamp", "mirror"]
 TEXTURE = Texture(np.random.default_rng(11).random((3, 5, 3)).astype(np.float32))

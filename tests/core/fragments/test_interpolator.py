@@ -5,8 +5,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.fragments.interpolation import FEW_PRIMITIVES, Interpolator, interpolate, perspective, set_up_planes
-from core.fragments.mixing import BLOCK, LocalNumbers
+from core.interpolation.interpolation import (
+    FEW_PRIMITIVES,
+    Interpolator,
+    interpolate,
+    perspective,
+    set_up_planes,
+)
+from core.interpolation.mixing import BLOCK, LocalNumbers
 from core.methods import table
 from core.records.primitives import CornerValues
 

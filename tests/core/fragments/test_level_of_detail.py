@@ -8,22 +8,19 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, Texture, render
-from core.fragments.footprint_mean import footprint_means
-from core.fragments.interpolation import interpolate, set_up_planes
-from core.fragments.level_of_detail import choose_levels
-from core.fragments.mipmap_samples import mipmap_colors, sample_mipmaps
-from core.fragments.mipmaps import mipmap_levels
-from core.fragments.textures import texture_colors
-from core.fragments.uv_slopes import uv_slopes
+from core.coverage.fills import Fragments
+from core.coverage.pixel_runs import make_raster
+from core.coverage.snapping import place_corners
+from core.interpolation.interpolation import interpolate, set_up_planes
 from core.methods import table
-from core.raster.coverage import Fragments
-from core.raster.edges.snapping import place_corners
-from core.raster.pixel_runs import make_raster
 from core.records.frame import StageCount
 from core.records.primitives import CornerValues, own_corners
 from core.stages.declared import STAGES
 from core.stages.fragments import texture_slopes
 from core.stages.vertices import process_geometry
+from core.textures.footprints import footprint_means, uv_slopes
+from core.textures.look_up import texture_colors
+from core.textures.mipmaps import choose_levels, mipmap_colors, mipmap_levels, sample_mipmaps
 from core.trace.source import TraceSource
 from tests.core.exact_reference import determinant, homogeneous_window
 from tests.core.fragments.test_footprint_mean import slope_footprint

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from core import Texture
-from core.fragments.mipmaps import halve, mipmap_levels
+from core.textures.mipmaps import halve, mipmap_levels
 
 SIZES = [(1, 1), (8, 8), (5, 3), (7, 1), (1, 6), (13, 10), (3, 17)]
 

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.fragments.packed_texture import PackedSampler, has_bytes, is_packable, linear_levels
-from core.fragments.textures import texture_colors
 from core.framebuffer.display import encode_linear, encode_srgb, from_display
 from core.scene import Texture
+from core.textures.look_up import texture_colors
+from core.textures.packed import PackedSampler, has_bytes, is_packable, linear_levels
 
 WRAPS = ["repeat", "clamp", "mirror"]
 SIZES = [(1, 1), (2, 8), (7, 5), (16, 16), (64, 3)]

@@ -3,8 +3,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.fragments.lighting import plain_lights, plain_material
-from core.fragments.shading import (
+from core.methods import table
+from core.scene import DirectionalLight, Material, PointLight
+from core.shading.lighting import plain_lights, plain_material
+from core.shading.shading import (
     blinn_phong,
     face_normals,
     light_surface,
@@ -13,8 +15,6 @@ from core.fragments.shading import (
     shaded_color,
     trace_lighting,
 )
-from core.methods import table
-from core.scene import DirectionalLight, Material, PointLight
 from tests.core.fragments.seen_sides import is_seen_from_behind
 
 DOWN = DirectionalLight([0, 0, -1], [1.0, 0.5, 0.25])

@@ -6,11 +6,11 @@ from weakref import ref
 import numpy as np
 import pytest
 
-from core.fragments import single_texture
-from core.fragments.single_texture import ROUNDING, SingleSampler, is_plain
-from core.fragments.texel_places import PLACES
-from core.fragments.textures import texture_colors
 from core.scene import Texture
+from core.textures import single_precision
+from core.textures.look_up import texture_colors
+from core.textures.packed import PLACES
+from core.textures.single_precision import ROUNDING, SingleSampler, is_plain
 
 
 def noise(rows: int, columns: int, channels: int) -> Texture:
@@ -37,7 +37,7 @@ def test_no_mean_is_farther_off_than_stated(wrap: str, shape: tuple[int, int, in
 def test_a_texture_whose_table_would_be_too_large_is_not_plain(monkeypatch: pytest.MonkeyPatch) -> None:
     texture = noise(6, 8, 3)
     assert is_plain(texture, "mirror")
-    monkeypatch.setattr(single_texture, "MOST_TEXELS", 100)
+    monkeypatch.setattr(single_precision, "MOST_TEXELS", 100)
     assert is_plain(texture, "repeat")
     assert not is_plain(texture, "mirror")
 

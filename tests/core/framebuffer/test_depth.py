@@ -6,8 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, ClipScene, Mesh, Scene, Settings, draw_triangles, render
-from core.framebuffer.depth import clamp_depth, depth_test, run_depth_tests
-from core.framebuffer.stacks import stack_fragments
+from core.depth.depth import clamp_depth, depth_test, run_depth_tests, stack_fragments
 from core.methods import table
 from tests.core.strategies import clip_of_window, perspective_triangles
 

@@ -9,11 +9,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, ClipScene, Mesh, Scene, Settings, render
-from core.framebuffer.depth_formats import FARTHEST_W, NEAREST_W, as_unsigned, logarithmic_depth
-from core.geometry.reversed_depth import reversed_clip_depth
+from core.depth.formats import FARTHEST_W, NEAREST_W, as_unsigned, log2, log2_of, logarithmic_depth
+from core.depth.measured import visible_triangles
 from core.methods import table
-from core.numeric.logarithm import log2, log2_of
-from core.study.stability.fragments.depth_gaps import visible_triangles
+from core.transform.matrices import reversed_clip_depth
 from tests.core.strategies import clip_of_window
 
 FORMATS = table.names("depth")

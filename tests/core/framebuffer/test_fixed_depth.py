@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Frame, Settings, render
-from core.framebuffer.fixed_depth import DEPTH_BITS, SCALE, SLACK, set_up_fixed_planes
+from core.depth.fixed_depth import DEPTH_BITS, SCALE, SLACK, set_up_fixed_planes
 from core.methods import table
 from tests.core.drawing import TESTING_FILLS
 from tests.core.meshes import clip_of_view, icosphere, random_rotation

@@ -5,9 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.framebuffer.depth import run_depth_tests
-from core.framebuffer.nearest import BLOCK, READ_AT_ONCE, NearestFragments
-from core.framebuffer.stacks import stack_fragments
+from core.depth.depth import BLOCK, READ_AT_ONCE, NearestFragments, run_depth_tests, stack_fragments
 from core.methods import table
 
 PIXEL_COUNT = 6

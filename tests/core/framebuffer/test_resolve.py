@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
+from core.antialiasing.resolve import filter_weights, reach_of, resolve_samples, weighted_mean
 from core.antialiasing.sampling import ROTATED_GRID, grid_positions
-from core.framebuffer.resolve import filter_weights, reach_of, resolve_samples, weighted_mean
 from core.methods import table
 
 POSITIONS = {"2x2": grid_positions(2), "4x4": grid_positions(4), "rotated": ROTATED_GRID}

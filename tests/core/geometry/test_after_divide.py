@@ -6,14 +6,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, draw_triangles, render, trace
-from core.geometry.culling import plane_distances
-from core.geometry.polygon_clipping.after_divide import clip_divided
-from core.geometry.polygon_clipping.methods import PolygonClipping
-from core.geometry.polygon_clipping.sutherland_hodgman import ALL_PLANES, clip_polygons
+from core.clipping.planes import PolygonClipping, clip_divided
+from core.clipping.sutherland_hodgman import ALL_PLANES, clip_polygons
+from core.clipping.traced import DIVIDE_OPERATIONS
+from core.culling.culling import plane_distances
 from core.methods import table
 from core.records.primitives import Primitives
 from core.records.steps import Level
-from core.trace.clip_divide import DIVIDE_OPERATIONS
 from tests.core.strategies import ANY_TRIANGLES, perspective_triangles
 
 SIZE = (24, 18)

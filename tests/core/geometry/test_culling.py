@@ -6,11 +6,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
-from core.geometry.culling import PLANES, REASONS, CullVerdicts, cull, plane_distances
-from core.geometry.outcodes import outcodes
+from core.coverage.edges import orient
+from core.coverage.snapping import place_corners
+from core.culling.culling import PLANES, REASONS, CullVerdicts, cull, outcodes, plane_distances
 from core.methods import table
-from core.raster.edges.edge_functions import orient
-from core.raster.edges.snapping import place_corners
 from core.records.primitives import Primitives, index_corners
 from tests.core.strategies import clip_of_window, homogeneous_triangles
 

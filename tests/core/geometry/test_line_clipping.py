@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClippedLines, clip_lines
-from core.geometry.line_clipping.records import LINE_CLIP_LIMIT
+from core.lines.line_clipping import LINE_CLIP_LIMIT
 from core.methods import table
 from tests.covering import in_turn, in_turns, is_everything
 

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera
-from core.geometry.matrices import (
+from core.transform.matrices import (
     camera_axes,
     projection,
     rotation,

@@ -8,8 +8,8 @@ import pytest
 from hypothesis import example, given
 
 from core import Camera, ClipScene, Scene, Settings, draw_picture, render, trace
-from core.geometry.culling import REASONS
-from core.geometry.normal_view import (
+from core.culling.culling import REASONS
+from core.culling.normal_view import (
     by_axis,
     by_corners,
     eye_triangles,
@@ -17,12 +17,12 @@ from core.geometry.normal_view import (
     stored_turns_away,
     turns_away,
 )
-from core.geometry.vertex_stage import transform_vertices
 from core.records.frame import StageCount
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
+from core.transform.vertex_stage import transform_vertices
+from lessons.lectures.scenes import ALL_SCENES
 from lessons.shapes import sphere
-from lessons.slides.scenes import ALL_SCENES
 from tests.core.exact_reference import determinant
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 

@@ -4,14 +4,14 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.geometry.culling import plane_distances
-from core.geometry.outcodes import (
+from core.culling.culling import (
     BEHIND_BIT,
     PLANE_BITS,
     RANGE_BIT,
     has_bits,
     joined_bits,
     outcodes,
+    plane_distances,
     shared_bits,
 )
 

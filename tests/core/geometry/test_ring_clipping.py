@@ -7,13 +7,12 @@ import pytest
 import shapely
 
 from core import ClipScene, Settings, render, trace
-from core.geometry.ring_clipping.exact import meeting_sides, whole_rings
-from core.geometry.ring_clipping.sutherland_hodgman import clip_side_listing, sutherland_hodgman
-from core.geometry.ring_clipping.weiler_atherton import weiler_atherton
+from core.clipping.rings import clip_side_listing, meeting_sides, sutherland_hodgman, whole_rings
+from core.clipping.weiler_atherton import weiler_atherton
+from core.coverage.measured_exactly import exact_cover
 from core.methods import table
 from core.records.clip_region import region_of_window
-from core.records.rings import Rings, join_rings
-from core.study.exact.polygons import exact_cover
+from core.records.primitives import Rings, join_rings
 from lessons.scenes import make_scene
 from tests.core.agreement import Case, check_case
 from tests.core.strategies import clip_of_window

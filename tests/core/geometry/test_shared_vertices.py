@@ -6,16 +6,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import Camera, ClipScene, DirectionalLight, Material, Mesh, PointLight, Scene, Settings
-from core.fragments.shading import centroids, light_surface
-from core.geometry.culling import plane_distances
-from core.geometry.matrices import rotation
-from core.geometry.vertex_stage import place_meshes, transform_vertices
+from core.coverage.edges import orient, set_up_edges
+from core.coverage.snapping import place_corners
+from core.culling.culling import plane_distances
 from core.methods import table
-from core.raster.edges.edge_functions import orient, set_up_edges
-from core.raster.edges.snapping import place_corners
 from core.records.frame import StageCount
+from core.shading.shading import centroids, light_surface
 from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
+from core.transform.matrices import rotation
+from core.transform.vertex_stage import place_meshes, transform_vertices
 from tests.core.fragments.seen_sides import is_seen_from_behind
 
 NUMBERS = st.one_of(

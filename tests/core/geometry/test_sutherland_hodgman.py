@@ -9,8 +9,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from core import Settings, draw_triangles
-from core.geometry.culling import plane_distances
-from core.geometry.polygon_clipping.sutherland_hodgman import (
+from core.clipping.sutherland_hodgman import (
     ALL_PLANES,
     CASES,
     DEPTH_PLANES,
@@ -19,6 +18,7 @@ from core.geometry.polygon_clipping.sutherland_hodgman import (
     clip_primitives,
     distance_from,
 )
+from core.culling.culling import plane_distances
 from core.records.primitives import Primitives
 from tests.core.drawing import cover_each
 from tests.core.strategies import ANY_TRIANGLES, homogeneous_triangles, perspective_triangles

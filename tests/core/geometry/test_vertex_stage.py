@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from core import Camera, ClipScene, Mesh, Scene
-from core.geometry.matrices import rotation, scaling, translation
-from core.geometry.vertex_stage import transform_vertices, unit, vertex_normals, world_normals
+from core.transform.matrices import rotation, scaling, translation
+from core.transform.vertex_stage import transform_vertices, unit, vertex_normals, world_normals
 
 POSITIONS = np.array([[0.0, 0, 0], [2, 0, 0], [0, 1, 0], [0, 0, -4]])
 TRIANGLES = np.array([[0, 1, 2], [0, 2, 3]])

@@ -11,9 +11,8 @@ import numpy as np
 import pytest
 
 import core.lanes
-from core.lanes.limits import LIMIT_NAMES, LISTING, SHADER, Limits, line_rounds
-from core.lanes.listings import compile_listing
-from core.lanes.problem import Problem
+from core.lanes.problem import LIMIT_NAMES, LISTING, SHADER, Limits, Problem, line_rounds
+from core.lanes.program import compile_listing
 from core.lanes.python_dialect import PythonDialect
 from core.lanes.run import bounded
 

@@ -5,12 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.lanes.listings import compile_listing
-from core.lanes.masks import NOBODY, Nobody, joined, lanes_in, split
 from core.lanes.nodes import If
-from core.lanes.notes import record_steps, steps_until_problem
 from core.lanes.problem import Problem
+from core.lanes.program import compile_listing, record_steps, steps_until_problem
 from core.lanes.python_values import at_lane
+from core.lanes.run import NOBODY, Nobody, joined, lanes_in, split
 from core.lanes.terms import equalities, in_numbers, in_symbols, said, shown
 from tests.core.listings import listings_of_the_program
 

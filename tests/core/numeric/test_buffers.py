@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, draw_picture
-from core.numeric.buffers import BUFFERED, short_buffers
+from core.numeric.large_arrays import BUFFERED, short_buffers
 
 
 def test_buffers_are_short_within_the_block_only():

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from core.numeric.quadratic_planes import Quadratic, quadratic_planes
+from core.numeric.planes import Quadratic, quadratic_planes
 
 
 def test_words_are_those_of_the_formula() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, render
-from core.pixel_history.pieces import pixel_pieces
+from core.pixel_history.fragments import pixel_pieces
 from core.trace.source import TraceSource
 from tests.covering import in_turns
 

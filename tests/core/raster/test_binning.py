@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.binning import bound, one_level, two_levels
-from core.raster.pixel_runs import BEHIND, INSIDE, LEAF, MIXED, OUTSIDE, PROJECTED, SPLIT, make_raster
+from core.coverage.binning import bound, one_level, two_levels
+from core.coverage.pixel_runs import BEHIND, INSIDE, LEAF, MIXED, OUTSIDE, PROJECTED, SPLIT, make_raster
 from tests.core.drawing import cover_each, edges_of
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
 

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.number_formats.bit_patterns import FLOATS, bit_pattern
+from core.coverage.number_formats import FLOATS, bit_pattern
 
 
 @pytest.mark.parametrize(

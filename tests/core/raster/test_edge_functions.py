@@ -7,10 +7,10 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
+from core.coverage.edges import cross, edge_value, is_inside, orient
+from core.coverage.fill_rule import exclusive, inclusive
+from core.coverage.snapping import place_corners
 from core.methods import table
-from core.raster.edges.edge_functions import cross, edge_value, is_inside, orient
-from core.raster.edges.fill_rule import exclusive, inclusive
-from core.raster.edges.snapping import place_corners
 from tests.core.drawing import edges_of, facing_of
 from tests.core.exact_reference import determinant, facing, homogeneous_window
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window, grid_triangles, homogeneous_triangles

@@ -6,11 +6,11 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
+from core.coverage import fills
+from core.coverage.binning import bound
+from core.coverage.fills import cover, examine_pixels
+from core.coverage.pixel_runs import make_raster
 from core.methods import table
-from core.raster import coverage
-from core.raster.binning import bound
-from core.raster.coverage import cover, examine_pixels
-from core.raster.pixel_runs import make_raster
 from tests.core.drawing import TESTING_FILLS, cover_each, edges_of, pixels, runs_of, text
 from tests.core.exact_reference import exact_coverage
 from tests.core.strategies import (
@@ -212,12 +212,12 @@ def test_the_picture_decides_as_the_examined_pixels(case, block_size: int, fill:
 def test_the_size_of_a_batch_changes_nothing(case, fill: str, batch: int) -> None:
     clip, size = case
     expected = cover_each(clip, size, fill)
-    usual = coverage.BATCH
-    coverage.BATCH = batch
+    usual = fills.BATCH
+    fills.BATCH = batch
     try:
         assert np.array_equal(cover_each(clip, size, fill), expected)
     finally:
-        coverage.BATCH = usual
+        fills.BATCH = usual
 
 
 @given(grid_triangles(6), st.sampled_from(TESTING_FILLS))

@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.coverage import cover, examine_pixels
-from core.raster.fills.incremental import add_up, stepped_values
-from core.raster.pixel_runs import ADDED_A, ADDED_B, EVALUATED, make_raster
+from core.coverage.fills import add_up, cover, examine_pixels, stepped_values
+from core.coverage.pixel_runs import ADDED_A, ADDED_B, EVALUATED, make_raster
 from tests.core.drawing import cover_each, edges_of, runs_of
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
 
@@ -163,7 +162,7 @@ def test_a_region_shows_its_part_of_the_picture(case, region, coverage: str) -> 
 
 
 def test_batches_of_runs_continue_where_they_should(monkeypatch) -> None:
-    monkeypatch.setattr("core.raster.coverage.BATCH", 7)
+    monkeypatch.setattr("core.coverage.fills.BATCH", 7)
     clip = clip_of_window([[(0, 0), (30, 3), (5, 20)], [(3, 1), (9, 19), (2, 11)]], (32, 20))
     edges, raster = edges_of(clip, (32, 20), "float32"), make_raster((32, 20), "half")
     runs = runs_of(edges, raster, "incremental")

@@ -4,14 +4,14 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, draw_picture, draw_triangles, render, trace
-from core.framebuffer.depth import depth_test
+from core.depth.depth import depth_test
+from core.depth.fixed_depth import rounded_depth_test
 from core.framebuffer.display import to_display
-from core.framebuffer.packed_keys import rounded_depth_test
+from core.lines.drawing import draw_lines
+from core.lines.line_method import has_intensities
+from core.lines.wireframe_fragments import WRITTEN_INTENSITY, run_rightwards
 from core.methods import table
 from core.pixel_history import why
-from core.raster.lines.drawing import draw_lines
-from core.raster.lines.intensities import WRITTEN_INTENSITY, run_rightwards
-from core.raster.lines.traits import has_intensities
 from core.resolved import resolve
 from core.trace.source import TraceSource
 from lessons.scenes import assembled, make_scene

@@ -7,9 +7,9 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from core.lines.drawing import draw_lines
+from core.lines.line_method import has_intensities
 from core.methods import table
-from core.raster.lines.drawing import draw_lines
-from core.raster.lines.traits import has_intensities
 from core.records.listing import listing
 from tests.covering import in_one
 

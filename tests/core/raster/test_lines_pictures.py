@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.lines.drawing import draw_lines, interpolate_line, segment_parameter
-from core.raster.lines.records import COORDINATE_LIMIT, round_half_up
+from core.lines.drawing import draw_lines, interpolate_line, segment_parameter
+from core.lines.line_method import COORDINATE_LIMIT, round_half_up
 
 METHODS = [
     "bresenham",

@@ -5,7 +5,7 @@ import json
 import numpy as np
 import pytest
 
-from core.raster.lines.drawing import draw_lines, interpolate_line
+from core.lines.drawing import draw_lines, interpolate_line
 
 
 def masks(segments, width, height, line) -> np.ndarray:

@@ -7,13 +7,12 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
+from core.coverage.binning import bound
+from core.coverage.edge_formats import invert
+from core.coverage.edges import nearest_float, unit_shift, whole_numbers
+from core.coverage.fills import cover, effective_fill, examine_pixels
+from core.coverage.pixel_runs import make_raster
 from core.methods import table
-from core.raster.binning import bound
-from core.raster.coverage import cover, examine_pixels
-from core.raster.fills.tested import effective_fill
-from core.raster.number_formats.exact import nearest_float, unit_shift, whole_numbers
-from core.raster.number_formats.inverse import invert
-from core.raster.pixel_runs import make_raster
 from tests.core.drawing import cover_each, edges_of, runs_of, text
 from tests.core.exact_reference import determinant, exact_coverage, homogeneous_window
 from tests.core.strategies import (

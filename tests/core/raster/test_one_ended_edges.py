@@ -7,12 +7,11 @@ import numpy as np
 import pytest
 
 from core import ClipScene, Settings, draw_picture, render, trace
+from core.coverage.edges import set_up_per_edge
+from core.coverage.measured_exactly import exact_spans
+from core.coverage.snapping import FARTHEST, place_corners, whole_direction
 from core.framebuffer.display import to_display
 from core.pixel_history import why
-from core.raster.edges.edge_functions import set_up_per_edge
-from core.raster.edges.one_ended import FARTHEST, whole_direction
-from core.raster.edges.snapping import place_corners
-from core.study.exact.coverage import exact_spans
 from core.trace.source import TraceSource
 from core.trace.stage_trace import StageTrace
 from tests.core.drawing import TESTING_FILLS, cover_each

@@ -8,9 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.lines.drawing import draw_lines
-from core.raster.lines.records import COORDINATE_LIMIT
-from core.raster.lines.rectangle import half_width
+from core.lines.drawing import draw_lines
+from core.lines.line_method import COORDINATE_LIMIT
+from core.lines.rectangle import half_width
 from tests.core.raster.test_lines_pictures import centers, picture
 
 ON_GRID = st.integers(-5120, 5120).map(lambda n: n / 256)

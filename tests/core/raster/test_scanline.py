@@ -4,9 +4,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.binning import bound
-from core.raster.fills.scanline import span, turning_column
-from core.raster.pixel_runs import make_raster
+from core.coverage.binning import bound
+from core.coverage.pixel_runs import make_raster
+from core.coverage.scanline import span, turning_column
 from tests.core.drawing import edges_of, runs_of
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
 

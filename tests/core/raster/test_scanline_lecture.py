@@ -6,9 +6,9 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from core import Settings, draw_triangles
-from core.raster.edges.snapping import place_corners
-from core.raster.fills.scanline_lecture import draw_triangle, halves, round_half_up, sort_corners
-from core.raster.pixel_runs import make_raster
+from core.coverage.pixel_runs import make_raster
+from core.coverage.scanline import draw_triangle, halves, round_half_up, sort_corners
+from core.coverage.snapping import place_corners
 from tests.core.drawing import cover_each, edges_of, facing_of, runs_of, text
 from tests.core.strategies import clip_of_window, window_points
 

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.lines.drawing import draw_lines
-from core.raster.lines.records import COORDINATE_LIMIT
-from core.raster.lines.smooth import FILTER_TABLE, cone_intensity
-from core.study.exact.lines import line_areas
+from core.lines.drawing import draw_lines
+from core.lines.line_method import COORDINATE_LIMIT
+from core.lines.measured import line_areas
+from core.lines.smooth import FILTER_TABLE, cone_intensity
 from tests.core.raster.test_lines_pictures import centers
 
 SMOOTH = ["wu", "gupta-sproull"]

@@ -5,8 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.edges.snapping import SUBPIXELS, place_corners, snap_one
-from core.raster.number_formats.number_format import number_format
+from core.coverage.number_formats import number_format
+from core.coverage.snapping import SUBPIXELS, place_corners, snap_one
 from tests.core.exact_reference import snapped_window
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 

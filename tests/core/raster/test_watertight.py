@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render
-from core.geometry.culling import plane_distances
-from core.geometry.polygon_clipping.sutherland_hodgman import ALL_PLANES, DEPTH_PLANES, clip_primitives
+from core.clipping.sutherland_hodgman import ALL_PLANES, DEPTH_PLANES, clip_primitives
+from core.culling.culling import plane_distances
 from core.records.primitives import Primitives
 from tests.core.drawing import TESTING_FILLS, cover_each, edges_of, facing_of, signed_cover, text
 from tests.core.meshes import clip_of_view, fan, icosphere, random_rotation, tiling, torus

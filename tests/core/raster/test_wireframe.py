@@ -6,11 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Frame, Settings, draw_triangles, render
+from core.lines import wireframe
+from core.lines.drawing import draw_lines
+from core.lines.line_method import has_intensities
+from core.lines.wireframe import MARGIN, cut_to_window, trace_sides
 from core.methods import table
-from core.raster.lines import wireframe
-from core.raster.lines.drawing import draw_lines
-from core.raster.lines.traits import has_intensities
-from core.raster.lines.wireframe import MARGIN, cut_to_window, trace_sides
 from lessons.scenes import make_scene
 from tests.core.drawing import text
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window

@@ -5,7 +5,7 @@ from threading import Event, Thread
 
 import pytest
 
-from core.records.cached import cached_property
+from core.records.arrays import cached_property
 
 LONG = 30.0
 """Seconds; nobody waits that long if nothing is wrong."""

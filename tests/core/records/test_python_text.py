@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import core
-from core.records.python_text import read_expression, read_statements
+from core.records.listing import read_expression, read_statements
 
 DEEP = "x = " + "(" * 20 + "1" + " + 1)" * 20 + "\n"
 

@@ -3,11 +3,11 @@
 import re
 from pathlib import Path
 
-from core.lanes.limits import SHADER
+from core.lanes.problem import SHADER
 from core.shaders.expressions import OPERATOR_LIMIT
-from core.shaders.function_names import FUNCTIONS
 from core.shaders.shader import BLOCK, SECONDS
 from core.shaders.statements import VARIABLE_LIMIT
+from core.shaders.words import FUNCTIONS
 
 TEXT = (Path(__file__).parents[3] / "docs" / "shaders.md").read_text(encoding="utf-8")
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from core.lanes.nodes import Discard, If
-from core.shaders.steps import Recorder
+from core.shaders.lane_steps import Recorder
 from tests.core.shaders.samples import SAMPLES, lane_of, random_lanes, shader_of
 
 LANES = 64

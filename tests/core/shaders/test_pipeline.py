@@ -7,13 +7,13 @@ import pytest
 
 from core import Settings, render, trace
 from core.fast_path.draw import draw_picture
-from core.fragments.textures import texture_colors
 from core.framebuffer.display import to_display
 from core.pixel_history import why
 from core.scene import Texture
 from core.shaders.presets import MINIMAL_FRAGMENT, MINIMAL_VERTEX, TASK_FRAGMENT, TASK_VERTEX
 from core.shaders.record import ShaderProblem, ShaderProgram
-from core.study.planner.tessellation import tessellations
+from core.study.planner.findings import tessellations
+from core.textures.look_up import texture_colors
 from core.trace.source import TraceSource
 from lessons.scene_edits import move_corner
 from tests.core.shaders.scenes import POSITIONS, square_scene, tutorial_scene

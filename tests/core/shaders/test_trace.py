@@ -8,11 +8,11 @@ import pytest
 
 from core import Settings, render, trace
 from core.explain.steps import sentence, variables
-from core.explain.subjects.shaders import statements_summary
 from core.records.listing import ShaderListing
 from core.records.steps import Level
 from core.shaders.presets import TASK_FRAGMENT, TASK_VERTEX
-from core.trace.geometry_progress import spaces_reached
+from core.shaders.told import statements_summary
+from core.transform.traced import spaces_reached
 from tests.core.shaders.scenes import BRANCHES, square_scene, tutorial_scene
 
 
@@ -147,7 +147,7 @@ def test_the_listing_is_the_students_own_source():
 
 
 def test_too_many_lane_steps_are_refused(monkeypatch):
-    monkeypatch.setattr(import_module("core.trace.shader_rows"), "LANE_STEP_LIMIT", 100)
+    monkeypatch.setattr(import_module("core.shaders.traced"), "LANE_STEP_LIMIT", 100)
     with pytest.raises(ValueError, match="too many to step: trace one triangle, or a region"):
         trace(square_scene(BRANCHES), Settings()).stage("shade")
 

@@ -6,21 +6,20 @@ from typing import Any
 import numpy as np
 
 from core import Scene
-from core.edits.interpolation import GIVEN
+from core.edits.fragments import GIVEN
 from core.edits.typed import parameters_of
-from core.fragments.barycentric import NO_AREA
-from core.fragments.level_of_detail import level_of_detail, mipmap_color, nearest_mipmap_color
-from core.fragments.lighting import blinn_phong, plain_lights, plain_material
-from core.fragments.mipmaps import mipmap_levels
-from core.fragments.shading import shaded_color, unlit_color
-from core.fragments.textures import bilinear_color, nearest_color, uses_mipmaps
-from core.fragments.uv_slopes import slopes_at, slopes_of_one_value
-from core.fragments.value_rule import ValuePlaces
+from core.interpolation.barycentric import NO_AREA
+from core.interpolation.interpolation import ValuePlaces
+from core.lines.wireframe_fragments import affine_line_slopes_at, line_slopes_at
 from core.methods import table
-from core.raster.lines.slopes import affine_line_slopes_at, line_slopes_at
+from core.shading.lighting import blinn_phong, plain_lights, plain_material
+from core.shading.shading import shaded_color, unlit_color
+from core.shading.traced import slope_kind
 from core.stages.vertex_light import viewpoint
+from core.textures.footprints import slopes_at, slopes_of_one_value
+from core.textures.look_up import bilinear_color, nearest_color, uses_mipmaps
+from core.textures.mipmaps import level_of_detail, mipmap_color, mipmap_levels, nearest_mipmap_color
 from core.trace import StageTrace, Trace
-from core.trace.texture_columns import slope_kind
 from tests.core.trace.executed_rows import check_marks, equal, lines_that_run, rows_of_kind
 
 

@@ -2,18 +2,16 @@
 
 import numpy as np
 
-from core.geometry.culling import cull_verdict
-from core.geometry.matrices import transform_component
-from core.geometry.polygon_clipping.after_divide import divide_corner
-from core.geometry.polygon_clipping.sutherland_hodgman import clip_edge, clip_edge_in_order
+from core.clipping.planes import divide_corner
+from core.clipping.sutherland_hodgman import clip_edge, clip_edge_in_order
+from core.coverage.edge_formats import inverse_coefficients, rounded_corner
+from core.coverage.edges import edge_coefficients, edge_value
+from core.coverage.snapping import anchored_coefficients, edge_left_out, snap_one
+from core.culling.culling import cull_verdict
 from core.methods import table
-from core.raster.edges.edge_functions import edge_coefficients, edge_value
-from core.raster.edges.one_ended import anchored_coefficients, edge_left_out
-from core.raster.edges.snapping import snap_one
-from core.raster.number_formats.floats import rounded_corner
-from core.raster.number_formats.inverse import inverse_coefficients
 from core.trace import Trace
-from core.trace.transform import divide_and_map
+from core.transform.matrices import transform_component
+from core.transform.traced import divide_and_map
 from tests.core.trace.executed_rows import check_marks, equal, lines_that_run, rows_of_kind
 
 

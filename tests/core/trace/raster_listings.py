@@ -2,16 +2,15 @@
 
 import numpy as np
 
-from core.raster.binning import block_verdict
-from core.raster.edges.edge_functions import covers
-from core.raster.fills.incremental import increments, step_covers
-from core.raster.fills.scanline import span
-from core.raster.fills.scanline_lecture import draw_triangle, drawn_columns, round_half_up
-from core.raster.spans.lanes import tie_owners
-from core.raster.spans.scalar import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
+from core.coverage.binning import block_verdict
+from core.coverage.edges import covers
+from core.coverage.fills import increments, step_covers
+from core.coverage.scanline import draw_triangle, drawn_columns, round_half_up, span
+from core.coverage.traced_edges import bounding_box, outer_box
+from core.coverage.traced_rows import PRINTED
+from core.spans.fill import order_of_pixels, place_by_size, rows_of_triangle, span_of_row
+from core.spans.lanes import tie_owners
 from core.trace import StageTrace, Trace
-from core.trace.binning import bounding_box, outer_box
-from core.trace.raster_rows import PRINTED
 from tests.core.trace.executed_rows import ROW_LIMIT, check_marks, equal, lines_that_run, rows_of_kind
 from tests.core.trace.geometry_listings import coefficients_of
 

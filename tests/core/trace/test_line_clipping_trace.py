@@ -10,11 +10,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from core import ClipScene, Settings, render, trace
+from core.lines.line_method import line_traits
+from core.lines.traced import CLIP_KINDS
 from core.methods import table
-from core.raster.lines.traits import line_traits
 from core.records.steps import Level
 from core.trace import StageTrace
-from core.trace.line_clipping import CLIP_KINDS
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.executed_rows import Ran, lines_that_run
 from tests.core.trace.test_line_trace import check_fold, check_values

@@ -11,14 +11,14 @@ from core import STAGES, ClipScene, Settings, Trace, render, trace
 from core.edits import original
 from core.edits.typed import Typed
 from core.explain import sentence, variables
-from core.lanes.notes import record_steps
+from core.lanes.program import record_steps
+from core.lines.line_method import OFF, has_intensities, line_traits
+from core.lines.smooth import FILTER_TABLE
+from core.lines.traced import SET_UP
+from core.lines.wireframe import interpolate_affine_along, interpolate_along
 from core.methods import table
-from core.raster.lines.smooth import FILTER_TABLE
-from core.raster.lines.traits import OFF, has_intensities, line_traits
-from core.raster.lines.wireframe import interpolate_affine_along, interpolate_along
 from core.records.steps import Level
 from core.trace import StageTrace
-from core.trace.lines import SET_UP
 from lessons.small_scenes import segment_scene
 from tests.core.strategies import ANY_TRIANGLES, clip_of_window
 from tests.core.trace.executed_rows import Ran, lines_that_run

@@ -10,14 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from core import STAGES, ClipScene, Settings, Trace, trace
-from core.assembly.depth_tables import table_scene
+from core.depth.whole_depths import table_scene
 from core.edits import Edit, apply_edit, original
-from core.explain.steps import load_subjects
-from core.explain.variable_text import VARIABLES
-from core.fragments.barycentric import WAYS
+from core.explain.steps import VARIABLES, load_subjects
+from core.interpolation.barycentric import WAYS
 from core.records.depth_table import DEPTH_TESTS, DepthTable
-from core.records.listing import Listing, ShaderListing
-from core.records.operation import Operation, Variables
+from core.records.listing import Listing, Operation, ShaderListing, Variables
 from core.trace import StageTrace
 from lessons.scenes import make_scene
 from tests.core.explain.explained_steps import traces

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from core import Settings, render, trace
-from core.raster.edges.edge_functions import covers
-from core.trace import pixel_cuts
+from core.antialiasing import traced_areas
+from core.coverage.edges import covers
 from tests.core.trace.trace_cases import SCENES
 
 SAMPLED = {"msaa-4": 4, "ssaa-4": 4, "ssaa-16": 16, "ssaa-n": 9}
@@ -78,7 +78,7 @@ def test_cuts_that_would_fill_the_memory_are_left_out_and_that_is_said(monkeypat
     told = trace(scene, settings).stage("resolve")
     sums = told.steps.kind == told.steps.kinds.index("areas")
     pair_count = np.count_nonzero(told.steps.kind == told.steps.kinds.index("piece"))
-    monkeypatch.setattr(pixel_cuts, "MOST_NUMBERS", 1000)
+    monkeypatch.setattr(traced_areas, "MOST_NUMBERS", 1000)
     left = trace(scene, settings).stage("resolve")
     assert left.steps.kinds == ("areas",)
     assert left.constants["untold_cuts"] == pair_count

@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, trace
 from core.methods import table
-from core.numeric.buffers import ScratchBuffers
-from core.raster.spans.fill import lanes_of_edges
-from core.raster.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, tie_owners
+from core.numeric.large_arrays import ScratchBuffers
+from core.spans.fill import lanes_of_edges
+from core.spans.lanes import LEFT, MIDDLE_LEFT, MIDDLE_RIGHT, RIGHT, tie_owners
 from core.trace import StageTrace
 from tests.core.strategies import ANY_TRIANGLES, REGIONS, clip_of_window
 from tests.core.trace.trace_cases import SCENES, small_region

@@ -7,14 +7,12 @@ import pytest
 
 from app.cli.trace_tables import arrays, csv_parts, row_record
 from app.pages.step.grid_records import buffers_of
-from app.session.cursor import Cursor
-from app.session.moment import Step
+from app.session.moment import Cursor, Step
 from core import Settings
 from core.explain import variables
 from core.methods import table
 from core.trace import StageTrace
-from core.trace.conditions import parse_condition, variable_names
-from core.trace.symbols import symbols_of
+from core.trace.conditions import parse_condition, symbols_of, variable_names
 from tests.core.explain.explained_steps import line_trace, rare_trace, steps_of
 
 SYMBOL = re.compile(r"([A-Za-zλ]\d?|d[xy]\d?)( \(.*\))?")

@@ -9,10 +9,9 @@ from hypothesis import strategies as st
 
 from core import ClipScene, Settings, trace
 from core.antialiasing.exact_area import piece_sum
-from core.antialiasing.pixel_pieces import SQUARE
-from core.antialiasing.polygon_cut import cut_polygon, polygon_area, shown_areas
+from core.antialiasing.pixel_pieces import SQUARE, cut_polygon, polygon_area, shown_areas
+from core.antialiasing.resolve import weighted_mean
 from core.framebuffer.display import srgb_byte
-from core.framebuffer.resolve import weighted_mean
 from core.methods import table
 from core.resolved import resolve
 from core.trace import StageTrace, Trace, TraceSource

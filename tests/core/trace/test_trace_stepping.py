@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from core import STAGES, ClipScene, Settings, trace
 from core.methods import table
-from core.records.operation import Operation
+from core.records.listing import Operation
 from core.records.steps import Level, Steps, ends_of
 from core.trace import StageTrace
 from core.trace.stage_trace import MARKS

@@ -10,10 +10,10 @@ from lessons.attempts.imports import judged_again, responses_of
 from lessons.attempts.practice import progress
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.attempts.store import FILE_NAME, AttemptFile
-from lessons.exercises.answer_parts import AnswerPart
 from lessons.exercises.catalogue import TEMPLATES
-from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import Draws
 from lessons.exercises.question import ask, judge
+from lessons.exercises.record import AnswerPart
 from tests.lessons.exercises.first_questions import first_question
 
 NOW = datetime(2026, 11, 23, 12, tzinfo=UTC)

@@ -6,18 +6,20 @@ from pathlib import Path
 import pytest
 
 from lessons.attempts.imports import judged_again
-from lessons.attempts.lesson_steps import (
+from lessons.attempts.practice import next_question, progress
+from lessons.attempts.record import (
+    Attempt,
     Standing,
+    attempt_of,
     begin_anew,
+    exported_attempts,
     lesson_attempt,
     next_place,
     place_in,
+    read_attempts_json,
     standings,
 )
-from lessons.attempts.practice import next_question, progress
-from lessons.attempts.record import Attempt, attempt_of, exported_attempts, read_attempts_json
-from lessons.course.catalogue import Course
-from lessons.course.lesson_file import Lesson, read_lesson
+from lessons.course.catalogue import Course, Lesson, read_lesson
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import judge
 from tests.lessons.course.lesson_texts import GOOD

@@ -10,7 +10,7 @@ import pytest
 from lessons.attempts.practice import Choice, first_tries, misses_in_a_row, next_question, progress, recall
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.catalogue import TEMPLATES
-from lessons.exercises.draws import reject
+from lessons.exercises.numbers import reject
 from lessons.exercises.question import Question, Template, ask, judge
 
 NOW = datetime(2026, 11, 23, 12, tzinfo=UTC)

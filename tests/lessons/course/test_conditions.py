@@ -8,11 +8,11 @@ from core import Settings, trace
 from core.edits import Edit, original
 from core.scene import AnyScene
 from core.settings import settings_from_texts
-from lessons.course.conditions import is_done
 from lessons.course.quoted import CALLED, Situation, is_right
 from lessons.course.record import UntilPart
+from lessons.course.tasks import is_done
+from lessons.lectures.scenes import ALL_SCENES
 from lessons.scene_edits import move_corner, set_value
-from lessons.slides.scenes import ALL_SCENES
 from lessons.small_scenes import triangle_scene
 from tests.lessons.course.lesson_texts import GOOD
 

@@ -10,12 +10,11 @@ from core import Settings, render, trace
 from core.edits import Edit, original
 from core.scene import ClipScene, Scene
 from core.shaders.presets import preset_program
+from lessons.course.catalogue import read_lesson
 from lessons.course.copied import state_text
-from lessons.course.lesson_file import read_lesson
-from lessons.course.state import States
-from lessons.course.texts import changes_of_edits
+from lessons.course.state import States, changes_of_edits
+from lessons.lectures.scenes import ALL_SCENES
 from lessons.scene_edits import move_corner, set_value
-from lessons.slides.scenes import ALL_SCENES
 from lessons.small_scenes import triangle_scene
 from tests.lessons.course.lesson_texts import GOOD
 

@@ -6,13 +6,21 @@ from pathlib import Path
 
 import pytest
 
-from lessons.course.catalogue import FOLDER, chapters, explorations, shipped, with_folders
-from lessons.course.conditions import is_done
-from lessons.course.lesson_file import Lesson, read_lesson
-from lessons.course.pace import estimated_minutes
+from lessons.course.catalogue import (
+    FOLDER,
+    Lesson,
+    chapters,
+    coverage,
+    estimated_minutes,
+    explorations,
+    read_lesson,
+    shipped,
+    slides,
+    with_folders,
+)
 from lessons.course.record import SolutionPart
-from lessons.course.slides import coverage, slides
 from lessons.course.state import States, solved
+from lessons.course.tasks import is_done
 from lessons.course.validation import situation_of, validate
 from tests.lessons.course.lesson_texts import GOOD
 from tests.texts import cases_of

@@ -8,13 +8,13 @@ import pytest
 
 from core import Settings, render
 from core.framebuffer.display import to_display
-from core.geometry.vertex_stage import transform_vertices
 from core.scene import ClipScene
 from core.settings import DEFAULTS, settings_from_texts
+from core.transform.vertex_stage import transform_vertices
 from lessons.diagnosis import PIXEL_LIMIT, RIGHT, Diagnosis, Drawn, compared_text, diagnose
+from lessons.lectures.scenes import ALL_SCENES
 from lessons.mistakes.coverage import rounded
 from lessons.scenes import BuiltInScene, make_scene
-from lessons.slides.scenes import ALL_SCENES
 from lessons.small_scenes import pixel_segments, triangle_scene
 from tests.lessons.diagnosis.plain_rasterizer import Homework, bresenham, over, perspective, shown
 

@@ -8,9 +8,8 @@ import pytest
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.answers.choices import ChoiceAnswer, OrderAnswer
 from lessons.exercises.answers.fields import Column, NearMiss, NumberAnswer, TableAnswer, number_rows
-from lessons.exercises.answers.pixels import PixelAnswer, read_art
-from lessons.exercises.draws import Draws
-from lessons.exercises.numbers import number_text, read_number
+from lessons.exercises.answers.marked import PixelAnswer, read_art
+from lessons.exercises.numbers import Draws, number_text, read_number
 
 ART = """
 ..##..

@@ -8,14 +8,13 @@ import pytest
 
 from core import Settings, render
 from core.scene import ClipScene
-from lessons.exercises.answers.answer import NotCheckedError
-from lessons.exercises.answers.cells import Dial, Entry
+from lessons.exercises.answers.answer import Dial, Entry, NotCheckedError
+from lessons.exercises.answers.choices import SpotAnswer
 from lessons.exercises.answers.listings import LineAnswer
-from lessons.exercises.answers.places import PlaceAnswer
-from lessons.exercises.answers.spots import SpotAnswer
+from lessons.exercises.answers.marked import PlaceAnswer
 from lessons.exercises.answers.steps import FIXED, StepsAnswer
 from lessons.exercises.answers.trials import BreakAnswer, CheapestAnswer, Family
-from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import Draws
 from lessons.small_scenes import triangle_scene
 
 SIZE = (8, 6)

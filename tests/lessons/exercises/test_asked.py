@@ -5,7 +5,7 @@ from pathlib import Path
 
 import pytest
 
-from app.cli.exercise_coverage import coverage_lines
+from app.cli.exercise import coverage_lines
 from core import STAGES
 from core.settings import families
 from core.study.stability import experiments

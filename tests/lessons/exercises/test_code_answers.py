@@ -11,7 +11,7 @@ from core.methods import table
 from lessons.attempts.imports import judged_again
 from lessons.attempts.record import Attempt, attempt_of
 from lessons.exercises.answers.answer import NotCheckedError
-from lessons.exercises.answers.code import CannotRunError, CodeAnswer, head_alone
+from lessons.exercises.answers.listings import CannotRunError, CodeAnswer, head_alone
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.coding.lines import LECTURE
 from lessons.exercises.coding.shader_task import Beside

@@ -6,10 +6,9 @@ import pytest
 
 from lessons.exercises.answers.answer import NotCheckedError
 from lessons.exercises.answers.fields import Column, NumberAnswer, TableAnswer, number_rows
-from lessons.exercises.asked import topics
+from lessons.exercises.asked import RULE_NUMBERS, numbers_in, topics
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask, judge
-from lessons.exercises.selftest import RULE_NUMBERS, numbers_in
 from tests.covering import is_everything
 from tests.lessons.exercises.first_questions import first_question
 

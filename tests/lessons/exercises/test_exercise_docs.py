@@ -7,7 +7,7 @@ import pytest
 
 from lessons.exercises.coding.task import LIMITS
 from lessons.exercises.exercise_file import read_exercise
-from lessons.guide import guide
+from lessons.help import guide
 from lessons.mistakes.shelf import SHELF
 from tests.app.cli.cli_runs import run_program
 

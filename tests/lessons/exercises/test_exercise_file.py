@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from core.scene import ClipScene
-from lessons.exercises.drawn_scene import DrawnScene
+from lessons.exercises.drafting import DrawnScene
 from lessons.exercises.exercise_file import read_exercise
 from lessons.exercises.numbers import number_text
 from lessons.exercises.question import ask, judge

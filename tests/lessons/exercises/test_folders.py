@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from lessons.exercises.catalogue import TEMPLATES
-from lessons.exercises.folders import read_folders
+from lessons.exercises.exercise_file import read_folders
 from tests.app.cli.cli_runs import refused, run_program
 
 GOOD = """

@@ -7,8 +7,8 @@ import pytest
 from core import Settings, trace
 from core.explain import question
 from lessons.exercises.answers.choices import ChoiceAnswer
-from lessons.exercises.answers.pixels import PixelAnswer
-from lessons.exercises.next_step import coverage_sentence, next_draft, pixel_sentence, row_draft
+from lessons.exercises.answers.marked import PixelAnswer
+from lessons.exercises.question import coverage_sentence, next_draft, pixel_sentence, row_draft
 from lessons.small_scenes import triangle_scene
 
 SIZE = (8, 6)

@@ -2,9 +2,9 @@
 
 from dataclasses import replace
 
-from lessons.depth_tables import equal_depths, two_triangles, two_triangles_turned
-from lessons.exercises.scene_digest import scene_digest
+from lessons.scene_edits import scene_digest
 from lessons.scenes import make_scene
+from lessons.window_scenes import equal_depths, two_triangles, two_triangles_turned
 
 
 def test_tables_of_other_depths_are_other_scenes() -> None:

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from lessons.exercises.answers.code import CannotRunError, CodeAnswer, head_alone
+from lessons.exercises.answers.listings import CannotRunError, CodeAnswer, head_alone
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.coding import fragment_shaders, vertex_shaders
 from lessons.exercises.coding.fragment_shaders import (

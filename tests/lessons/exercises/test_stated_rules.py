@@ -10,10 +10,9 @@ import pytest
 
 from core import render
 from lessons.exercises.catalogue import TEMPLATES
-from lessons.exercises.drawn_scene import seen_pixels
+from lessons.exercises.drafting import place_text, seen_pixels
 from lessons.exercises.numbers import are_close
 from lessons.exercises.question import ask
-from lessons.exercises.templates.drafting import place_text
 from lessons.exercises.templates.filling import is_decided
 from tests.lessons.exercises.first_questions import first_question
 

@@ -13,12 +13,12 @@ import pytest
 
 from core import clip_lines, trace
 from lessons.exercises.answers.answer import NotCheckedError
+from lessons.exercises.asked import check_template, numbers_in, question_problems, question_text
 from lessons.exercises.asked_text import parts_of
 from lessons.exercises.catalogue import TEMPLATES, template_named
-from lessons.exercises.draws import Draws, NoQuestionError, reject
+from lessons.exercises.numbers import Draws, NoQuestionError, reject
 from lessons.exercises.question import Draft, Template, ask, hints_after, judge
-from lessons.exercises.selftest import check_template, numbers_in, question_problems, question_text
-from lessons.exercises.templates import clipping, fragments, interpolation, lines, mixing, placing, textures
+from lessons.exercises.templates import clipping, fragments, interpolation, lines, mixing, placing, surfaces
 from lessons.exercises.templates.clipping import outcode_table, parameter_table
 from lessons.exercises.templates.lines import d_table
 from lessons.mistakes.shelf import SHELF
@@ -84,7 +84,7 @@ def test_questions_are_the_same_in_another_process_with_another_hash_seed() -> N
     code = (
         "from lessons.exercises.catalogue import TEMPLATES\n"
         "from lessons.exercises.question import ask\n"
-        "from lessons.exercises.selftest import question_text\n"
+        "from lessons.exercises.asked import question_text\n"
         "print('\\n'.join(question_text(ask(template, 23)) for template in TEMPLATES.values()), end='')"
     )
     found = subprocess.run(
@@ -191,8 +191,8 @@ class Faultless:
         (placing, placing.draw_ends),
         (interpolation, interpolation.draw_color),
         (interpolation, interpolation.draw_sorted),
-        (textures, textures.draw_nearest),
-        (textures, textures.draw_repeated),
+        (surfaces, surfaces.draw_nearest),
+        (surfaces, surfaces.draw_repeated),
         (mixing, mixing.draw_alpha),
         (mixing, mixing.draw_straight),
         (mixing, mixing.draw_panes),

@@ -9,9 +9,10 @@ import pytest
 from core import Settings, clip_lines, render
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask, judge
-from lessons.exercises.templates import placing, reading, stepping, wrong_lines
+from lessons.exercises.templates import placing, reading, stepping
+from lessons.exercises.templates import reading as wrong_lines
 from lessons.exercises.templates.lines import d_values
-from lessons.mistakes.lines import LECTURE
+from lessons.mistakes.scan_conversion import LECTURE
 from lessons.mistakes.shelf import SHELF
 from lessons.mistakes.twin import line_pixels
 from lessons.small_scenes import pixel_segments

@@ -3,9 +3,9 @@ import pytest
 from numpy.typing import NDArray
 from PySide6.QtGui import QColor, QImage
 
-from widgets.basics.colormaps import colormap_table
 from widgets.basics.image import (
     buffer_image,
+    colormap_table,
     display_image,
     fitted_range,
     mask_image,
@@ -13,7 +13,7 @@ from widgets.basics.image import (
     value_range,
 )
 from widgets.basics.theme import LIGHT
-from widgets.grid.buffer import GridBuffer
+from widgets.grid.layers import GridBuffer
 
 
 def name_at(image: QImage, column: int, row: int) -> str:

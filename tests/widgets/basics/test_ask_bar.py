@@ -4,7 +4,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from widgets.basics.ask_bar import AskBar
+from widgets.basics.prompts import AskBar
 
 
 def test_enter_hands_the_text_on_and_escape_closes(qtbot: QtBot) -> None:

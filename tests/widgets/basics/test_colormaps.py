@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from widgets.basics.colormaps import COLORMAPS, colormap_table, id_table
+from widgets.basics.image import COLORMAPS, colormap_table, id_table
 
 
 @pytest.mark.parametrize("name", COLORMAPS)

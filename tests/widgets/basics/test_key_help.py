@@ -3,7 +3,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QLabel
 
 from tests.widgets.showing import shown
-from widgets.basics.key_help import KeyEntry, KeyHelp
+from widgets.basics.key_pages import KeyEntry, KeyHelp
 
 KEYS = [
     KeyEntry("Stepping", "Left, Right", "Step back, forward"),

@@ -2,8 +2,7 @@
 
 from PySide6.QtWidgets import QRadioButton
 
-from widgets.basics.controls import wrap_text
-from widgets.basics.labels import CutLabel
+from widgets.basics.controls import CutLabel, wrap_text
 
 
 def test_a_text_ends_with_a_whole_word_and_an_ellipsis_where_it_has_no_room(qtbot) -> None:

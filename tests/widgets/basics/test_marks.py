@@ -1,7 +1,7 @@
 import pytest
 from PySide6.QtGui import QColor
 
-from widgets.basics.marks import Mark, blended, mark_pixmap
+from widgets.basics.drawing import Mark, blended, mark_pixmap
 
 OUTCOMES = [Mark.COVERED, Mark.REJECTED, Mark.TIE, Mark.NAN, Mark.DEPTH_FAILED]
 

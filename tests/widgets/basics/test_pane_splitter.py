@@ -4,7 +4,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
-from widgets.basics.pane_splitter import PaneSplitter
+from widgets.basics.panes import PaneSplitter
 
 
 def test_the_grip_hides_nothing_of_the_panes(qtbot: QtBot) -> None:

@@ -3,7 +3,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QToolButton
 
 from tests.widgets.showing import shown
-from widgets.basics.scene_outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
+from widgets.scene.outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
 
 
 def groups(x: float = 2.25) -> tuple[OutlineGroup, ...]:

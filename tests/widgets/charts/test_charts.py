@@ -13,14 +13,21 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from tests.widgets.showing import shown
-from widgets.basics.drawn_text import LabelPlaces
+from widgets.basics.drawing import LabelPlaces
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import DARK, LIGHT, contrast
-from widgets.charts.chart import Chart
-from widgets.charts.legend import ChartLegend
-from widgets.charts.records import ChartAxis, ChartEmpty, ChartPicture, ChartSeries
-from widgets.charts.scale import scale_of, time_text
-from widgets.charts.series_marks import SHAPES, SeriesIcon, series_color
+from widgets.experiments.chart import Chart
+from widgets.experiments.chart_canvas import scale_of, time_text
+from widgets.experiments.series import (
+    SHAPES,
+    ChartAxis,
+    ChartEmpty,
+    ChartLegend,
+    ChartPicture,
+    ChartSeries,
+    SeriesIcon,
+    series_color,
+)
 
 KEY, LEFT = Qt.Key, Qt.MouseButton.LeftButton
 TIME, ERROR = ChartAxis("Time per line", "s"), ChartAxis("Misclassified pixels", "per million")

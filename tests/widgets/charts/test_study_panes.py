@@ -9,15 +9,12 @@ from PySide6.QtWidgets import QLabel, QWidget
 from pytestqt.qtbot import QtBot
 
 from tests.widgets.showing import shown
-from widgets.basics.flow_layout import FlowLayout
-from widgets.basics.labels import ElidedLabel
+from widgets.basics.controls import ElidedLabel, FlowLayout
 from widgets.basics.message_bar import Progress
-from widgets.charts.dial_control import DialChoice
-from widgets.charts.family_list import FamilyEntry, FamilyList
-from widgets.charts.study_controls import StudyChoices, StudyControls
-from widgets.charts.study_pictures import PicturesRecord, StudyPictures
-from widgets.charts.study_table import Cell, StudyTable, TableRecord
-from widgets.grid.buffer import GridBuffer
+from widgets.experiments.case_pictures import PicturesRecord, StudyPictures
+from widgets.experiments.controls import DialChoice, FamilyEntry, FamilyList, StudyChoices, StudyControls
+from widgets.experiments.series import Cell, StudyTable, TableRecord
+from widgets.grid.layers import GridBuffer
 
 KEY, LEFT = Qt.Key, Qt.MouseButton.LeftButton
 SIGNALS = ("chosen", "dial_chosen")

@@ -7,8 +7,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
 from tests.widgets.showing import shown
-from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
+from widgets.grid.layers import GridBuffer
 from widgets.grid.pixel_grid import PixelGrid
 
 LEFT = Qt.MouseButton.LeftButton

@@ -4,9 +4,9 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 
 from tests.widgets.showing import shown
-from widgets.grid.buffer import GridBuffer
 from widgets.grid.buffer_strip import BufferStrip
 from widgets.grid.geometry import GridGeometry
+from widgets.grid.layers import GridBuffer
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.view import GridView
 

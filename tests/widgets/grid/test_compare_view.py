@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from widgets.grid.buffer import GridBuffer
 from widgets.grid.compare_view import CompareView, Side
+from widgets.grid.layers import GridBuffer
 
 
 @pytest.fixture

@@ -7,8 +7,8 @@ from PySide6.QtGui import QColor, QImage
 from pytestqt.qtbot import QtBot
 
 from widgets.basics.theme import DARK, LIGHT, Theme, contrast, paint_as
-from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry
+from widgets.grid.layers import GridBuffer
 from widgets.grid.pixel_grid import PixelGrid
 
 LEAST = 3.0

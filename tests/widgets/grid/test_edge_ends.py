@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 from app.pages.step.grid_records import geometry_of
-from app.session.cursor import Cursor
 from app.session.document import open_document
-from app.session.moment import Step
+from app.session.moment import Cursor, Step
 from lessons.scenes import make_scene
-from widgets.grid.edge_ends import FAR, edge_segments
-from widgets.grid.line_clip import clip_segments
+from widgets.grid.geometry import FAR, edge_segments
+from widgets.grid.view import clip_segments
 
 
 @pytest.mark.parametrize(

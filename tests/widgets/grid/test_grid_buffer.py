@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.records.alike import is_alike
-from widgets.grid.buffer import GridBuffer, number_text
+from core.records.arrays import is_alike
+from widgets.grid.layers import GridBuffer, number_text
 
 
 @pytest.mark.parametrize(

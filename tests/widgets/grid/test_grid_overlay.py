@@ -4,11 +4,11 @@ from PySide6.QtCore import QRect
 from PySide6.QtGui import QColor, QImage, QPainter
 
 from widgets.basics.theme import DARK, LIGHT, Theme
-from widgets.grid.overlay import (
+from widgets.grid.layers import (
     BlockOverlay,
     BlockState,
+    CellMark,
     CountOverlay,
-    Mark,
     MaskOverlay,
     Overlay,
     SegmentOverlay,
@@ -38,15 +38,15 @@ def cell(image: QImage, column: int, row: int, side: int = 24) -> QImage:
     return image.copy(1 + column * side, 1 + (ROWS - 1 - row) * side, side, side)
 
 
-def one(mark: Mark, column: int = 2, row: int = 1) -> MaskOverlay:
+def one(mark: CellMark, column: int = 2, row: int = 1) -> MaskOverlay:
     mask = np.zeros((ROWS, COLUMNS), np.bool_)
     mask[row, column] = True
     return MaskOverlay(mark.name, mark, mask)
 
 
-@pytest.mark.parametrize("mark", list(Mark))
+@pytest.mark.parametrize("mark", list(CellMark))
 @pytest.mark.parametrize("theme", [LIGHT, DARK], ids=["light", "dark"])
-def test_a_mark_is_in_its_cell_only(qapp, mark: Mark, theme: Theme) -> None:
+def test_a_mark_is_in_its_cell_only(qapp, mark: CellMark, theme: Theme) -> None:
     plain, marked = painted([], theme), painted([one(mark)], theme)
     for row in range(ROWS):
         for column in range(COLUMNS):
@@ -56,23 +56,23 @@ def test_a_mark_is_in_its_cell_only(qapp, mark: Mark, theme: Theme) -> None:
 
 def test_marks_differ_without_colour(qapp) -> None:
     forms = set()
-    for mark in Mark:
+    for mark in CellMark:
         picture = cell(painted([one(mark)]), 2, 1).convertToFormat(QImage.Format.Format_Grayscale8)
         grey = np.array([[picture.pixelColor(x, y).value() for x in range(24)] for y in range(24)])
         forms.add((np.sign(grey - 128) * (np.abs(grey - 128) > 10)).tobytes())
-    assert len(forms) == len(Mark)
+    assert len(forms) == len(CellMark)
 
 
-@pytest.mark.parametrize("mark", list(Mark))
+@pytest.mark.parametrize("mark", list(CellMark))
 @pytest.mark.parametrize("side", [2, 5])
-def test_marks_are_seen_in_tiny_cells(qapp, mark: Mark, side: int) -> None:
+def test_marks_are_seen_in_tiny_cells(qapp, mark: CellMark, side: int) -> None:
     mask = np.ones((ROWS, COLUMNS), np.bool_)
     mask[0, 0] = False
     assert painted([MaskOverlay("m", mark, mask)], side=side) != painted([], side=side)
 
 
 def test_row_0_is_marked_at_the_bottom(qapp) -> None:
-    image = painted([one(Mark.COVERED, 0, 0)])
+    image = painted([one(CellMark.COVERED, 0, 0)])
     assert image.pixelColor(12, image.height() - 12) != QColor("#808080")
     assert image.pixelColor(12, 12) == QColor("#808080")
 
@@ -117,8 +117,8 @@ def test_spans_and_lines_are_drawn(qapp) -> None:
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: MaskOverlay("m", Mark.TIE, np.zeros(3, np.bool_)), "mask must be"),
-        (lambda: MaskOverlay("m", Mark.TIE, np.zeros((3, 3), np.int32)), "int32"),
+        (lambda: MaskOverlay("m", CellMark.TIE, np.zeros(3, np.bool_)), "mask must be"),
+        (lambda: MaskOverlay("m", CellMark.TIE, np.zeros((3, 3), np.int32)), "int32"),
         (lambda: CountOverlay("c", np.zeros((2, 2))), "float64"),
         (lambda: BlockOverlay("b", np.zeros((2, 4), int), (BlockState.LEAF,)), "one entry per block"),
         (lambda: SpanOverlay("s", np.zeros((2, 2), int)), "spans must be"),
@@ -131,11 +131,11 @@ def test_bad_overlays_are_named(make, message: str) -> None:
 
 
 def test_what_changed_between_steps() -> None:
-    before, after = one(Mark.COVERED, 2, 1), one(Mark.COVERED, 4, 3)
+    before, after = one(CellMark.COVERED, 2, 1), one(CellMark.COVERED, 4, 3)
     assert changed_cells((before,), (after,)) == (2, 1, 5, 4)
     assert changed_cells((before,), (before,)) == (0, 0, 0, 0)
     assert changed_cells((before,), ()) is None
-    assert changed_cells((before,), (one(Mark.TIE),)) is None
+    assert changed_cells((before,), (one(CellMark.TIE),)) is None
 
 
 @pytest.mark.parametrize("wider", [0, 1])

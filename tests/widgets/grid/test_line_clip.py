@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from widgets.grid.line_clip import clip_segments
+from widgets.grid.view import clip_segments
 
 BOX = (0.0, 0.0, 10.0, 8.0)
 NUMBERS = st.one_of(

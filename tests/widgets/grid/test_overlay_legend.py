@@ -6,21 +6,21 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QCheckBox
 
 from widgets.basics.theme import DARK, LIGHT
-from widgets.grid.overlay import (
+from widgets.grid.insets import OverlayLegend, swatch
+from widgets.grid.layers import (
     BlockOverlay,
     BlockState,
+    CellMark,
     CountOverlay,
-    Mark,
     MaskOverlay,
     Overlay,
     SegmentOverlay,
     SpanOverlay,
 )
-from widgets.grid.overlay_legend import OverlayLegend, swatch
 
 MASK = np.ones((2, 2), np.bool_)
 OVERLAYS: list[Overlay] = [
-    *[MaskOverlay(mark.name, mark, MASK) for mark in Mark],
+    *[MaskOverlay(mark.name, mark, MASK) for mark in CellMark],
     CountOverlay("overdraw", np.ones((2, 2), np.int32)),
     BlockOverlay("blocks", np.array([[0, 0, 2, 2]]), (BlockState.LEAF,)),
     SpanOverlay("spans", np.array([[0, 0, 2]])),
@@ -59,7 +59,9 @@ def test_a_click_tells_the_keys_that_are_on(legend: OverlayLegend, qtbot) -> Non
 def test_the_next_step_keeps_what_is_on(legend: OverlayLegend, qtbot) -> None:
     kept = box(legend, "tie")
     with qtbot.assertNotEmitted(legend.overlays_changed):
-        legend.show_overlays([MaskOverlay(mark.name, mark, ~MASK) for mark in Mark] + OVERLAYS[len(Mark) :])
+        legend.show_overlays(
+            [MaskOverlay(mark.name, mark, ~MASK) for mark in CellMark] + OVERLAYS[len(CellMark) :]
+        )
     assert box(legend, "tie") is kept
     assert kept.isChecked()
     legend.show_overlays(OVERLAYS[:4])

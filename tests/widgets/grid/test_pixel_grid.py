@@ -13,10 +13,9 @@ from PySide6.QtWidgets import QApplication, QWidget
 
 from tests.widgets.grid.pixel_grids import LEFT, TRIANGLE, at, color_at, picture, shown_grid, wheel
 from widgets.basics.theme import current_theme
-from widgets.grid.buffer import GridBuffer
 from widgets.grid.geometry import GridGeometry, handle_part, name_boxes
+from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay
 from widgets.grid.marks import StepMark
-from widgets.grid.overlay import Mark, MaskOverlay
 from widgets.grid.paint import number_boxes, number_writing
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.grid.rulers import ruler_labels
@@ -199,7 +198,7 @@ def test_partial_painting_equals_painting_everything(grid: PixelGrid, qtbot, zoo
         column, row = random.integers(0, 24), random.integers(0, 16)
         values[row, column] = np.nan if index % 4 == 3 else random.random()
         mask[row, column] ^= True
-        marks = (Mark.REJECTED, Mark.TIE, Mark.DEPTH_FAILED, Mark.COVERED)
+        marks = (CellMark.REJECTED, CellMark.TIE, CellMark.DEPTH_FAILED, CellMark.COVERED)
         overlays = [MaskOverlay(mark.name, mark, mask) for mark in marks]
         buffer = GridBuffer("z", values, range=(0, 1), known=known)
         step = np.array([[column, row]])
@@ -256,7 +255,7 @@ def test_the_same_again_paints_nothing(grid: PixelGrid, qtbot) -> None:
 
     def show() -> None:
         grid.show_buffer(GridBuffer("z", values.copy()))
-        grid.show_overlays([MaskOverlay("c", Mark.COVERED, mask.copy())])
+        grid.show_overlays([MaskOverlay("c", CellMark.COVERED, mask.copy())])
         grid.show_step(StepMark(step.copy()))
         grid.show_pin((2, 2))
         grid.show_hover((3, 3))
@@ -342,7 +341,7 @@ def test_an_empty_grid_says_so(qtbot) -> None:
 def test_another_size_of_raster_drops_what_belonged_to_the_old(grid: PixelGrid) -> None:
     hidden = np.ones((16, 24), np.bool_)
     grid.show_hidden(hidden)
-    grid.show_overlays([MaskOverlay("c", Mark.COVERED, hidden)])
+    grid.show_overlays([MaskOverlay("c", CellMark.COVERED, hidden)])
     grid.show_pin((23, 15))
     grid.show_buffer(GridBuffer("z", np.zeros((4, 5))))
     assert not picture(grid).isNull()

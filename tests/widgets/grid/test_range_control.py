@@ -4,9 +4,8 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QLineEdit, QPushButton, QToolTip
 
-from widgets.grid.buffer import GridBuffer
-from widgets.grid.histogram import Histogram
-from widgets.grid.range_control import RangeControl
+from widgets.grid.layers import GridBuffer
+from widgets.grid.range_control import Histogram, RangeControl
 
 LEFT, NO_KEY = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 

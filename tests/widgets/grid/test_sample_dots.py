@@ -4,11 +4,11 @@ import numpy as np
 import pytest
 
 from tests.widgets.grid.pixel_grids import picture, shown_grid
-from widgets.basics.colormaps import id_table
+from widgets.basics.image import id_table
 from widgets.basics.theme import current_theme
-from widgets.grid.buffer import GridBuffer
+from widgets.grid.layers import GridBuffer
+from widgets.grid.marks import SampleDots, between_samples
 from widgets.grid.pixel_grid import PixelGrid
-from widgets.grid.sample_dots import SampleDots, between_samples
 from widgets.grid.view import GridView
 
 

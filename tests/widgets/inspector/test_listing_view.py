@@ -5,8 +5,8 @@ from PySide6.QtWidgets import QApplication
 
 from tests.widgets.showing import shown
 from widgets.basics.theme import current_theme
+from widgets.inspector.code_view import token_formats
 from widgets.inspector.listing import ListingText, ListingView
-from widgets.inspector.listing_looks import token_formats
 
 SOURCE = '''def inside(a0, x, y):
     """Decide."""

@@ -3,10 +3,16 @@ from PySide6.QtCore import QPoint, QRect, Qt
 from PySide6.QtGui import QColor, QFont, QFontMetrics, QGuiApplication
 
 from tests.widgets.showing import shown
-from widgets.basics.marks import Mark
+from widgets.basics.drawing import Mark
 from widgets.basics.theme import current_theme
-from widgets.inspector.history_row import is_stacked, value_columns
-from widgets.inspector.history_view import HistoryEntry, PixelHistory, PixelStory, PixelValue
+from widgets.inspector.pixel_history import (
+    HistoryEntry,
+    PixelHistory,
+    PixelStory,
+    PixelValue,
+    is_stacked,
+    value_columns,
+)
 
 GROUND = PixelValue((30, 34, 40, 255), 1.0)
 ORANGE = PixelValue((220, 120, 60, 255), 0.421337)

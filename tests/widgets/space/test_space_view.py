@@ -8,9 +8,8 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QWidget
 
 from tests.widgets.showing import shown
-from widgets.basics.drawn_text import LabelPlaces
-from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word
-from widgets.space.paint import clip_polygon
+from widgets.basics.drawing import LabelPlaces
+from widgets.space.diagram import Diagram, Patch, Spot, Stroke, Word, clip_polygon
 from widgets.space.view import SpaceView
 
 SQUARE = np.array([[-1.0, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]])

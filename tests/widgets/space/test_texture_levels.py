@@ -3,8 +3,8 @@
 import numpy as np
 from pytestqt.qtbot import QtBot
 
-from widgets.space.texture_levels import TextureLevels
-from widgets.space.texture_picture import TexturePicture
+from widgets.space.texture_paint import TexturePicture
+from widgets.space.texture_view import TextureLevels
 
 
 def shown(qtbot: QtBot, *sizes: int) -> TextureLevels:

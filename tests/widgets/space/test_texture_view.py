@@ -6,8 +6,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from tests.widgets.showing import shown
-from widgets.space.texture_paint import outside_image
-from widgets.space.texture_picture import TexelFootprint, TexturePicture
+from widgets.space.texture_paint import TexelFootprint, TexturePicture, outside_image
 from widgets.space.texture_view import TextureView
 
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier

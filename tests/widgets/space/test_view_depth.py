@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from widgets.space.orbit import Orbit, refocused, turned, zoomed
-from widgets.space.view_depth import ViewDepth
+from widgets.space.orbit import Orbit, ViewDepth, refocused, turned, zoomed
 
 ANGLE = 0.7
 ORBIT = Orbit(0.3, 0.2, (1.0, 2.0, -3.0), 4.0)

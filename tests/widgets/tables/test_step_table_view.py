@@ -4,9 +4,9 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QGuiApplication
 from pytestqt.qtbot import QtBot
 
-from core.records.tables import StepTable, TableCell, TableColumn
+from core.records.steps import StepTable, TableCell, TableColumn
 from widgets.basics.theme import current_theme
-from widgets.tables.step_table_view import StepTableView
+from widgets.inspector.step_table import StepTableView
 
 COLUMNS = (TableColumn("p", "Speed."), TableColumn("q", "Room."))
 

@@ -8,8 +8,7 @@ from PySide6.QtWidgets import QApplication
 from tests.widgets.showing import shown
 from widgets.basics.style_sheet import apply_theme
 from widgets.basics.theme import LIGHT
-from widgets.timeline.chapter_button import Chapter, ChapterState, Spelling
-from widgets.timeline.chapters import ChapterRow
+from widgets.timeline.chapters import Chapter, ChapterRow, ChapterState, Spelling
 
 TITLES = [
     "Transform",

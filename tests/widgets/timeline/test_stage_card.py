@@ -3,7 +3,7 @@ from PySide6.QtCore import Qt
 
 from core.explain.records import StageCard
 from tests.widgets.showing import shown
-from widgets.timeline.stage_card import StageCardView
+from widgets.timeline.stage_cards import StageCardView
 
 CARD = StageCard(
     "Clip", "Triangles in clip space", "Triangles in front", "Cuts off what lies behind.", "Zwicker 2016"

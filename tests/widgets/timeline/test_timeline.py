@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QApplication
 
 from core.records.steps import Level
 from tests.widgets.showing import shown
-from widgets.basics.marks import Mark
+from widgets.basics.drawing import Mark
 from widgets.basics.theme import current_theme
 from widgets.timeline.bar import TimelineBar
 from widgets.timeline.run_picture import column_counts, flag_height, lane_height

@@ -4,7 +4,7 @@ from functools import cache, partial
 
 import numpy as np
 
-from app.session.cursor import Cursor
+from app.session.moment import Cursor
 from core.records.arrays import Flags, Integers
 from core.records.steps import Level
 from core.trace import StageTrace

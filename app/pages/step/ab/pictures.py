@@ -6,24 +6,22 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from app.pages.step.grid_overlays import step_mark
 from app.pages.step.grid_presenter import OUTLINING
 from app.pages.step.grid_records import LANE_MARKS, buffers_of, mask_overlays
-from app.pages.step.step_mark import step_mark
-from app.pages.step.steps_ahead import sentence_at
-from app.session.cursor import Cursor
-from app.session.moment import Step
+from app.pages.step.inspector_presenter import sentence_at
+from app.session.moment import Cursor, Step
 from core import STAGES, Trace
 from core.explain import variables
 from core.records.arrays import Flags
 from core.records.words import joined
-from widgets.grid.buffer import GridBuffer, number_text
 from widgets.grid.compare_view import Side
 from widgets.grid.geometry import GridGeometry
-from widgets.grid.overlay import Mark, MaskOverlay
+from widgets.grid.layers import CellMark, GridBuffer, MaskOverlay, number_text
 from widgets.inspector.listing import ListingText
 
 if TYPE_CHECKING:
-    from core.study.accuracy.divergence import Divergence  # Looked for long after the window is open.
+    from core.study.divergence import Divergence  # Looked for long after the window is open.
 
 Outlines = Callable[[Trace, Cursor], GridGeometry]
 """Returns the triangles of a run."""
@@ -180,7 +178,7 @@ def compare(first: Side, second: Side) -> tuple[Side, Side, Side]:
         sentence=f"{said}.",
         buffer=shown,
         # The colours show what both have reached.
-        overlays=() if is_choice else (MaskOverlay("difference", Mark.DIFFERENCE, one),),
+        overlays=() if is_choice else (MaskOverlay("difference", CellMark.DIFFERENCE, one),),
         geometry=first.geometry,
         pixel_center=first.pixel_center,
     )
@@ -254,7 +252,7 @@ def _words_of(found: "Divergence", first: Trace) -> list[str]:
 
 def divergence_text(found: "Divergence | None", first: Trace, second: Trace) -> str:
     """Return in words where two runs differ first."""
-    from core.study.accuracy.divergence import has_one_shader, is_same_schedule
+    from core.study.divergence import has_one_shader, is_same_schedule
 
     if found is None and has_one_shader(first, second):
         return ROUNDED
@@ -286,7 +284,7 @@ def _alike_text(first: Trace, second: Trace) -> str:
 def _shader_text(found: "Divergence", first: Trace, second: Trace) -> str:
     """Return in words which variable of two shaders differs first, and where a colour does."""
     from core.lanes.terms import shown
-    from core.study.accuracy.divergence import stage_divergence
+    from core.study.divergence import stage_divergence
 
     name = found.variable
     texts = [shown(each[name]).replace("[", "(").replace("]", ")") for each in found.values]

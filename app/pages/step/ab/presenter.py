@@ -8,18 +8,15 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QObject, Signal, Slot
 
-from app.background.workers import Job
+from app.background import Job
 from app.pages.page_bar import Page
-from app.pages.step.ab.bounded_run import BoundedRun
-from app.pages.step.ab.edited_b import EditedB
 from app.pages.step.ab.lock_step import LockStep
 from app.pages.step.ab.pictures import differing_buffer, divergence_text, nothing, pictured
-from app.pages.step.ab.side_b import SideB, first_difference, settings_difference
+from app.pages.step.ab.side_b import BoundedRun, EditedB, SideB, first_difference, settings_difference
+from app.pages.step.grid_presenter import VertexDrags
 from app.pages.step.grid_records import geometry_of
-from app.pages.step.vertex_drags import VertexDrags
-from app.session.cursor import Cursor
 from app.session.document import Document
-from app.session.moment import Moment, Pixel, Step
+from app.session.moment import Cursor, Moment, Pixel, Step
 from app.session.session import Session
 from app.session.tracing import QUICK_SECONDS, trace_now
 from core import STAGES, Settings, Trace
@@ -31,7 +28,7 @@ from widgets.grid.geometry import GridGeometry
 
 if TYPE_CHECKING:
     from core.edits import Edit  # As in app.session.document.
-    from core.study.accuracy.divergence import Divergence  # Looked for long after the window is open.
+    from core.study.divergence import Divergence  # Looked for long after the window is open.
 
 PREDICTING = "Hidden until the answer is shown."
 SHOWN_ONLY = (
@@ -147,13 +144,14 @@ class ComparePresenter(QObject):
         Both go to the first step in which they differ, where ``seeks`` is set. Raises ValueError if the listing does
         not run in the pipeline, or not on this scene.
         """
-        from app.session.printed_run import settings_of, title_of  # Wanted by few, long after the start.
+        # Wanted by few, long after the start.
+        from app.session.listing_runs import settings_as_printed, title_as_printed
 
-        mine, other = settings_of(name, self._session.latest)
+        mine, other = settings_as_printed(name, self._session.latest)
         if mine != self._session.latest.settings:
             self._session.edit(replace(self._session.latest, settings=mine))
         goal = self._go_to_other_pixel if seeks else None
-        self._become(SideB(mine.differences(other), title_of(name), name), goal)
+        self._become(SideB(mine.differences(other), title_as_printed(name), name), goal)
 
     def set_differences(self, differences: Mapping[str, str | int]) -> None:
         """Choose what B does otherwise than the page; nothing: something that shows in the stage at hand."""
@@ -450,7 +448,7 @@ class ComparePresenter(QObject):
 
         Empty: since the first stage of the settings that differ. What differs before it only follows from them.
         """
-        from core.study.accuracy.divergence import diverge
+        from core.study.divergence import diverge
 
         if self._second is None:
             self._page.tell(self._refusal if self._is_active else "Show A | B first (Ctrl+D).")
@@ -477,7 +475,7 @@ class ComparePresenter(QObject):
 
     def _go_to_other_pixel(self) -> None:
         """Put both runs at the first step that draws another pixel, or else at their first divergence."""
-        from app.session.printed_run import first_other_pixel
+        from app.session.listing_runs import first_other_pixel
 
         assert self._second is not None
         found = first_other_pixel(self._moment.trace.stage("raster"), self._second.stage("raster"))
@@ -494,7 +492,7 @@ class ComparePresenter(QObject):
         self._reach_goal()
 
     def _meet(self, pixel: Pixel) -> None:
-        from core.study.accuracy.divergence import stage_divergence
+        from core.study.divergence import stage_divergence
 
         assert self._second is not None
         stage = self._moment.cursor.stage

@@ -1,12 +1,17 @@
-"""What B is beside A: the same run with other settings, a listing as printed or edited, or a run with a mistake."""
+"""What B is beside A: the same run with other settings, or a listing as printed or edited, tried first."""
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING
+from functools import partial
+from time import perf_counter
+from typing import TYPE_CHECKING, Any
 
-from app.pages.step.scene_outline_presenter import settings_records
+from PySide6.QtCore import QObject, Signal, Slot
+
+from app.background import Job
+from app.pages.step.scene_pane import settings_records
 from app.session.document import Document
-from app.session.tracing import QUICK_SECONDS
+from app.session.tracing import QUICK_SECONDS, trace_now
 from core import STAGES, Settings, Trace
 from core.explain.stage_texts import family_title
 from core.methods import ReplacedName, table
@@ -16,7 +21,12 @@ from core.shaders.presets import preset_of
 from widgets.basics.settings_panel import Setting, SettingChoice
 
 if TYPE_CHECKING:
-    from core.edits import Edit  # As in app.session.document.
+    from core.edits import Edit
+
+
+# What B is beside A: the same run with other settings, a listing as printed or edited, or a run with a
+# mistake.
+
 
 SAME = "the same settings"
 NAMED = 3
@@ -64,7 +74,7 @@ def first_difference(
     B can draw the scene, and does something else than the ``trace`` in the stage that is shown, if any method does.
     """
     # The window opens without the studies.
-    from core.study.accuracy.divergence import is_same_schedule, stage_divergence
+    from core.study.divergence import is_same_schedule, stage_divergence
 
     drawn: dict[str, str | int] = {}
     own = [(name, method) for name, of in FAMILIES.items() if of.stage == stage for method in of.classical]
@@ -173,3 +183,154 @@ class SideB:
             else each
             for each in settings_records(self.document(document))
         ]
+
+
+# Runs of what a user has typed: at once as long as that is quick, else in the background, and they can be
+# stopped.
+
+
+QUICK_TRIAL_SECONDS = 0.2
+"""How long the window may wait for a text; what takes longer begins anew in the background."""
+
+
+class BoundedRun(QObject):
+    """Does one piece of work at a time; another one, or `cancel`, ends it."""
+
+    done = Signal(object)
+    """The result."""
+    failed = Signal(object)
+    """The ValueError or MemoryError; `core.lanes.problem.Problem` where the text is to blame."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self._job = Job(self)
+        self._job.succeeded.connect(self.done)
+        self._job.failed.connect(self.failed)
+
+    @property
+    def is_running(self) -> bool:
+        """Whether something runs in the background."""
+        return self._job.is_running
+
+    def do(self, work: Callable[[], Any], *, is_long: bool = False) -> None:
+        """Begin work that runs typed texts; what ``is_long`` goes to the background at once."""
+        from core.lanes.run import bounded  # Wanted by few, long after the start.
+
+        self.cancel()
+        if not is_long:
+            began = perf_counter()
+            try:
+                with bounded(QUICK_TRIAL_SECONDS, lambda: perf_counter() - began > QUICK_TRIAL_SECONDS):
+                    result = work()
+            except (ValueError, MemoryError) as error:
+                if perf_counter() - began < QUICK_TRIAL_SECONDS:
+                    self.failed.emit(error)
+                    return
+            else:
+                self.done.emit(result)
+                return
+        self._job.start(lambda _progress, is_cancelled: _stoppable(work, is_cancelled))
+
+    def cancel(self) -> None:
+        """Wait for nothing; what runs ends within some statements of its text."""
+        self._job.cancel()
+
+    def stop(self) -> None:
+        """Cancel, and wait for the thread."""
+        self._job.shut_down()
+
+
+def _stoppable(work: Callable[[], Any], is_cancelled: Callable[[], bool]) -> Any:
+    from core.lanes.problem import LISTING
+    from core.lanes.run import bounded
+
+    with bounded(LISTING.seconds, is_cancelled):
+        return work()
+
+
+# B as it runs the edited listings of a document: tried first, so that a text that cannot run changes
+# nothing.
+
+
+class EditedB(QObject):
+    """Finds what B is beside a document with edits, and tries another text."""
+
+    ran = Signal(object)
+    """A text that was tried runs: the document whose side B runs it."""
+    failed = Signal(object)
+    """Why it does not: the exception."""
+
+    def __init__(self, parent: QObject) -> None:
+        super().__init__(parent)
+        self.side: SideB | None = None
+        """What B is; ``None``: the document has no edits, and none is begun."""
+        self.begun: Edit | None = None
+        """The listing that stands in the editor, unchanged: B is a copy of A until it is changed."""
+        self._trying: Document | None = None
+        self._tried: tuple[Document, Trace] | None = None
+        self._trial = BoundedRun(self)
+        self._trial.done.connect(self._take)
+        self._trial.failed.connect(self.failed)
+
+    @property
+    def is_running(self) -> bool:
+        """Whether a text is being tried in the background."""
+        return self._trial.is_running
+
+    def cancel(self) -> None:
+        """Try no further."""
+        self._trial.cancel()
+
+    def stop(self) -> None:
+        """Try no further, and wait for the thread."""
+        self._trial.stop()
+
+    def find(self, document: Document) -> str:
+        """Find what B is beside a document; return why it cannot be drawn, empty: it can.
+
+        Edits that the scene would pass over sleep: B is without them.
+        """
+        self.side = None
+        awake = tuple(
+            edit for edit in document.edits if not edit.passed_over(document.settings, document.scene)
+        )
+        edits = awake or (() if self.begun is None else (self.begun,))
+        if not edits:
+            return ""
+        # Wanted by few, long after the start.
+        from app.session.listing_runs import settings_as_edited, title_as_edited
+
+        title = title_as_edited(edits)
+        if not awake:
+            self.side = SideB({}, title, edits=edits)
+            return ""
+        try:
+            other = settings_as_edited(replace(document, edits=awake))[1]
+        except ValueError as error:
+            self.side = SideB({}, title, edits=awake)
+            return f"B cannot be drawn: {error}"
+        self.side = SideB(document.settings.differences(other), title, edits=awake)
+        return ""
+
+    def try_edit(self, document: Document, stage: str) -> None:
+        """Run the edited listings of a document as B would; `ran` or `failed` follows."""
+        self._trying = document
+        is_long = document.estimated_seconds > QUICK_SECONDS
+        self._trial.do(partial(_traced, document, stage), is_long=is_long)
+
+    def run_of(self, document: Document) -> Trace | None:
+        """Return the run of B beside a document that was tried last."""
+        return self._tried[1] if self._tried is not None and self._tried[0] is document else None
+
+    @Slot(object)
+    def _take(self, trace: Trace) -> None:
+        assert self._trying is not None
+        self._tried, self._trying = (self._trying, trace), None
+        self.ran.emit(self._tried[0])
+
+
+def _traced(document: Document, stage: str) -> Trace:
+    """Trace a stage with the edited listings of a document; raises ValueError where one of them cannot run."""
+    from app.session.listing_runs import settings_as_edited
+
+    return trace_now(replace(document, settings=settings_as_edited(document)[1]), stage)

@@ -10,7 +10,7 @@ from pytestqt.qtbot import QtBot
 from app.pages.compare.page import ComparePage
 from app.window.main_window import MainWindow
 from core.settings import Settings
-from core.study.accuracy.record import Axis, ErrorMeasure, Point, Study, WorkKind
+from core.study.record import Axis, ErrorMeasure, Point, Study, WorkKind
 
 WRONG = "wrong-visible"
 

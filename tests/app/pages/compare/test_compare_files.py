@@ -12,9 +12,9 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from app.files.file_dialogs import SaveDialog
-from app.files.study_files import load_study, study_json
 from app.pages.compare.charts import TIME
 from app.pages.compare.page import ComparePage
+from app.pages.compare.study_files import load_study, study_json
 from app.window.main_window import MainWindow
 from core.study import measure
 from tests.app.pages.compare.compare_pages import WRONG, compare_page, hand_made, measured

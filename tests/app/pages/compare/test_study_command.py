@@ -4,8 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from app.files.atlas_files import load_atlas
-from app.files.study_files import load_study
+from app.pages.compare.study_files import load_study
+from app.pages.stability.atlas_files import load_atlas
 from core.study import study_families
 from tests.app.cli.cli_runs import refused, run_program
 

@@ -6,26 +6,25 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QLabel, QLineEdit
 from pytestqt.qtbot import QtBot
 
-from app.files.attempts import attempt_file
+from app.files.user_folders import attempt_file
 from app.window.main_window import MainWindow
 from core.records.cells import Form
-from lessons.exercises.answers.cells import Entry
-from lessons.exercises.answers.spots import SpotAnswer
+from lessons.exercises.answers.answer import Entry
+from lessons.exercises.answers.choices import SpotAnswer
 from lessons.exercises.answers.trials import BreakAnswer
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import ask
 from tests.app.pages.exercises.acting import LEFT, Page, at, check, paint
-from widgets.exercises.choice_answer import ChoiceAnswerView
-from widgets.exercises.dial_answer import DialAnswerView
-from widgets.exercises.entry_grid import KEYS
-from widgets.exercises.field_answer import FieldAnswerView
-from widgets.exercises.list_answers import ListingAnswerView, OrderAnswerView
+from widgets.exercises.answer_forms import StepsAnswerView
+from widgets.exercises.choice_answers import (
+    ChoiceAnswerView,
+    ListingAnswerView,
+    MethodAnswerView,
+    OrderAnswerView,
+)
+from widgets.exercises.field_answers import KEYS, FieldAnswerView, PlaceAnswerView
 from widgets.exercises.mark_grid import MarkGrid
-from widgets.exercises.method_answer import MethodAnswerView
-from widgets.exercises.pixel_answer import PixelAnswerView
-from widgets.exercises.place_answer import PlaceAnswerView
-from widgets.exercises.spot_answer import SpotAnswerView
-from widgets.exercises.steps_answer import StepsAnswerView
+from widgets.exercises.picture_answers import DialAnswerView, PixelAnswerView, SpotAnswerView
 
 pytestmark = pytest.mark.shared_window
 

@@ -10,15 +10,15 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.files.attempts import attempt_file
-from app.pages.exercises.feedback import CORRECTED, SHOWN
+from app.files.user_folders import attempt_file
+from app.pages.exercises.evidence import CORRECTED, SHOWN
 from app.pages.exercises.page import ExercisesPage
 from app.session.document import open_document
 from app.session.session import Session
 from lessons.attempts.practice import first_tries
 from lessons.attempts.record import Attempt
 from lessons.exercises.catalogue import TEMPLATES
-from lessons.exercises.draws import Draws
+from lessons.exercises.numbers import Draws
 from lessons.exercises.question import Question, judge
 from lessons.scenes import built_in_scene
 from tests.app.pages.exercises.acting import LEFT

@@ -6,15 +6,15 @@ from PySide6.QtGui import QAccessible
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.files.attempts import attempt_file
 from app.files.open_any import open_any
+from app.files.user_folders import attempt_file
 from app.pages.exercises.evidence import OPEN
 from app.pages.step.page import StepPage
 from app.window.main_window import MainWindow
 from core.scene import Scene
-from lessons.exercises.answers.code import CodeAnswer
+from lessons.exercises.answers.listings import CodeAnswer
 from tests.app.pages.exercises.acting import Page, check
-from widgets.exercises.code_answer import NAME, CodeAnswerView
+from widgets.exercises.answer_forms import CODE_NAME, CodeAnswerView
 from widgets.inspector.listing_pane import A
 
 pytestmark = pytest.mark.shared_window
@@ -32,7 +32,7 @@ def test_a_listing_is_repaired_by_keys(page: Page, window: MainWindow, qtbot: Qt
     editor = answer.editor
     told = QAccessible.queryAccessibleInterface(editor)
     assert told is not None
-    assert told.text(QAccessible.Text.Name) == NAME
+    assert told.text(QAccessible.Text.Name) == CODE_NAME
     assert answer.given() == right.start
 
     # Nothing is changed: that is asked about first.

@@ -9,8 +9,8 @@ from PIL import Image
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.pages.cover import COVERED
 from app.pages.exercises.page import ExercisesPage
+from app.pages.page_bar import COVERED
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import render
@@ -18,7 +18,7 @@ from core.framebuffer.display import to_display
 from lessons.small_scenes import triangle_scene
 from tests.app.pages.exercises.acting import LEFT
 from widgets.basics.message_bar import Progress
-from widgets.grid.overlay import MaskOverlay
+from widgets.grid.layers import MaskOverlay
 
 pytestmark = pytest.mark.shared_window
 

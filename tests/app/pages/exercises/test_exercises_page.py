@@ -13,12 +13,10 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
 from pytestqt.qtbot import QtBot
 
-from app.files.attempts import attempt_file
-from app.pages.exercises.answer_pictures import marks_of
-from app.pages.exercises.feedback import CORRECTED, feedback_of
+from app.files.user_folders import attempt_file
+from app.pages.exercises.answers import Checked, marks_of, outline_of
+from app.pages.exercises.evidence import CORRECTED, feedback_of
 from app.pages.exercises.page import ExercisesPage
-from app.pages.exercises.scene_outline import outline_of
-from app.pages.exercises.work import Checked
 from app.window.main_window import MainWindow
 from core import render
 from lessons.exercises.catalogue import SUBJECTS, TEMPLATES
@@ -27,9 +25,9 @@ from lessons.exercises.question import Question, ask, judge
 from tests.app.pages.exercises.acting import LEFT, Page, check, paint
 from widgets.basics.message_bar import Progress
 from widgets.exercises.catalogue import Catalogue
-from widgets.exercises.pixel_answer import LEGEND
+from widgets.exercises.picture_answers import LEGEND
 from widgets.exercises.records import ExerciseEntry, ExerciseGroup
-from widgets.grid.overlay import Mark, MaskOverlay
+from widgets.grid.layers import CellMark, MaskOverlay
 
 pytestmark = pytest.mark.shared_window
 
@@ -52,8 +50,8 @@ def test_pixels_are_painted_checked_and_the_mistake_is_stepped(
     assert CORRECTED not in said
     assert CORRECTED in check(shown), "progress counts the first check"
     marks = {each.mark: each.mask for each in shown.grid.overlays() if isinstance(each, MaskOverlay)}
-    assert marks[Mark.MISSING].sum() == len(draft.answer.reference - wrong)
-    assert marks[Mark.EXTRA].sum() == len(wrong - draft.answer.reference)
+    assert marks[CellMark.MISSING].sum() == len(draft.answer.reference - wrong)
+    assert marks[CellMark.EXTRA].sum() == len(wrong - draft.answer.reference)
     answer = shown.question_view.answer
     assert answer.how.text() == LEGEND
     assert {attempt.mistakes for attempt in attempt_file().attempts()} == {("corner-for-center",)}

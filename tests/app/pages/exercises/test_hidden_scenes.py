@@ -8,9 +8,8 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from app.files.state_files import save_state
-from app.pages.exercises.asked_scene import EDITED
-from app.pages.exercises.page import ExercisesPage
-from app.pages.start.page import HIDDEN
+from app.pages.exercises.page import EDITED, ExercisesPage
+from app.pages.start_page import HIDDEN
 from app.session.document import open_document
 from app.window.kept_question import KeptQuestion
 from app.window.main_window import MainWindow

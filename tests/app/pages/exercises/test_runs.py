@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from app.pages.exercises.runs import faulty_picture, faulty_run, is_pictured, is_stepped, refuting_step
-from app.pages.exercises.scene_outline import document_of
-from core.study.accuracy.divergence import diverge
+from app.pages.exercises.answers import document_of
+from app.pages.exercises.evidence import faulty_picture, faulty_run, is_pictured, is_stepped, refuting_step
+from core.study.divergence import diverge
 from lessons.exercises.catalogue import TEMPLATES
 from lessons.exercises.question import Question, ask, judge
 

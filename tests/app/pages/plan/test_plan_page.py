@@ -15,17 +15,17 @@ from app.pages.compare.charts import title_of
 from app.pages.compare.jobs import chosen_points, plan_candidates
 from app.pages.compare.page import ComparePage
 from app.pages.plan.page import PlanPage
-from app.pages.plan.words import details, headline, rows_of
+from app.pages.plan.plans import details, headline, rows_of
 from app.window.main_window import MainWindow
 from core.explain.stage_texts import family_title
 from core.study import PlanReport, Point, Tolerance, measure, measure_plan, plan
-from core.study.accuracy.family import Candidate, settings_of
-from core.study.accuracy.whole_picture import PIPELINE
 from core.study.planner import planning
-from core.study.planner.costs import Costs
 from core.study.planner.planning import STAGES
+from core.study.planner.trials import Costs
+from core.study.study_family import Candidate, settings_of
+from core.study.whole_picture import PIPELINE
 from lessons.scenes import built_in_scene
-from widgets.plan.rows import Verdict
+from widgets.experiments.plan import Verdict
 
 CTRL = Qt.KeyboardModifier.ControlModifier
 

@@ -5,7 +5,7 @@ import re
 import pytest
 
 from app.cli.plan import report_text
-from app.pages.plan.words import advice_html, findings_html, rows_of
+from app.pages.plan.plans import advice_html, findings_html, rows_of
 from core.study.planner import Tolerance, plan_and_check
 from lessons.scenes import make_scene
 

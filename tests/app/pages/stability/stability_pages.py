@@ -7,8 +7,8 @@ from pytestqt.qtbot import QtBot
 from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
 from core.study.stability import Atlas
-from core.study.stability.shrink import Shrunk
-from widgets.atlas.records import CellPlace
+from core.study.stress import Shrunk
+from widgets.experiments.maps import CellPlace
 
 EXCLUSIVE = "fill_rule=exclusive"
 

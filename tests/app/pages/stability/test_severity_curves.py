@@ -7,15 +7,15 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.export.atlas import atlas_sheet
+from app.pages.stability.atlas_files import atlas_sheet
 from app.pages.stability.page import StabilityPage
 from app.pages.stability.records import BELOW_ZERO, NOTHING_RUN, severity_chart
 from app.window.main_window import MainWindow
 from core.study.stability import Atlas, Axis, ExperimentInfo, Outcome, StabilityMap
-from widgets.atlas.records import CellPlace
 from widgets.basics.theme import LIGHT, paint_as
-from widgets.charts.chart import Chart
-from widgets.charts.records import ChartEmpty, ChartPicture
+from widgets.experiments.chart import Chart
+from widgets.experiments.maps import CellPlace
+from widgets.experiments.series import ChartEmpty, ChartPicture
 
 pytestmark = pytest.mark.shared_window
 

@@ -15,9 +15,9 @@ from app.files.state_files import load_state
 from app.pages.stability.jobs import run_grid
 from app.pages.stability.page import StabilityPage
 from app.window.main_window import MainWindow
+from core.study.fragment_cases import NAME as OPEN_SCENE
 from core.study.stability import Axis, Outcome, experiments, stress
-from core.study.stability.open_scene import NAME as OPEN_SCENE
-from core.study.stability.stress import axes_at
+from core.study.stress import axes_at
 from tests.app.pages.stability.stability_pages import (
     EXCLUSIVE,
     LEFT,
@@ -29,8 +29,8 @@ from tests.app.pages.stability.stability_pages import (
     wait_for_case,
     wait_for_shrunk,
 )
-from widgets.atlas.format_probe import HEAD
-from widgets.atlas.records import UNKNOWN, CellPlace
+from widgets.experiments.case_pictures import HEAD
+from widgets.experiments.maps import UNKNOWN, CellPlace
 
 pytestmark = pytest.mark.shared_window
 

@@ -8,10 +8,10 @@ import pytest
 from PIL import Image
 from PySide6.QtWidgets import QApplication
 
-from app.export.atlas import atlas_csv, atlas_json, atlas_sheet
-from app.export.atlas_text import MARKS, WORDS, atlas_text
+from app.export.failures import MARKS, WORDS, atlas_text
 from app.export.sheet import sheet_bytes
 from app.files.state_files import load_state
+from app.pages.stability.atlas_files import atlas_csv, atlas_json, atlas_sheet
 from core.study.stability import Axis, Outcome, experiments, stress
 from tests.app.cli.cli_runs import refused, run_program
 

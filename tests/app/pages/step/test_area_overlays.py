@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from app.pages.step.cut_overlays import area_overlays
-from app.session.cursor import Cursor
-from app.session.moment import Step
+from app.pages.step.grid_overlays import area_overlays
+from app.session.moment import Cursor, Step
 from core import ClipScene, Settings, trace
 
 CLIP = [[[-1, -1, 0, 1], [0.5, -1, 0, 1], [-1, 0.75, 0, 1]]]

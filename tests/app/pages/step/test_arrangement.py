@@ -18,7 +18,7 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
-from app.files.preferences import Preferences
+from app.files.between_starts import Preferences
 from app.pages.step.inspector_column import InspectorColumn
 from app.session.document import open_document
 from app.window.main_window import MainWindow
@@ -26,7 +26,7 @@ from core.stages.declared import STAGES
 from lessons.scenes import make_scene
 from tests.core.listings import listings_of_the_program
 from tests.covering import is_everything
-from widgets.basics.choice_box import ChoiceBox
+from widgets.basics.controls import ChoiceBox
 from widgets.basics.message_bar import Message, MessageKind
 from widgets.basics.settings_panel import SettingsPanel
 from widgets.basics.style_sheet import style_sheet

@@ -4,10 +4,10 @@ from itertools import pairwise
 
 import pytest
 
-from app.views.chapters import COMPUTED, chapters_of, traced_counts
+from app.views.stage_views import COMPUTED, chapters_of, traced_counts
 from core import STAGES, ClipScene, Settings, trace
 from lessons.scenes import make_scene
-from widgets.timeline.chapter_button import Chapter, ChapterState
+from widgets.timeline.chapters import Chapter, ChapterState
 
 
 def chapters_by_stage(name: str, is_predicting: bool = False, **settings: str) -> dict[str, Chapter]:

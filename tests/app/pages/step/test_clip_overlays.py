@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from app.pages.step.cut_overlays import clip_overlays, cross_segments
-from app.session.cursor import Cursor
-from app.session.moment import Step
+from app.pages.step.grid_overlays import clip_overlays, cross_segments
+from app.session.moment import Cursor, Step
 from app.views.clip_diagram import clip_state, is_in_ndc
 from core import ClipScene, Settings, trace
 from core.records.steps import Level

@@ -12,13 +12,13 @@ from PySide6.QtWidgets import QApplication, QLineEdit
 
 from app.files.open_any import open_any
 from app.files.state_files import EXTENSION, State, StateFileError, load_state, save_state
-from app.pages.step.pixel_stories import story_of
+from app.pages.step.pixel_origins import story_of
 from app.session.document import open_document
 from app.window.main_window import MainWindow
-from core.assembly.depth_tables import table_scene
+from core.depth.whole_depths import table_scene
 from core.records.depth_table import DepthTable
 from core.scene import ClipScene
-from lessons.depth_tables import two_triangles
+from lessons.window_scenes import two_triangles
 
 pytestmark = pytest.mark.shared_window
 

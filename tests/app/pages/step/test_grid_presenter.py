@@ -12,7 +12,7 @@ from app.session.moment import Change
 from app.window.main_window import MainWindow
 from core import STAGES, ClipScene
 from lessons.scenes import make_scene
-from widgets.grid.overlay import MaskOverlay
+from widgets.grid.layers import MaskOverlay
 
 pytestmark = pytest.mark.shared_window
 

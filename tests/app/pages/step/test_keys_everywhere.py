@@ -18,7 +18,7 @@ from app.window.main_window import MainWindow
 from core import STAGES
 from core.records.steps import Level
 from widgets.inspector.listing import ListingView
-from widgets.timeline.chapter_button import ChapterButton
+from widgets.timeline.chapters import ChapterButton
 
 pytestmark = pytest.mark.shared_window
 

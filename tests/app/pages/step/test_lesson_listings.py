@@ -7,13 +7,13 @@ from threading import Event
 import pytest
 from pytestqt.qtbot import QtBot
 
-from app.pages.exercises import work
+from app.pages.exercises import answers
 from app.window.main_window import MainWindow
 from lessons.course.catalogue import FOLDER
 from lessons.exercises.question import Draft
 from tests.app.pages.step.test_lessons import answered, kept, opened, settled
-from widgets.exercises.code_answer import CodeAnswerView
-from widgets.lessons.records import Standing
+from widgets.exercises.answer_forms import CodeAnswerView
+from widgets.exercises.records import Standing
 
 
 def lesson_text(name: str) -> str:
@@ -73,14 +73,14 @@ def test_what_a_check_finds_stays_marked(
     assert walk.answers.asked is not None
     checked = Event()
 
-    def tried_late(draft: Draft, given: object) -> Callable[..., work.Tried]:
-        def tried(*_: object) -> work.Tried:
+    def tried_late(draft: Draft, given: object) -> Callable[..., answers.Tried]:
+        def tried(*_: object) -> answers.Tried:
             checked.wait()
-            return work.Tried(given, None)
+            return answers.Tried(given, None)
 
         return tried
 
-    monkeypatch.setattr("app.pages.step.lesson_question.trying", tried_late)
+    monkeypatch.setattr("app.pages.lessons.question.trying", tried_late)
     form = walk.view.answer
     assert isinstance(form, CodeAnswerView)
     endless = walk.answers.asked.question.draft.answer.reference.replace("x += sx", "x += 0")

@@ -1,6 +1,6 @@
 """What the pane of a lesson says of a lesson's file."""
 
-from app.pages.step.lesson_records import answered
+from app.pages.lessons.states import answered
 
 
 def test_each_question_is_told_with_the_course_that_asks_it() -> None:

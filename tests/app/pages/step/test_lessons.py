@@ -14,20 +14,20 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
-from app.files.attempts import attempt_file
-from app.pages.step.lesson_walk import LessonWalk
-from app.pages.step.looks import show_state
+from app.files.user_folders import attempt_file
+from app.pages.lessons.walk import LessonWalk
+from app.pages.step.kept_look import show_state
 from app.window.main_window import MainWindow
 from core.stages.vertices import process_geometry
 from core.trace.tracers import trace_stage
 from lessons.attempts.record import Attempt
-from lessons.exercises.scene_digest import scene_digest
+from lessons.scene_edits import scene_digest
 from tests.lessons.course.lesson_texts import GOOD
+from widgets.exercises.records import Standing
 from widgets.grid.display import GridDisplay
-from widgets.grid.overlay import MaskOverlay
+from widgets.grid.layers import MaskOverlay
 from widgets.grid.pixel_grid import PixelGrid
 from widgets.inspector.listing_editor import ListingEditor
-from widgets.lessons.records import Standing
 
 pytestmark = pytest.mark.shared_window
 OPEN, SEEN, DONE = Standing.OPEN, Standing.SEEN, Standing.DONE
@@ -637,7 +637,7 @@ def test_a_broken_lesson_is_refused_with_its_line(window: MainWindow, qtbot: QtB
 
 
 def test_a_file_of_an_exercise_is_none_of_a_lesson(window: MainWindow, tmp_path: Path) -> None:
-    from app.files.lesson_folders import is_lesson_file
+    from app.files.user_folders import is_lesson_file
 
     path = tmp_path / "step.toml"
     path.write_text('question = "[[step]]"', encoding="utf-8")

@@ -7,16 +7,15 @@ from itertools import islice
 
 import pytest
 
-from app.pages.step.steps_ahead import sentence_at
-from app.session.cursor import Cursor
-from app.session.moment import Step
+from app.pages.step.inspector_presenter import sentence_at
+from app.session.moment import Cursor, Step
 from core import Settings, trace
 from core.explain import row_sentence
 from core.records.steps import Level
 from core.scene import AnyScene
-from lessons.printed.catalogue import printed_listing
+from lessons.lectures.catalogue import printed_listing
+from lessons.lectures.scenes import ALL_SCENES, clipped
 from lessons.scenes import make_scene, scene_names
-from lessons.slides.scenes import ALL_SCENES, clipped
 
 
 def said(scene: AnyScene, stage: str, level: Level, settings: Settings | None = None) -> Iterator[str]:

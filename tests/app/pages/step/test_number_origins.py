@@ -8,7 +8,7 @@ from PySide6.QtCore import QPoint, QPointF, Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from app.pages.step.number_origins import variable_of
+from app.pages.step.pixel_origins import variable_of
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core.explain import formula

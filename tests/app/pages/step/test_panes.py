@@ -14,7 +14,7 @@ from app.pages.step.panes import PANES, SIDE_PANES, Pane
 from app.window.actions import ACTIONS_BY_NAME
 from app.window.main_window import MainWindow
 from tests.covering import is_everything
-from widgets.basics.focus_order import tab_stops
+from widgets.basics.accessibility import tab_stops
 
 pytestmark = pytest.mark.shared_window
 

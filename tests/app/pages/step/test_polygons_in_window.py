@@ -6,11 +6,9 @@ import numpy as np
 import pytest
 
 from app.files.state_files import load_state, save_state
-from app.pages.step.polygon_overlays import polygon_overlays
-from app.pages.step.scene_outline_presenter import settings_records
-from app.pages.step.step_mark import step_mark
+from app.pages.step.grid_overlays import polygon_overlays, step_mark
+from app.pages.step.scene_pane import outline, settings_records
 from app.session.document import STEPPED, open_document
-from app.session.scene_values import outline
 from app.window.main_window import MainWindow
 from core import ClipScene
 from core.records.steps import Level

@@ -14,7 +14,7 @@ from core.explain import question
 from core.records.steps import Level
 from core.trace import StageTrace
 from lessons.scenes import make_scene
-from widgets.grid.overlay import Mark, MaskOverlay
+from widgets.grid.layers import CellMark, MaskOverlay
 
 pytestmark = pytest.mark.shared_window
 
@@ -127,12 +127,12 @@ def test_right_extra_and_missing_pixels_have_their_own_shapes(window: MainWindow
     for pixel in (right, wrong):
         page.grid.pixel_clicked.emit(*pixel)
     marked = {o.mark: o.mask for o in page.grid.overlays() if isinstance(o, MaskOverlay)}
-    assert np.argwhere(marked[Mark.RIGHT]).tolist() == [[*right[::-1]]]
-    assert np.argwhere(marked[Mark.EXTRA]).tolist() == [[*wrong[::-1]]]
-    assert not marked[Mark.MISSING].any()
+    assert np.argwhere(marked[CellMark.RIGHT]).tolist() == [[*right[::-1]]]
+    assert np.argwhere(marked[CellMark.EXTRA]).tolist() == [[*wrong[::-1]]]
+    assert not marked[CellMark.MISSING].any()
     page.prediction.reveal_button.click()
     marked = {o.mark: o.mask for o in page.grid.overlays() if isinstance(o, MaskOverlay)}
-    assert int(marked[Mark.MISSING].sum()) == int(covered.sum()) - 1
+    assert int(marked[CellMark.MISSING].sum()) == int(covered.sum()) - 1
     assert page.grid.hidden() is None
 
 

@@ -4,8 +4,7 @@ import numpy as np
 import pytest
 
 from app.pages.step.grid_records import sample_dots
-from app.session.cursor import Cursor
-from app.session.moment import Step
+from app.session.moment import Cursor, Step
 from core import Settings, render, trace
 from lessons.scenes import make_scene
 

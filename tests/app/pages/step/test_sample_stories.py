@@ -3,9 +3,15 @@
 import numpy as np
 import pytest
 
-from app.pages.step.pixel_stories import story_of
+from app.pages.step.pixel_origins import story_of
 from core import Settings, render
-from core.explain.history.parts import of_sample, piece_reason, pieces_verdict, samples_name, samples_verdict
+from core.pixel_history.told_coverage import (
+    of_sample,
+    piece_reason,
+    pieces_verdict,
+    samples_name,
+    samples_verdict,
+)
 from core.trace.source import TraceSource
 from lessons.scenes import make_scene
 

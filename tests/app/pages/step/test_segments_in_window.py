@@ -9,16 +9,16 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from app.files.open_any import open_any
-from app.pages.step.pixel_stories import story_of
-from app.pages.step.scene_outline_presenter import settings_records
+from app.pages.step.pixel_origins import story_of
+from app.pages.step.scene_pane import settings_records
 from app.session.document import open_document
-from app.views.chapters import chapters_of
+from app.views.stage_views import chapters_of
 from app.window.main_window import MainWindow
 from core import STAGES
 from core.records.steps import Level
 from core.scene import ClipScene
 from lessons.scenes import make_scene
-from widgets.timeline.chapter_button import ChapterState
+from widgets.timeline.chapters import ChapterState
 
 pytestmark = pytest.mark.shared_window
 

@@ -8,7 +8,7 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QCheckBox, QComboBox, QWidget
 from pytestqt.qtbot import QtBot
 
-from app.pages.step.steps_ahead import load_stages
+from app.pages.step.inspector_presenter import load_stages
 from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core.records.steps import Level

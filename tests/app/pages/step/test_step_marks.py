@@ -9,7 +9,7 @@ from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES, Settings
 from core.records.steps import Level
-from core.trace.geometry_progress import WINDOW, is_dropped, spaces_reached
+from core.transform.traced import WINDOW, is_dropped, spaces_reached
 from lessons.scenes import make_scene
 from tests.covering import in_turn
 from widgets.space.diagram import Diagram

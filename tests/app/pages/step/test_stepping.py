@@ -16,7 +16,7 @@ from core import STAGES, ClipScene
 from core.records.steps import Level
 from core.stages.declared import stage_of
 from lessons.scenes import make_scene
-from widgets.basics.marks import Mark
+from widgets.basics.drawing import Mark
 
 pytestmark = pytest.mark.shared_window
 

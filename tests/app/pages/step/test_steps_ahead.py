@@ -5,10 +5,9 @@ from time import sleep
 from PySide6.QtCore import QCoreApplication
 from pytestqt.qtbot import QtBot
 
-from app.pages.step.steps_ahead import QUIET_MS, STEPS_AHEAD, StepsAhead, load_stages
-from app.session.cursor import Cursor
+from app.pages.step.inspector_presenter import QUIET_MS, STEPS_AHEAD, StepsAhead, load_stages
 from app.session.document import open_document
-from app.session.moment import Step
+from app.session.moment import Cursor, Step
 from app.session.session import Session
 from core.explain import formula
 from core.records.steps import Level

@@ -3,9 +3,8 @@
 import numpy as np
 import pytest
 
-from app.session.opening_document import document_at
-from core.study.stability import Outcome, experiments
-from core.study.stability.coverage import COVERAGE_EXPERIMENTS
+from app.session.document import document_at
+from core.study.stability import COVERAGE_EXPERIMENTS, Outcome, experiments
 
 CASES = [
     pytest.param(experiment.info.name, method, marks=marks)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.fast_path.workers.balance import STEP, even_cuts, moved_cuts, rows_of
+from core.fast_path.workers.sharing import STEP, even_cuts, moved_cuts, rows_of
 
 TIMES = st.lists(st.floats(0, 10), min_size=2, max_size=6)
 

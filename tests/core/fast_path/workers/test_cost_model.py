@@ -5,7 +5,7 @@ from dataclasses import replace
 import pytest
 
 from core import Settings, draw_picture
-from core.fast_path.workers.cost_model import COLOR, FRAGMENT, Load, load_of
+from core.fast_path.workers.sharing import COLOR, FRAGMENT, Load, load_of
 from tests.core.fast_path.band_scenes import SCENES, SPANS, ball
 
 # Bands of a supersampled picture have the bytes of the whole, but look at other parts exactly: no scene of `SCENES`.

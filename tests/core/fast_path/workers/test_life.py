@@ -285,7 +285,7 @@ def test_an_interrupted_picture_leaves_no_answer_behind(monkeypatch: pytest.Monk
             raise KeyboardInterrupt
 
         with monkeypatch.context() as patch:
-            patch.setattr("core.fast_path.workers.order.draw_picture", interrupt)
+            patch.setattr("core.fast_path.workers.band_workers.draw_picture", interrupt)
             with pytest.raises(KeyboardInterrupt):
                 workers.draw(scene, SPANS)
         assert not any(is_running(pid) for pid in interrupted)

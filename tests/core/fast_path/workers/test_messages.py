@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from core import Camera, DirectionalLight, Mesh, Scene, Settings, Texture
-from core.fast_path.workers.messages import Message, Receiver, Sender, is_sent_once
+from core.fast_path.workers.serving import Message, Receiver, Sender, is_sent_once
 from tests.core.meshes import icosphere
 
 

@@ -2,8 +2,7 @@
 
 from dataclasses import replace
 
-from core.fast_path.workers.cost_model import Load
-from core.fast_path.workers.throttle import ALONE_FOR, EVIDENCE, Pace
+from core.fast_path.workers.sharing import ALONE_FOR, EVIDENCE, Load, Pace
 
 LOAD = Load(1000, 1_000_000, 600_000, 600_000)
 HEAVY = replace(LOAD, color="deferred")

@@ -2,8 +2,8 @@
 
 import numpy as np
 
-from core.raster.coverage import cover
-from core.raster.pixel_runs import make_raster
+from core.coverage.fills import cover
+from core.coverage.pixel_runs import make_raster
 from tests.core.drawing import edges_of, runs_of
 from tests.core.meshes import fan
 from tests.core.strategies import clip_of_window

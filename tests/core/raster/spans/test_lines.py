@@ -5,11 +5,10 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from core.raster.lines.bresenham import bresenham, bresenham_listing
-from core.raster.lines.records import COORDINATE_LIMIT, Segments
-from core.raster.spans import lines
-from core.raster.spans.line_words import set_up_line_words
-from core.raster.spans.lines import find_line_pixels, paint_lines
+from core.lines import many_lines
+from core.lines.bresenham import bresenham, bresenham_listing
+from core.lines.line_method import COORDINATE_LIMIT, Segments
+from core.lines.many_lines import find_line_pixels, paint_lines, set_up_line_words
 
 LIMIT = int(COORDINATE_LIMIT)
 NEAR = st.integers(-6, 40)
@@ -135,8 +134,8 @@ def test_blocks_do_not_matter(monkeypatch):
     wanted, found = np.zeros((64, 64), np.uint32), np.zeros((64, 64), np.uint32)
     count = paint_lines(wanted, segments, colors)
     before = find_line_pixels(segments, (0, 0, 64, 64), last_pixel=False)
-    monkeypatch.setattr(lines, "LINES", 7)
-    monkeypatch.setattr(lines, "PIXELS", 50)
+    monkeypatch.setattr(many_lines, "LINES", 7)
+    monkeypatch.setattr(many_lines, "PIXELS", 50)
     assert paint_lines(found, segments, colors) == count
     np.testing.assert_array_equal(found, wanted)
     np.testing.assert_array_equal(find_line_pixels(segments, (0, 0, 64, 64), last_pixel=False), before)

@@ -4,8 +4,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from core.raster.pixel_runs import make_raster
-from core.raster.spans.fill import LaneRows, pixels_of_rows
+from core.coverage.pixel_runs import make_raster
+from core.spans.fill import LaneRows, pixels_of_rows
 
 
 @given(

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from core.numeric.buffers import ScratchBuffers
-from core.raster.pixel_runs import make_raster
-from core.raster.spans.bands import bands, rows_of_triangles, strips
-from core.raster.spans.lanes import set_up_lanes, tie_owners
-from core.raster.spans.rows import Carried, bounds_of_rows
+from core.coverage.pixel_runs import make_raster
+from core.numeric.large_arrays import ScratchBuffers
+from core.spans.bands import bands, rows_of_triangles, strips
+from core.spans.lanes import Carried, bounds_of_rows, set_up_lanes, tie_owners
 from tests.covering import in_turns
 
 TRIANGLES = {

@@ -10,7 +10,7 @@ from itertools import combinations
 from math import nan
 
 from core.study import Point
-from core.study.accuracy.timing import CLOSE, is_faster
+from core.study.record import CLOSE, is_faster
 
 
 def kendall_tau(first: Sequence[Point], second: Sequence[Point]) -> float:

@@ -8,7 +8,7 @@ from app.pages.compare.charts import growth_of, numbers_of
 from app.pages.words import best_sentences
 from core.study import Point, Study, best_values, study_family
 from tests.core.study.accuracy.untimed_runs import run
-from widgets.charts.records import ChartPicture
+from widgets.experiments.series import ChartPicture
 
 WORK = study_family("fill").work("block-size")
 

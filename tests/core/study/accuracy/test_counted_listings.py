@@ -4,17 +4,18 @@ from collections import Counter
 
 import pytest
 
+from core.lines.line_method import line_traits
 from core.methods import table
-from core.raster.lines.traits import line_traits
 from core.settings import Settings
-from core.study.accuracy.counted_listings import (
+from core.study.counted_listings import (
+    CountedNumber,
     count_line_operations,
     counting_listing,
     line_listing,
     listing_ends,
+    plain,
 )
-from core.study.accuracy.counted_numbers import CountedNumber, plain
-from core.study.accuracy.workloads import random_lines
+from core.study.workloads import random_lines
 
 SIZE = (64, 64)
 SEGMENTS = random_lines(SIZE, 12, 24.0, 3, False)

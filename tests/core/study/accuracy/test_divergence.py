@@ -8,8 +8,8 @@ import pytest
 from core import ClipScene, Settings
 from core.methods import table
 from core.pipeline import render
-from core.study.accuracy.divergence import diverge, first_divergence
-from core.study.accuracy.workloads import cyclic_triangles, flat_scene, textured_quad
+from core.study.divergence import diverge, first_divergence
+from core.study.workloads import cyclic_triangles, flat_scene, textured_quad
 from core.trace import trace
 from lessons.scenes import make_scene
 
@@ -67,7 +67,7 @@ def test_a_depth_test_that_fails_parts_at_the_pixel() -> None:
 
 
 def test_filters_part_at_the_texels_and_a_region_narrows_the_search() -> None:
-    from core.study.accuracy.workloads import checkerboard
+    from core.study.workloads import checkerboard
 
     scene = textured_quad(12, 2.0, 1.0, checkerboard(16, 0))
     found = first_divergence(scene, Settings(), Settings(texture_filter="nearest"), region=(4, 4, 3, 3))

@@ -6,8 +6,8 @@ import pytest
 from core.methods import table
 from core.settings import no_effect
 from core.study import study_families
-from core.study.accuracy.whole_picture import PICTURE
-from core.study.accuracy.workloads import window_mesh
+from core.study.whole_picture import PICTURE
+from core.study.workloads import window_mesh
 from tests.core.study.accuracy.untimed_runs import run
 
 PUBLISHED = {"orientation", "depth-steps"}

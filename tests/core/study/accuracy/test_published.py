@@ -5,9 +5,9 @@ from collections import Counter
 import numpy as np
 import pytest
 
+from core.coverage.edges import edge_coefficients
 from core.methods import table
-from core.raster.edges.edge_functions import edge_coefficients
-from core.study.accuracy.counted_numbers import CountedNumber
+from core.study.counted_listings import CountedNumber
 from tests.core.study.accuracy.untimed_runs import run
 
 

@@ -17,13 +17,13 @@ from core.study import (
     opening,
     pareto_front,
     pictures,
+    speed_accuracy,
     study_families,
     study_family,
 )
-from core.study.accuracy import speed_accuracy as module
-from core.study.accuracy.family import settings_of
-from core.study.accuracy.frame_task import check_pixel_tests
-from core.study.accuracy.whole_picture import SAMPLED_COLOR, PictureTask, same_look, scaled, standard_scene
+from core.study.frame_task import check_pixel_tests
+from core.study.study_family import settings_of
+from core.study.whole_picture import SAMPLED_COLOR, PictureTask, same_look, scaled, standard_scene
 from lessons.scenes import make_scene
 
 SMALL = {"size": 8, "cells": 4, "length": 16, "count": 6, "side": 32, "rings": 6, "scale": 0.125}
@@ -54,8 +54,8 @@ def by_method(study: Study) -> dict[str, Point]:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let one run be a block, and fill small pictures."""
-    monkeypatch.setattr("core.study.accuracy.family.BLOCK", 0.0)
-    monkeypatch.setattr("core.study.accuracy.fill.SIZE", (64, 64))
+    monkeypatch.setattr("core.study.study_family.BLOCK", 0.0)
+    monkeypatch.setattr("core.coverage.measured.SIZE", (64, 64))
 
 
 @pytest.mark.usefixtures("quick")
@@ -261,7 +261,7 @@ def test_wrong_input_is_told(options: dict, message: str) -> None:
 
 
 def test_a_method_that_refuses_is_a_point_without_numbers(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("core.study.accuracy.frame_task.MOST_TESTS", 1000)
+    monkeypatch.setattr("core.study.frame_task.MOST_TESTS", 1000)
     refused: list[Point] = []
     study = measure(
         "fill",
@@ -283,7 +283,7 @@ def test_what_goes_wrong_in_a_method_is_not_hidden(monkeypatch: pytest.MonkeyPat
     def broken(*_arguments) -> None:
         raise RuntimeError("a bug")
 
-    monkeypatch.setattr("core.study.accuracy.frame_task.render", broken)
+    monkeypatch.setattr("core.study.frame_task.render", broken)
     with pytest.raises(RuntimeError, match="a bug"):
         measured("fill")
     assert gc.isenabled()
@@ -293,7 +293,7 @@ def test_a_lack_of_memory_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     def too_large(*_arguments) -> None:
         raise MemoryError
 
-    monkeypatch.setattr("core.study.accuracy.frame_task.render", too_large)
+    monkeypatch.setattr("core.study.frame_task.render", too_large)
     assert {point.refused for point in measured("fill").points} == {
         "There is not enough memory for this work."
     }
@@ -334,7 +334,7 @@ def test_progress_rises_and_points_come_one_by_one() -> None:
 
 
 def test_slow_methods_take_fewer_rounds(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "BUDGET", 0.0)
+    monkeypatch.setattr(speed_accuracy, "BUDGET", 0.0)
     study = measure("cull", dials={"rings": 4}, rounds=5, grow=False)
     assert {len(point.seconds) for point in study.points} == {1}
 
@@ -347,7 +347,7 @@ def test_growth_has_all_values_of_the_cost_dial_and_leaves_out_what_is_too_slow(
     assert list(study.growth) == [2, 4, 8, 16, 32, 64, 128]
     assert study.growth[8] == study.points
     assert all(point.is_measured and not point.errors for point in study.growth[64])
-    monkeypatch.setattr(module, "BUDGET", 0.0)
+    monkeypatch.setattr(speed_accuracy, "BUDGET", 0.0)
     slow = measure("visibility", "layers", {"count": 8}, rounds=1)
     assert slow.growth[16] == ()
 

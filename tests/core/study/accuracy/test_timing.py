@@ -7,11 +7,9 @@ import numpy as np
 import pytest
 
 from core.settings import Settings
-from core.study import Point, Study, measure, pareto_front
-from core.study.accuracy import speed_accuracy as module
-from core.study.accuracy.family import Assignment, Candidate, StudyFamily, Task
-from core.study.accuracy.record import ErrorMeasure, Judgement, WorkKind, judged
-from core.study.accuracy.timing import median_interval, ranks
+from core.study import Point, Study, measure, pareto_front, speed_accuracy
+from core.study.record import ErrorMeasure, Judgement, WorkKind, judged, median_interval, ranks
+from core.study.study_family import Assignment, Candidate, StudyFamily, Task
 from tests.core.study.accuracy.order_agreement import kendall_tau
 
 NAMES = ("last-drawn", "painters", "z-buffer", "ray-casting")
@@ -59,8 +57,10 @@ def timed(monkeypatch: pytest.MonkeyPatch, seconds: Callable[[str, int], float],
     def make(assignment: Assignment) -> FakeTask:
         return FakeTask(seconds)
 
-    monkeypatch.setattr(module, "study_family", lambda _: Four("four", "Four", (), (kind,), (WRONG,), make))
-    monkeypatch.setattr("core.study.accuracy.family.BLOCK", 0.0)  # One run is a block.
+    monkeypatch.setattr(
+        speed_accuracy, "study_family", lambda _: Four("four", "Four", (), (kind,), (WRONG,), make)
+    )
+    monkeypatch.setattr("core.study.study_family.BLOCK", 0.0)  # One run is a block.
     return measure("four", **options)
 
 
@@ -127,7 +127,7 @@ def test_an_order_that_never_settles_is_left_undecided(monkeypatch: pytest.Monke
         return 0.001 * float(np.random.default_rng([number, block + 1]).lognormal(0.5 * number, 2.0))
 
     study = timed(monkeypatch, wild, rounds=9)
-    assert {len(each.seconds) for each in study.points} == {9 * module.MOST_TIMES}
+    assert {len(each.seconds) for each in study.points} == {9 * speed_accuracy.MOST_TIMES}
     assert max(last - first for first, last in ranks(study.points).values()) > 0
 
 

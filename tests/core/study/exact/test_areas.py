@@ -5,10 +5,10 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from core.raster.lines.drawing import draw_lines
-from core.study.accuracy.workloads import random_lines
-from core.study.exact.areas import area_in_pixels
-from core.study.exact.lines import distance_from_line, line_areas, line_rectangles
+from core.coverage.measured_exactly import area_in_pixels
+from core.lines.drawing import draw_lines
+from core.lines.measured import distance_from_line, line_areas, line_rectangles
+from core.study.workloads import random_lines
 
 
 def clipped_area(polygon, column: int, row: int) -> float:

@@ -5,8 +5,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from core.study.accuracy.workloads import clip_of_window, window_mesh
-from core.study.exact.coverage import (
+from core.coverage.measured_exactly import (
     columns_inside,
     count_pixels,
     exact_spans,
@@ -15,6 +14,7 @@ from core.study.exact.coverage import (
     triangle_lines,
     whole_corner,
 )
+from core.study.workloads import clip_of_window, window_mesh
 from tests.core.exact_reference import exact_coverage
 from tests.core.one_ended import one_ended_triangles
 

@@ -5,9 +5,9 @@ from math import sqrt, tan
 import numpy as np
 import pytest
 
-from core.fragments.lighting import blinn_phong, plain_lights, plain_material
-from core.study.accuracy.workloads import sphere_scene
-from core.study.exact.sphere import sphere_picture
+from core.shading.lighting import blinn_phong, plain_lights, plain_material
+from core.shading.measured import sphere_picture
+from core.study.workloads import sphere_scene
 
 
 def test_pixels_are_lit_points_of_the_sphere() -> None:

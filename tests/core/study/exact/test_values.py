@@ -5,9 +5,9 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from core.study.accuracy.workloads import cyclic_triangles, overlapping_triangles
-from core.study.exact.coverage import count_pixels, exact_spans
-from core.study.exact.values import exact_fragments, exact_values, exact_visible
+from core.coverage.measured_exactly import count_pixels, exact_spans
+from core.interpolation.measured import exact_fragments, exact_values, exact_visible
+from core.study.workloads import cyclic_triangles, overlapping_triangles
 
 SIZE = (12, 10)
 

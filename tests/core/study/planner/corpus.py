@@ -6,7 +6,7 @@ import numpy as np
 
 from core.records.arrays import Floats
 from core.scene import AnyScene, Camera, DirectionalLight, Light, Material, Mesh, PointLight, Scene, Texture
-from core.study.accuracy.workloads import (
+from core.study.workloads import (
     checkerboard,
     flat_scene,
     overlapping_triangles,

@@ -7,7 +7,7 @@ import numpy as np
 
 from core.records.arrays import Floats
 from core.scene import AnyScene, Camera, ClipScene, Material, Mesh, PointLight, Scene, Texture
-from core.study.accuracy.workloads import COLORS
+from core.study.workloads import COLORS
 
 SIDE = 40
 QUAD = np.array([[0, 1, 2], [0, 2, 3]])

@@ -7,9 +7,8 @@ import pytest
 
 from core.methods import table
 from core.study import Plan, Tolerance, plan, plan_and_check
-from core.study.planner.costs import Costs
 from core.study.planner.planning import STAGES
-from core.study.planner.trials import difference, shown
+from core.study.planner.trials import Costs, difference, shown
 from tests.core.study.planner.corpus import KINDS, corpus_scene
 
 SCENES, ALL_SCENES = 14, 210

@@ -6,9 +6,9 @@ import pytest
 
 from core.settings import Settings, with_method
 from core.study import Tolerance, plan, reference_settings
-from core.study.accuracy.workloads import sphere_scene
-from core.study.planner.costs import PIXELS, Costs, TriedCosts
 from core.study.planner.planning import STAGES
+from core.study.planner.trials import TIMED_PIXELS, Costs, TriedCosts
+from core.study.workloads import sphere_scene
 from tests.core.study.planner.needy_scenes import highlight
 
 
@@ -25,7 +25,7 @@ class Opposite(Costs):
 
 def test_sixteen_samples_take_longer_than_one() -> None:
     scene = sphere_scene(8, 300)
-    assert scene.size[0] * scene.size[1] > PIXELS
+    assert scene.size[0] * scene.size[1] > TIMED_PIXELS
     costs, everything = TriedCosts(scene), reference_settings(scene)
     one = replace(everything, antialiasing="none")
     assert costs.is_slower(everything, one)

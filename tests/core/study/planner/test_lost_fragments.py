@@ -10,11 +10,10 @@ from core.methods import table
 from core.records.frame import StageCount
 from core.stages.vertices import process_geometry
 from core.study import Plan, plan
-from core.study.planner import lost_fragments, trials
-from core.study.planner.costs import Costs
-from core.study.planner.lost_fragments import far_triangles, loses_fragments
+from core.study.planner import trials
+from core.study.planner import trials as lost_fragments
 from core.study.planner.records import Decision
-from core.study.planner.trials import bands, difference, shown
+from core.study.planner.trials import Costs, bands, difference, far_triangles, loses_fragments, shown
 from tests.core.strategies import clip_of_window
 
 DEPTHS = table.names("depth")

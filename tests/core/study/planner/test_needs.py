@@ -8,8 +8,7 @@ import pytest
 import tests.core.study.planner.needy_scenes as scenes
 from core.scene import AnyScene
 from core.study import Tolerance, measure_plan, plan, reference_settings
-from core.study.planner.costs import Costs
-from core.study.planner.trials import difference, shown
+from core.study.planner.trials import Costs, difference, shown
 
 CHEAP = {
     "cull": ("back",),

@@ -7,9 +7,8 @@ import pytest
 
 from core.scene import ClipScene
 from core.study import Tolerance, plan, reference_settings
-from core.study.accuracy.workloads import sphere_scene
-from core.study.planner.costs import Costs
-from core.study.planner.trials import PIXELS, Trials, bands, difference, shown
+from core.study.planner.trials import PIXELS, Costs, Trials, bands, difference, shown
+from core.study.workloads import sphere_scene
 
 
 @pytest.mark.parametrize("size", [(1, 1), (128, 128), (129, 128), (640, 480), (20000, 3), (3, 20000)])

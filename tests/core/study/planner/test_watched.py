@@ -3,9 +3,9 @@
 import pytest
 
 from core.study import Tolerance, check_plan, measure_plan, plan
-from core.study.accuracy.workloads import sphere_scene
-from core.study.planner.costs import Costs
 from core.study.planner.measuring import alone_settings
+from core.study.planner.trials import Costs
+from core.study.workloads import sphere_scene
 from lessons.scenes import built_in_scene
 
 

@@ -17,10 +17,10 @@ from app.session.document import open_document
 from app.window.main_window import MainWindow
 from core import STAGES, Settings
 from core.scene import Scene
-from core.study.accuracy.divergence import diverge, is_same_schedule, stage_divergence
+from core.study.divergence import diverge, is_same_schedule, stage_divergence
 from lessons.scenes import make_scene
-from widgets.grid.buffer import GridBuffer
 from widgets.grid.compare_view import Side
+from widgets.grid.layers import GridBuffer
 
 pytestmark = pytest.mark.shared_window
 

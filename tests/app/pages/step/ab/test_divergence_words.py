@@ -10,7 +10,7 @@ from core import Settings, trace
 from core.edits import EDITABLE, Edit, apply_edit, original
 from core.settings import with_method
 from core.stages.declared import DECLARED
-from core.study.accuracy.divergence import diverge
+from core.study.divergence import diverge
 from lessons.scenes import make_scene
 
 CASES = {

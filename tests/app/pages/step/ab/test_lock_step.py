@@ -10,10 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from app.pages.step.ab.lock_step import LockStep
-from app.session.cursor import Cursor
 from app.session.document import open_document
+from app.session.moment import Cursor
 from core import STAGES
-from core.records.operation import Operation
+from core.records.listing import Operation
 from core.records.steps import Level, Steps, ends_of
 from core.trace import StageTrace
 from lessons.scenes import make_scene

@@ -10,8 +10,8 @@ from PySide6.QtWidgets import QPushButton
 from app.files.open_any import open_any
 from app.files.state_files import State, StateFileError, load_state, save_state
 from app.help.reference import method_page
-from app.pages.step.looks import look_of, show_look
-from app.session.printed_run import runnable
+from app.pages.step.kept_look import look_of, show_look
+from app.session.listing_runs import runnable
 from app.window.main_window import MainWindow
 from core.methods import table
 

@@ -8,7 +8,7 @@ import pytest
 from app.pages.step.ab.pictures import ROUNDED, divergence_text
 from core import Settings, trace
 from core.shaders.presets import preset_program
-from core.study.accuracy.divergence import diverge
+from core.study.divergence import diverge
 from lessons.scenes import make_scene
 
 FLOOR = replace(make_scene("lit-floor"), size=(24, 18))

@@ -1,1 +1,0 @@
-"""How fast the window answers: keys, scrubbing, hovering, dragging and turning, in a real window."""

@@ -1,0 +1,424 @@
+"""The left side: what is in the scene, value by value, which method runs at each stage, and the table of depths."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from math import degrees
+
+import numpy as np
+from PySide6.QtCore import QEvent, QObject, Slot
+from PySide6.QtWidgets import QWidget
+
+from app.pages.page_bar import Page
+from app.session.document import Document, TeachingRaster, focus_on
+from app.session.moment import Moment
+from app.session.session import Session
+from core.depth.whole_depths import table_scene
+from core.families import WholeNumber
+from core.methods import table
+from core.records.arrays import Floats
+from core.records.depth_table import DepthTable, depth_of_text, depths_of_text
+from core.records.words import nouns
+from core.scene import AnyScene, Camera, ClipScene, DirectionalLight, PointLight, Scene
+from core.settings import DEFAULTS, FAMILIES, FIELDS, WHOLE_NUMBERS, no_effect
+from core.stages.declared import DECLARED, stage_of
+from core.stages.needs import refusal
+from core.transform.vertex_stage import transform_vertices
+from lessons.scene_edits import BORDERS, WINDOW_NAMES, clip_window, set_values, window_of_clip
+from lessons.shapes import linear_color
+from lessons.window_scenes import COLORS
+from widgets.basics.settings_panel import Setting, SettingChoice, SettingsPanel
+from widgets.scene.depth_table import DepthTableEditor
+from widgets.scene.outline import OutlineGroup, OutlineRow, OutlineValue, SceneOutline
+
+# What the Scene pane lists of a scene: its values, each under the path by which `lessons.scene_edits`
+# changes it.
+
+
+TYPED_TRIANGLES = 24
+"""Triangles whose corners the outline lists."""
+
+
+def outline(scene: AnyScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
+    """Return the typed values of a scene; window coordinates are those of a raster of ``size``."""
+    if isinstance(scene, ClipScene):
+        return _clip_outline(scene, triangle, size)
+    return (_camera_outline(scene.camera), *_light_outline(scene), *_mesh_outline(scene))
+
+
+def _clip_window_outline(scene: ClipScene, size: tuple[int, int]) -> OutlineGroup:
+    window = clip_window(scene, size)
+    if window.ndim == 1:
+        rows = [_vector_row("clip-window/0", "borders", window, BORDERS)]
+    else:
+        rows = [
+            _vector_row(f"clip-window/{k}", f"corner {k}", corner, "xy") for k, corner in enumerate(window)
+        ]
+    return OutlineGroup("clip-window", "Clip window", tuple(rows))
+
+
+def _clip_outline(scene: ClipScene, triangle: int | None, size: tuple[int, int]) -> tuple[OutlineGroup, ...]:
+    if scene.table is not None:
+        return ()
+    shown = range(min(len(scene.clip), TYPED_TRIANGLES)) if triangle is None else [triangle]
+    window, colors = window_of_clip(scene.clip, size), transform_vertices(scene).colors
+    groups = []
+    for index in shown:
+        rows = []
+        for corner in range(scene.corner_count):
+            path = f"corner/{index}/{corner}"
+            if not np.isfinite(window[index, corner]).all():
+                rows.append(
+                    OutlineRow(
+                        path,
+                        f"vertex {corner}",
+                        vertex=colors[corner],
+                        note="at w = 0: no place in the window",
+                    )
+                )
+                continue
+            values = tuple(
+                OutlineValue(name, float(number))
+                for name, number in zip(WINDOW_NAMES, window[index, corner], strict=True)
+            )
+            rows.append(OutlineRow(path, f"vertex {corner}", values, vertex=colors[corner]))
+        title = f"{nouns(scene.corner_count).one.capitalize()} {index}"
+        groups.append(OutlineGroup(f"triangle/{index}", title, tuple(rows)))
+    if scene.corner_count == 2 or scene.corner_count > 3 or scene.clip_region is not None:
+        groups.append(_clip_window_outline(scene, size))
+    return tuple(groups)
+
+
+def _vector_row(path: str, label: str, vector: Floats, names: Sequence[str] = "xyz") -> OutlineRow:
+    values = tuple(OutlineValue(name, float(number)) for name, number in zip(names, vector, strict=True))
+    return OutlineRow(path, label, values)
+
+
+def _camera_outline(camera: Camera) -> OutlineGroup:
+    angle = OutlineValue("field_of_view", degrees(camera.field_of_view))
+    height = OutlineValue("view_height", camera.view_height)
+    is_perspective = camera.projection == "perspective"
+    rows = [
+        _vector_row("camera/eye", "eye", camera.eye),
+        _vector_row("camera/target", "target", camera.target),
+        _vector_row("camera/up", "up", camera.up),
+        OutlineRow(
+            "camera/lens",
+            "view angle, °" if is_perspective else "view height",
+            (angle if is_perspective else height,),
+        ),
+        OutlineRow(
+            "camera/range", "near, far", (OutlineValue("near", camera.near), OutlineValue("far", camera.far))
+        ),
+    ]
+    return OutlineGroup("camera", f"Camera, {camera.projection}", tuple(rows))
+
+
+def _light_outline(scene: Scene) -> list[OutlineGroup]:
+    groups = []
+    for index, light in enumerate(scene.lights):
+        where = "direction" if isinstance(light, DirectionalLight) else "position"
+        vector = light.position if isinstance(light, PointLight) else light.direction
+        rows = (
+            _vector_row(f"light/{index}/{where}", where, vector),
+            _vector_row(f"light/{index}/color", "colour", light.color, "rgb"),
+        )
+        title = "Directional light" if isinstance(light, DirectionalLight) else "Point light"
+        groups.append(OutlineGroup(f"light/{index}", f"{title} {index}", rows, is_open=False))
+    return groups
+
+
+def _mesh_outline(scene: Scene) -> list[OutlineGroup]:
+    groups = []
+    for index, mesh in enumerate(scene.meshes):
+        counts = f"{len(mesh.triangles):,} triangles, {len(mesh.positions):,} vertices"
+        texture = (
+            f"texture {mesh.texture.pixels.shape[1]}×{mesh.texture.pixels.shape[0]}" if mesh.texture else ""
+        )
+        rows = [OutlineRow(f"mesh/{index}/counts", counts, note=texture)]
+        rows += [
+            OutlineRow(
+                f"mesh/{index}/{name}",
+                name,
+                (OutlineValue(name, getattr(mesh.material, name), 0, 10000 if name == "shininess" else 1),),
+            )
+            for name in ("ambient", "diffuse", "specular", "shininess")
+        ]
+        groups.append(OutlineGroup(f"mesh/{index}", mesh.name, tuple(rows), is_open=False))
+    return groups
+
+
+# The left side: what is in the scene, and which method runs at each stage.
+
+
+FOCUS = "document/focus/triangle"
+"""Path of the number of the triangle in focus."""
+
+
+class SceneOutlinePresenter(QObject):
+    """Shows and edits scene values and settings."""
+
+    def __init__(
+        self,
+        session: Session,
+        scene_outline: SceneOutline,
+        panel: SettingsPanel,
+        page: Page,
+    ) -> None:
+        super().__init__(page)
+        self._page = page
+        self._session, self._outline, self._panel = session, scene_outline, panel
+        self._shown: dict[QWidget, Document] = {}
+        """What each pane shows: while it is folded away, not the newest."""
+        for pane in (scene_outline, panel):
+            pane.installEventFilter(self)
+        scene_outline.value_edited.connect(self._edit_value)
+        scene_outline.values_edited.connect(self._edit_values)
+        scene_outline.row_selected.connect(scene_outline.show_selection)
+        panel.setting_chosen.connect(self._choose)
+        self.refresh(session.moment)
+
+    def refresh(self, moment: Moment) -> None:
+        """Show the document in the panes that are in sight, also where it is the same and something else was typed."""
+        for pane in (self._outline, self._panel):
+            if pane.isVisible():
+                self._shown.pop(pane, None)
+                self._fill(pane, moment.document)
+
+    def prepare(self, document: Document) -> None:
+        """Fill the panes that are folded away with a document that may be shown in them next."""
+        for pane in (self._outline, self._panel):
+            if not pane.isVisible():
+                self._fill(pane, document)
+
+    def eventFilter(self, watched: QObject, event: QEvent) -> bool:
+        """Bring a pane up to date when it is unfolded."""
+        if event.type() == QEvent.Type.Show and watched in (self._outline, self._panel):
+            assert isinstance(watched, QWidget)
+            self._fill(watched, self._session.document)
+        return False
+
+    def _fill(self, pane: QWidget, document: Document) -> None:
+        if self._shown.get(pane) is document:
+            return
+        self._shown[pane] = document
+        if pane is self._panel:
+            self._panel.show_settings(settings_records(document))
+        else:
+            size = document.traced_scene.size
+            groups = outline(document.scene, document.triangle, size)
+            self._outline.show_groups((_document_group(document), *groups))
+
+    @Slot(str, float)
+    def _edit_value(self, path: str, value: float) -> None:
+        self._edit_values({path: value})
+
+    @Slot(object)
+    def _edit_values(self, values: Mapping[str, float]) -> None:
+        document = self._session.latest
+        try:
+            if FOCUS in values:
+                document = self._focus(document, values[FOCUS])
+            else:
+                scene = set_values(document.scene, values, document.traced_scene.size)
+                document = replace(document, scene=scene)
+            self._session.edit(document)
+        except ValueError as error:
+            self._page.refuse(str(error))
+            self.refresh(self._session.moment)
+
+    @staticmethod
+    def _focus(document: Document, value: float) -> Document:
+        count = document.triangle_count
+        if value != int(value) or not 0 <= value < count:
+            raise ValueError(f"triangle must be a whole number from 0 to {count - 1}, got {value:g}")
+        return focus_on(document, int(value))
+
+    @Slot(str, str)
+    def _choose(self, family: str, value: str) -> None:
+        try:
+            self._session.set_setting(family, int(value) if family in WHOLE_NUMBERS else value)
+        except ValueError as error:
+            self._page.refuse(str(error))
+            self.refresh(self._session.moment)
+
+
+def _document_group(document: Document) -> OutlineGroup:
+    count, drawn = document.triangle_count, nouns(document.scene.corner_count)
+    rows = [OutlineRow("document/raster", document.raster.label)]
+    if document.triangle is None:
+        text = f"One {drawn.one}" if count == 1 else f"All {count:,} {drawn.many} are stepped"
+        rows.append(OutlineRow("document/all", text))
+    else:
+        value = OutlineValue("triangle", document.triangle, 0, count - 1)
+        label = f"{drawn.one.capitalize()} in focus, of {count:,}"
+        rows.append(OutlineRow("document/focus", label, (value,)))
+    return OutlineGroup("document", document.title or "Scene", tuple(rows))
+
+
+def settings_records(document: Document) -> list[Setting]:
+    """Return one record per setting, with what does not matter now and why."""
+    records, last = [], ""
+    order = [stage.name for stage in DECLARED]
+    for family in sorted(FAMILIES, key=lambda family: order.index(FAMILIES[family].stage)):
+        for name in (family, *(number for number in WHOLE_NUMBERS if FIELDS[number].taken_by == family)):
+            heading = stage_of(FAMILIES[family].stage).heading
+            records.append(_record(document, name, heading if heading != last else ""))
+            last = heading
+    return records
+
+
+def _record(document: Document, name: str, heading: str) -> Setting:
+    declared, settings = FIELDS[name], document.settings
+    current = str(getattr(settings, name))
+    if isinstance(declared, WholeNumber):
+        numbers = [str(number) for number in declared.offered]
+        numbers += [] if current in numbers else [current]
+        choices = tuple(SettingChoice(number, declared.label.format(number)) for number in numbers)
+        is_more = False
+    else:
+        # Where another function runs in place of a method, its name stands there.
+        runs = getattr(settings, name)
+        choices = tuple(
+            _choice(document, name, runs if method == current else method) for method in table.names(name)
+        )
+        is_more = not FAMILIES[name].classical
+    if name == "shading" and document.scene.program is not None:
+        choices, current = (SettingChoice("", "Your shader"), *choices), ""
+    reason = no_effect(settings, name, document.scene)
+    is_used = current != str(getattr(DEFAULTS, name))
+    is_more = not is_used and (is_more or (isinstance(declared, WholeNumber) and bool(reason)))
+    return Setting(name, declared.title, choices, current, reason, heading, is_more)
+
+
+def _choice(document: Document, family: str, name: str) -> SettingChoice:
+    found = table.get(family, name)
+    breaks = f"\nBreaks: {found.breaks_where}." if found.breaks_where else ""
+    tooltip = f"{name}\nSource: {found.source}.\nExact for {found.exact_for}.{breaks}"
+    reason = refusal(family, name, document.scene)
+    return SettingChoice(
+        str(name), found.title, tooltip, reason and f"It {reason}.", name not in FAMILIES[family].classical
+    )
+
+
+# The table of depths in the Scene pane: each edit makes another table, and so another scene, which undo
+# takes back.
+
+
+class DepthTablePresenter(QObject):
+    """Shows the table of the session's scene while it has one, and edits it."""
+
+    def __init__(self, session: Session, editor: DepthTableEditor, page: Page) -> None:
+        super().__init__(page)
+        self._page = page
+        self._session, self._editor = session, editor
+        self._shown: DepthTable | None = None
+        editor.cell_edited.connect(self._set_cell)
+        editor.patch_pasted.connect(self._paste)
+        editor.patch_moved.connect(self._move)
+        editor.patch_added.connect(self._add)
+        editor.patch_removed.connect(self._remove)
+        editor.test_chosen.connect(self._choose_test)
+        editor.size_chosen.connect(self._resize)
+        self.refresh(session.moment)
+
+    def refresh(self, moment: Moment) -> None:
+        """Show the table, or nothing where the scene is another one."""
+        table = self._table()
+        self._editor.setVisible(table is not None)
+        if table is not None and table is not self._shown:
+            self._editor.show_table(table)
+        self._shown = table
+
+    def _table(self) -> DepthTable | None:
+        scene = self._session.latest.scene
+        return scene.table if isinstance(scene, ClipScene) else None
+
+    @Slot(int, int, int, str)
+    def _set_cell(self, patch: int, row: int, column: int, text: str) -> None:
+        def changed(table: DepthTable) -> DepthTable:
+            depths = table.depths.copy()
+            depths[patch, row, column] = depth_of_text(text)
+            return replace(table, depths=depths)
+
+        self._edit(changed)
+
+    @Slot(int, str)
+    def _paste(self, patch: int, text: str) -> None:
+        def changed(table: DepthTable) -> DepthTable:
+            cells = depths_of_text(text)
+            if cells.shape != table.depths.shape[1:]:
+                columns, rows = table.size
+                raise ValueError(
+                    f"the pasted patch has {cells.shape[1]} × {cells.shape[0]} cells, the table {columns} × {rows}"
+                )
+            depths = table.depths.copy()
+            depths[patch] = cells
+            return replace(table, depths=depths)
+
+        self._edit(changed)
+
+    @Slot(int, int)
+    def _move(self, patch: int, place: int) -> None:
+        def changed(table: DepthTable) -> DepthTable:
+            order = [number for number in range(len(table.depths)) if number != patch]
+            order.insert(place, patch)
+            return replace(table, depths=table.depths[order], colors=table.colors[order])
+
+        self._edit(changed)
+        self._editor.show_current_patch(place)
+
+    @Slot()
+    def _add(self) -> None:
+        def changed(table: DepthTable) -> DepthTable:
+            count = len(table.depths)
+            color = linear_color(COLORS[count % len(COLORS)])
+            empty = np.full_like(table.depths[:1], np.nan)
+            return replace(
+                table,
+                depths=np.concatenate([table.depths, empty]),
+                colors=np.concatenate([table.colors, color[None]]),
+            )
+
+        self._edit(changed)
+        self._editor.show_current_patch(self._editor.patches.count() - 1)
+
+    @Slot(int)
+    def _remove(self, patch: int) -> None:
+        self._edit(
+            lambda table: replace(
+                table,
+                depths=np.delete(table.depths, patch, axis=0),
+                colors=np.delete(table.colors, patch, axis=0),
+            )
+        )
+
+    @Slot(str)
+    def _choose_test(self, test: str) -> None:
+        self._edit(lambda table: replace(table, test=test))
+
+    @Slot(int, int)
+    def _resize(self, columns: int, rows: int) -> None:
+        """Cut or fill up at the right and the top."""
+
+        def changed(table: DepthTable) -> DepthTable:
+            depths = np.full((len(table.depths), rows, columns), np.nan)
+            kept = table.depths[:, :rows, :columns]
+            depths[:, : kept.shape[1], : kept.shape[2]] = kept
+            return replace(table, depths=depths)
+
+        self._edit(changed)
+
+    def _edit(self, change: Callable[[DepthTable], DepthTable]) -> None:
+        """Take over a changed table, or show the present one again and say what was wrong."""
+        document, table = self._session.latest, self._table()
+        if table is None:
+            return
+        try:
+            scene = table_scene(change(table))
+            document = replace(document, scene=scene, raster=TeachingRaster(*scene.size))
+            if document.triangle is not None and document.triangle >= document.triangle_count:
+                document = replace(document, triangle=None)
+            self._session.edit(document)
+        except ValueError as error:
+            self._page.refuse(str(error))
+            self._editor.show_table(table)

@@ -1,1 +1,0 @@
-"""Scenes in clip space put together: primitives from shared vertices, and tables of depths."""

@@ -1,0 +1,1 @@
+"""Clipping: triangles in clip space, polygons in the window."""

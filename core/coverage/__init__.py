@@ -1,0 +1,1 @@
+"""Which pixels triangles and polygons cover: snapping, edge functions, number formats, binning, fills."""

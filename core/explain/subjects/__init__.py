@@ -1,1 +1,0 @@
-"""One module for each subject: its rows (sentence, formula, question) and its variables."""

@@ -1,1 +1,0 @@
-"""Vertex processing and clipping: matrices, vertex stage, culling, polygon clipping."""

@@ -1,1 +1,0 @@
-"""Polygon clipping: Sutherland-Hodgman in clip space, and the methods of the family ``clipping``."""

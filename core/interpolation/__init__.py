@@ -1,0 +1,1 @@
+"""Values between the corners of primitives: weights, perspective, what goes without it."""

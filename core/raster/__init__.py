@@ -1,1 +1,0 @@
-"""From triangles to the pixels that they cover: snapping, edge functions, binning, fills and lines."""

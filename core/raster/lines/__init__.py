@@ -1,1 +1,0 @@
-"""Lines: the methods of the family ``line``, one file each, and the wireframe of triangles."""

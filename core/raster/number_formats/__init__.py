@@ -1,1 +1,0 @@
-"""Edge functions in every number format: floats, integers, fractions, and the inverse matrix."""

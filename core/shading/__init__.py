@@ -1,0 +1,1 @@
+"""Light at points, and where it is evaluated."""

@@ -1,1 +1,0 @@
-"""Speed against accuracy: every method of a family on the same work, against an exact reference."""

@@ -1,0 +1,1 @@
+"""Textures: look-up, mipmaps, footprints of pixels, and packed texels for pictures."""

@@ -1,0 +1,1 @@
+"""The vertex stage: matrices, spaces, and primitives assembled from vertices."""

@@ -1,1 +1,0 @@
-"""Stability maps and the case behind a cell."""

@@ -1,1 +1,0 @@
-"""Charts of speed against accuracy, with their legends, tables and controls."""

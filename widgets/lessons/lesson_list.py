@@ -1,0 +1,279 @@
+"""The lessons of the course as cards under the titles of their parts: title, question, and how far one is."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from PySide6.QtCore import QPointF, QRect, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtGui import QColor, QFont, QFontMetrics, QKeyEvent, QPainter, QPaintEvent, QPen, QResizeEvent
+from PySide6.QtWidgets import QAbstractButton, QToolButton, QWidget
+
+from core.records.words import counted
+from widgets.basics.accessibility import ArrowGroup, KeyClaim
+from widgets.basics.controls import FlowLayout, button_with_tip, column_layout, row_layout, text_label
+from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
+
+WIDTH = 286
+"""Least of a card at a text size of 13: three stand side by side in a window of 1280 pixels."""
+WIDEST = 1.6
+"""Times that width, at most."""
+GAP = 8
+SPACING = 12
+WRAPPED = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop) | int(Qt.TextFlag.TextWordWrap)
+BY_STAGE, BY_LEARNING = "List by stage", "List in the order of learning"
+
+
+@dataclass(frozen=True)
+class LessonEntry:
+    """One lesson."""
+
+    name: str
+    title: str
+    question: str
+    minutes: int
+    done: tuple[bool, ...]
+    """Of each step, whether it is done; empty: a single step."""
+    seen: tuple[bool, ...] = ()
+    """Of each step, whether its answer was shown; empty: none."""
+    is_next: bool = False
+    """Whether this is where one goes on."""
+
+    @property
+    def is_begun(self) -> bool:
+        """Whether a step is done, or its answer was shown."""
+        return any((*self.done, *self.seen))
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether all steps are done, or their answers were shown."""
+        return bool(self.done) and sum(self.done) + sum(self.seen) == len(self.done)
+
+    @property
+    def progress(self) -> str:
+        """How long it takes and how far one is, in words."""
+        if not self.done:
+            return f"{self.minutes} minutes"
+        seen = f", {sum(self.seen)} seen" if any(self.seen) else ""
+        return f"{self.minutes} minutes, {sum(self.done)} of {counted(len(self.done), 'step')} done{seen}"
+
+
+@dataclass(frozen=True)
+class LessonPart:
+    """Lessons that belong together."""
+
+    title: str
+    lessons: tuple[LessonEntry, ...]
+
+    @property
+    def sentence(self) -> str:
+        """What is in it, in words."""
+        if not any(lesson.done for lesson in self.lessons):
+            return counted(len(self.lessons), "surprise")
+        minutes = sum(lesson.minutes for lesson in self.lessons)
+        done = sum(lesson.is_finished for lesson in self.lessons)
+        return f"{counted(len(self.lessons), 'lesson')}, {minutes} minutes{f', {done} done' if done else ''}"
+
+
+class LessonCard(QAbstractButton):
+    """A button with title, question, minutes and a dot for each step."""
+
+    def __init__(self, entry: LessonEntry, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.entry = entry
+        self._width = WIDTH
+        self._heights: tuple[tuple[Theme, int], tuple[int, int]] | None = None
+        self.setObjectName(entry.name)
+        self.setText(entry.title)
+        self.setAccessibleName(entry.title)
+        here = " Go on here." if entry.is_next else ""
+        self.setAccessibleDescription(f"{entry.question} {entry.progress}.{here}")
+        self.setToolTip(entry.progress)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
+        KeyClaim(self, (Qt.Key.Key_Space,))
+
+    def sizeHint(self) -> QSize:
+        """Return the size of all texts; the parent gives a part the height of its highest."""
+        title, question = self._text_heights()
+        last = round(1.5 * current_theme().text_px)
+        return QSize(self._width, title + question + last + 3 * GAP)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the card, with a frame where it has the keyboard or the pointer, or where one goes on."""
+        theme, entry = current_theme(), self.entry
+        title_height, _ = self._text_heights()
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            is_framed = self.underMouse() or self.hasFocus() or entry.is_next
+            frame = QPen(QColor(theme.focus if self.hasFocus() else theme.outline), 2)
+            painter.setPen(frame if is_framed else Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(theme.selection if self.isDown() else theme.panel))
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), 4, 4)
+            text = self.rect().adjusted(GAP, GAP, -GAP, -GAP)
+            title, question = _fonts()
+            painter.setFont(title)
+            painter.setPen(QColor(theme.text))
+            painter.drawText(text, WRAPPED, entry.title)
+            painter.setFont(question)
+            painter.setPen(QColor(theme.muted_text))
+            painter.drawText(text.adjusted(0, title_height + GAP // 2, 0, 0), WRAPPED, entry.question)
+            said = f"{entry.minutes} min" + (" · go on here" if entry.is_next and entry.is_begun else "")
+            painter.drawText(text, int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom), said)
+            radius = 0.3 * theme.text_px
+            painter.setPen(QPen(QColor(theme.muted_text), 1.4))
+            seen = entry.seen or (False,) * len(entry.done)
+            for place, (is_done, is_seen) in enumerate(
+                zip(reversed(entry.done), reversed(seen), strict=True)
+            ):
+                painter.setBrush(QColor(theme.muted_text) if is_done else Qt.BrushStyle.NoBrush)
+                middle = QPointF(text.right() - radius * (1 + 3 * place), text.bottom() - 0.6 * theme.text_px)
+                painter.drawEllipse(middle, radius, radius)
+                if is_seen:  # A point, as in the lesson.
+                    painter.setBrush(QColor(theme.muted_text))
+                    painter.drawEllipse(middle, 0.3 * radius, 0.3 * radius)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Open the lesson with Return too."""
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.click()
+        else:
+            super().keyPressEvent(event)
+
+    def set_width(self, width: int) -> None:
+        """Take so many pixels of width."""
+        self._width = width
+
+    def _text_heights(self) -> tuple[int, int]:
+        """Return the heights of title and question, wrapped: a layout asks many times."""
+        made_from = current_theme(), self._width
+        if self._heights is None or self._heights[0] != made_from:
+            room = QRect(0, 0, self._width - 2 * GAP, 1000)
+            title, question = (
+                QFontMetrics(font).boundingRect(room, WRAPPED, text).height()
+                for font, text in zip(_fonts(), (self.entry.title, self.entry.question), strict=True)
+            )
+            self._heights = made_from, (title, question)
+        return self._heights[1]
+
+
+def _fonts() -> tuple[QFont, QFont]:
+    """Return the fonts of the title and of the question."""
+    theme = current_theme()
+    title = text_font(theme)
+    title.setWeight(QFont.Weight.DemiBold)
+    return title, text_font(theme, theme.text_px - 1)
+
+
+class LessonPartView(QWidget):
+    """The title of a part, which folds its cards away and shows them again."""
+
+    lesson_chosen = Signal(str)
+
+    def __init__(self, part: LessonPart, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.part = part
+        self.button = QToolButton(self)
+        self.button.setProperty("flat", True)
+        self.button.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextBesideIcon)
+        self.button.setText(f"{part.title}: {part.sentence}")
+        self.button.clicked.connect(self._toggle)
+        self._group = QWidget(self)
+        self._group.setAccessibleName(part.title)
+        flow = FlowLayout(self._group, SPACING)
+        self.cards = [LessonCard(entry, self._group) for entry in part.lessons]
+        ArrowGroup(self.cards, self._group)
+        for card in self.cards:
+            card.clicked.connect(self._choose)
+            flow.addWidget(card)
+        layout = column_layout(self, 4)
+        layout.addWidget(self.button)
+        layout.addWidget(self._group)
+        theme_notifier().theme_changed.connect(self._fit)
+        self.set_open(False)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether the cards are shown."""
+        return self._group.isVisibleTo(self)
+
+    def set_open(self, is_open: bool) -> None:
+        """Show the cards, or fold them away."""
+        self._group.setVisible(is_open)
+        self.button.setArrowType(Qt.ArrowType.DownArrow if is_open else Qt.ArrowType.RightArrow)
+        self.button.setAccessibleDescription("shown" if is_open else "folded away")
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Choose how many cards stand side by side."""
+        super().resizeEvent(event)
+        self._fit()
+
+    @Slot()
+    def _fit(self) -> None:
+        """Make the cards as wide as so many leave room for, and all as high as the highest."""
+        least = round(WIDTH * current_theme().text_px / 13)
+        columns = max((self.width() + SPACING) // (least + SPACING), 1)
+        width = (self.width() + SPACING) // columns - SPACING
+        for card in self.cards:
+            card.set_width(min(max(width, least), round(WIDEST * least)))
+        sizes = [card.sizeHint() for card in self.cards]
+        for card, size in zip(self.cards, sizes, strict=True):
+            card.setFixedSize(size.width(), max(each.height() for each in sizes))
+
+    @Slot()
+    def _toggle(self) -> None:
+        self.set_open(not self.is_open)
+
+    @Slot()
+    def _choose(self) -> None:
+        self.lesson_chosen.emit(self.sender().objectName())
+
+
+class LessonList(QWidget):
+    """All lessons, part by part; the part in which one goes on is open."""
+
+    lesson_chosen = Signal(str)
+    """Name of a lesson."""
+    order_chosen = Signal(bool)
+    """Whether they are to be listed by stage."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setAccessibleName("Lessons")
+        self.parts: list[LessonPartView] = []
+        self._is_by_stage = False
+        self.lead = text_label("", self, wraps=True)
+        self.order_button = button_with_tip(BY_STAGE, "List the lessons in another order", self)
+        self.order_button.clicked.connect(self._turn)
+        head = QWidget(self)
+        row = row_layout(head, 8)
+        row.addWidget(text_label("Lessons", head, role="title"))
+        row.addStretch(1)
+        row.addWidget(self.order_button)
+        self._column = column_layout(self, 4)
+        self._column.addWidget(head)
+        self._column.addWidget(self.lead)
+
+    @property
+    def cards(self) -> list[LessonCard]:
+        """All cards, also those that are folded away."""
+        return [card for part in self.parts for card in part.cards]
+
+    def show_lessons(self, parts: Sequence[LessonPart], lead: str) -> None:
+        """Show the lessons, and a sentence on where to begin or to go on; parts that were open stay open."""
+        were_open = {view.part.title for view in self.parts if view.is_open}
+        for view in self.parts:
+            self._column.removeWidget(view)
+            view.hide()
+            view.deleteLater()
+        self.lead.setText(lead)
+        self.parts = [LessonPartView(part, self) for part in parts]
+        for view in self.parts:
+            view.lesson_chosen.connect(self.lesson_chosen)
+            is_next = any(lesson.is_next for lesson in view.part.lessons)
+            view.set_open(is_next or view.part.title in were_open)
+            self._column.addWidget(view)
+
+    @Slot()
+    def _turn(self) -> None:
+        self._is_by_stage = not self._is_by_stage
+        self.order_button.setText(BY_LEARNING if self._is_by_stage else BY_STAGE)
+        self.order_chosen.emit(self._is_by_stage)

@@ -1,0 +1,248 @@
+"""Scenes as cards: a picture, a title and a sentence; a click or Return opens one, arrows walk."""
+
+from collections.abc import Mapping, Sequence, Set
+from dataclasses import dataclass
+from itertools import groupby
+
+from PySide6.QtCore import QEvent, QPoint, QRect, QRectF, QSize, Qt, Signal, Slot
+from PySide6.QtGui import (
+    QColor,
+    QFont,
+    QFontMetrics,
+    QImage,
+    QKeyEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QResizeEvent,
+)
+from PySide6.QtWidgets import QAbstractButton, QWidget
+
+from widgets.basics.accessibility import ArrowGroup, KeyClaim, give_focus
+from widgets.basics.controls import FlowLayout, column_layout, text_label
+from widgets.basics.theme import Theme, current_theme, text_font, theme_notifier
+
+PICTURE = QSize(64, 48)
+"""Logical pixels of a picture at a text size of 13, times 3 or 4: a teaching raster keeps square pixels."""
+SIZES = (3, 4)
+MANY = 5
+"""Cards in a row that the larger pictures leave room for."""
+GAP = 8
+SPACING = 12
+"""Pixels between two cards."""
+STEPS = {
+    Qt.Key.Key_Left: (-1, 0),
+    Qt.Key.Key_Right: (1, 0),
+    Qt.Key.Key_Up: (0, -1),
+    Qt.Key.Key_Down: (0, 1),
+}
+"""Columns and rows that an arrow goes."""
+CENTERED = int(Qt.AlignmentFlag.AlignCenter) | int(Qt.TextFlag.TextWordWrap)
+WRAPPED = int(Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignTop) | int(Qt.TextFlag.TextWordWrap)
+
+
+@dataclass(frozen=True)
+class SceneEntry:
+    """One scene."""
+
+    name: str
+    title: str
+    description: str
+
+
+class SceneCard(QAbstractButton):
+    """A button with a picture, which may come later."""
+
+    def __init__(self, entry: SceneEntry, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.entry = entry
+        self._image: QImage | None = None
+        self._hidden = ""
+        """Why the picture is hidden; empty: it is not."""
+        self._size = SIZES[0]
+        self._heights: tuple[tuple[int, Theme], tuple[int, int]] | None = None
+        """Of title and sentence, and what they are made from."""
+        self.setObjectName(entry.name)
+        self.setText(entry.title)
+        self.setAccessibleName(entry.title)
+        self.setAccessibleDescription(entry.description)
+        self.setToolTip(entry.description)
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setAttribute(Qt.WidgetAttribute.WA_Hover)
+        KeyClaim(self, (*STEPS, Qt.Key.Key_Space))
+
+    @Slot(QImage)
+    def show_picture(self, image: QImage) -> None:
+        """Show the picture of the scene."""
+        self._image = image
+        self.update()
+
+    def hide_picture(self, why: str) -> None:
+        """Show these words in place of the picture; none: the picture."""
+        if why != self._hidden:
+            self._hidden = why
+            self.setAccessibleDescription(f"{self.entry.description} {why}".strip())
+            self.update()
+
+    def set_size(self, size: int) -> None:
+        """Show the picture so many times as large as `PICTURE`."""
+        self._size = size
+
+    def has_picture(self) -> bool:
+        """Return whether its picture is there."""
+        return self._image is not None
+
+    def sizeHint(self) -> QSize:
+        """Return the size of picture, title and sentence; the parent gives a group the height of its highest."""
+        text = sum(self._text_heights())
+        return QSize(self._picture_size().width() + 2 * GAP, self._picture_size().height() + text + 3 * GAP)
+
+    def paintEvent(self, event: QPaintEvent) -> None:
+        """Paint the card, with a frame where it has the keyboard or the pointer."""
+        theme = current_theme()
+        with QPainter(self) as painter:
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+            frame = theme.focus if self.hasFocus() else theme.outline
+            is_framed = self.underMouse() or self.hasFocus()
+            painter.setPen(QPen(QColor(frame), 2) if is_framed else Qt.PenStyle.NoPen)
+            painter.setBrush(QColor(theme.selection if self.isDown() else theme.panel))
+            painter.drawRoundedRect(QRectF(self.rect()).adjusted(1, 1, -1, -1), 4, 4)
+            picture = QRect(GAP, GAP, self._picture_size().width(), self._picture_size().height())
+            painter.fillRect(picture, QColor(theme.canvas))
+            if self._hidden:
+                painter.setPen(QColor(theme.muted_text))
+                painter.drawText(picture.adjusted(GAP, GAP, -GAP, -GAP), CENTERED, self._hidden)
+            elif self._image is not None:
+                # Pixels of a small raster stay squares; a large picture is made smaller smoothly.
+                is_small = self._image.width() < picture.width()
+                painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform, not is_small)
+                size = self._image.size().scaled(picture.size(), Qt.AspectRatioMode.KeepAspectRatio)
+                shown = QRect(QPoint(), size)
+                shown.moveCenter(picture.center())
+                painter.drawImage(shown, self._image)
+            text = picture.translated(0, picture.height() + GAP // 2)
+            text.setBottom(self.height())
+            title, sentence = self._fonts()
+            painter.setFont(title)
+            painter.setPen(QColor(theme.text))
+            painter.drawText(text, WRAPPED, self.entry.title)
+            painter.setFont(sentence)
+            painter.setPen(QColor(theme.muted_text))
+            painter.drawText(text.adjusted(0, self._text_heights()[0], 0, 0), WRAPPED, self.entry.description)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:
+        """Open the scene with Return too."""
+        if event.key() in (Qt.Key.Key_Return, Qt.Key.Key_Enter):
+            self.click()
+        else:
+            super().keyPressEvent(event)
+
+    def _fonts(self) -> tuple[QFont, QFont]:
+        """Return the fonts of the title and of the sentence."""
+        theme = current_theme()
+        title = text_font(theme)
+        title.setWeight(QFont.Weight.DemiBold)
+        return title, text_font(theme, theme.text_px - 1)
+
+    def _text_heights(self) -> tuple[int, int]:
+        """Return the heights of title and sentence, wrapped to the width of the picture: a layout asks many times."""
+        made_from = self._picture_size().width(), current_theme()
+        if self._heights is None or self._heights[0] != made_from:
+            room = QRect(0, 0, made_from[0], 1000)
+            title, sentence = (
+                QFontMetrics(font).boundingRect(room, WRAPPED, text).height()
+                for font, text in zip(self._fonts(), (self.entry.title, self.entry.description), strict=True)
+            )
+            self._heights = made_from, (title, sentence)
+        return self._heights[1]
+
+    def _picture_size(self) -> QSize:
+        return PICTURE * (self._size * current_theme().text_px / 13)
+
+
+class SceneCards(QWidget):
+    """All cards, group by group below its title, as many in a row as fit."""
+
+    scene_chosen = Signal(str)
+    """Name of a scene."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.cards: list[SceneCard] = []
+        self._column = column_layout(self, 8)
+        self.setAccessibleName("Scenes")
+
+    def show_scenes(self, groups: Mapping[str, Sequence[SceneEntry]]) -> None:
+        """Make a card for each scene: the title of a group, which is one stop of Tab, to its scenes."""
+        for title, entries in groups.items():
+            group = QWidget(self)
+            group.setAccessibleName(title)
+            flow = FlowLayout(group, SPACING)
+            if self.cards:
+                self._column.addSpacing(SPACING)
+            self._column.addWidget(text_label(title, self, role="title", wraps=True))
+            self._column.addWidget(group)
+            cards = [SceneCard(entry, group) for entry in entries]
+            ArrowGroup(cards, group)
+            for card in cards:
+                card.clicked.connect(self._choose)
+                card.installEventFilter(self)
+                flow.addWidget(card)
+            self.cards += cards
+        self._fit()
+        theme_notifier().theme_changed.connect(self._fit)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:
+        """Choose the size of the pictures."""
+        super().resizeEvent(event)
+        self._fit()
+
+    @Slot()
+    def _fit(self) -> None:
+        """Take the larger pictures where there is room, and make the cards of a group as high as its highest."""
+        small, large = SIZES
+        scale = current_theme().text_px / 13
+        width = MANY * (large * PICTURE.width() * scale + 2 * GAP + SPACING)
+        for card in self.cards:
+            card.set_size(large if width <= self.width() else small)
+        for _, cards in groupby(self.cards, QWidget.parentWidget):
+            sizes = [(card, card.sizeHint()) for card in cards]
+            height = max(size.height() for _, size in sizes)
+            for card, size in sizes:
+                card.setFixedSize(size.width(), height)
+
+    def show_picture(self, name: str, image: QImage) -> None:
+        """Show the picture of a scene by its name."""
+        next(card for card in self.cards if card.entry.name == name).show_picture(image)
+
+    def hide_pictures(self, names: Set[str], why: str) -> None:
+        """Show words in place of the pictures of these scenes, and of no others."""
+        for card in self.cards:
+            card.hide_picture(why if card.entry.name in names else "")
+
+    def eventFilter(self, watched: object, event: QEvent) -> bool:
+        """Go with an arrow to the card on that side; Qt would go to the next in the order of Tab."""
+        if isinstance(event, QKeyEvent) and event.type() == QEvent.Type.KeyPress and watched in self.cards:
+            step = STEPS.get(Qt.Key(event.key()))
+            if step is not None:
+                card = self._beside(self.cards.index(watched), *step)
+                if card is not None:
+                    give_focus(card)
+                return True
+        return False
+
+    def _beside(self, index: int, columns: int, rows: int) -> SceneCard | None:
+        """Return the card before or after one, or the nearest in the row above or below it; ``None``: there is none."""
+        if columns:
+            return self.cards[index + columns] if 0 <= index + columns < len(self.cards) else None
+        places = [card.mapTo(self, QPoint()) for card in self.cards]
+        here = places[index]
+        others = [k for k, place in enumerate(places) if (place.y() - here.y()) * rows > 0]
+        nearest = min(
+            others, key=lambda k: (abs(places[k].y() - here.y()), abs(places[k].x() - here.x())), default=None
+        )
+        return None if nearest is None else self.cards[nearest]
+
+    @Slot()
+    def _choose(self) -> None:
+        self.scene_chosen.emit(self.sender().objectName())

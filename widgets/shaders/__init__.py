@@ -1,1 +1,0 @@
-"""The pane in which shaders are typed."""

@@ -1,1 +1,0 @@
-"""What the start page shows: scenes with their pictures."""

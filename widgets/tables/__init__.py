@@ -1,1 +1,0 @@
-"""Tables that fill as a stage is stepped."""
