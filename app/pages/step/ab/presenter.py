@@ -139,7 +139,7 @@ class ComparePresenter(QObject):
         return Step(self._second, replace(self._moment.cursor, position=self._steps.positions[1]))
 
     def show_printed(self, name: str, *, seeks: bool = True) -> None:
-        """Let A run the right method, and B a listing as a slide prints it, see `lessons.printed`.
+        """Let A run the right method, and B a listing as a slide prints it, see `lessons.lectures`.
 
         Both go to the first step in which they differ, where ``seeks`` is set. Raises ValueError if the listing does
         not run in the pipeline, or not on this scene.
