@@ -25,9 +25,9 @@ from core.scene import SIZE_LIMIT, AnyScene, ClipScene, Scene
 from core.settings import Settings
 from core.shading.measured import sphere_picture
 from core.study.experiment import Case, Experiment, check_in_view_volume
+from core.study.family import Assignment, StudyFamily
 from core.study.frame_task import LARGEST_COLOR, MEAN_COLOR, ColorTask, premultiplied
 from core.study.record import Axis, Judgement, Outcome, Verdict, WorkKind
-from core.study.study_family import Assignment, StudyFamily
 from core.study.workloads import (
     checkerboard,
     clip_of_window,

@@ -29,9 +29,9 @@ from core.settings import Settings
 from core.stages.bin_and_raster import schedule
 from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
+from core.study.family import Assignment, Candidate, StudyFamily, Task
 from core.study.frame_task import MILLION, FrameTask, per_million, scalar_pictures
 from core.study.record import Axis, ErrorMeasure, Judgement, Opening, Pictures, WorkKind, judged
-from core.study.study_family import Assignment, Candidate, StudyFamily, Task
 from core.study.workloads import clip_of_window, flat_scene, random_triangles, sliver_triangles, window_mesh
 
 # Study of fills, number formats and fill rules: which pixels triangles cover, against rational arithmetic.

@@ -19,8 +19,8 @@ from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
 from core.study.case_text import clip_text, cover_text, settings_text
 from core.study.experiment import Case, Experiment
+from core.study.family import settings_of
 from core.study.record import Axis, Judgement, Outcome, Verdict
-from core.study.study_family import settings_of
 from core.study.workloads import (
     clip_of_window,
     flat_scene,

@@ -33,10 +33,10 @@ from core.records.frame import Frame
 from core.scene import AnyScene, Camera, Scene
 from core.settings import Settings
 from core.study.experiment import Case, Experiment
+from core.study.family import Assignment, StudyFamily, Task
 from core.study.fragment_cases import NearestCase
 from core.study.frame_task import depth_bits, judge_order, scalar_pictures
 from core.study.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind, judged
-from core.study.study_family import Assignment, StudyFamily, Task
 from core.study.workloads import layered_walls, random_source, wall_scene
 
 # Study of depth precision: how many neighbouring depths become equal or change places, in a published test.

@@ -17,10 +17,10 @@ from core.scene import Camera, ClipScene, DirectionalLight, Mesh, Scene
 from core.settings import Settings
 from core.stages.fragment_color import vertex_stage
 from core.study.experiment import Experiment
+from core.study.family import Assignment, StudyFamily
 from core.study.fragment_cases import NearestCase
 from core.study.frame_task import WRONG_VISIBLE, SeenTask, depth_bits, per_million, scalar_pictures
 from core.study.record import Axis, Judgement, Pictures, WorkKind, judged
-from core.study.study_family import Assignment, StudyFamily
 from core.study.workloads import (
     bars_in_a_circle,
     clip_of_window,

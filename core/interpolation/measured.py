@@ -30,9 +30,9 @@ from core.scene import ClipScene
 from core.settings import Settings
 from core.study.case_text import pixels_text
 from core.study.experiment import VALUED_TRIANGLES, Case, Experiment, check_in_view_volume
+from core.study.family import Assignment, Candidate, StudyFamily
 from core.study.frame_task import FrameTask, scalar_pictures
 from core.study.record import Axis, ErrorMeasure, Judgement, Outcome, Pictures, Verdict, WorkKind, judged
-from core.study.study_family import Assignment, Candidate, StudyFamily
 from core.study.workloads import receding_quad
 from core.trace import trace
 

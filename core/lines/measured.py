@@ -13,9 +13,9 @@ from core.lines.line_method import LinePixels
 from core.records.arrays import Floats, Integers, cached_property
 from core.settings import Settings
 from core.study.counted_listings import count_line_operations
+from core.study.family import Assignment, StudyFamily, Task
 from core.study.frame_task import per_million, scalar_pictures
 from core.study.record import Axis, ErrorMeasure, Judgement, Opening, Pictures, WorkKind, judged
-from core.study.study_family import Assignment, StudyFamily, Task
 from core.study.workloads import outline_scene, random_lines
 
 # Segments and ideal lines: the part of a segment in a rectangle, the area of a line, distances from it.

@@ -14,6 +14,7 @@ from core.records.arrays import Flags, Floats, cached_property
 from core.scene import ClipScene
 from core.settings import Settings
 from core.study.experiment import SEGMENTS, Case, Experiment, first_edge, scene_of_segment
+from core.study.family import Assignment, StudyFamily, Task
 from core.study.frame_task import per_million, scalar_pictures
 from core.study.record import (
     Axis,
@@ -26,7 +27,6 @@ from core.study.record import (
     WorkKind,
     judged,
 )
-from core.study.study_family import Assignment, StudyFamily, Task
 from core.study.workloads import on_grid, outline_scene
 
 # Study of line clipping: what is left of segments in a rectangle, against rational arithmetic.

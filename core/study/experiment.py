@@ -20,9 +20,9 @@ from core.settings import Settings
 from core.stages.fragment_color import vertex_stage
 from core.study.case_text import scene_text, settings_text
 from core.study.cases import ExperimentInfo, Field, Kind, Parts
+from core.study.family import Work, settings_of, timed_block
 from core.study.frame_task import SceneWork
 from core.study.record import Load, Opening, Outcome, Verdict
-from core.study.study_family import Work, settings_of, timed_block
 from core.study.workloads import flat_scene, outline_scene
 from core.transform.matrices import camera_axes
 

@@ -13,7 +13,7 @@ from core.lines.measured import LINE
 from core.lines.measured_clipping import LINE_CLIPPING
 from core.methods import table
 from core.settings import families
-from core.study.study_family import StudyFamily
+from core.study.family import StudyFamily
 from core.study.whole_picture import PIPELINE, standing_in
 
 OWN = (

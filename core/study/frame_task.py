@@ -15,8 +15,8 @@ from core.records.arrays import Flags, Floats, Integers, Singles, cached_propert
 from core.records.frame import Frame
 from core.scene import AnyScene
 from core.settings import Settings
+from core.study.family import Task, Work
 from core.study.record import ErrorMeasure, Judgement, Opening, Outcome, Pictures, Verdict, judged
-from core.study.study_family import Task, Work
 from core.study.workloads import COLORS
 from core.trace import scene_triangle_count
 

@@ -16,8 +16,7 @@ import numpy as np
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study.families import study_family
-from core.study.record import SURE, Axis, Load, Opening, Pictures, Point, Study, WorkKind, is_settled, ranks
-from core.study.study_family import (
+from core.study.family import (
     Assignment,
     Candidate,
     StudyFamily,
@@ -26,6 +25,7 @@ from core.study.study_family import (
     settings_of,
     timed_block,
 )
+from core.study.record import SURE, Axis, Load, Opening, Pictures, Point, Study, WorkKind, is_settled, ranks
 
 ROUNDS = 9
 GROWTH_ROUNDS = 3

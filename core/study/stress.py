@@ -22,8 +22,8 @@ from core.settings import Settings
 from core.study.case_text import case_text
 from core.study.cases import Atlas, StabilityMap, StressCancelledError, minimize
 from core.study.experiment import Experiment, experiments
+from core.study.family import Assignment, StudyFamily, Task, chosen_dials
 from core.study.record import Axis, Opening, Outcome, Verdict
-from core.study.study_family import Assignment, StudyFamily, Task, chosen_dials
 
 # Run an experiment over its whole grid, coarse or fine: one real run for every cell of every method.
 

@@ -21,6 +21,7 @@ from core.records.arrays import Floats, cached_property
 from core.records.frame import Frame
 from core.scene import AnyScene, DirectionalLight, Mesh, Scene
 from core.settings import FAMILIES, Settings, families, no_effect
+from core.study.family import Assignment, Candidate, StudyFamily, settings_of
 from core.study.frame_task import (
     LARGEST_COLOR,
     MEAN_COLOR,
@@ -35,7 +36,6 @@ from core.study.frame_task import (
     premultiplied,
 )
 from core.study.record import Axis, ErrorMeasure, Judgement, Pictures, WorkKind
-from core.study.study_family import Assignment, Candidate, StudyFamily, settings_of
 from core.study.workloads import checkerboard, sphere_mesh, sphere_scene
 
 SAMPLED_COLOR = ErrorMeasure("sampled-color", "Mean difference from 256 samples in a pixel", "1/255")

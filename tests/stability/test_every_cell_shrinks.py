@@ -5,9 +5,9 @@ import pytest
 
 from core import ClipScene
 from core.scene import AnyScene
+from core.study.family import settings_of
 from core.study.stability import Outcome, experiments
 from core.study.stress import shrink_cell
-from core.study.study_family import settings_of
 from tests.stability.failing_cells import FAILING_CELLS
 from tests.stability.shrunk_tests import run_test
 

@@ -6,8 +6,8 @@ import pytest
 from core import ClipScene, Settings
 from core.coverage.measured_cover import SIDE, count_cover, scene_of_window, through_the_eye, uneven_grid
 from core.records.arrays import Integers
+from core.study.family import settings_of
 from core.study.stability import Outcome, experiments
-from core.study.study_family import settings_of
 from core.study.workloads import on_grid, random_source
 from tests.stability.maps import is_right_everywhere, outcomes, wrong_at_random
 

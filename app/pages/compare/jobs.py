@@ -17,7 +17,7 @@ from core.scene import AnyScene
 from core.settings import Settings
 from core.study import Opening, Pictures, Plan, Point, Study, opening, pictures
 from core.study.divergence import first_divergence
-from core.study.study_family import Candidate, settings_of
+from core.study.family import Candidate, settings_of
 from core.trace import scene_triangle_count
 from widgets.experiments.case_pictures import PicturesRecord
 from widgets.grid.layers import BufferKind, GridBuffer, number_text

@@ -30,8 +30,8 @@ from app.session.moment import Change
 from app.session.session import Session
 from core.records.words import counted
 from core.study import machine, measure
+from core.study.family import Candidate
 from core.study.record import Point, Study
-from core.study.study_family import Candidate
 from core.study.whole_picture import PIPELINE, SAMPLED_COLOR
 from widgets.basics.controls import row_layout
 from widgets.experiments.case_pictures import StudyPictures

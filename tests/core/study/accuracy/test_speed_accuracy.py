@@ -21,8 +21,8 @@ from core.study import (
     study_families,
     study_family,
 )
+from core.study.family import settings_of
 from core.study.frame_task import check_pixel_tests
-from core.study.study_family import settings_of
 from core.study.whole_picture import SAMPLED_COLOR, PictureTask, same_look, scaled, standard_scene
 from lessons.scenes import make_scene
 
@@ -54,7 +54,7 @@ def by_method(study: Study) -> dict[str, Point]:
 @pytest.fixture
 def quick(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let one run be a block, and fill small pictures."""
-    monkeypatch.setattr("core.study.study_family.BLOCK", 0.0)
+    monkeypatch.setattr("core.study.family.BLOCK", 0.0)
     monkeypatch.setattr("core.coverage.measured.SIZE", (64, 64))
 
 

@@ -8,8 +8,8 @@ import pytest
 
 from core.settings import Settings
 from core.study import Point, Study, measure, pareto_front, speed_accuracy
+from core.study.family import Assignment, Candidate, StudyFamily, Task
 from core.study.record import ErrorMeasure, Judgement, WorkKind, judged, median_interval, ranks
-from core.study.study_family import Assignment, Candidate, StudyFamily, Task
 from tests.core.study.accuracy.order_agreement import kendall_tau
 
 NAMES = ("last-drawn", "painters", "z-buffer", "ray-casting")
@@ -60,7 +60,7 @@ def timed(monkeypatch: pytest.MonkeyPatch, seconds: Callable[[str, int], float],
     monkeypatch.setattr(
         speed_accuracy, "study_family", lambda _: Four("four", "Four", (), (kind,), (WRONG,), make)
     )
-    monkeypatch.setattr("core.study.study_family.BLOCK", 0.0)  # One run is a block.
+    monkeypatch.setattr("core.study.family.BLOCK", 0.0)  # One run is a block.
     return measure("four", **options)
 
 

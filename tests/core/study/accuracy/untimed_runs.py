@@ -4,7 +4,7 @@ from collections.abc import Container, Mapping
 from typing import NamedTuple
 
 from core.study import study_family
-from core.study.study_family import Assignment, chosen_dials, settings_of
+from core.study.family import Assignment, chosen_dials, settings_of
 
 
 class Found(NamedTuple):
