@@ -223,6 +223,6 @@ def test_side_panes_grow_with_large_type_once_the_window_is_large(window: MainWi
 def test_presenters_speak_through_their_page() -> None:
     told = re.compile(r"^    (message_sent|refused|step_requested) = Signal", re.MULTILINE)
     (folder,) = app.pages.__path__
-    files = [*Path(folder).rglob("*_presenter.py"), *(Path(folder) / "exercises").glob("*.py")]
-    assert len(files) > 20
+    files = [*Path(folder).rglob("*presenter.py"), *(Path(folder) / "exercises").glob("*.py")]
+    assert len(files) > 10
     assert [file.name for file in files if told.search(file.read_text(encoding="utf-8"))] == []

@@ -77,7 +77,7 @@ def test_a_region_is_the_crop_whatever_the_bands(monkeypatch, resolve_filter):
     scene = replace(make_scene("torus"), size=(64, 48))
     settings = Settings(antialiasing="msaa-4", resolve_filter=resolve_filter)
     whole = draw_picture(scene, settings).pixels
-    monkeypatch.setattr(sampled, "BAND", 200)
+    monkeypatch.setattr(sampled, "PIXELS_OF_BAND", 200)
     assert np.array_equal(draw_picture(scene, settings).pixels, whole)
     for column, row, columns, rows in ((0, 0, 20, 48), (13, 7, 30, 20), (50, 40, 14, 8)):
         part = draw_picture(scene, settings, region=(column, row, columns, rows))
