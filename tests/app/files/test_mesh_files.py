@@ -214,8 +214,7 @@ def test_a_reader_that_dies_is_an_error(tmp_path, monkeypatch):
 
 def test_what_a_reader_prints_does_not_disturb_the_result(tmp_path, monkeypatch):
     noisy = "import app.files.mesh_files as m; r = m.read_file\n" + (
-        "def noisy(*given):\n    print('noise', flush=True)\n    return r(*given)\n"
-        "m.read_file = noisy\n"
+        "def noisy(*given):\n    print('noise', flush=True)\n    return r(*given)\nm.read_file = noisy\n"
     )
     before, serve = mesh_files.START.rsplit("; ", 1)
     monkeypatch.setattr(mesh_files, "START", f"{before}\n{noisy}{serve}")
