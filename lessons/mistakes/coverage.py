@@ -6,11 +6,11 @@ from functools import partial
 import numpy as np
 
 from core import Settings
-from core.coverage.snapping import snap, window_position
+from core.coverage.snapping import snap
 from core.records.arrays import Flags, Floats
 from core.records.frame import Frame
 from core.scene import AnyScene, ClipScene
-from lessons.mistakes.twin import Case, Twin
+from lessons.mistakes.twin import Case, Twin, in_window
 from lessons.small_scenes import rectangle_corners, triangle_scene
 
 SQUARE = triangle_scene(rectangle_corners(0.5, 0.5, 4.5, 4.5), (6, 6))
@@ -24,11 +24,6 @@ LEVEL = triangle_scene([*rectangle_corners(1, 1, 4, 2.5), *rectangle_corners(1, 
 """A level edge runs through the centres of row 2."""
 THIN = triangle_scene([[(1.4, 1.4), (2.4, 1.4), (1.9, 8)]], (5, 9))
 LOW = triangle_scene([[(1, 1.6), (6, 1.6), (3, 6.4)]], (8, 8))
-
-
-def in_window(scene: ClipScene) -> Floats:
-    """Return the corners of a scene in pixels, (T, 3, 2)."""
-    return np.asarray(window_position(scene.clip, scene.size))
 
 
 def with_places(scene: ClipScene, places: Floats) -> ClipScene:

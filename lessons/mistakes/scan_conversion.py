@@ -13,7 +13,7 @@ from core import Settings, draw_lines
 from core.records.arrays import Flags, Floats
 from core.records.frame import Frame
 from core.scene import ClipScene
-from lessons.mistakes.coverage import FREE, SQUARE, in_window, with_places
+from lessons.mistakes.coverage import FREE, SQUARE, with_places
 from lessons.mistakes.transforms import Vector
 from lessons.mistakes.twin import (
     Case,
@@ -21,9 +21,9 @@ from lessons.mistakes.twin import (
     Twin,
     WrongRule,
     edited,
+    in_window,
     line_pixels,
     same_settings,
-    segment_ends,
 )
 from lessons.scenes import assembled
 from lessons.small_scenes import Point, pixel_segments, segment_scene, triangle_scene
@@ -255,7 +255,7 @@ def in_both(old: str, new: str) -> Callable[[Settings], Settings]:
 
 def intensities(scene: ClipScene, settings: Settings) -> list[float]:
     """Return the intensities of the pixels of lines."""
-    drawn: list[float] = draw_lines(segment_ends(scene), *scene.size, settings.line).intensities.tolist()
+    drawn: list[float] = draw_lines(in_window(scene), *scene.size, settings.line).intensities.tolist()
     return drawn
 
 

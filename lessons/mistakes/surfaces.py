@@ -11,9 +11,8 @@ from core import Settings, Texture
 from core.records.arrays import Floats, Integers
 from core.scene import ClipScene
 from core.textures.look_up import Footprint, bilinear, nearest
-from lessons.mistakes.coverage import in_window
 from lessons.mistakes.transforms import Matrix, Vector, dot, image, shifted
-from lessons.mistakes.twin import Case, Twin, WrongRule, frame_colors
+from lessons.mistakes.twin import Case, Twin, WrongRule, frame_colors, in_window
 from lessons.small_scenes import triangle_scene
 
 # Mistakes with normals and light, as wrong formulas.

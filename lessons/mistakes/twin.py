@@ -140,19 +140,19 @@ def frame_colors(scene: ClipScene, settings: Settings) -> bytes:
     return render(scene, settings).color.tobytes()
 
 
-def segment_ends(scene: ClipScene) -> Floats:
-    """Return where the segments of a scene lie in the window, (L, 2, 2) pixels."""
+def in_window(scene: ClipScene) -> Floats:
+    """Return the corners of a scene in pixels, (T, 3, 2), or the ends of its segments, (L, 2, 2)."""
     return np.asarray(window_position(scene.clip, scene.size))
 
 
 def line_pixels(scene: ClipScene, settings: Settings) -> frozenset[tuple[int, int]]:
     """Return the pixels of the segments of a scene."""
-    pixels = draw_lines(segment_ends(scene), *scene.size, settings.line).pixels
+    pixels = draw_lines(in_window(scene), *scene.size, settings.line).pixels
     return frozenset((column, row) for column, row in pixels.tolist())
 
 
 def clipped_ends(scene: ClipScene, settings: Settings) -> list[list[list[float]]]:
     """Return what is left of the segments of a scene in its window."""
-    clipped = clip_lines(segment_ends(scene), (0, 0, *scene.size), settings.line_clipping)
+    clipped = clip_lines(in_window(scene), (0, 0, *scene.size), settings.line_clipping)
     left: list[list[list[float]]] = clipped.segments[clipped.is_kept].tolist()
     return left

@@ -23,7 +23,7 @@ from lessons.exercises.question import Draft, template
 from lessons.lectures.catalogue import printed_listing
 from lessons.mistakes.scan_conversion import LECTURE
 from lessons.mistakes.shelf import SHELF
-from lessons.mistakes.twin import line_pixels, segment_ends
+from lessons.mistakes.twin import in_window, line_pixels
 from lessons.small_scenes import pixel_segments, segment_scene
 
 # Bresenham's line as printed (LMU): its pixels, and its table of D.
@@ -41,7 +41,7 @@ RULE = (
 
 def d_values(ends: Ends, settings: Settings) -> Rows:
     """Return D before each move of a line from left to right."""
-    decisions = draw_lines(segment_ends(pixel_segments([ends], TALL)), *TALL, settings.line).steps.decision
+    decisions = draw_lines(in_window(pixel_segments([ends], TALL)), *TALL, settings.line).steps.decision
     return number_rows([[int(value)] for value in decisions[1:]])
 
 

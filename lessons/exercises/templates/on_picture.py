@@ -17,8 +17,8 @@ from lessons.exercises.drafting import drafted, factor_text, listed, pictured, s
 from lessons.exercises.numbers import Draws, number_text, reject
 from lessons.exercises.question import Draft, template
 from lessons.exercises.templates.coverage import RULE, Corner, corner_text, facing_text, row_hint, twice_area
-from lessons.mistakes.coverage import in_window
 from lessons.mistakes.shelf import SHELF
+from lessons.mistakes.twin import in_window
 from lessons.small_scenes import rectangle_corners, triangle_scene
 
 SIZE = (12, 9)

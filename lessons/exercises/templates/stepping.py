@@ -32,7 +32,7 @@ from lessons.exercises.templates.fragments import (
 )
 from lessons.exercises.templates.lines import RULE, SIZE, TALL, Ends
 from lessons.mistakes.scan_conversion import LECTURE
-from lessons.mistakes.twin import segment_ends
+from lessons.mistakes.twin import in_window
 from lessons.small_scenes import pixel_segments, triangle_scene
 
 # Be the rasterizer: Bresenham's line, the depth test and a clipped triangle, one step at a time.
@@ -40,7 +40,7 @@ from lessons.small_scenes import pixel_segments, triangle_scene
 
 def line_values(ends: Ends, twin: str = "") -> list[Value]:
     """Return D before each move and the pixel after it, in turn, by the rule of a twin from the right state."""
-    drawn = draw_lines(segment_ends(pixel_segments([ends], TALL)), *TALL, LECTURE.line)
+    drawn = draw_lines(in_window(pixel_segments([ends], TALL)), *TALL, LECTURE.line)
     (x0, y0), (x1, y1) = ends
     dx, dy = x1 - x0, y1 - y0
     values: list[Value] = []
