@@ -256,7 +256,6 @@ ORIENTATION = _Orientation(
 
 
 SIZE_OF_POLYGONS = (48, 48)
-WRONG_PIXELS = ErrorMeasure("misclassified", "Misclassified pixels", "per million")
 CONNECTING = ErrorMeasure("connecting", "Edges along the window that enclose nothing", "pixels")
 WINDOW = np.array([[2.0, 38.0], [46.0, 39.0], [46.0, 47.0], [2.0, 47.0]])
 """(4, 2) convex clip window, in pixels."""
@@ -303,7 +302,7 @@ class PolygonTask(FrameTask):
     def judge(self, settings: Settings, made: Frame) -> Judgement:
         """Count pixels that are wrongly covered or left out."""
         wrong = (made.primitive >= 0) != self.reference[settings.polygon_fill == "even-odd"]
-        return judged({WRONG_PIXELS.name: per_million(int(np.count_nonzero(wrong)), wrong.size)})
+        return judged({MISCLASSIFIED.name: per_million(int(np.count_nonzero(wrong)), wrong.size)})
 
     def pictures(self, settings: Settings, made: Frame) -> Pictures:
         """Return which pixels are covered."""
@@ -355,9 +354,9 @@ POLYGON_CLIPPING = StudyFamily(
     "Clipping of polygons",
     ("polygon_clipping",),
     WORKS_ON_POLYGONS[:1],
-    (WRONG_PIXELS, CONNECTING),
+    (MISCLASSIFIED, CONNECTING),
     ClippedPolygonTask,
 )
 POLYGON_FILL = StudyFamily(
-    "polygon_fill", "Fills of polygons", ("polygon_fill",), WORKS_ON_POLYGONS, (WRONG_PIXELS,), PolygonTask
+    "polygon_fill", "Fills of polygons", ("polygon_fill",), WORKS_ON_POLYGONS, (MISCLASSIFIED,), PolygonTask
 )
