@@ -15,6 +15,7 @@ from app.window.keys import LOCAL_KEYS, key_text
 from core.explain.stage_texts import initial_sentence, stage_card
 from core.explain.steps import VARIABLES, load_subjects
 from core.methods import table
+from core.records.words import capitalized
 from core.settings import FAMILIES, FIELDS
 from core.stages.declared import DECLARED, stage_of
 from core.study.families import study_families
@@ -175,7 +176,7 @@ def term_page(key: str) -> HelpPage:
     rows = [link(place.address, place.label) for place in shown[:MOST_PLACES]]
     places = f"<h2>On screen</h2>{bullets(rows)}" if rows else ""
     more = f"<p>and {len(shown) - MOST_PLACES} more.</p>" if len(shown) > MOST_PLACES else ""
-    return HelpPage(_capital(term.name), f"<p>{linked(term.text, {key})}</p>{also}{places}{more}")
+    return HelpPage(capitalized(term.name), f"<p>{linked(term.text, {key})}</p>{also}{places}{more}")
 
 
 def variable_page(name: str, meaning: str) -> HelpPage:
@@ -234,10 +235,6 @@ def _found(words: list[str]) -> Iterator[tuple[int, str]]:
     for key in LOCAL_KEYS:
         if holds(f"{key.title} {key.group} {key.name.replace('_', ' ')} {key_text(key)}"):
             yield 2, f"{escape(key.title)}: {escape(key_text(key))}"
-
-
-def _capital(text: str) -> str:
-    return text[:1].upper() + text[1:]
 
 
 PAGES: Mapping[str, Callable[..., HelpPage]] = {

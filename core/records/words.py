@@ -36,6 +36,11 @@ ENDS = (".", "!", "?", "…")
 """What a sentence ends with."""
 
 
+def capitalized(text: str) -> str:
+    """Return a text that a sentence begins with."""
+    return text[:1].upper() + text[1:]
+
+
 def sentence_case(text: str) -> str:
     """Return a text with a capital at its beginning, unless it begins with a symbol or the name of a file.
 

@@ -15,10 +15,9 @@ from app.session.document import Document
 from app.session.moment import Change
 from app.session.session import Session
 from core import STAGES
-from core.records.words import counted
+from core.records.words import capitalized, counted
 from core.scene import AnyScene, ClipScene
 from core.settings import FAMILIES
-from core.study.planner.records import capitalized
 from core.study.record import Opening
 from lessons.diagnosis import (
     RIGHT,

@@ -8,6 +8,7 @@ import numpy as np
 
 from core.fast_path import draw_picture
 from core.records.arrays import Floats, Integers
+from core.records.words import capitalized
 from core.scene import AnyScene
 from core.settings import Settings
 from core.study.planner.planning import plan
@@ -18,7 +19,6 @@ from core.study.planner.records import (
     PlanReport,
     Tolerance,
     Watch,
-    capitalized,
     in_bytes,
     phrase,
     unwatched,

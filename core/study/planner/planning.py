@@ -8,7 +8,7 @@ left 0.56: they reject whatever they cannot prove.
 from collections.abc import Callable
 from time import perf_counter
 
-from core.records.words import counted, joined, nouns
+from core.records.words import capitalized, counted, joined, nouns
 from core.scene import AnyScene
 from core.settings import Settings, with_method
 from core.study.planner.findings import Seen, facts_of, look, tessellations
@@ -19,7 +19,6 @@ from core.study.planner.records import (
     Plan,
     Tolerance,
     Watch,
-    capitalized,
     figure,
     in_bytes,
     phrase,
@@ -136,9 +135,6 @@ def _light_fact(seen: Seen) -> str:
     if seen.highlight is None:
         return f"{text}, and nothing has highlights."
     return f"{text}, and a highlight falls to half its light within {figure(seen.highlight)} degrees."
-
-
-# The plan: try cheaper methods family by family, keep the cheapest within the tolerance, and say why.
 
 
 CHEAPER = {

@@ -67,11 +67,6 @@ def phrase(family: str, method: str) -> str:
     return PHRASES[family][method]
 
 
-def capitalized(text: str) -> str:
-    """Return a text that a sentence begins with."""
-    return text[:1].upper() + text[1:]
-
-
 def in_bytes(error: float) -> str:
     """Return a difference of bytes as text: ``2/255``."""
     return f"{error:,g}/255"
