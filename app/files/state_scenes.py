@@ -123,9 +123,6 @@ def _key() -> bytes:
     return b""
 
 
-# Scenes in state files: what stands in the file, and what is taken from a mesh file or built-in scene.
-
-
 CLIP_ARRAYS = ("clip", "attributes", "shared", "clip_region", "rings", "region_rings", "texture")
 Keep = Callable[[NDArray[Any]], ArrayRecord]
 """Returns the record of an array of a mesh, and keeps its bytes elsewhere if it is to be."""

@@ -1,4 +1,4 @@
-"""Listings as runs: side B of A | B runs one as it is edited, or as a slide prints it."""
+"""Runs of edited listings, and of listings as slides print them, as side B of A | B."""
 
 from dataclasses import replace
 from difflib import SequenceMatcher

@@ -159,9 +159,6 @@ def no_line_clipping(segments: Floats, window: ClipWindow) -> ClippedLines:
     return ClippedLines(segments, np.ones(count, bool), np.full((count, 2), -1), window, lambda: None)
 
 
-# Line clipping: what is left of segments in a window, by any method of the family ``line_clipping``.
-
-
 def clip_lines(segments: ArrayLike, window: ArrayLike, method: str = "liang-barsky") -> ClippedLines:
     """Clip line segments to a window.
 

@@ -128,10 +128,6 @@ def _no_operator(operator: str, a: str, b: str) -> str:
     return f"there is no {a} {operator} {b}{more}"
 
 
-# GLSL's values for `core.lanes`: types that nothing converts, and what operators and functions do with
-# them.
-
-
 class GlslDialect:
     """Typed values of float32, int32 and bool.
 

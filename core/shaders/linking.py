@@ -50,9 +50,6 @@ def _numbers(values: Floats) -> tuple[float, ...]:
     return tuple(float(value) for value in values)
 
 
-# Whether two shaders fit each other, and the scene's uniforms fit both.
-
-
 def read_shader(source: str, stage: str, dialect: str) -> Shader:
     """Read a shader as `compile_shader`; the problem says which shader it is about."""
     if dialect not in DIALECTS:

@@ -159,9 +159,6 @@ def _slope_columns(source: TraceSource, chosen: Integers) -> dict[str, np.ndarra
     return columns
 
 
-# Trace of texturing and shading: texels, their mix, every light, and the colour of every fragment.
-
-
 KINDS = ("plain", "textured", "lit", "textured-lit")
 """Kinds of rows: what has a texture stands at odd numbers."""
 

@@ -52,9 +52,6 @@ FRAGMENT_EXPERIMENTS: tuple[Experiment, ...] = (
 """In the order in which they are listed: that of the pipeline."""
 
 
-# Where methods fail: experiments over one or two parameters, each cell the outcome of a real run.
-
-
 __all__ = [
     "Atlas",
     "Axis",

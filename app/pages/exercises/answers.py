@@ -1,4 +1,4 @@
-"""A question as it is drawn, its answer as it is given and checked, and what of that can be undone."""
+"""Questions on the Exercises page: how they are drawn, how answers are checked, and what can be undone."""
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace

@@ -148,9 +148,6 @@ class PixelMenu(QObject):
             self._stepping.step_into(name, *self._pixel)
 
 
-# The pixel grids of the stepping page: what they show of the trace, and what is done in them.
-
-
 OUTLINING = ("transform", "cull")
 """Stages in which outlines appear and vanish."""
 CENTRES = "centres"

@@ -27,9 +27,6 @@ from widgets.basics.drawing import Mark
 from widgets.timeline.run_picture import TimelineRun
 from widgets.timeline.transport import Timeline
 
-# Stepping: the timeline with its chapters, and running to events, breakpoints and bookmarks.
-
-
 MARKS = {
     "covered": Mark.COVERED,
     "rejected": Mark.REJECTED,
