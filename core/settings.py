@@ -159,8 +159,8 @@ class Settings:
         "z-buffer",
         "Visibility",
         "depth",
-        "core.depth.painters",
-        "core.depth.ray_casting",
+        "core.visibility.painters",
+        "core.visibility.ray_casting",
         classical=("z-buffer", "painters", "ray-casting"),
     )
     depth: str = choice(

@@ -1,1 +1,1 @@
-"""Depth and visibility: what a buffer stores, which fragment is nearer, and who is seen."""
+"""Depth: what a buffer stores, and which fragment is nearer."""

@@ -34,9 +34,9 @@ from core.transform.matrices import reversed_clip_depth
 from core.transform.vertex_stage import VertexStage
 
 if TYPE_CHECKING:
-    from core.depth.ray_casting import RayPlanes
     from core.lines.wireframe import Outlines
     from core.stages.primitives import OutlineClip, PolygonClip
+    from core.visibility.ray_casting import RayPlanes
 
 
 @dataclass(frozen=True, eq=False)
@@ -171,7 +171,7 @@ class Geometry:
     @cached_property
     def ray_planes(self) -> "RayPlanes":
         """What tells exactly which of two triangles of the scene is nearer at a pixel; by z where w is no distance."""
-        from core.depth.ray_casting import set_up_ray_planes
+        from core.visibility.ray_casting import set_up_ray_planes
 
         with self.count:
             vertices = self.vertices

@@ -21,13 +21,13 @@ from core.depth.depth import (
     run_depth_tests,
     stack_fragments,
 )
-from core.depth.ray_casting import RayTests, run_ray_tests
 from core.framebuffer.blending import blend_stacks
 from core.lines.wireframe_fragments import writes_depth
 from core.records.arrays import Flags, Floats, Integers, Singles, read_only
 from core.resolved import resolve
 from core.stages.fragments import fragments_at, owner_of
 from core.stages.geometry import Geometry
+from core.visibility.ray_casting import RayTests, run_ray_tests
 
 
 @dataclass(frozen=True, eq=False)

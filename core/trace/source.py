@@ -9,7 +9,6 @@ from core.coverage.binning import bound
 from core.coverage.fills import Fragments, PixelTests, examine_pixels
 from core.coverage.pixel_runs import Boxes, Raster, Runs, fill_traits, make_raster
 from core.depth.depth import DepthFormat, DepthTests, stack_fragments
-from core.depth.ray_casting import RayTests
 from core.families import suited
 from core.lines.line_method import LineSteps
 from core.lines.wireframe import LineFragments, draw_outlines, join_batches
@@ -34,6 +33,7 @@ from core.stages.fragments import (
 from core.stages.hidden_surfaces import StartBuffers, run_visibility_tests
 from core.stages.needs import check_edits
 from core.stages.vertices import Geometry, drawing_order, process_geometry
+from core.visibility.ray_casting import RayTests
 
 # How long a trace is at most: each pixel test keeps all its numbers, so some runs are too long to be kept.
 

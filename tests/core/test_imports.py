@@ -39,7 +39,7 @@ UNUSED = (
     "core.study",
     "core.trace.source",
     "core.trace.tracers",
-    "core.depth.ray_casting",
+    "core.visibility.ray_casting",
     "core.pixel_history",
 )
 """Parts of the core that a picture of plain triangles has no use for."""
@@ -111,7 +111,7 @@ def test_chosen_methods_are_imported_before_stages_are_timed() -> None:
     code = "import sys; import core.pipeline; from core.settings import Settings, import_methods; "
     code += "old = set(sys.modules); import_methods(Settings(visibility='painters', shading='gouraud')); "
     imported = run_fresh(code + "print(*set(sys.modules) - old, sep='\\n')")
-    assert {"core.shading.shading", "core.depth.painters", "core.coverage.edge_formats"} <= set(imported)
+    assert {"core.shading.shading", "core.visibility.painters", "core.coverage.edge_formats"} <= set(imported)
     assert "core.coverage.edges" not in imported
 
 

@@ -8,16 +8,8 @@ from pathlib import Path
 
 import bootstrap
 
-TOPICS = (
-    *(
-        "core/clipping",
-        "core/coverage",
-        "core/culling",
-        "core/depth",
-        "core/framebuffer",
-        "core/interpolation",
-    ),
-    *("core/lines", "core/shading", "core/spans", "core/textures", "core/transform"),
+CORE = tuple(
+    path.parent.relative_to(bootstrap.ROOT).as_posix() for path in bootstrap.ROOT.glob("core/*/__init__.py")
 )
 TOLD = tuple(path.relative_to(bootstrap.ROOT).as_posix() for path in bootstrap.ROOT.glob("core/*/told*.py"))
 APP = (
@@ -32,18 +24,6 @@ APP = (
     "files",
     "session",
     "background",
-)
-OTHERS = (
-    *(f"app/{name}" for name in APP),
-    "core/antialiasing",
-    "core/explain",
-    "core/fast_path",
-    "core/pixel_history",
-    "core/records",
-    "core/shaders",
-    "core/stages",
-    "core/study",
-    "core/trace",
 )
 CONTRACTS = dict(bootstrap.checks(bootstrap.ROOT, []))["import contracts"][1:]
 
@@ -86,7 +66,7 @@ ALLOWED = [
 def check_layers(folder: Path, statements: list[tuple[str, str]]) -> "subprocess.CompletedProcess[str]":
     """Check a copy of the layers in which each statement stands in a module of its own."""
     shutil.copy(bootstrap.ROOT / "pyproject.toml", folder)
-    for name in ("app", "core", "lessons", "widgets", *TOPICS, *OTHERS):
+    for name in ("app", "core", "lessons", "widgets", *CORE, *(f"app/{name}" for name in APP)):
         (folder / name).mkdir()
         (folder / name / "__init__.py").touch()
     for name in (

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from core import Camera, ClipScene, Mesh, Scene, Settings, render, trace
 from core.depth.measured import visible_triangles
-from core.depth.ray_casting import exact_plane, set_up_ray_planes
 from core.methods import table
+from core.visibility.ray_casting import exact_plane, set_up_ray_planes
 from tests.core.drawing import text
 from tests.core.exact_reference import exact, exact_coverage
 from tests.core.meshes import random_rotation

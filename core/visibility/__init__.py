@@ -1,0 +1,1 @@
+"""Hidden surfaces: by drawing order, by exact rays, by a tree of planes, line by line."""
