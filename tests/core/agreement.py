@@ -28,7 +28,7 @@ from core.scene import AnyScene
 from core.settings import WHOLE_NUMBERS, families
 from tests.core.fast_path.references import shows_thin_triangle
 from tests.core.pixel_history.test_why_picture import check_pixels
-from tests.core.raster.spans.adversarial import mixed, projected
+from tests.core.spans.adversarial import mixed, projected
 from tests.core.strategies import clip_of_window
 from tests.core.trace.test_trace_folding import check_frame
 from tests.core.trace.trace_cases import settings_of

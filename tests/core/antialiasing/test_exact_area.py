@@ -15,7 +15,7 @@ from core.stages.declared import STAGES
 from core.stages.vertices import process_geometry
 from lessons.scenes import make_scene
 from tests.core.antialiasing.many_samples import many_samples
-from tests.core.framebuffer.test_pixel_pieces import area, clipped
+from tests.core.antialiasing.test_pixel_pieces import area, clipped
 from tests.core.trace.trace_cases import SCENES
 from tests.covering import in_turns
 

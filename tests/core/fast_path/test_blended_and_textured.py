@@ -9,7 +9,7 @@ from core import ClipScene, Settings, Texture, draw_picture
 from core.fast_path.blended import strip_height
 from core.methods import table
 from tests.core.fast_path.references import exact_bytes, shows_thin_triangle
-from tests.core.raster.spans.adversarial import mixed, projected
+from tests.core.spans.adversarial import mixed, projected
 from tests.core.strategies import clip_of_window
 
 SEEDS = st.integers(0, 2**32 - 1)

@@ -15,7 +15,7 @@ from core.records.frame import StageCount
 from core.stages.vertices import process_geometry
 from tests.core.fast_path.band_scenes import SPANS, ball
 from tests.core.fast_path.references import exact_bytes, shows_thin_triangle
-from tests.core.raster.spans.adversarial import projected
+from tests.core.spans.adversarial import projected
 from tests.core.strategies import clip_of_window
 from tests.covering import every_pair
 

@@ -11,7 +11,7 @@ from core.methods import table
 from lessons.shapes import cube, knot, sphere, torus
 from tests.core.fast_path.numbered import assert_same, numbered, numbers
 from tests.core.fast_path.references import exact_bytes
-from tests.core.raster.spans.adversarial import slivers, tiny
+from tests.core.spans.adversarial import slivers, tiny
 from tests.core.strategies import clip_of_window
 from tests.covering import every_pair
 

@@ -9,7 +9,7 @@ from core import Settings
 from core.methods import table
 from core.spans.bands import BIG_AREA
 from tests.core.fast_path.numbered import assert_same
-from tests.core.raster.spans.adversarial import SIZES, mixed, projected
+from tests.core.spans.adversarial import SIZES, mixed, projected
 from tests.core.strategies import clip_of_window
 from tests.covering import every_pair
 

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from core import Settings, draw_picture
 from core.numeric.large_arrays import ScratchBuffers
 from tests.core.fast_path.numbered import numbered
-from tests.core.raster.spans.adversarial import mixed, projected
+from tests.core.spans.adversarial import mixed, projected
 from tests.core.strategies import clip_of_window
 
 PICTURES = st.tuples(

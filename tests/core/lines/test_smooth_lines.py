@@ -9,7 +9,7 @@ from core.lines.drawing import draw_lines
 from core.lines.line_method import COORDINATE_LIMIT
 from core.lines.measured import line_areas
 from core.lines.smooth import FILTER_TABLE, cone_intensity
-from tests.core.raster.test_lines_pictures import centers
+from tests.core.lines.test_lines_pictures import centers
 
 SMOOTH = ["wu", "gupta-sproull"]
 COORDINATE = st.one_of(

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from core import ClipScene, Settings, render
 from core.methods import table
 from tests.core.exact_reference import exact_coverage
-from tests.core.raster.spans.adversarial import (
+from tests.core.spans.adversarial import (
     LIMIT,
     PROJECTED,
     SIZES,

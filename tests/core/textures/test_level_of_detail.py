@@ -23,8 +23,8 @@ from core.textures.look_up import texture_colors
 from core.textures.mipmaps import choose_levels, mipmap_colors, mipmap_levels, sample_mipmaps
 from core.trace.source import TraceSource
 from tests.core.exact_reference import determinant, homogeneous_window
-from tests.core.fragments.test_footprint_mean import slope_footprint
 from tests.core.strategies import perspective_triangles
+from tests.core.textures.test_footprint_mean import slope_footprint
 
 MIPMAPPED = ["trilinear", "mipmap-nearest"]
 UV = np.array([[0.25, 0.0], [1.5, 0.125], [0.0, 2.0]])

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from core.lines.drawing import draw_lines
 from core.lines.line_method import COORDINATE_LIMIT
 from core.lines.rectangle import half_width
-from tests.core.raster.test_lines_pictures import centers, picture
+from tests.core.lines.test_lines_pictures import centers, picture
 
 ON_GRID = st.integers(-5120, 5120).map(lambda n: n / 256)
 SHIFT, SIZE = 32, 64

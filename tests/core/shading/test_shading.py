@@ -15,7 +15,7 @@ from core.shading.shading import (
     shaded_color,
     trace_lighting,
 )
-from tests.core.fragments.seen_sides import is_seen_from_behind
+from tests.core.shading.seen_sides import is_seen_from_behind
 
 DOWN = DirectionalLight([0, 0, -1], [1.0, 0.5, 0.25])
 LAMP = PointLight([3, 0, 4], [0.5, 1.0, 2.0])

@@ -16,7 +16,7 @@ from core.stages.declared import STAGES
 from core.stages.vertices import Geometry, process_geometry
 from core.transform.matrices import rotation
 from core.transform.vertex_stage import place_meshes, transform_vertices
-from tests.core.fragments.seen_sides import is_seen_from_behind
+from tests.core.shading.seen_sides import is_seen_from_behind
 
 NUMBERS = st.one_of(
     st.sampled_from([0.0, -0.0, 1.0, -1.0, 0.5, 1e-300, -1e-30, 1e30, 1e60, -1e60]), st.floats(-4, 4)

@@ -12,7 +12,7 @@ from core.depth.fixed_depth import DEPTH_BITS, SCALE, SLACK, set_up_fixed_planes
 from core.methods import table
 from tests.core.drawing import TESTING_FILLS
 from tests.core.meshes import clip_of_view, icosphere, random_rotation
-from tests.core.raster.spans.adversarial import PROJECTED, SIZES, drawn, mixed, projected
+from tests.core.spans.adversarial import PROJECTED, SIZES, drawn, mixed, projected
 from tests.core.strategies import clip_of_window
 
 SEEDS = st.integers(0, 2**32 - 1)
