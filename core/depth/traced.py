@@ -14,6 +14,7 @@ from core.records.arrays import Flags, Integers
 from core.records.listing import RETURN, Columns, Either, Listing, Operation, listing
 from core.records.steps import Steps, ends_of
 from core.stages.fragments import fragment_quantity, logarithm_range, outlines_of, reversed_ends
+from core.trace.row_order import in_order
 from core.trace.source import TraceSource
 from core.trace.stage_trace import BufferTrack, StageTrace
 from core.visibility.traced import trace_rays
@@ -175,9 +176,13 @@ CELL = (
 
 
 def trace_depth(source: TraceSource) -> StageTrace:
-    """Return one row for every fragment."""
-    if source.ray_tests is not None:
-        return trace_rays(source, source.ray_tests)
+    """Return one row for every fragment, in the order that the method of visibility asks for."""
+    found = _trace_tests(source) if source.ray_tests is None else trace_rays(source, source.ray_tests)
+    order = source.geometry.row_order
+    return found if order is None else in_order(found, order)
+
+
+def _trace_tests(source: TraceSource) -> StageTrace:
     fragments, tests = source.fragments, source.depth_tests
     depth, keeps, stored = source.depths
     writes = np.ones(len(fragments), bool) if source.writes_depth is None else source.writes_depth

@@ -186,6 +186,7 @@ def summary_sentence(
     triangle: int | None,
     corner_count: int = 3,
     method: str = "",
+    unit: str = "",
 ) -> str:
     """Say what a step larger than one operation did.
 
@@ -200,6 +201,8 @@ def summary_sentence(
         Corners of what is drawn: 2 of segments, 1 of points, 0 of tables of depths.
     method : str, optional
         The method that ran, as ``fill=hierarchy``: what a group of rows is, and what is done to a pixel.
+    unit : str, optional
+        What the step is where rows are not listed triangle by triangle, see `core.records.steps.RowOrder.unit`.
     """
     known = {name: counts.get(name, 0) for name in ("rows", "tested", "samples", *MARKS)}
     family, _, name = method.partition("=")
@@ -217,6 +220,8 @@ def summary_sentence(
     who = everything if triangle is None or triangle < 0 else f"{drawn.one.capitalize()} {triangle}"
     if level == Level.STAGE:
         who = "Whole stage"
+    elif unit:
+        who = unit
     elif level == Level.GROUP and group:
         who = group.capitalize() if who == everything else f"{who}, {group}"
     return f"{who}: {account}."

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from core.methods import table
 from core.records.arrays import Flags, Floats, Integers, cached_property, checked
+from core.records.steps import RowOrder
 
 # The records that stages hand on: triangles in clip space with everything that is to be interpolated.
 
@@ -191,6 +192,8 @@ class DrawingOrder:
     uses_depth_test: bool
     casts_rays: bool = False
     """Whether fragments are compared exactly, not by what the depth buffer holds."""
+    row_order: RowOrder | None = None
+    """How the stage depth lists its rows, as `PIXEL_BY_PIXEL`; ``None``: triangle by triangle."""
 
     @property
     def is_as_given(self) -> bool:

@@ -1,4 +1,4 @@
-"""Stepping: rows in drawing order with nested ends, and the tables that fill on the way."""
+"""Stepping: rows with nested ends, in drawing order or pixel by pixel, and the tables that fill on the way."""
 
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -111,6 +111,46 @@ def ends_of(*keys: Integers) -> Integers:
     for key in keys:
         changes |= key[1:] != key[:-1]
     return np.append(np.flatnonzero(changes) + 1, count)
+
+
+# The order of rows, where it is another one than triangle by triangle.
+
+
+@dataclass(frozen=True)
+class RowOrder:
+    """Rows that are listed pixel by pixel or line by line of the picture, from the lowest row of pixels upwards.
+
+    A step of the level TRIANGLE is then all that is done in one row of pixels. Rows about no pixel come first.
+    """
+
+    titles: tuple[str, str, str]
+    """What a step of the levels TRIANGLE, GROUP and PIXEL is, as ``Row``, ``Pixel``, ``Candidate``."""
+    is_by_pixel: bool = False
+    """Whether all rows about a pixel stand together, and are one step of the level GROUP."""
+
+    def keys(self, pixel: Integers) -> tuple[Integers, ...]:
+        """Return what rows about pixels (R, 2), columns and rows, are sorted by: the outer loop first, each (R,)."""
+        return (pixel[:, 1], pixel[:, 0]) if self.is_by_pixel else (pixel[:, 1],)
+
+    @property
+    def names(self) -> dict[Level, str]:
+        """The titles by level."""
+        return dict(zip((Level.TRIANGLE, Level.GROUP, Level.PIXEL), self.titles, strict=True))
+
+    def unit(self, level: Level, column: int, row: int) -> str:
+        """Return what the step of a level that a pixel is part of is called in a sentence, as ``Pixel (3, 5)``."""
+        outer, group, _ = self.titles
+        if row < 0:
+            return "Before the first pixel"
+        if level <= Level.TRIANGLE:
+            return f"{outer} {row}"
+        return f"{group} ({column}, {row})" if self.is_by_pixel else f"{outer} {row}, one {group.lower()}"
+
+
+PIXEL_BY_PIXEL = RowOrder(("Row", "Pixel", "Candidate"), is_by_pixel=True)
+"""Pixel after pixel, and of each pixel its candidates in drawing order: the loops of a ray caster."""
+ROW_BY_ROW = RowOrder(("Row", "Triangle", "Pixel"))
+"""One row of pixels after another, and in each the triangles in drawing order."""
 
 
 # A table that fills as a stage is stepped: what the rows of a trace have found by one step, and nothing

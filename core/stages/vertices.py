@@ -167,6 +167,7 @@ def _process(
         doubled_area=doubled_area,
         uses_depth_test=drawing.uses_depth_test,
         casts_rays=drawing.casts_rays,
+        row_order=drawing.row_order,
         settings=settings,
         count=counts["edges"],
     )

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from core.records.arrays import Flags, Integers, cached_property, read_only
 from core.records.listing import EditedListing, Listing, Operation
-from core.records.steps import Steps, ends_of
+from core.records.steps import RowOrder, Steps, ends_of
 
 if TYPE_CHECKING:
     from core.lanes.program import LaneStep
@@ -42,6 +42,12 @@ class BufferTrack:
     """``scalar``, ``signed``, ``color``, ``bytes``, ``ids``, ``flags`` or ``count``: how it is to be looked at."""
     starts_known: bool = False
     """Whether ``initial`` is a buffer of the frame, rather than no values yet."""
+
+    def moved(self, place: Integers) -> "BufferTrack":
+        """Return the same writes by rows that now stand at ``place`` (R,)."""
+        rows = place[self.rows]
+        order = np.argsort(rows, kind="stable")
+        return replace(self, rows=rows[order], places=self.places[order], values=self.values[order])
 
     def at(self, rows_done: int) -> NDArray[Any]:
         """Return the buffer after ``rows_done`` rows; of several writes to a place the last one stays."""
@@ -94,7 +100,7 @@ class Explanation:
 
 @dataclass(frozen=True, eq=False)
 class StageTrace:
-    """The work of one stage as R rows in drawing order."""
+    """The work of one stage as R rows, in drawing order or as ``order`` says."""
 
     stage: str
     method: str
@@ -119,6 +125,8 @@ class StageTrace:
     """Corners of what is drawn: 2 of segments, 1 of points."""
     given: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """Kind of row to the variables that earlier rows have set for it."""
+    order: RowOrder | None = None
+    """The order of the rows and the names of its levels; ``None``: triangle by triangle."""
 
     def kind_of(self, row: int) -> str:
         """Return the kind of a row."""

@@ -73,14 +73,13 @@ def _by_pixel(finer: StageTrace, source: TraceSource, side: int) -> StageTrace:
 
 
 def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
-    """Return the rows of all samples, triangle by triangle and sample by sample."""
+    """Return the rows of all samples, triangle by triangle or as they are ordered, and then sample by sample."""
     lengths = [trace.steps.row_count for trace in traces]
     sample = np.repeat(np.arange(len(traces)), lengths)
     triangle = np.concatenate([trace.triangle for trace in traces])
-    rank = np.zeros(int(source.geometry.primitives.triangle.max(initial=0)) + 2, np.int64)
-    drawn = source.geometry.primitives.triangle
-    rank[drawn[::-1]] = np.arange(len(drawn))[::-1]
-    order = np.lexsort((np.arange(len(sample)), sample, rank[triangle]))
+    pixel, first = np.concatenate([trace.pixel for trace in traces]), traces[0]
+    loops = first.order.keys(pixel) if first.order else (_place_in_drawing(source)[triangle],)
+    order = np.lexsort((np.arange(len(sample)), sample, *loops[::-1]))
     new_row = np.empty(len(order), np.int64)
     new_row[order] = np.arange(len(order))
     group = np.concatenate(
@@ -89,13 +88,14 @@ def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
             for trace, length in zip(traces, lengths, strict=True)
         ]
     )
-    first = traces[0]
     columns = {
         name: np.concatenate([trace.columns[name] for trace in traces])[order] for name in first.columns
     }
     if first.stage == "raster" and "values" in columns:
         columns |= _at_samples(columns, sample[order])
     starts = np.cumsum([0, *lengths[:-1]])
+    outer = loops[0] if first.order else triangle
+    within = loops if first.order and first.order.is_by_pixel else (outer, sample, group)
     # What is the same in all rows of one sample may differ between samples: how many spans there are.
     differing = [
         name for name, value in first.constants.items() if any(t.constants[name] != value for t in traces)
@@ -107,8 +107,8 @@ def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
             first.steps.kinds,
             np.concatenate([trace.steps.kind for trace in traces])[order],
             first.steps.operations,
-            ends_of(triangle[order]),
-            ends_of(triangle[order], sample[order], group[order]),
+            ends_of(outer[order]),
+            ends_of(*(key[order] for key in within)),
         ),
         columns={
             **columns,
@@ -119,7 +119,7 @@ def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
             **_sample_columns(sample[order], ROTATED_GRID),
         },
         triangle=triangle[order],
-        pixel=np.concatenate([trace.pixel for trace in traces])[order],
+        pixel=pixel[order],
         listings=first.listings,
         marks={name: np.concatenate([t.marks[name] for t in traces])[order] for name in first.marks},
         buffers=tuple(
@@ -130,7 +130,16 @@ def _joined(traces: list[StageTrace], source: TraceSource) -> StageTrace:
         extra=first.extra,
         constants={name: value for name, value in first.constants.items() if name not in differing},
         given=first.given,
+        order=first.order,
     )
+
+
+def _place_in_drawing(source: TraceSource) -> Integers:
+    """Return by a triangle's number when it is drawn; the last element is that of rows about none."""
+    drawn = source.geometry.primitives.triangle
+    rank = np.zeros(int(drawn.max(initial=0)) + 2, np.int64)
+    rank[drawn[::-1]] = np.arange(len(drawn))[::-1]
+    return rank
 
 
 def _joined_tracks(of_samples: list[BufferTrack], starts: Integers, new_row: Integers) -> list[BufferTrack]:

@@ -42,7 +42,7 @@ def step_mark(step: Step) -> StepMark:
     if row < 0:
         return StepMark()
     origin = np.array(step.origin)
-    if cursor.level <= Level.TRIANGLE and triangle >= 0:
+    if cursor.level <= Level.TRIANGLE and triangle >= 0 and trace.order is None:
         return StepMark(lines=_edges(run, triangle) - origin)
     first = trace.steps.rows_done(trace.steps.back(cursor.position, cursor.level))
     pixels = trace.pixel[first : row + 1]

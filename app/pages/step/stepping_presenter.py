@@ -344,6 +344,8 @@ def _level_names(moment: Moment) -> dict[Level, str]:
     stage, settings = moment.cursor.stage, moment.document.settings
     declared, corner_count = stage_of(stage), moment.document.scene.corner_count
     names = {Level.TRIANGLE: nouns(corner_count).one.capitalize()} if corner_count != 3 else {}
+    if moment.stage_trace.order is not None:
+        return moment.stage_trace.order.names
     if "statement" in moment.stage_trace.steps.kinds:
         # A scene's own shader runs line by line.
         lane = "Vertex" if stage == "transform" else "Fragment"
