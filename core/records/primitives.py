@@ -3,13 +3,16 @@
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from core.methods import table
 from core.records.arrays import Flags, Floats, Integers, cached_property, checked
-from core.records.steps import RowOrder
+
+if TYPE_CHECKING:
+    from core.records.steps import RowOrder
 
 # The records that stages hand on: triangles in clip space with everything that is to be interpolated.
 
@@ -192,7 +195,7 @@ class DrawingOrder:
     uses_depth_test: bool
     casts_rays: bool = False
     """Whether fragments are compared exactly, not by what the depth buffer holds."""
-    row_order: RowOrder | None = None
+    row_order: "RowOrder | None" = None
     """How the stage depth lists its rows, as `PIXEL_BY_PIXEL`; ``None``: triangle by triangle."""
 
     @property

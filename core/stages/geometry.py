@@ -28,7 +28,6 @@ from core.interpolation.interpolation import Planes, set_up_planes, value_plane
 from core.records.arrays import Flags, Floats, Integers, cached_property
 from core.records.frame import StageCount
 from core.records.primitives import IndexedPrimitives, Primitives, Rings
-from core.records.steps import RowOrder
 from core.resolved import resolve
 from core.settings import Settings
 from core.transform.matrices import reversed_clip_depth
@@ -36,6 +35,7 @@ from core.transform.vertex_stage import VertexStage
 
 if TYPE_CHECKING:
     from core.lines.wireframe import Outlines
+    from core.records.steps import RowOrder
     from core.stages.primitives import OutlineClip, PolygonClip
     from core.visibility.ray_casting import RayPlanes
 
@@ -71,7 +71,7 @@ class Geometry:
     settings: Settings
     count: StageCount
     """The time of what is computed on demand is added here."""
-    row_order: RowOrder | None = None
+    row_order: "RowOrder | None" = None
     """How the stage depth lists its rows; ``None``: triangle by triangle."""
     shift: tuple[float, float] = (0.0, 0.0)
     """By how many pixels x and y are moved against the scene: another place of the pixels is then at their centres."""
