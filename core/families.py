@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from core.methods import is_registered, table
+from core.methods import ReplacedName, table
 from core.records.words import nouns
 from core.scene import AnyScene, ClipScene
 
@@ -114,6 +114,11 @@ def facts(scene: AnyScene | None) -> list[str]:
     return [fact for fact, is_so in holds.items() if is_so]
 
 
+def casts_rays(visibility: str) -> bool:
+    """Return whether a setting is a method, with its own function, that compares the hits of rays: its trait."""
+    return not isinstance(visibility, ReplacedName) and table.get("visibility", visibility).traits == "rays"
+
+
 def suited(settings: Any, scene: AnyScene) -> Any:
     """Return the settings that the primitives of a scene are drawn with.
 
@@ -126,8 +131,7 @@ def suited(settings: Any, scene: AnyScene) -> Any:
     if isinstance(scene, ClipScene) and scene.table is not None:
         from core.depth.whole_depths import TABLE_DEPTHS  # Only such scenes wait for it.
 
-        casts_rays = is_registered(settings.visibility, "ray-casting")
-        seen = "z-buffer" if casts_rays else settings.visibility
+        seen = "z-buffer" if casts_rays(settings.visibility) else settings.visibility
         plain = type(settings)(polygon_mode="wireframe", visibility=seen, blend=settings.blend)
         return plain.replaced(depth=TABLE_DEPTHS[scene.table.test])
     if corner_count > 3:

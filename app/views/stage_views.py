@@ -91,6 +91,8 @@ def chapters_of(trace: Trace, *, current: str, is_predicting: bool) -> list[Chap
         state, is_inserted, reason = _state_and_reason(stage, current, count, trace.source)
         if stage == "raster" and outgoing and not count.incoming and corner_count == 3:
             reason = reason or COMPUTED
+        if stage == "depth" and incoming and not is_predicting:
+            reason = reason or _accesses(trace, incoming)
         if is_whole and not is_predicting and stage in ("interpolate", "shade") and outgoing > count.outgoing:
             reason = f"The picture needs only the {count.outgoing:,} that are seen in the end."
         share = count.seconds / whole_seconds if whole_seconds > 0 else 0.0
@@ -106,6 +108,23 @@ def chapters_of(trace: Trace, *, current: str, is_predicting: bool) -> list[Chap
             Chapter(stage_of(stage).short_title, key, words, short, duration, state, is_inserted, reason)
         )
     return chapters
+
+
+def _accesses(trace: Trace, fragment_count: int) -> str:
+    """Return how often a method accesses what is drawn, and how often pixels or samples: each loop one of them once."""
+    source, geometry = trace.source, trace.source.geometry
+    drawn, sampling = nouns(source.scene.corner_count), resolve(source.settings).sampling
+    if sampling.is_area or source.scene.corner_count == 0:
+        return ""
+    one, many = (
+        ("piece", "pieces") if len(geometry.primitives) > len(geometry.kept) else (drawn.one, drawn.many)
+    )
+    place = "sample" if sampling.count > 1 else "pixel"
+    places = source.raster.shape[0] * source.raster.shape[1] * sampling.count
+    count = len(geometry.primitives)
+    if geometry.asks_all:
+        return f"Accessed: each {place} once, {many} {counted(places * count, 'time')}."
+    return f"Accessed: each {one} once, {place}s {counted(fragment_count, 'time')}."
 
 
 def _units(stage: str, corner_count: int, sampling: Sampling) -> Units:

@@ -8,6 +8,7 @@ import numpy as np
 
 from core.depth.depth import DepthFormat, Stored, as_float32
 from core.edits.typed import Typed, parameters_of
+from core.families import casts_rays
 from core.methods import Method, is_registered
 from core.records.arrays import Flags, Floats, Singles
 from core.resolved import resolve
@@ -134,7 +135,7 @@ def depth_test_is_passed_over(settings: Settings, scene: Any) -> str:
 
 def depth_format_is_passed_over(settings: Settings, scene: Any) -> str:
     """Return why an edited depth format would not run."""
-    if is_registered(settings.visibility, "ray-casting"):
+    if casts_rays(settings.visibility):
         return "Rays compare triangles exactly, without a depth buffer."
     return ""
 

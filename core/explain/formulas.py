@@ -82,7 +82,7 @@ class Chain:
         self, place: int, relation: str, found: list[tuple[Number, Fraction]], digits: Callable[[Leaf], int]
     ) -> bool:
         (first, one), (second, other) = found[place : place + 2]
-        if relation not in ("=", r"\approx", r"\equiv"):
+        if relation not in ("=", r"\approx", r"\equiv", r"\to"):
             return bool(_COMPARISONS[relation](first, second))
         if is_same(first, second):
             return True

@@ -167,7 +167,7 @@ SUBJECTS = (
         "shading.told",
         "shaders.told",
     ),
-    *("depth.told", "visibility.told", "framebuffer.told", "antialiasing.told"),
+    *("depth.told", "visibility.told", "visibility.told_by_pixel", "framebuffer.told", "antialiasing.told"),
 )
 """What the topics say of their steps; the variables of a stage stand in their order."""
 

@@ -197,6 +197,8 @@ class DrawingOrder:
     """Whether fragments are compared exactly, not by what the depth buffer holds."""
     row_order: "RowOrder | None" = None
     """How the stage depth lists its rows, as `PIXEL_BY_PIXEL`; ``None``: triangle by triangle."""
+    asks_all: bool = False
+    """Whether the ray of a pixel asks all primitives, so that those that it misses have rows, too."""
 
     @property
     def is_as_given(self) -> bool:

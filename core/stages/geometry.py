@@ -73,6 +73,8 @@ class Geometry:
     """The time of what is computed on demand is added here."""
     row_order: "RowOrder | None" = None
     """How the stage depth lists its rows; ``None``: triangle by triangle."""
+    asks_all: bool = False
+    """Whether the ray of a pixel asks all primitives."""
     shift: tuple[float, float] = (0.0, 0.0)
     """By how many pixels x and y are moved against the scene: another place of the pixels is then at their centres."""
 

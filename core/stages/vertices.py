@@ -168,6 +168,7 @@ def _process(
         uses_depth_test=drawing.uses_depth_test,
         casts_rays=drawing.casts_rays,
         row_order=drawing.row_order,
+        asks_all=drawing.asks_all,
         settings=settings,
         count=counts["edges"],
     )
