@@ -70,8 +70,12 @@ def _line_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
 
 
 def _depth_account(counts: Mapping[str, int], drawn: Nouns) -> list[str]:
-    tested = f"{counted(counts['rows'], 'fragment')} tested"
-    return [tested, f"{counts['covered']:,} kept", f"{counts['depth-failed']:,} hidden or out of range"]
+    fragments = counts["covered"] + counts["depth-failed"]
+    tested = [f"{counted(fragments, 'fragment')} tested"]
+    if counts["rejected"]:
+        # What rays ask and miss is no fragment.
+        tested = [counted(fragments + counts["rejected"], "test"), f"{counts['rejected']:,} missed"]
+    return [*tested, f"{counts['covered']:,} kept", f"{counts['depth-failed']:,} hidden or out of range"]
 
 
 def _rows_account(noun: str, done: str) -> Account:

@@ -189,6 +189,13 @@ def test_levels_are_named_as_the_stage_has_them(window: MainWindow) -> None:
     assert buttons[Level.PIXEL].text() == "Pixel"
     window.session.set_setting("fill", "scanline")
     assert buttons[Level.GROUP].text() == "Span"
+    window.session.set_setting("visibility", "ray-casting-by-pixel")
+    window.session.set_stage("depth")
+    titles = [buttons[level].text() for level in (Level.TRIANGLE, Level.GROUP, Level.PIXEL)]
+    assert titles == ["Row", "Pixel", "Candidate"]
+    assert buttons[Level.GROUP].accessibleName() == "Step by pixel"
+    depth = window.page.timeline.chapters.buttons()[STAGES.index("depth")].toolTip()
+    assert "Accessed: each pixel once" in depth
 
 
 def test_a_level_button_changes_how_far_a_step_goes(window: MainWindow) -> None:
