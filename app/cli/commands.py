@@ -108,8 +108,8 @@ EXAMPLES = """examples:
   rasterscope trace cube --triangle 3 --stage raster --format csv
 """
 
-FILES = """FILE is a mesh (OBJ, PLY, STL, OFF, GLB, glTF), a state file (.rasterscope) or the name of a built-in
-scene; a file with the name of a command or scene opens as ./name.
+FILES = """FILE is a mesh (OBJ, PLY, STL, OFF, GLB, glTF, XYZ, DXF), a state file (.rasterscope) or the name of a
+built-in scene; a file with the name of a command or scene opens as ./name.
 """
 
 

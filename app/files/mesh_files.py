@@ -1,11 +1,11 @@
 """Opening mesh files, in a process that can be ended: a path becomes a scene that is centred, framed and lit.
 
-The files that open are OBJ (with MTL and texture), PLY, STL, OFF, GLB and glTF. All of their triangles are
+The files that open are OBJ (with MTL and texture), PLY, STL, OFF, GLB, glTF, XYZ and DXF. All of their triangles are
 there in the order of the file, and triangles of one polygon know it (``Mesh.faces``). An OBJ file that names
 no material file takes an image beside it, ``<stem>_texture.png`` or ``<stem>.png``, as its texture. What a
 file names but does not have, such as a texture, is a warning; anything else that is wrong is an error. Of a file
-without faces, OBJ's lines and points and PLY's edges and vertices open as segments and points, with a sentence that
-says so.
+without faces, lines and points of OBJ, DXF and XYZ and PLY's edges and vertices open as segments and points, with a
+sentence that says so.
 """
 
 import json
@@ -267,8 +267,12 @@ def frame_meshes(meshes: tuple[Mesh, ...], size: tuple[int, int] = (512, 512)) -
 
 
 def frame_wires(wires: Wires, size: tuple[int, int] = (512, 512)) -> ClipScene:
-    """Return points or segments in the clip space of a camera as that of `frame_meshes`; white where uncoloured."""
-    camera = frame_clouds([wires.positions[np.unique(wires.index)].T], size)
+    """Return points or segments in the clip space of a camera as that of `frame_meshes`; white where uncoloured.
+
+    A drawing, which is flat, is seen from the front.
+    """
+    cloud = wires.positions[np.unique(wires.index)].T
+    camera = frame_clouds([cloud], size, VIEWED_FROM if np.ptp(cloud[2]) else (0.0, 0.0, 1.0))
     matrix = projection(camera, size[0] / size[1]) @ world_to_camera(camera)
     clip = transform(matrix, np.column_stack([wires.positions, np.ones(len(wires.positions))]))
     colors = np.ones((len(clip), 4)) if wires.colors is None else wires.colors
@@ -276,7 +280,9 @@ def frame_wires(wires: Wires, size: tuple[int, int] = (512, 512)) -> ClipScene:
     return ClipScene(clip[wires.index], colors[wires.index], size, shared=wires.index, kind=kind)
 
 
-def frame_clouds(clouds: list[Floats], size: tuple[int, int]) -> Camera:
+def frame_clouds(
+    clouds: list[Floats], size: tuple[int, int], viewed_from: tuple[float, float, float] = VIEWED_FROM
+) -> Camera:
     """Return the camera of `frame_meshes` for the world positions (3, N) of several meshes."""
     low = np.min([points.min(axis=1) for points in clouds], axis=0)
     high = np.max([points.max(axis=1) for points in clouds], axis=0)
@@ -284,7 +290,7 @@ def frame_clouds(clouds: list[Floats], size: tuple[int, int]) -> Camera:
     scale = float((high - low).max()) or 1.0
 
     # The axes of the camera, and the four planes of a view volume whose tip is at the camera.
-    toward = np.array(VIEWED_FROM) / np.linalg.norm(VIEWED_FROM)
+    toward = np.array(viewed_from) / np.linalg.norm(viewed_from)
     right = np.cross([0.0, 1.0, 0.0], toward)
     right /= np.linalg.norm(right)
     up = np.cross(toward, right)
@@ -300,6 +306,7 @@ def frame_clouds(clouds: list[Floats], size: tuple[int, int]) -> Camera:
         radius = max(radius, sqrt(float((x * x + y * y + z * z).max())))
         for plane in planes:
             distance = max(distance, MARGIN * float((plane[0] * x + plane[1] * y + plane[2] * z).max()))
+    radius = radius or 1.0  # a single point
     distance = max(distance, 1.1 * radius)
     return Camera(
         eye=target + toward * (distance * scale),

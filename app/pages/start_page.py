@@ -128,7 +128,7 @@ class StartPage(Page):
         layout.addSpacing(8)
         for button in (self.open_button, self.guide_button, self.keys_button):
             layout.addWidget(button)
-        hint = "Or drop a file on the window: OBJ, PLY, STL, OFF, glTF, GLB, or a lesson."
+        hint = "Or drop a file on the window: OBJ, PLY, STL, OFF, glTF, GLB, XYZ, DXF, or a lesson."
         layout.addWidget(text_label(hint, side, role="muted", wraps=True))
         layout.addSpacing(8)
         layout.addWidget(text_label("Recent files", side, role="strong"))

@@ -14,7 +14,15 @@ from app.session.document import Document, open_document
 from core.depth.whole_depths import table_scene
 from core.scene import Mesh
 from lessons.window_scenes import depth_table
-from tests.app.files.mesh_writing import GltfWriter, ply_binary, ply_text, stl_binary, stl_text
+from tests.app.files.mesh_writing import (
+    ENTITIES,
+    GltfWriter,
+    dxf_text,
+    ply_binary,
+    ply_text,
+    stl_binary,
+    stl_text,
+)
 
 EARLIER = Path(__file__).resolve().parents[1] / "app/files/earlier"
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [2, 0, 0], [2, 1, 0]], float)
@@ -110,6 +118,8 @@ def seed_files(folder: Path) -> list[dict[str, bytes]]:
         },
         {"a.stl": stl_binary(POINTS[[[0, 1, 2], [1, 4, 5]]])},
         {"b.stl": stl_text(POINTS[[[0, 1, 2], [1, 4, 5]]]).encode()},
+        {"a.xyz": "".join(f"{line} 255 128 0\n" for line in LINES).encode()},
+        {"a.dxf": dxf_text(*ENTITIES).encode()},
         {"a.glb": gltf_writer().glb()},
         {"a.gltf": text.encode(), "a.bin": (folder / "a.bin").read_bytes()},
         {"study.json": (EARLIER / "study-cull-closed.json").read_bytes()},

@@ -1,9 +1,9 @@
 """Readers of mesh files: a file goes in, meshes of the core and warnings come out.
 
-Formats made of polygons (OBJ, PLY, OFF) are read here, because every triangle must keep its
-place in the file and know its polygon, and a broken line must be named. trimesh's readers of these three
-sort triangles before quads, regroup them by material and leave out what they do not understand. Formats made
-of triangles (STL, GLB, glTF) need less: STL goes through trimesh.
+Text STL and DXF go through trimesh. The others are read here, because time or something promised would be lost there.
+trimesh's OBJ, PLY and OFF sort triangles before quads, forget the polygons and open half a file as a whole one; its
+glTF takes fractions for vertices, sparse positions for zeros and texture coordinates in whole numbers for large ones;
+its XYZ takes two broken lines for two whole ones.
 """
 
 from dataclasses import replace
@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 
 from app.files.file_access import NamedFiles, OutsideWarning
+from app.files.mesh_formats.dxf import read_dxf
 from app.files.mesh_formats.obj import read_obj
 from app.files.mesh_formats.off import read_off
 from app.files.mesh_formats.ply import read_ply
@@ -25,6 +26,7 @@ from app.files.mesh_formats.reading import (
     check_positions,
 )
 from app.files.mesh_formats.stl import read_stl
+from app.files.mesh_formats.xyz import read_xyz
 from app.session.memory import MemoryBoundError
 from core.scene import Mesh
 from lessons.os_errors import os_error_reason
@@ -44,6 +46,8 @@ READERS: dict[str, Reader] = {
     ".off": read_off,
     ".glb": read_gltf,
     ".gltf": read_gltf,
+    ".xyz": read_xyz,
+    ".dxf": read_dxf,
 }
 """Reader of every file name extension, in lower case."""
 

@@ -326,21 +326,19 @@ def share_vertices(*indices: Integers) -> tuple[Integers, tuple[Integers, ...]]:
 
 
 @contextmanager
-def translated_errors(path: Path) -> Iterator[None]:
-    """Turn the many kinds of exceptions that trimesh raises on broken files into MeshFileError."""
+def translated_errors(path: Path, reason: str) -> Iterator[None]:
+    """Turn the many kinds of exceptions that trimesh raises on broken files into MeshFileError, for this ``reason``."""
     try:
         yield
     except MemoryError:
         raise
     except Exception as problem:
         kind = path.suffix[1:].upper()
-        raise MeshFileError(
-            f"{path.name} cannot be read as {kind}: some of its triangles are no three corners of three numbers"
-        ) from problem
+        raise MeshFileError(f"{path.name} cannot be read as {kind}: {reason}") from problem
 
 
 def load_with_trimesh(path: Path) -> Any:
-    """Load ``path`` as what its extension says, without any clean-up of its triangles.
+    """Load ``path`` as what its extension says, without any clean-up.
 
     To be called under ``translated_errors``.
     """

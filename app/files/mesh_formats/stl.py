@@ -40,7 +40,7 @@ def read_stl(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     report(None, "reading triangles")
     if is_binary:
         return read_binary(path, count)
-    with translated_errors(path):
+    with translated_errors(path, "some of its triangles are no three corners of three numbers"):
         scene = load_with_trimesh(path)
     report(None, "checking")
     meshes = [

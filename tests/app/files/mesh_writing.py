@@ -69,6 +69,18 @@ def stl_text(triangles: np.ndarray, name: str = "solid of a test") -> str:
     return f"solid {name}\n{''.join(facets)}endsolid {name}\n"
 
 
+SEGMENT = "0\nLINE\n10\n0.0\n20\n0.0\n11\n4.0\n21\n3.0\n"
+POLYLINE = "0\nLWPOLYLINE\n70\n1\n10\n0.0\n20\n0.0\n10\n4\n20\n0\n10\n4\n20\n3\n"
+CIRCLE = "0\nCIRCLE\n10\n1\n20\n1\n40\n2\n"
+BLOCK = f"0\nBLOCK\n2\nB\n10\n0\n20\n0\n{SEGMENT}0\nENDBLK\n"
+INSERT = "0\nINSERT\n2\nB\n10\n5\n20\n5\n"
+ENTITIES = (SEGMENT, POLYLINE, CIRCLE, INSERT)
+
+
+def dxf_text(*entities: str) -> str:
+    return f"0\nSECTION\n2\nBLOCKS\n{BLOCK}0\nENDSEC\n0\nSECTION\n2\nENTITIES\n{''.join(entities)}0\nENDSEC\n0\nEOF\n"
+
+
 class GltfWriter:
     """Collects accessors in one buffer."""
 

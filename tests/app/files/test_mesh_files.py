@@ -36,7 +36,7 @@ def grid_stl(path, columns):
 
 
 def test_the_files_that_open():
-    assert EXTENSIONS == (".obj", ".ply", ".stl", ".off", ".glb", ".gltf")
+    assert EXTENSIONS == (".obj", ".ply", ".stl", ".off", ".glb", ".gltf", ".xyz", ".dxf")
 
 
 @pytest.mark.parametrize("how", ["here", "process"])
@@ -128,6 +128,8 @@ def test_a_file_without_permission_is_refused(tmp_path, monkeypatch):
         ("a.off", "OFF\n0 0 0\n"),
         ("a.stl", stl_binary(np.zeros((9, 3, 3)))),
         ("b.stl", "solid\nendsolid\n"),
+        ("a.xyz", "0 0 0\n"),
+        ("a.dxf", "0\nEOF\n"),
     ],
 )
 def test_a_file_above_the_limit_of_memory_is_refused_before_it_is_read(tmp_path, monkeypatch, name, content):

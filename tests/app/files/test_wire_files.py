@@ -1,4 +1,4 @@
-"""Files without faces: OBJ's lines and points and PLY's edges and vertices open as segments and points."""
+"""Files without faces: lines of OBJ, PLY and DXF open as segments, vertices of OBJ, PLY and XYZ as points."""
 
 from pathlib import Path
 
@@ -8,7 +8,7 @@ import pytest
 from app.files.mesh_files import MeshFileError, load_meshes, open_mesh
 from app.files.open_any import open_any
 from core import ClipScene, render
-from tests.app.files.mesh_writing import write
+from tests.app.files.mesh_writing import CIRCLE, INSERT, POLYLINE, SEGMENT, dxf_text, write
 
 VERTICES = "v 0 0 0\nv 4 0 0\nv 4 3 0\nv 0 3 1\n"
 PLY = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n{}end_header\n"
@@ -36,6 +36,15 @@ EDGES = "element edge 2\nproperty int vertex1\nproperty int vertex2\n"
             "segments",
             [[0, 1], [2, 0]],
             "2 segments are drawn",
+        ),
+        ("a.xyz", "5 5 5\n", "points", [[0]], "1 point is drawn"),
+        ("a.xyz", "# x y z\n0 0 0\n\n1,2,3\n", "points", [[0], [1]], "2 points are drawn"),
+        (
+            "a.dxf",
+            dxf_text(SEGMENT, POLYLINE),
+            "segments",
+            [[0, 1], [2, 3], [3, 4], [4, 5]],
+            "4 segments are drawn",
         ),
     ],
 )
@@ -86,3 +95,64 @@ def test_what_is_wrong_is_one_sentence(tmp_path: Path, name: str, content: str, 
         open_mesh(write(tmp_path / name, content))
     assert message in str(caught.value)
     assert "\n" not in str(caught.value)
+
+
+def test_a_circle_of_a_drawing_is_round_and_a_block_stands_where_it_is_inserted(tmp_path: Path) -> None:
+    wires = load_meshes(write(tmp_path / "a.dxf", dxf_text(CIRCLE, INSERT))).wires
+    assert wires is not None
+    assert wires.positions[-2:].tolist() == [[5, 5, 0], [9, 8, 0]]
+    assert np.allclose(np.hypot(*(wires.positions[:-2, :2] - 1).T), 2)
+    assert len(wires.positions) > 40
+
+
+def test_colours_of_points_are_bytes_and_other_columns_are_left_out(tmp_path: Path) -> None:
+    wires = load_meshes(write(tmp_path / "a.xyz", "0 0 0 255 0 0\n1 0 0 0 0 255\n")).wires
+    assert wires is not None
+    assert wires.colors is not None
+    assert wires.colors.tolist() == [[1, 0, 0, 1], [0, 0, 1, 1]]
+    normals = load_meshes(write(tmp_path / "b.xyz", "0 0 0 0.6 0 0.8\n1 0 0 0 0 1\n"))
+    assert normals.wires is not None
+    assert normals.wires.colors is None
+    assert "columns 4 to 6" in normals.warnings[1]
+
+
+@pytest.mark.parametrize(
+    ("entity", "wanted"),
+    [
+        ("0\nELLIPSE\n10\n0\n20\n0\n", "1 ELLIPSE"),
+        (SEGMENT + "31\n1.5\n", "heights"),
+        (CIRCLE + "230\n-1.0\n", "plane"),
+    ],
+)
+def test_a_drawing_says_what_of_it_is_not_drawn(tmp_path: Path, entity: str, wanted: str) -> None:
+    assert load_meshes(write(tmp_path / "a.dxf", dxf_text(SEGMENT))).warnings[1:] == ()
+    (said,) = load_meshes(write(tmp_path / "a.dxf", dxf_text(SEGMENT, entity))).warnings[1:]
+    assert wanted in said
+
+
+@pytest.mark.parametrize(
+    ("name", "content", "wanted"),
+    [
+        ("a.xyz", "0 0 0\n\n1 x 0\n2 2 2\n", "line 3"),
+        ("a.xyz", "0 0 0\n1 0\n2 2 2 2\n", "line 2"),
+        ("a.xyz", "3\nwater\nO 0 0 0\n", "line 1"),
+        ("a.xyz", "# nothing\n", "no points"),
+        ("a.xyz", "0 0 nan\n", "vertex 0"),
+        ("a.xyz", b"\0\1\2", "not text"),
+        ("a.dxf", "Dear reader,\nthis is a letter.\n", "not a DXF file"),
+        ("a.dxf", dxf_text(SEGMENT)[:-30], "cut short"),
+        ("a.dxf", dxf_text(SEGMENT).replace("4.0", "four"), "cannot be read as DXF"),
+        ("a.dxf", dxf_text(SEGMENT.replace("4.0", "nan")), "vertex 1"),
+        ("a.dxf", dxf_text(), "no lines"),
+        ("a.dxf", dxf_text(*[INSERT] * 90_000), "too large"),
+        ("a.dxf", dxf_text(SEGMENT, f"0\nTEXT\n1\n{'x' * 2**20}\n", *[SEGMENT] * 40), "too large"),
+    ],
+)
+def test_what_cannot_be_read_is_refused_with_one_sentence(
+    tmp_path: Path, name: str, content: str | bytes, wanted: str
+) -> None:
+    with pytest.raises(MeshFileError) as problem:
+        load_meshes(write(tmp_path / name, content))
+    assert wanted in str(problem.value)
+    assert name in str(problem.value)
+    assert "\n" not in str(problem.value)
