@@ -315,12 +315,13 @@ def orient(corners: CornerPositions) -> Floats:
 
 
 def _determinants(corners: CornerPositions) -> Floats:
-    """Return the determinants (P,) of the (x, y, w) rows; the sign is right where a corner is projected."""
+    """Return the determinants (P,) of the (x, y, w) rows; exact coverage and a projected corner ask for its sign."""
     x, y, w = _rows(corners.homogeneous)
     a, b, c = cross(x[NEXT], y[NEXT], w[NEXT], x[LAST], y[LAST], w[LAST])
     determinant: Floats = x[0] * a[0] + y[0] * b[0] + w[0] * c[0]
     rounding = DETERMINANT_ERROR * np.prod(np.abs([x, y, w]).sum(axis=0), axis=0)
-    unsure = np.flatnonzero(corners.is_projected.any(axis=1) & (np.abs(determinant) <= rounding))
+    is_signed = corners.is_projected.any(axis=1) | isinstance(corners.numbers, ExactFormat)
+    unsure = np.flatnonzero(is_signed & (np.abs(determinant) <= rounding))
     if len(unsure):
         determinant[unsure] = EXACT.set_up(corners.take(unsure)).doubled_area
     return determinant

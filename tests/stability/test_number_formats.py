@@ -3,7 +3,7 @@
 import pytest
 
 from core import Settings, render
-from core.coverage.measured_cover import count_cover, crowded_mesh, sliver
+from core.coverage.measured_cover import as_given, count_cover, crowded_mesh, edge_on, sliver
 from core.study.stability import Outcome, experiments
 from tests.stability.maps import is_right_everywhere, outcomes, wrong_at_random
 
@@ -14,6 +14,14 @@ NAMES = ("precision-dial", "slivers", "coordinates", "singular-matrix")
 def test_exact_numbers_are_right_everywhere(name: str) -> None:
     assert is_right_everywhere(name, "coverage=exact", every=3)
     assert wrong_at_random(name, "coverage=exact") == []
+
+
+def test_a_triangle_flatter_than_a_float_can_tell_is_drawn_by_exact_numbers() -> None:
+    place = (6.762111428779897e-17, 0.01964320596866134)
+    scene = edge_on(place, 0)
+    frame = render(scene, Settings(coverage="exact", cull="back"))
+    assert (frame.cover_count == as_given(scene, Settings())).all()
+    assert frame.cover_count.sum() == 11
 
 
 @pytest.mark.parametrize(

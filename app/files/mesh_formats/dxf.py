@@ -68,7 +68,7 @@ def read_dxf(path: Path, report: Report, files: NamedFiles) -> LoadedMeshes:
     is_last = np.zeros(len(positions), np.bool_)
     is_last[np.cumsum([len(strip) for strip in strips]) - 1] = True
     first = np.flatnonzero(~is_last)
-    wires = Wires(np.column_stack([positions, np.zeros(len(positions))]), first[:, None] + [0, 1])
+    wires = Wires(np.column_stack([positions, np.zeros(len(positions))]), np.column_stack([first, first + 1]))
     return load_wires(path, wires, left_out(codes, values))
 
 
